@@ -1,0 +1,35 @@
+#pragma once
+/// What every accelerator offers. To add one: CONTRIBUTING.md.
+///
+/// An accelerator knows bounds and ids, nothing of shapes: the visitor tests the primitives. It may only skip what
+/// a ray cannot hit, so every accelerator gives the same hits.
+/// Visitor: `double t_max()` is how far the ray still needs to go (it shrinks as hits are found; primitives at exactly
+/// t_max must still be visited), `bool visit(std::uint32_t primitive)` tests one primitive and returns true to stop.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "alhazen/accel/traversal_stats.h"
+#include "alhazen/geometry/bounds_source.h"
+#include "alhazen/geometry/ray.h"
+
+namespace alhazen {
+
+/// A visitor to check the concept with.
+struct ArchetypeVisitor {
+    [[nodiscard]] double t_max() const;
+    bool visit(std::uint32_t primitive);
+};
+
+template <class A>
+concept Accelerator = requires(const A& accelerator, const BoundsSource& source,
+                               const typename A::Config& config, const Ray& ray,
+                               ArchetypeVisitor& visitor, NoStats stats) {
+    { A::kName } -> std::convertible_to<const char*>;
+    { A::build(source, config) } -> std::same_as<A>;
+    { accelerator.traverse(ray, visitor, stats) } -> std::same_as<void>;
+    { accelerator.memory_bytes() } -> std::same_as<std::size_t>;
+};
+
+}  // namespace alhazen

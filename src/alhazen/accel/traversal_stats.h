@@ -1,0 +1,48 @@
+#pragma once
+/// What a traversal did, counted by a policy that costs nothing when it is off.
+///
+/// Names follow Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999.
+
+#include <cstdint>
+
+namespace alhazen {
+
+struct TraversalStats {
+    std::uint64_t box_tests = 0;         ///< ray-bound tests, one for each child of a wide node
+    std::uint64_t primitive_tests = 0;   ///< ray-primitive tests, padding lanes not counted
+    std::uint64_t primitive_hits = 0;    ///< tests that found a crossing in the ray's range
+    std::uint64_t mailbox_saved = 0;     ///< tests avoided by a mailbox
+    std::uint64_t node_visits = 0;       ///< nodes or cells entered
+
+    TraversalStats& operator+=(const TraversalStats& other) {
+        box_tests += other.box_tests;
+        primitive_tests += other.primitive_tests;
+        primitive_hits += other.primitive_hits;
+        mailbox_saved += other.mailbox_saved;
+        node_visits += other.node_visits;
+        return *this;
+    }
+};
+
+/// The policy that counts.
+struct CountingStats {
+    TraversalStats* stats;
+    void boxes(std::uint64_t n) const { stats->box_tests += n; }
+    void primitives(std::uint64_t n) const { stats->primitive_tests += n; }
+    void primitive_hits(std::uint64_t n) const { stats->primitive_hits += n; }
+    void mailbox_saved(std::uint64_t n) const { stats->mailbox_saved += n; }
+    void nodes(std::uint64_t n) const { stats->node_visits += n; }
+    [[nodiscard]] TraversalStats* sink() const { return stats; }  ///< for nested aggregates
+};
+
+/// The policy that does not.
+struct NoStats {
+    void boxes(std::uint64_t) const {}
+    void primitives(std::uint64_t) const {}
+    void primitive_hits(std::uint64_t) const {}
+    void mailbox_saved(std::uint64_t) const {}
+    void nodes(std::uint64_t) const {}
+    [[nodiscard]] TraversalStats* sink() const { return nullptr; }
+};
+
+}  // namespace alhazen

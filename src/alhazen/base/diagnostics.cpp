@@ -1,0 +1,45 @@
+#include "alhazen/base/diagnostics.h"
+
+#include <utility>
+
+namespace alhazen {
+
+std::string to_string(const Diagnostic& diagnostic) {
+    const std::string place = to_string(diagnostic.location);
+    const char* kind = diagnostic.severity == Severity::Error ? "error: " : "warning: ";
+    return (place.empty() ? "" : place + ": ") + kind + diagnostic.message;
+}
+
+void Diagnostics::warning(FileLocation location, std::string message) {
+    ++warning_count_;
+    add(Severity::Warning, std::move(location), std::move(message));
+}
+
+void Diagnostics::error(FileLocation location, std::string message) {
+    ++error_count_;
+    add(Severity::Error, std::move(location), std::move(message));
+}
+
+void Diagnostics::add(Severity severity, FileLocation location, std::string message) {
+    if (kept_.size() < kMaxKept) {
+        kept_.push_back({severity, std::move(location), std::move(message)});
+    }
+}
+
+void Diagnostics::throw_if_errors() const {
+    if (error_count_ == 0) return;
+    std::string text;
+    std::size_t listed = 0;
+    for (const Diagnostic& diagnostic : kept_) {
+        if (diagnostic.severity != Severity::Error) continue;
+        if (!text.empty()) text += '\n';
+        text += to_string(diagnostic);
+        ++listed;
+    }
+    if (listed < error_count_) {
+        text += "\n(and " + std::to_string(error_count_ - listed) + " more errors)";
+    }
+    throw Error(ErrorKind::Scene, text);
+}
+
+}  // namespace alhazen

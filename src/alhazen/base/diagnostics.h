@@ -1,0 +1,48 @@
+#pragma once
+/// Everything that was found while reading and validating a scene: reported together, not one by one.
+///
+/// Importers and validation add findings and go on where they can; `throw_if_errors` ends the phase.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "alhazen/base/error.h"
+
+namespace alhazen {
+
+enum class Severity { Warning, Error };
+
+struct Diagnostic {
+    Severity severity = Severity::Error;
+    FileLocation location;
+    std::string message;
+};
+
+/// `file:line:column: error: message`.
+[[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
+
+class Diagnostics {
+  public:
+    /// Findings kept beyond this count are only counted, so that hostile input cannot fill memory.
+    static constexpr std::size_t kMaxKept = 1000;
+
+    void warning(FileLocation location, std::string message);
+    void error(FileLocation location, std::string message);
+
+    [[nodiscard]] const std::vector<Diagnostic>& all() const { return kept_; }
+    [[nodiscard]] std::size_t error_count() const { return error_count_; }
+    [[nodiscard]] std::size_t warning_count() const { return warning_count_; }
+
+    /// Throws `Error` (kind Scene) whose message lists all errors, one a line, when there is any.
+    void throw_if_errors() const;
+
+  private:
+    void add(Severity severity, FileLocation location, std::string message);
+
+    std::vector<Diagnostic> kept_;
+    std::size_t error_count_ = 0;
+    std::size_t warning_count_ = 0;
+};
+
+}  // namespace alhazen

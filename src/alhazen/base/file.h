@@ -1,0 +1,37 @@
+#pragma once
+/// Reading and writing whole files, safely.
+///
+/// Reads accept regular files only (no FIFO or device can hang or flood a loader) and stop at a byte
+/// limit. Writes go to a temporary name in the target's folder, are synced and renamed: a killed run
+/// leaves the old file or the new one, never half of it.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace alhazen {
+
+/// Default limit of a file read whole: 4 GiB.
+inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
+
+/// The bytes of `path`. Throws Error: File when it cannot be opened, is not a regular file or fails
+/// while read; Resource when it is larger than `max_bytes`.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path,
+                                    std::uint64_t max_bytes = kMaxFileBytes);
+
+/// Replaces `path` by `bytes` as one step (temporary file, fsync, rename, fsync of the folder).
+/// Throws Error (File) and leaves the old file as it was when anything fails.
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// The same for text.
+void write_file_atomically(const std::filesystem::path& path, const std::string& text);
+
+/// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) when it is
+/// absolute, empty, holds a NUL or leaves `root` (a folder that contains `folder`) through `..`.
+[[nodiscard]] std::filesystem::path resolve_inside(const std::filesystem::path& root,
+                                                   const std::filesystem::path& folder,
+                                                   const std::string& name);
+
+}  // namespace alhazen

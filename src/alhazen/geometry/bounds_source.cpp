@@ -1,0 +1,27 @@
+#include "alhazen/geometry/bounds_source.h"
+
+namespace alhazen {
+
+Interval extent(const Box3& box, const Vec3& axis) {
+    Interval range{0.0, 0.0};
+    for (int k = 0; k < 3; ++k) {
+        if (axis[k] == 0.0) continue;  // keeps 0 * inf out of unbounded boxes
+        const double a = axis[k] * box.lo[k];
+        const double b = axis[k] * box.hi[k];
+        range.lo += std::min(a, b);
+        range.hi += std::max(a, b);
+    }
+    return range;
+}
+
+Interval BoundsSource::extent(std::size_t i, const Vec3& axis) const {
+    return alhazen::extent(box(i), axis);
+}
+
+Box3 BoundsSource::clipped_box(std::size_t i, const Box3& cell) const {
+    const Box3 b = box(i);
+    return {{std::max(b.lo.x, cell.lo.x), std::max(b.lo.y, cell.lo.y), std::max(b.lo.z, cell.lo.z)},
+            {std::min(b.hi.x, cell.hi.x), std::min(b.hi.y, cell.hi.y), std::min(b.hi.z, cell.hi.z)}};
+}
+
+}  // namespace alhazen

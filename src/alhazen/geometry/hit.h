@@ -1,0 +1,41 @@
+#pragma once
+/// What a ray found: ids and parameters only, never pointers. Points and normals are computed once, for
+/// the winner (see `Surface`).
+
+#include <cstdint>
+#include <limits>
+
+#include "alhazen/base/inline_vector.h"
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+enum class PrimitiveId : std::uint32_t {};
+inline constexpr PrimitiveId kNoPrimitive{0xFFFFFFFFu};
+
+/// One crossing of a ray with one shape, in the shape's own terms.
+struct ShapeHit {
+    double t = 0;
+    double u = 0, v = 0;     ///< parameters of the crossing; their meaning is the shape's
+    std::uint32_t part = 0;  ///< which of the shape's surfaces (side, cap, face)
+};
+
+/// Instances that can lie around a hit; deeper nesting is refused when a scene is compiled.
+inline constexpr std::size_t kMaxInstanceDepth = 32;
+
+/// The instance primitives that lead to a hit, innermost first.
+using InstancePath = InlineVector<PrimitiveId, kMaxInstanceDepth>;
+
+/// A crossing of a ray with a scene. `primitive` belongs to the innermost aggregate of the path.
+struct Hit : ShapeHit {
+    Hit() { t = std::numeric_limits<double>::infinity(); }
+
+    PrimitiveId primitive = kNoPrimitive;
+    InstancePath path;
+
+    [[nodiscard]] bool found() const { return primitive != kNoPrimitive; }
+    /// The id that breaks ties in the outermost aggregate.
+    [[nodiscard]] PrimitiveId top() const { return path.empty() ? primitive : path.back(); }
+};
+
+}  // namespace alhazen

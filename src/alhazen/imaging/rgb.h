@@ -1,0 +1,30 @@
+#pragma once
+/// A linear colour or radiance of three channels, in double.
+
+#include <algorithm>
+#include <cmath>
+
+namespace alhazen {
+
+struct Rgb {
+    double r = 0, g = 0, b = 0;
+
+    double& operator[](int channel) { return (&r)[channel]; }
+    const double& operator[](int channel) const { return (&r)[channel]; }
+    friend bool operator==(const Rgb&, const Rgb&) = default;
+
+    [[nodiscard]] bool is_black() const { return r == 0.0 && g == 0.0 && b == 0.0; }
+    [[nodiscard]] double max() const { return std::max(r, std::max(g, b)); }
+    [[nodiscard]] bool is_finite() const {
+        return std::isfinite(r) && std::isfinite(g) && std::isfinite(b);
+    }
+};
+
+inline Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+inline Rgb operator-(const Rgb& a, const Rgb& b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
+inline Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+inline Rgb operator*(double s, const Rgb& a) { return {s * a.r, s * a.g, s * a.b}; }
+inline Rgb operator*(const Rgb& a, double s) { return s * a; }
+inline Rgb& operator+=(Rgb& a, const Rgb& b) { return a = a + b; }
+
+}  // namespace alhazen

@@ -1,0 +1,43 @@
+#pragma once
+/// Bytes in, scene description and diagnostics out. To add a format: CONTRIBUTING.md.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "alhazen/base/diagnostics.h"
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen {
+
+struct ImportOptions {
+    /// Files named by the scene are looked for relative to the scene file and must lie inside its folder or one of
+    /// its ancestors up to `allowed_root` (empty: the scene file's own folder, or what the format prescribes).
+    std::filesystem::path allowed_root;
+    int max_nesting = 256;               ///< of blocks and groups in text formats
+    int max_include_depth = 16;
+    std::uint64_t max_included_bytes = std::uint64_t{1} << 32;
+    std::uint64_t max_elements = 400'000'000;  ///< vertices, triangles or primitives in one file
+};
+
+/// What an importer is given: the file's bytes (already read) and where they came from.
+struct ImportSource {
+    std::string_view bytes;
+    std::filesystem::path path;          ///< used in locations and to resolve the names of other files
+    const ImportOptions& options;
+};
+
+class Importer {
+  public:
+    virtual ~Importer() = default;
+    [[nodiscard]] virtual const char* name() const = 0;         ///< as in `alhazen list formats`
+    [[nodiscard]] virtual const char* description() const = 0;  ///< one line
+    /// How sure the importer is that the bytes are its format: 0 no, 1 by the suffix only, 2 by the content.
+    [[nodiscard]] virtual int recognise(const ImportSource& source) const = 0;
+    /// Reads all that can be read. Findings go to `diagnostics`; the result is only used when none is an error.
+    /// Throws Error only for limits (Resource) and for files that cannot be read.
+    [[nodiscard]] virtual SceneDescription import(const ImportSource& source,
+                                                  Diagnostics& diagnostics) const = 0;
+};
+
+}  // namespace alhazen

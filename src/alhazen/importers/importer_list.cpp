@@ -1,0 +1,53 @@
+#include "alhazen/importers/importer_list.h"
+
+#include <array>
+
+#include "alhazen/base/file.h"
+#include "alhazen/importers/native_importer.h"
+#include "alhazen/importers/nff_importer.h"
+#include "alhazen/importers/ray_importer.h"
+#include "alhazen/importers/uw_yaml_importer.h"
+
+namespace alhazen {
+
+std::span<const Importer* const> importers() {
+    static const NativeImporter native;
+    static const RayImporter ray;
+    static const UwYamlImporter uw_yaml;
+    static const NffImporter nff;
+    static const std::array<const Importer*, 4> table{&native, &ray, &uw_yaml, &nff};
+    return table;
+}
+
+const Importer& find_importer(const ImportSource& source) {
+    const Importer* best = nullptr;
+    int best_score = 0;
+    for (const Importer* importer : importers()) {
+        const int score = importer->recognise(source);
+        if (score > best_score) {
+            best = importer;
+            best_score = score;
+        }
+    }
+    if (best != nullptr) return *best;
+    std::string known;
+    for (const Importer* importer : importers()) {
+        known += known.empty() ? "" : ", ";
+        known += importer->name();
+    }
+    throw Error(ErrorKind::Scene, "not a scene of a known format; expected one of " + known,
+                {source.path.string(), 0, 0});
+}
+
+SceneDescription import_scene(const std::filesystem::path& path, const ImportOptions& options,
+                              Diagnostics& diagnostics) {
+    const std::string bytes = read_file(path);
+    const ImportSource source{bytes, path, options};
+    SceneDescription description = find_importer(source).import(source, diagnostics);
+    diagnostics.throw_if_errors();
+    validate(description, diagnostics);
+    diagnostics.throw_if_errors();
+    return description;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,41 @@
+#pragma once
+/// Tasks over all cores: a facade over oneTBB, or over std::jthread where TBB is not wanted (ThreadSanitizer,
+/// minimal builds; CMake option ALHAZEN_PARALLEL=tbb|jthread).
+///
+/// Conventions: results never depend on the number of threads or the order of execution; floating point is
+/// never reduced in completion order. An exception thrown by a task is rethrown to the caller once.
+
+#include <cstddef>
+#include <functional>
+
+namespace alhazen {
+
+/// Cores this process may use (affinity and cgroup limits included), at least 1.
+[[nodiscard]] int available_cores();
+
+/// A pool bound for the life of the object: parallel calls made inside `run` use at most `threads` threads.
+class ThreadLimit {
+  public:
+    /// 0 = all available cores.
+    explicit ThreadLimit(int threads);
+    ~ThreadLimit();
+    ThreadLimit(const ThreadLimit&) = delete;
+    ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+    [[nodiscard]] int threads() const { return threads_; }
+    void run(const std::function<void()>& work);
+
+  private:
+    int threads_;
+    struct Impl;
+    Impl* impl_;
+};
+
+/// Calls body(begin, end) for disjoint ranges that cover [0, count), of at most `grain` items each (grain >= 1).
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+/// Runs both, perhaps at the same time, and returns when both are done.
+void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b);
+
+}  // namespace alhazen

@@ -1,0 +1,42 @@
+#pragma once
+/// Many primitives behind one virtual call per ray: the border between renderers and accelerators.
+///
+/// Conventions: hits lie in [ray.t_min, ray.t_max]. At equal t the lower primitive id wins (compared in the outermost
+/// aggregate first), so every accelerator gives the same hit. An invalid ray hits nothing.
+/// Threads: const functions may be called from many threads.
+
+#include <cstddef>
+#include <vector>
+
+#include "alhazen/accel/traversal_stats.h"
+#include "alhazen/geometry/box.h"
+#include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/ray.h"
+
+namespace alhazen {
+
+class Aggregate {
+  public:
+    virtual ~Aggregate() = default;
+
+    /// Holds all primitives; unbounded when one of them is.
+    [[nodiscard]] virtual Box3 box() const = 0;
+    /// Bytes of the acceleration structure, nested aggregates not included.
+    [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
+
+    /// The nearest hit. `stats` may be null in every query: then nothing is counted.
+    [[nodiscard]] virtual bool closest(const Ray& ray, Hit& hit, TraversalStats* stats) const = 0;
+    /// True when there is any hit.
+    [[nodiscard]] virtual bool occluded(const Ray& ray, TraversalStats* stats) const = 0;
+    /// Appends every hit; the appended ones are sorted by t, then by ids.
+    virtual void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const = 0;
+    /// For shadow rays: true when an opaque primitive is hit (`crossings` is then meaningless); else appends every hit,
+    /// sorted as in `all_hits`: the transparent surfaces that tint the light.
+    [[nodiscard]] virtual bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                        TraversalStats* stats) const = 0;
+};
+
+/// The order of hits: by t, then by the ids from the outermost aggregate inward, then by part.
+[[nodiscard]] bool hit_less(const Hit& a, const Hit& b);
+
+}  // namespace alhazen

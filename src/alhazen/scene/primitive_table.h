@@ -1,0 +1,118 @@
+#pragma once
+/// The things that the rays of one aggregate meet, by type in contiguous columns, and the one test of a ray with
+/// each of them that every accelerator shares.
+///
+/// Ids run through the analytic shapes in the order of `AnalyticShapes`, then the triangles mesh by mesh, then the
+/// instances; a primitive's type follows from the range its id lies in.
+
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "alhazen/accel/traversal_stats.h"
+#include "alhazen/geometry/bounds_source.h"
+#include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/scene/aggregate.h"
+#include "alhazen/shading/material.h"
+#include "alhazen/shapes/shape_list.h"
+#include "alhazen/shapes/triangle_mesh.h"
+
+namespace alhazen {
+
+/// Both directions of a placement.
+struct Placement {
+    Affine outer_from_inner, inner_from_outer;
+};
+inline constexpr std::uint32_t kNoPlacement = 0xFFFFFFFFu;
+
+/// All shapes of one type.
+template <class S>
+struct ShapeColumn {
+    std::vector<S> shapes;
+    std::vector<std::uint32_t> placements;  ///< [shape] index into PrimitiveTable::placements or kNoPlacement
+    std::vector<MaterialId> materials;      ///< [shape]
+};
+
+/// A mesh in the frame of the aggregate.
+struct PlacedMesh {
+    std::shared_ptr<const TriangleMesh> mesh;
+    MaterialId material{0};
+    std::uint32_t first_triangle = 0;       ///< number of triangles in the meshes before this one
+    bool mirrored = false;                  ///< its transform turned the winding over: normals are flipped back
+};
+
+struct Instance {
+    std::shared_ptr<const Aggregate> aggregate;
+    Placement placement;
+};
+
+/// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two below.
+inline constexpr std::uint32_t kTriangleKind = AnalyticShapes::kCount;
+inline constexpr std::uint32_t kInstanceKind = kTriangleKind + 1;
+inline constexpr std::uint32_t kKindCount = kInstanceKind + 1;
+
+class PrimitiveTable final : public BoundsSource {
+  public:
+    // ---- columns; filled by `compile`, then sealed by `finish`
+    AnalyticShapes::Columns<ShapeColumn> columns;
+    std::vector<PlacedMesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Placement> placements;
+    std::vector<std::uint8_t> material_is_opaque;  ///< [material]
+
+    /// Prepares the shapes and computes the id ranges. Call once, when the columns are complete.
+    void finish();
+
+    // ---- what is in it
+    [[nodiscard]] std::size_t size() const override { return first_[kKindCount]; }
+    [[nodiscard]] std::uint32_t kind(PrimitiveId id) const;
+    /// First id of a kind; kind + 1 gives its end.
+    [[nodiscard]] std::uint32_t first(std::uint32_t kind) const { return first_[kind]; }
+    /// Position of a primitive among those of its kind.
+    [[nodiscard]] std::uint32_t index(PrimitiveId id) const;
+    /// The mesh that the i-th triangle of the table belongs to.
+    [[nodiscard]] const PlacedMesh& mesh_of(std::uint32_t triangle) const;
+    /// Vertices of the i-th triangle of the table.
+    [[nodiscard]] std::array<Vec3, 3> triangle_vertices(std::uint32_t triangle) const;
+    /// True when the primitive lets no light through (an instance never does for sure: false).
+    [[nodiscard]] bool is_opaque(PrimitiveId id) const;
+
+    // ---- bounds
+    [[nodiscard]] Box3 box(std::size_t i) const override;
+    [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
+
+    // ---- the one test. Crossings of analytic shapes and triangles in [ray.t_min, ray.t_max], ascending; not for
+    // instances. `hits` has room for kMaxShapeHits.
+    int intersect(PrimitiveId id, const Ray& ray, const RayShear& shear, ShapeHit* hits) const;
+
+    // ---- the three queries on one primitive of any kind, instances included
+    /// Makes `best` the better of itself and the primitive's nearest hit, and shrinks ray.t_max to it.
+    template <class Stats>
+    void closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best, Stats stats) const;
+    template <class Stats>
+    bool occluded(PrimitiveId id, const Ray& ray, const RayShear& shear, Stats stats) const;
+    /// Appends all hits, not sorted.
+    template <class Stats>
+    void all_hits(PrimitiveId id, const Ray& ray, const RayShear& shear, std::vector<Hit>& hits,
+                  Stats stats) const;
+    template <class Stats>
+    bool shadowed(PrimitiveId id, const Ray& ray, const RayShear& shear, std::vector<Hit>& crossings,
+                  Stats stats) const;
+
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+  private:
+    std::array<std::uint32_t, kKindCount + 1> first_{};
+};
+
+/// Offers one crossing as the new best: it wins when it is nearer, or equally near with a lower id.
+inline void offer(const ShapeHit& crossing, PrimitiveId id, Ray& ray, Hit& best) {
+    if (crossing.t < best.t || (crossing.t == best.t && id < best.top())) {
+        static_cast<ShapeHit&>(best) = crossing;
+        best.primitive = id;
+        best.path.clear();
+        ray.t_max = crossing.t;
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,100 @@
+#pragma once
+/// What a scene file says: names, values and where each was written. Importers make it, `validate` judges it,
+/// `compile` turns it into the `Scene` that rays meet. Plain data, free to edit in between.
+///
+/// Conventions: an object is a list of parts; a part is a shape, a mesh or another object under a transform.
+/// `root` is the object that is rendered; an object used by several parts is instanced, not copied.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "alhazen/base/diagnostics.h"
+#include "alhazen/math/affine.h"
+#include "alhazen/scene/camera.h"
+#include "alhazen/shading/light.h"
+#include "alhazen/shading/material.h"
+#include "alhazen/shading/shading_conventions.h"
+#include "alhazen/shapes/shape_list.h"
+#include "alhazen/shapes/triangle_mesh.h"
+
+namespace alhazen {
+
+enum class MeshIndex : std::uint32_t {};
+enum class ObjectIndex : std::uint32_t {};
+
+struct Part {
+    std::variant<AnyShape, MeshIndex, ObjectIndex> what;
+    Affine object_from_part;                ///< into the frame of the object that owns the part
+    /// Ignored for an object (its parts have their own) and for a mesh with vertex materials.
+    MaterialId material{0};
+    std::string name;
+    FileLocation location;
+};
+
+struct ObjectDescription {
+    std::string name;
+    std::vector<Part> parts;
+    FileLocation location;
+};
+
+struct MeshDescription {
+    std::string name;
+    std::shared_ptr<TriangleMesh> mesh;     ///< vertex_materials hold values of MaterialId
+    FileLocation location;
+};
+
+struct TextureDescription {
+    std::string name;
+    Texture texture;                        ///< image already read
+    FileLocation location;
+};
+
+struct CameraDescription {
+    std::string name;
+    Camera camera;
+    double aspect = 1;                      ///< width / height the camera was described for
+    FileLocation location;
+};
+
+struct LightDescription {
+    std::string name;
+    Light light;
+    FileLocation location;
+};
+
+struct MaterialDescription {
+    Material material;
+    FileLocation location;
+};
+
+/// What the file says about the picture; the command line overrides it.
+struct PictureSettings {
+    std::optional<int> width, height;       ///< pixels
+    Rgb background;
+};
+
+struct SceneDescription {
+    std::string format;                     ///< name of the importer
+    std::filesystem::path path;
+    std::vector<CameraDescription> cameras; ///< the first is the default
+    std::vector<LightDescription> lights;
+    std::vector<MaterialDescription> materials;  ///< indexed by MaterialId
+    std::vector<TextureDescription> textures;    ///< indexed by TextureId
+    std::vector<MeshDescription> meshes;         ///< indexed by MeshIndex
+    std::vector<ObjectDescription> objects;      ///< indexed by ObjectIndex
+    ObjectIndex root{0};
+    PictureSettings picture;
+    ShadingConventions conventions;
+};
+
+/// Adds every finding about `description` to `diagnostics`: values that are not finite, singular transforms, bad
+/// shapes and meshes, ids out of range, objects that contain themselves, nesting deeper than
+/// kMaxInstanceDepth, no camera (warning), nothing to see (warning).
+void validate(const SceneDescription& description, Diagnostics& diagnostics);
+
+}  // namespace alhazen

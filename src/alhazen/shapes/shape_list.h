@@ -1,0 +1,32 @@
+#pragma once
+/// The closed list of analytic shapes. ADD A SHAPE HERE: one include, one entry.
+///
+/// The position in the list is the shape's type index; primitives of a lower type have lower ids.
+
+#include <variant>
+
+#include "alhazen/shapes/box_shape.h"
+#include "alhazen/shapes/cone.h"
+#include "alhazen/shapes/cylinder.h"
+#include "alhazen/shapes/disc.h"
+#include "alhazen/shapes/plane.h"
+#include "alhazen/shapes/polygon.h"
+#include "alhazen/shapes/rectangle.h"
+#include "alhazen/shapes/sphere.h"
+
+namespace alhazen {
+
+template <Shape... S>
+struct ShapeTypes {
+    using Variant = std::variant<S...>;
+    template <template <class> class Container>
+    using Columns = std::tuple<Container<S>...>;
+    static constexpr std::size_t kCount = sizeof...(S);
+};
+
+using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon>;
+
+/// Any one analytic shape by value.
+using AnyShape = AnalyticShapes::Variant;
+
+}  // namespace alhazen
