@@ -15,10 +15,14 @@
 
 namespace alhazen {
 
+class PrimitiveTable;
+
 class Aggregate {
   public:
     virtual ~Aggregate() = default;
 
+    /// What the primitive ids of hits refer to.
+    [[nodiscard]] virtual const PrimitiveTable& primitives() const = 0;
     /// Holds all primitives; unbounded when one of them is.
     [[nodiscard]] virtual Box3 box() const = 0;
     /// Bytes of the acceleration structure, nested aggregates not included.

@@ -40,7 +40,8 @@ using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 [[nodiscard]] OrthographicCamera look_along_parallel(const Vec3& origin, const Vec3& look,
                                                      const Vec3& up, double height, double aspect);
 
-/// The camera widened or narrowed for a picture of another aspect ratio (width / height); vertical extent is kept.
-[[nodiscard]] Camera with_aspect(const Camera& camera, double aspect);
+/// The camera widened or narrowed from the aspect ratio (width / height) it was described for to another; the
+/// vertical extent is kept.
+[[nodiscard]] Camera with_aspect(const Camera& camera, double described_aspect, double aspect);
 
 }  // namespace alhazen

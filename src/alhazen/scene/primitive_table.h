@@ -51,6 +51,9 @@ inline constexpr std::uint32_t kTriangleKind = AnalyticShapes::kCount;
 inline constexpr std::uint32_t kInstanceKind = kTriangleKind + 1;
 inline constexpr std::uint32_t kKindCount = kInstanceKind + 1;
 
+/// Room that a list of crossings of one primitive needs.
+inline constexpr int kMaxShapeHits = 8;
+
 class PrimitiveTable final : public BoundsSource {
   public:
     // ---- columns; filled by `compile`, then sealed by `finish`
@@ -82,7 +85,7 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
 
     // ---- the one test. Crossings of analytic shapes and triangles in [ray.t_min, ray.t_max], ascending; not for
-    // instances. `hits` has room for kMaxShapeHits.
+    // instances. `hits` has room for kMaxShapeHits entries.
     int intersect(PrimitiveId id, const Ray& ray, const RayShear& shear, ShapeHit* hits) const;
 
     // ---- the three queries on one primitive of any kind, instances included

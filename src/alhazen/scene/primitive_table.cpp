@@ -1,0 +1,287 @@
+#include "alhazen/scene/primitive_table.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "alhazen/base/error.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Calls `f(column)` for the column of an analytic kind.
+template <std::size_t I = 0, class Columns, class F>
+decltype(auto) with_column(Columns& columns, std::uint32_t kind, F&& f) {
+    if constexpr (I + 1 < AnalyticShapes::kCount) {
+        if (kind != I) return with_column<I + 1>(columns, kind, std::forward<F>(f));
+    }
+    return f(std::get<I>(columns));
+}
+
+constexpr int kMostHits = [] {
+    int most = 1;
+    const auto widen = [&]<class... S>(ShapeTypes<S...>) { ((most = std::max(most, S::kMaxHits)), ...); };
+    widen(AnalyticShapes{});
+    return most;
+}();
+static_assert(kMostHits <= kMaxShapeHits);
+
+/// Room for what carrying a ray into the inner frame and back rounds: it grows with the condition of the
+/// transform.
+Box3 placed_box(const Placement& placement, const Box3& inner) {
+    const Box3 box = transformed(placement.outer_from_inner, inner);
+    if (!box.bounded()) return box;
+    const Mat3& m = placement.outer_from_inner.linear;
+    const Mat3& i = placement.inner_from_outer.linear;
+    const auto times_abs = [](const Mat3& a, const Vec3& v) {
+        return v.x * abs(a.x_axis) + v.y * abs(a.y_axis) + v.z * abs(a.z_axis);
+    };
+    const Vec3 reach{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
+                     std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
+                     std::max(std::abs(box.lo.z), std::abs(box.hi.z))};
+    const Vec3 pad = 1e-15 * times_abs(m, times_abs(i, reach));
+    return {box.lo - pad, box.hi + pad};
+}
+
+}  // namespace
+
+void PrimitiveTable::finish() {
+    std::uint64_t next = 0;
+    std::uint32_t kind = 0;
+    const auto begin_kind = [&](std::size_t count) {
+        first_[kind++] = static_cast<std::uint32_t>(next);
+        next += count;
+        if (next >= static_cast<std::uint64_t>(kNoPrimitive)) {
+            throw Error(ErrorKind::Resource, "more than 4294967294 primitives in one object");
+        }
+    };
+    std::apply(
+        [&](auto&... column) {
+            const auto seal = [&](auto& c) {
+                for (auto& shape : c.shapes) shape.prepare();
+                begin_kind(c.shapes.size());
+            };
+            (seal(column), ...);
+        },
+        columns);
+    std::uint64_t triangles = 0;
+    for (PlacedMesh& mesh : meshes) {
+        mesh.first_triangle = static_cast<std::uint32_t>(triangles);
+        triangles += mesh.mesh->triangles.size();
+    }
+    begin_kind(triangles);
+    begin_kind(instances.size());
+    first_[kind] = static_cast<std::uint32_t>(next);
+}
+
+std::uint32_t PrimitiveTable::kind(PrimitiveId id) const {
+    const std::uint32_t i = static_cast<std::uint32_t>(id);
+    std::uint32_t kind = 0;
+    while (i >= first_[kind + 1]) ++kind;
+    return kind;
+}
+
+std::uint32_t PrimitiveTable::index(PrimitiveId id) const {
+    return static_cast<std::uint32_t>(id) - first_[kind(id)];
+}
+
+const PlacedMesh& PrimitiveTable::mesh_of(std::uint32_t triangle) const {
+    if (meshes.size() == 1) return meshes.front();
+    const auto after = std::upper_bound(
+        meshes.begin(), meshes.end(), triangle,
+        [](std::uint32_t t, const PlacedMesh& mesh) { return t < mesh.first_triangle; });
+    return *(after - 1);
+}
+
+std::array<Vec3, 3> PrimitiveTable::triangle_vertices(std::uint32_t triangle) const {
+    const PlacedMesh& placed = mesh_of(triangle);
+    const auto& corners = placed.mesh->triangles[triangle - placed.first_triangle];
+    const auto& p = placed.mesh->positions;
+    return {p[corners[0]], p[corners[1]], p[corners[2]]};
+}
+
+bool PrimitiveTable::is_opaque(PrimitiveId id) const {
+    const std::uint32_t k = kind(id);
+    const std::uint32_t i = static_cast<std::uint32_t>(id) - first_[k];
+    const auto opaque = [&](MaterialId m) {
+        return material_is_opaque[static_cast<std::uint32_t>(m)] != 0;
+    };
+    if (k == kInstanceKind) return false;
+    if (k != kTriangleKind) {
+        return with_column(columns, k, [&](const auto& c) { return opaque(c.materials[i]); });
+    }
+    const PlacedMesh& placed = mesh_of(i);
+    const TriangleMesh& mesh = *placed.mesh;
+    if (mesh.vertex_materials.empty()) return opaque(placed.material);
+    const auto& corners = mesh.triangles[i - placed.first_triangle];
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+        return opaque(MaterialId{mesh.vertex_materials[v]});
+    });
+}
+
+Box3 PrimitiveTable::box(std::size_t i) const {
+    const PrimitiveId id{static_cast<std::uint32_t>(i)};
+    const std::uint32_t k = kind(id);
+    const std::uint32_t j = static_cast<std::uint32_t>(i) - first_[k];
+    if (k == kInstanceKind) {
+        return placed_box(instances[j].placement, instances[j].aggregate->box());
+    }
+    if (k == kTriangleKind) {
+        Box3 box;
+        for (const Vec3& p : triangle_vertices(j)) box.include(p);
+        return padded(box);
+    }
+    return with_column(columns, k, [&](const auto& c) {
+        const Box3 inner = c.shapes[j].box();
+        const std::uint32_t placement = c.placements[j];
+        return placement == kNoPlacement ? padded(inner) : placed_box(placements[placement], inner);
+    });
+}
+
+Interval PrimitiveTable::extent(std::size_t i, const Vec3& axis) const {
+    const PrimitiveId id{static_cast<std::uint32_t>(i)};
+    const std::uint32_t k = kind(id);
+    const std::uint32_t j = static_cast<std::uint32_t>(i) - first_[k];
+    if (k == kInstanceKind) return BoundsSource::extent(i, axis);
+    if (k == kTriangleKind) {
+        Interval range;
+        for (const Vec3& p : triangle_vertices(j)) range.include(dot(axis, p));
+        const double pad = 1e-15 * std::max(std::abs(range.lo), std::abs(range.hi));
+        return {range.lo - pad, range.hi + pad};
+    }
+    return with_column(columns, k, [&](const auto& c) {
+        const std::uint32_t p = c.placements[j];
+        if (p == kNoPlacement) return c.shapes[j].extent(axis);
+        // dot(axis, M x + t) = dot(M^T axis, x) + dot(axis, t)
+        const Affine& m = placements[p].outer_from_inner;
+        const Interval inner = c.shapes[j].extent(transpose_times(m.linear, axis));
+        const double shift = dot(axis, m.translation);
+        const double pad = 1e-15 * (std::abs(shift) + std::max(std::abs(inner.lo), std::abs(inner.hi)));
+        return Interval{inner.lo + shift - pad, inner.hi + shift + pad};
+    });
+}
+
+int PrimitiveTable::intersect(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                              ShapeHit* hits) const {
+    const std::uint32_t k = kind(id);
+    const std::uint32_t i = static_cast<std::uint32_t>(id) - first_[k];
+    if (k == kTriangleKind) {
+        const auto [a, b, c] = triangle_vertices(i);
+        return intersect_triangle(ray, shear, a, b, c, hits[0]) ? 1 : 0;
+    }
+    return with_column(columns, k, [&](const auto& c) {
+        const std::uint32_t placement = c.placements[i];
+        if (placement == kNoPlacement) return c.shapes[i].intersect(ray, hits);
+        return c.shapes[i].intersect(transformed(placements[placement].inner_from_outer, ray), hits);
+    });
+}
+
+template <class Stats>
+void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best,
+                             Stats stats) const {
+    if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
+        ShapeHit hits[kMaxShapeHits];
+        const int count = intersect(id, ray, shear, hits);
+        stats.primitives(1);
+        if (count == 0) return;
+        stats.primitive_hits(1);
+        offer(hits[0], id, ray, best);
+        return;
+    }
+    const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
+    Hit inner;
+    const Ray inner_ray = transformed(instance.placement.inner_from_outer, ray);
+    if (!instance.aggregate->closest(inner_ray, inner, stats.sink())) return;
+    if (inner.t < best.t || (inner.t == best.t && id < best.top())) {
+        best = inner;
+        best.path.push_back(id);
+        ray.t_max = inner.t;
+    }
+}
+
+template <class Stats>
+bool PrimitiveTable::occluded(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                              Stats stats) const {
+    if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
+        ShapeHit hits[kMaxShapeHits];
+        stats.primitives(1);
+        if (intersect(id, ray, shear, hits) == 0) return false;
+        stats.primitive_hits(1);
+        return true;
+    }
+    const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
+    return instance.aggregate->occluded(transformed(instance.placement.inner_from_outer, ray),
+                                        stats.sink());
+}
+
+template <class Stats>
+void PrimitiveTable::all_hits(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                              std::vector<Hit>& hits, Stats stats) const {
+    if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
+        ShapeHit crossings[kMaxShapeHits];
+        const int count = intersect(id, ray, shear, crossings);
+        stats.primitives(1);
+        if (count > 0) stats.primitive_hits(1);
+        for (int i = 0; i < count; ++i) {
+            Hit& hit = hits.emplace_back();
+            static_cast<ShapeHit&>(hit) = crossings[i];
+            hit.primitive = id;
+        }
+        return;
+    }
+    const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
+    const std::size_t before = hits.size();
+    instance.aggregate->all_hits(transformed(instance.placement.inner_from_outer, ray), hits,
+                                 stats.sink());
+    for (std::size_t i = before; i < hits.size(); ++i) hits[i].path.push_back(id);
+}
+
+template <class Stats>
+bool PrimitiveTable::shadowed(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                              std::vector<Hit>& crossings, Stats stats) const {
+    if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
+        const std::size_t before = crossings.size();
+        all_hits(id, ray, shear, crossings, stats);
+        return crossings.size() > before && is_opaque(id);
+    }
+    const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
+    const std::size_t before = crossings.size();
+    if (instance.aggregate->shadowed(transformed(instance.placement.inner_from_outer, ray),
+                                     crossings, stats.sink())) {
+        return true;
+    }
+    for (std::size_t i = before; i < crossings.size(); ++i) crossings[i].path.push_back(id);
+    return false;
+}
+
+template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&, NoStats) const;
+template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&, CountingStats) const;
+template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&, NoStats) const;
+template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&,
+                                       CountingStats) const;
+template void PrimitiveTable::all_hits(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
+                                       NoStats) const;
+template void PrimitiveTable::all_hits(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
+                                       CountingStats) const;
+template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
+                                       NoStats) const;
+template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
+                                       CountingStats) const;
+
+std::size_t PrimitiveTable::memory_bytes() const {
+    const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    std::size_t total = bytes(meshes) + bytes(instances) + bytes(placements) + bytes(material_is_opaque);
+    std::apply(
+        [&](const auto&... c) {
+            ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials)), ...);
+        },
+        columns);
+    for (const PlacedMesh& placed : meshes) {
+        const TriangleMesh& mesh = *placed.mesh;
+        total += bytes(mesh.positions) + bytes(mesh.triangles) + bytes(mesh.normals) +
+                 bytes(mesh.uvs) + bytes(mesh.vertex_materials);
+    }
+    return total;
+}
+
+}  // namespace alhazen
