@@ -1,0 +1,205 @@
+#include "alhazen/base/file.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "alhazen/base/error.h"
+
+namespace alhazen {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what, int error_number) {
+    throw Error(ErrorKind::File, what + ": " + std::strerror(error_number), {path.string(), 0, 0});
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::string& what) {
+    throw Error(ErrorKind::File, what, {path.string(), 0, 0});
+}
+
+class FileDescriptor {
+  public:
+    explicit FileDescriptor(int fd) : fd_(fd) {}
+    ~FileDescriptor() {
+        if (fd_ >= 0) ::close(fd_);
+    }
+    FileDescriptor(const FileDescriptor&) = delete;
+    FileDescriptor& operator=(const FileDescriptor&) = delete;
+
+    [[nodiscard]] int get() const { return fd_; }
+    /// Closes now; the result of close(2), which may report a write that failed late.
+    [[nodiscard]] int close() { return ::close(std::exchange(fd_, -1)); }
+
+  private:
+    int fd_;
+};
+
+/// Removes a temporary file unless it was renamed into place.
+class TemporaryName {
+  public:
+    explicit TemporaryName(fs::path path) : path_(std::move(path)) {}
+    ~TemporaryName() {
+        if (!kept_) ::unlink(path_.c_str());
+    }
+    TemporaryName(const TemporaryName&) = delete;
+    TemporaryName& operator=(const TemporaryName&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+    void keep() { kept_ = true; }
+
+  private:
+    fs::path path_;
+    bool kept_ = false;
+};
+
+void check_path(const fs::path& path) {
+    if (path.empty()) fail(path, "the name of the file is empty");
+    // The system would read the name only up to the NUL and open another file.
+    if (path.native().find('\0') != std::string::npos)
+        fail(path, "the name of the file holds a NUL");
+}
+
+/// The file that is meant by `path`: a link is followed, so that it stays a link.
+fs::path target_of(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_symlink(path, error)) return path;
+    fs::path target = fs::weakly_canonical(path, error);
+    if (error) fail(path, "cannot follow the link: " + error.message());
+    return target;
+}
+
+/// A new file with the mode a plain open would give. The name is short, whatever the target's
+/// length is.
+int create_temporary(const fs::path& folder, fs::path& name) {
+    static std::atomic<unsigned> counter{0};
+    int fd = -1;
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+        name = folder / (".alhazen-" + std::to_string(::getpid()) + "-" +
+                         std::to_string(counter.fetch_add(1)) + ".tmp");
+        fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd >= 0 || (errno != EEXIST && errno != EINTR)) break;
+    }
+    return fd;
+}
+
+void write_all(int fd, std::span<const std::byte> bytes, const fs::path& path) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        if (written < 0) {
+            if (errno == EINTR) continue;
+            fail(path, "cannot write the file", errno);
+        }
+        bytes = bytes.subspan(std::size_t(written));
+    }
+}
+
+/// Some file systems cannot sync (EINVAL, ENOTSUP); that is no failure of the data.
+bool synced(int fd) {
+    int result = 0;
+    do {
+        result = ::fsync(fd);
+    } while (result != 0 && errno == EINTR);
+    return result == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
+void sync_folder(const fs::path& folder) {
+    const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    // The rename is done and both names hold whole files, so a failure here is nothing to undo.
+    if (fd.get() >= 0) (void)synced(fd.get());
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
+    check_path(path);
+    // O_NONBLOCK: opening a FIFO without a writer would otherwise wait for ever.
+    const FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    if (fd.get() < 0) fail(path, "cannot open the file", errno);
+    struct stat status {};
+    if (::fstat(fd.get(), &status) != 0) fail(path, "cannot read the file", errno);
+    if (S_ISDIR(status.st_mode)) fail(path, "is a folder, expected a file");
+    if (!S_ISREG(status.st_mode)) fail(path, "is not a regular file");
+
+    const auto check_size = [&](std::uint64_t size) {
+        if (size <= max_bytes) return;
+        throw Error(ErrorKind::Resource,
+                    "the file has more than " + std::to_string(max_bytes) + " bytes",
+                    {path.string(), 0, 0});
+    };
+    check_size(std::uint64_t(status.st_size));
+    // The size is only a hint: files may grow while they are read, and some report 0.
+    std::string bytes(std::size_t(status.st_size) + 1, '\0');
+    std::size_t size = 0;
+    while (true) {
+        if (size == bytes.size()) bytes.resize(bytes.size() + std::max<std::size_t>(size, 4096));
+        const ssize_t got = ::read(fd.get(), bytes.data() + size, bytes.size() - size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail(path, "cannot read the file", errno);
+        if (got == 0) break;
+        size += std::size_t(got);
+        check_size(size);
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
+void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+    check_path(path);
+    const fs::path target = target_of(path);
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    struct stat old {};
+    const bool exists = ::stat(target.c_str(), &old) == 0;
+    // Renaming over a device would take the device away.
+    if (exists && !S_ISREG(old.st_mode)) fail(path, "exists and is not a regular file");
+
+    fs::path temporary_path;
+    FileDescriptor fd(create_temporary(folder, temporary_path));
+    if (fd.get() < 0) fail(path, "cannot write into the folder " + folder.string(), errno);
+    TemporaryName temporary(std::move(temporary_path));
+    // Keep the permissions that the user gave the old file; not being allowed to is no reason to
+    // stop.
+    if (exists) (void)!::fchmod(fd.get(), old.st_mode & 07777);
+    write_all(fd.get(), bytes, path);
+    if (!synced(fd.get())) fail(path, "cannot write the file", errno);
+    if (fd.close() != 0) fail(path, "cannot write the file", errno);
+    if (::rename(temporary.path().c_str(), target.c_str()) != 0) {
+        fail(path, "cannot replace the file", errno);
+    }
+    temporary.keep();
+    sync_folder(folder);
+}
+
+void write_file_atomically(const fs::path& path, const std::string& text) {
+    write_file_atomically(path, std::as_bytes(std::span<const char>(text.data(), text.size())));
+}
+
+fs::path resolve_inside(const fs::path& root, const fs::path& folder, const std::string& name) {
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorKind::Scene, "the file name \"" + name + "\" " + why);
+    };
+    if (name.empty()) refuse("is empty");
+    if (name.find('\0') != std::string::npos) refuse("holds a NUL");
+    const fs::path relative(name);
+    if (relative.is_absolute()) refuse("is absolute, expected one relative to the scene");
+
+    const auto whole = [](const fs::path& path) {
+        return fs::absolute(path.empty() ? fs::path(".") : path).lexically_normal();
+    };
+    const fs::path place = (folder / relative).lexically_normal();
+    const fs::path inside = whole(place).lexically_relative(whole(root));
+    if (inside.empty() || *inside.begin() == "..") {
+        refuse("leaves the folder " + root.string() + " that the scene may read");
+    }
+    return place;
+}
+
+}  // namespace alhazen
