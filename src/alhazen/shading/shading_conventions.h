@@ -50,6 +50,7 @@ struct ShadingConventions {
     enum class PixelSample {
         Center,
         LowerLeftCorner,  ///< x = i / width, y = j / height with j counted from the bottom row
+        FrameCorners,     ///< x = i / (width - 1): the outermost rays go through the frame's corners
     };
     PixelSample pixel_sample = PixelSample::Center;
 

@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "alhazen/base/error.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/scene.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Meshes of more triangles than this that are used more than once are instanced, not copied.
+constexpr std::size_t kInstancedMeshTriangles = 64;
+
+std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
+    return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max()
+                                                             : a + b;
+}
+
+/// An aggregate with what the census needs to know about it.
+struct Built {
+    std::shared_ptr<const Aggregate> aggregate;
+    std::uint64_t effective_primitives = 0;
+    int instance_depth = 0;
+};
+
+class Compiler {
+  public:
+    Compiler(const SceneDescription& description, const CompileOptions& options)
+        : d_(description),
+          options_(options),
+          built_objects_(description.objects.size()),
+          object_uses_(description.objects.size(), 0),
+          mesh_uses_(description.meshes.size(), 0) {}
+
+    Scene run() {
+        Scene scene;
+        compile_looks(scene);
+        for (const Material& m : scene.materials) opaque_.push_back(m.is_opaque() ? 1 : 0);
+        scene.all_opaque = std::all_of(opaque_.begin(), opaque_.end(), [](auto o) { return o != 0; });
+        count_uses();
+        const Built root = build_object(static_cast<std::size_t>(d_.root));
+        scene.aggregate = root.aggregate;
+        census_.effective_primitives = root.effective_primitives;
+        census_.instance_depth = root.instance_depth;
+        for (const Texture& texture : scene.textures) {
+            census_.scene_bytes += texture.image->samples.size() * sizeof(float);
+        }
+        scene.census = census_;
+        scene.accelerator = options_.accelerator;
+        return scene;
+    }
+
+  private:
+    void compile_looks(Scene& scene) const {
+        const bool truncate = d_.conventions.truncate_material_colors;
+        for (const MaterialDescription& description : d_.materials) {
+            Material m = description.material;
+            if (truncate) {
+                for (ColorInput* input : {&m.emission, &m.ambient, &m.diffuse, &m.specular,
+                                          &m.reflective, &m.transmissive}) {
+                    for (int i = 0; i < 3; ++i) {
+                        input->color[i] = std::floor(255.0 * input->color[i]) / 255.0;
+                    }
+                }
+            }
+            scene.materials.push_back(std::move(m));
+        }
+        for (const TextureDescription& t : d_.textures) scene.textures.push_back(t.texture);
+        for (const LightDescription& l : d_.lights) {
+            Light light = l.light;
+            if (auto* directional = std::get_if<DirectionalLight>(&light)) {
+                directional->to_light = normalize(directional->to_light);
+            } else if (auto* spot = std::get_if<SpotLight>(&light)) {
+                spot->direction = normalize(spot->direction);
+            }
+            scene.lights.push_back(light);
+        }
+        scene.cameras = d_.cameras;
+        scene.conventions = d_.conventions;
+        scene.background = d_.picture.background;
+    }
+
+    /// How many parts use each object and mesh; one user is flattened, several share an instance.
+    void count_uses() {
+        for (const ObjectDescription& object : d_.objects) {
+            for (const Part& part : object.parts) {
+                if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                    ++object_uses_[static_cast<std::size_t>(*child)];
+                } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+                    ++mesh_uses_[static_cast<std::size_t>(*mesh)];
+                }
+            }
+        }
+    }
+
+    struct Draft {
+        PrimitiveTable table;
+        Built built;
+    };
+
+    /// Nesting is bounded by validation, so recursion is safe here.
+    const Built& build_object(std::size_t index) {
+        if (!built_objects_[index].aggregate) {
+            Draft draft;
+            add_parts(index, Affine{}, draft);
+            built_objects_[index] = seal(std::move(draft));
+        }
+        return built_objects_[index];
+    }
+
+    Built seal(Draft draft) {
+        draft.table.material_is_opaque = opaque_;
+        draft.table.finish();
+        const std::uint32_t triangles =
+            draft.table.first(kTriangleKind + 1) - draft.table.first(kTriangleKind);
+        census_.analytic_shapes += draft.table.first(kTriangleKind);
+        census_.triangles += triangles;
+        census_.instances += draft.table.instances.size();
+        census_.scene_bytes += draft.table.memory_bytes();
+        Built built = std::move(draft.built);
+        built.effective_primitives = saturating_add(built.effective_primitives,
+                                                    draft.table.first(kInstanceKind));
+        built.aggregate = make_aggregate(options_.accelerator, std::move(draft.table));
+        census_.accelerator_bytes += built.aggregate->memory_bytes();
+        return built;
+    }
+
+    void add_parts(std::size_t object, const Affine& outer_from_object, Draft& draft) {
+        for (const Part& part : d_.objects[object].parts) {
+            const Affine outer_from_part = outer_from_object * part.object_from_part;
+            if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
+                add_shape(*shape, part, outer_from_part, draft.table);
+            } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+                add_mesh(*mesh, part, outer_from_part, draft);
+            } else {
+                const std::size_t child = static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
+                if (object_uses_[child] == 1) {
+                    add_parts(child, outer_from_part, draft);
+                } else {
+                    add_instance(build_object(child), outer_from_part, draft);
+                }
+            }
+        }
+    }
+
+    static void add_shape(const AnyShape& shape, const Part& part, const Affine& outer_from_part,
+                          PrimitiveTable& table) {
+        std::uint32_t placement = kNoPlacement;
+        if (outer_from_part != Affine{}) {
+            placement = static_cast<std::uint32_t>(table.placements.size());
+            table.placements.push_back({outer_from_part, inverse(outer_from_part)});
+        }
+        std::visit(
+            [&]<class S>(const S& s) {
+                auto& column = std::get<ShapeColumn<S>>(table.columns);
+                column.shapes.push_back(s);
+                column.placements.push_back(placement);
+                column.materials.push_back(part.material);
+            },
+            shape);
+    }
+
+    void add_mesh(MeshIndex index, const Part& part, const Affine& outer_from_part, Draft& draft) {
+        const auto& mesh = d_.meshes[static_cast<std::size_t>(index)].mesh;
+        if (mesh->triangles.empty()) return;
+        if (mesh_uses_[static_cast<std::size_t>(index)] > 1 &&
+            mesh->triangles.size() > kInstancedMeshTriangles) {
+            const std::pair key{static_cast<std::size_t>(index), part.material};
+            auto found = built_meshes_.find(key);
+            if (found == built_meshes_.end()) {
+                Draft shared;
+                shared.table.meshes.push_back({mesh, part.material, 0, false});
+                found = built_meshes_.emplace(key, seal(std::move(shared))).first;
+            }
+            add_instance(found->second, outer_from_part, draft);
+            return;
+        }
+        if (outer_from_part == Affine{}) {
+            draft.table.meshes.push_back({mesh, part.material, 0, false});
+            return;
+        }
+        auto placed = std::make_shared<TriangleMesh>(*mesh);
+        placed->transform(outer_from_part);
+        const bool mirrored = determinant(outer_from_part.linear) < 0.0;
+        draft.table.meshes.push_back({std::move(placed), part.material, 0, mirrored});
+    }
+
+    static void add_instance(const Built& child, const Affine& outer_from_inner, Draft& draft) {
+        draft.table.instances.push_back(
+            {child.aggregate, {outer_from_inner, inverse(outer_from_inner)}});
+        draft.built.effective_primitives =
+            saturating_add(draft.built.effective_primitives, child.effective_primitives);
+        draft.built.instance_depth =
+            std::max(draft.built.instance_depth, child.instance_depth + 1);
+    }
+
+    const SceneDescription& d_;
+    const CompileOptions& options_;
+    std::vector<std::uint8_t> opaque_;
+    std::vector<Built> built_objects_;
+    std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;
+    std::vector<std::uint32_t> object_uses_;
+    std::vector<std::uint32_t> mesh_uses_;
+    SceneCensus census_;
+};
+
+}  // namespace
+
+Scene compile(const SceneDescription& description, const CompileOptions& options) {
+    return Compiler(description, options).run();
+}
+
+const CameraDescription& find_camera(const Scene& scene, const std::string& name) {
+    if (scene.cameras.empty()) throw Error(ErrorKind::Scene, "the scene has no camera");
+    if (name.empty()) return scene.cameras.front();
+    for (const CameraDescription& camera : scene.cameras) {
+        if (camera.name == name) return camera;
+    }
+    std::size_t index = 0;
+    const auto [end, status] = std::from_chars(name.data(), name.data() + name.size(), index);
+    if (status == std::errc{} && end == name.data() + name.size() && index < scene.cameras.size()) {
+        return scene.cameras[index];
+    }
+    std::string known;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, scene.cameras[i].name);
+    }
+    throw Error(ErrorKind::Usage, fmt::format("no camera '{}'; the scene has: {}", name, known));
+}
+
+}  // namespace alhazen

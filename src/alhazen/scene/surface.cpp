@@ -1,0 +1,126 @@
+#include "alhazen/scene/surface.h"
+
+#include <cmath>
+
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr double kEpsilon = 0x1p-53;
+
+Vec3 times_abs(const Mat3& m, const Vec3& v) {
+    return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
+}
+
+/// Carries a surface out of an inner frame. The new error has the old one, the rounding of the transform, and
+/// that of the ray on its way in (which the next ray will suffer again).
+void carry_outward(const Placement& placement, Surface& surface) {
+    const Affine& outer = placement.outer_from_inner;
+    const Affine& inner = placement.inner_from_outer;
+    const Vec3 rounded_terms = times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
+    const Vec3 outer_point = outer.point(surface.point);
+    const Vec3 inner_terms = times_abs(inner.linear, abs(outer_point)) + abs(inner.translation);
+    surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
+                    4 * kEpsilon * rounded_terms;
+    surface.point = outer_point;
+    surface.normal = normalize(transpose_times(inner.linear, surface.normal));
+    surface.shading_normal = normalize(transpose_times(inner.linear, surface.shading_normal));
+}
+
+Surface from_shape(const ShapeSurface& s) {
+    Surface surface;
+    surface.point = s.point;
+    surface.normal = s.normal;
+    surface.shading_normal = s.shading_normal;
+    surface.uv = s.uv;
+    surface.error = s.error;
+    return surface;
+}
+
+Surface analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
+                         const Ray& ray, const Hit& hit) {
+    Surface surface;
+    std::uint32_t k = 0;
+    const auto look_up = [&](const auto& column) {
+        if (k++ != kind) return;
+        const std::uint32_t placement = column.placements[index];
+        if (placement == kNoPlacement) {
+            surface = from_shape(column.shapes[index].surface(ray, hit));
+        } else {
+            const Placement& p = table.placements[placement];
+            surface = from_shape(column.shapes[index].surface(transformed(p.inner_from_outer, ray), hit));
+            carry_outward(p, surface);
+        }
+        surface.materials[0] = column.materials[index];
+    };
+    std::apply([&](const auto&... column) { (look_up(column), ...); }, table.columns);
+    return surface;
+}
+
+Surface triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hit& hit) {
+    const PlacedMesh& placed = table.mesh_of(index);
+    const TriangleMesh& mesh = *placed.mesh;
+    const std::uint32_t triangle = index - placed.first_triangle;
+    Surface surface = from_shape(mesh.surface(triangle, hit));
+    const auto& corners = mesh.triangles[triangle];
+    // The test of the next ray rounds relative to the size of the triangle, not to where the point lies.
+    for (const std::uint32_t corner : corners) {
+        surface.error += 4 * kEpsilon * abs(mesh.positions[corner] - surface.point);
+    }
+    if (placed.mirrored) {
+        surface.normal = -surface.normal;
+        if (mesh.normals.empty()) surface.shading_normal = surface.normal;
+    }
+    surface.materials[0] = placed.material;
+    if (!mesh.vertex_materials.empty()) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            surface.materials[i] = MaterialId{mesh.vertex_materials[corners[i]]};
+        }
+        surface.weights = {1.0 - hit.u - hit.v, hit.u, hit.v};
+        surface.material_count = 3;
+    }
+    return surface;
+}
+
+/// Descends the path of instances from level `depth` (outermost = path.size()) inward.
+Surface surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
+                       std::size_t depth) {
+    const PrimitiveTable& table = aggregate.primitives();
+    if (depth > 0) {
+        const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
+        Surface surface =
+            surface_inside(*instance.aggregate, transformed(instance.placement.inner_from_outer, ray),
+                           hit, depth - 1);
+        carry_outward(instance.placement, surface);
+        return surface;
+    }
+    const std::uint32_t kind = table.kind(hit.primitive);
+    const std::uint32_t index = table.index(hit.primitive);
+    return kind == kTriangleKind ? triangle_surface(table, index, hit)
+                                 : analytic_surface(table, kind, index, ray, hit);
+}
+
+}  // namespace
+
+Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
+    return surface_inside(aggregate, ray, hit, hit.path.size());
+}
+
+Vec3 offset_origin(const Surface& surface, const Vec3& direction) {
+    const double margin = 32.0 * dot(abs(surface.normal), surface.error);
+    const Vec3 offset =
+        dot(direction, surface.normal) >= 0.0 ? margin * surface.normal : (-margin) * surface.normal;
+    Vec3 origin = surface.point + offset;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (offset[axis] > 0.0) {
+            origin[axis] = std::nextafter(origin[axis], HUGE_VAL);
+        } else if (offset[axis] < 0.0) {
+            origin[axis] = std::nextafter(origin[axis], -HUGE_VAL);
+        }
+    }
+    return origin;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,35 @@
+#pragma once
+/// The surface at the nearest hit: computed once per ray, for the winner.
+
+#include <array>
+
+#include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/ray.h"
+#include "alhazen/scene/aggregate.h"
+#include "alhazen/shading/material.h"
+
+namespace alhazen {
+
+/// World space. `normal` is the geometric one, outward for closed shapes; both normals are unit.
+struct Surface {
+    Vec3 point;
+    Vec3 normal;
+    Vec3 shading_normal;
+    Vec2 uv;
+    Vec3 error;  ///< bound of the distance of `point` from the true surface, component by component
+    /// One material, or those of a triangle's vertices with their weights.
+    std::array<MaterialId, 3> materials{};
+    std::array<double, 3> weights{1, 0, 0};
+    int material_count = 1;
+};
+
+/// `ray` is the world-space ray that found `hit` in `aggregate`.
+[[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit);
+
+/// Where a ray that leaves the surface towards `direction` starts: outside the error bound of the point, on the
+/// side the direction points to, so that it does not meet the surface again.
+/// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
+/// Differs: the margin is 32 times the bound, which also covers the rounding of the next intersection test.
+[[nodiscard]] Vec3 offset_origin(const Surface& surface, const Vec3& direction);
+
+}  // namespace alhazen

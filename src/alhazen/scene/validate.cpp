@@ -1,0 +1,268 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen {
+
+namespace {
+
+bool finite(const Rgb& c) { return c.is_finite(); }
+
+class Validator {
+  public:
+    Validator(const SceneDescription& description, Diagnostics& diagnostics)
+        : d_(description), out_(diagnostics) {}
+
+    void run() {
+        check_cameras();
+        check_lights();
+        check_materials();
+        check_textures();
+        for (const MeshDescription& mesh : d_.meshes) check_mesh(mesh);
+        for (const ObjectDescription& object : d_.objects) {
+            for (const Part& part : object.parts) check_part(part);
+        }
+        check_nesting();
+        check_picture();
+    }
+
+  private:
+    void error(const FileLocation& where, std::string message) {
+        out_.error(where.file.empty() ? file() : where, std::move(message));
+    }
+    void warning(const FileLocation& where, std::string message) {
+        out_.warning(where.file.empty() ? file() : where, std::move(message));
+    }
+    [[nodiscard]] FileLocation file() const { return {d_.path.string(), 0, 0}; }
+
+    void check_cameras() {
+        if (d_.cameras.empty()) warning({}, "the scene has no camera");
+        for (const CameraDescription& camera : d_.cameras) {
+            const bool ok = std::visit(
+                [](const auto& c) {
+                    Vec3 forward;
+                    bool good = is_finite(c.right) && is_finite(c.up);
+                    if constexpr (requires { c.look; }) {
+                        forward = c.look;
+                        good = good && is_finite(c.eye);
+                    } else {
+                        forward = c.direction;
+                        good = good && is_finite(c.origin);
+                    }
+                    // The picture plane must not degenerate to a line.
+                    return good && is_finite(forward) && forward != Vec3{} &&
+                           length_squared(cross(c.right, c.up)) > 0.0;
+                },
+                camera.camera);
+            if (!ok || !(camera.aspect > 0.0) || !std::isfinite(camera.aspect)) {
+                error(camera.location,
+                      "the camera's vectors must be finite, its view direction not zero and its "
+                      "right and up vectors not parallel");
+            }
+        }
+    }
+
+    void check_lights() {
+        for (const LightDescription& light : d_.lights) {
+            const auto need = [&](bool ok, const char* message) {
+                if (!ok) error(light.location, message);
+            };
+            std::visit(
+                [&](const auto& l) {
+                    need(finite(l.ambient), "the light's ambient colour must be finite");
+                    if constexpr (requires { l.color; }) {
+                        need(finite(l.color), "the light's colour must be finite");
+                    }
+                    if constexpr (requires { l.position; }) {
+                        need(is_finite(l.position), "the light's position must be finite");
+                        const Attenuation& a = l.attenuation;
+                        need(a.constant >= 0 && a.linear >= 0 && a.quadratic >= 0 &&
+                                 std::isfinite(a.constant + a.linear + a.quadratic),
+                             "the light's attenuation coefficients must be finite and not negative");
+                    }
+                    if constexpr (requires { l.to_light; }) {
+                        need(is_finite(l.to_light) && l.to_light != Vec3{},
+                             "the light's direction must be finite and not zero");
+                    }
+                    if constexpr (requires { l.inner_angle; }) {
+                        need(is_finite(l.direction) && l.direction != Vec3{},
+                             "the light's direction must be finite and not zero");
+                        need(l.inner_angle >= 0 && l.inner_angle <= l.outer_angle &&
+                                 l.outer_angle <= 3.1415926535897936,
+                             "the light's angles must satisfy 0 <= inner <= outer <= 180 degrees");
+                    }
+                },
+                light.light);
+        }
+    }
+
+    void check_materials() {
+        if (d_.materials.empty()) error({}, "the scene has no material");
+        for (const MaterialDescription& description : d_.materials) {
+            const Material& m = description.material;
+            const auto color = [&](const ColorInput& input, const char* what) {
+                check_texture_id(input.texture, description.location, what);
+                if (!finite(input.color)) {
+                    error(description.location,
+                          fmt::format("{} of material '{}' must be finite", what, m.name));
+                }
+            };
+            color(m.emission, "emission");
+            color(m.ambient, "ambient");
+            color(m.diffuse, "diffuse");
+            color(m.specular, "specular");
+            color(m.reflective, "reflective");
+            color(m.transmissive, "transmissive");
+            check_texture_id(m.shininess.texture, description.location, "shininess");
+            check_texture_id(m.index.texture, description.location, "index");
+            if (!std::isfinite(m.shininess.value) || m.shininess.value < 0) {
+                error(description.location,
+                      fmt::format("shininess of material '{}' must be finite and not negative, found {}",
+                                  m.name, m.shininess.value));
+            }
+            if (!std::isfinite(m.index.value) || m.index.value < 0) {
+                error(description.location,
+                      fmt::format("index of refraction of material '{}' must be finite and not "
+                                  "negative, found {}",
+                                  m.name, m.index.value));
+            }
+        }
+    }
+
+    void check_texture_id(TextureId id, const FileLocation& where, const char* what) {
+        if (id != kNoTexture && static_cast<std::uint32_t>(id) >= d_.textures.size()) {
+            error(where, fmt::format("{} refers to texture {} of {}", what,
+                                     static_cast<std::uint32_t>(id), d_.textures.size()));
+        }
+    }
+
+    void check_textures() {
+        for (const TextureDescription& texture : d_.textures) {
+            const auto& image = texture.texture.image;
+            if (!image || image->width <= 0 || image->height <= 0) {
+                error(texture.location, fmt::format("texture '{}' has no image", texture.name));
+            }
+        }
+    }
+
+    void check_mesh(const MeshDescription& description) {
+        if (!description.mesh) {
+            error(description.location, fmt::format("mesh '{}' is missing", description.name));
+            return;
+        }
+        const TriangleMesh& mesh = *description.mesh;
+        mesh.validate(description.location, out_);
+        const auto bad = std::find_if(
+            mesh.vertex_materials.begin(), mesh.vertex_materials.end(),
+            [&](std::uint32_t m) { return m >= d_.materials.size(); });
+        if (bad != mesh.vertex_materials.end()) {
+            error(description.location,
+                  fmt::format("a vertex of mesh '{}' refers to material {} of {}", description.name,
+                              *bad, d_.materials.size()));
+        }
+    }
+
+    void check_part(const Part& part) {
+        if (!is_invertible(part.object_from_part)) {
+            error(part.location, "the transform is singular or not finite");
+        }
+        if (const AnyShape* shape = std::get_if<AnyShape>(&part.what)) {
+            std::visit([&](const auto& s) { s.validate(part.location, out_); }, *shape);
+        } else if (const MeshIndex* mesh = std::get_if<MeshIndex>(&part.what)) {
+            if (static_cast<std::uint32_t>(*mesh) >= d_.meshes.size()) {
+                error(part.location, fmt::format("refers to mesh {} of {}",
+                                                 static_cast<std::uint32_t>(*mesh), d_.meshes.size()));
+            }
+        } else if (static_cast<std::uint32_t>(std::get<ObjectIndex>(part.what)) >= d_.objects.size()) {
+            error(part.location,
+                  fmt::format("refers to object {} of {}",
+                              static_cast<std::uint32_t>(std::get<ObjectIndex>(part.what)),
+                              d_.objects.size()));
+        }
+        if (!std::holds_alternative<ObjectIndex>(part.what) &&
+            static_cast<std::uint32_t>(part.material) >= d_.materials.size()) {
+            error(part.location, fmt::format("refers to material {} of {}",
+                                             static_cast<std::uint32_t>(part.material),
+                                             d_.materials.size()));
+        }
+    }
+
+    /// Depth of every object by an explicit stack: hostile nesting must not overflow the real one.
+    void check_nesting() {
+        enum : std::uint8_t { New, Open, Done };
+        const std::size_t n = d_.objects.size();
+        if (static_cast<std::size_t>(d_.root) >= n) {
+            error({}, "the scene has no root object");
+            return;
+        }
+        std::vector<std::uint8_t> state(n, New);
+        std::vector<int> depth(n, 0);
+        struct Frame {
+            std::size_t object, next_part;
+        };
+        std::vector<Frame> stack{{static_cast<std::size_t>(d_.root), 0}};
+        state[stack.back().object] = Open;
+        while (!stack.empty()) {
+            Frame& frame = stack.back();
+            const std::size_t object = frame.object;
+            const auto& parts = d_.objects[object].parts;
+            if (frame.next_part == parts.size()) {
+                state[object] = Done;
+                stack.pop_back();
+                if (!stack.empty()) {
+                    int& parent = depth[stack.back().object];
+                    parent = std::max(parent, depth[object] + 1);
+                }
+                continue;
+            }
+            const Part& part = parts[frame.next_part++];
+            const ObjectIndex* child = std::get_if<ObjectIndex>(&part.what);
+            if (child == nullptr || static_cast<std::size_t>(*child) >= n) continue;
+            const std::size_t c = static_cast<std::size_t>(*child);
+            if (state[c] == Open) {
+                error(part.location,
+                      fmt::format("object '{}' contains itself", d_.objects[c].name));
+                return;
+            }
+            if (state[c] == Done) {
+                depth[object] = std::max(depth[object], depth[c] + 1);
+            } else {
+                state[c] = Open;
+                stack.push_back({c, 0});
+            }
+        }
+        const int deepest = depth[static_cast<std::size_t>(d_.root)];
+        // Automatic instances of meshes may add one level of their own.
+        if (deepest + 1 > static_cast<int>(kMaxInstanceDepth)) {
+            error({}, fmt::format("objects are nested {} deep; at most {} levels are supported", deepest,
+                                  kMaxInstanceDepth - 1));
+        }
+        if (d_.objects[static_cast<std::size_t>(d_.root)].parts.empty()) {
+            warning({}, "the scene is empty");
+        }
+    }
+
+    void check_picture() {
+        const auto side = [&](const std::optional<int>& pixels, const char* what) {
+            if (pixels && (*pixels < 1 || *pixels > 65536)) {
+                error({}, fmt::format("picture {} must be 1 to 65536 pixels, found {}", what, *pixels));
+            }
+        };
+        side(d_.picture.width, "width");
+        side(d_.picture.height, "height");
+        if (!finite(d_.picture.background)) error({}, "the background colour must be finite");
+    }
+
+    const SceneDescription& d_;
+    Diagnostics& out_;
+};
+
+}  // namespace
+
+void validate(const SceneDescription& description, Diagnostics& diagnostics) {
+    Validator(description, diagnostics).run();
+}
+
+}  // namespace alhazen
