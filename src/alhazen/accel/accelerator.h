@@ -26,7 +26,8 @@ template <class A>
 concept Accelerator = requires(const A& accelerator, const BoundsSource& source,
                                const typename A::Config& config, const Ray& ray,
                                ArchetypeVisitor& visitor, NoStats stats) {
-    { A::kName } -> std::convertible_to<const char*>;
+    { A::kName } -> std::convertible_to<const char*>;         // as on the command line
+    { A::kDescription } -> std::convertible_to<const char*>;  // one line for the user
     { A::build(source, config) } -> std::same_as<A>;
     { accelerator.traverse(ray, visitor, stats) } -> std::same_as<void>;
     { accelerator.memory_bytes() } -> std::same_as<std::size_t>;

@@ -11,6 +11,7 @@ namespace alhazen {
 class List {
   public:
     static constexpr const char* kName = "list";
+    static constexpr const char* kDescription = "brute force: every ray against every primitive";
     struct Config {};
 
     [[nodiscard]] static List build(const BoundsSource& source, const Config&) {

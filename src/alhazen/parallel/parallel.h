@@ -22,6 +22,7 @@ class ThreadLimit {
     ThreadLimit(const ThreadLimit&) = delete;
     ThreadLimit& operator=(const ThreadLimit&) = delete;
 
+    /// The bound; TBB lowers it to the cores of the machine.
     [[nodiscard]] int threads() const { return threads_; }
     void run(const std::function<void()>& work);
 

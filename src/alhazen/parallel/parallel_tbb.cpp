@@ -1,0 +1,55 @@
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "alhazen/parallel/parallel.h"
+
+namespace alhazen {
+
+struct ThreadLimit::Impl {
+    explicit Impl(int threads) : arena(threads) {}
+    tbb::task_arena arena;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+    // TBB gives no more threads than the machine has, and complains on stderr when asked to.
+    const std::size_t most =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    threads_ = std::min(threads > 0 ? threads : available_cores(), static_cast<int>(most));
+    impl_ = new Impl(threads_);
+}
+
+ThreadLimit::~ThreadLimit() {
+    delete impl_;
+}
+
+void ThreadLimit::run(const std::function<void()>& work) {
+    impl_->arena.execute(work);
+}
+
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body) {
+    if (count == 0) return;
+    grain = std::max<std::size_t>(grain, 1);
+    if (count <= grain) return body(0, count);
+    // Tasks are whole chunks, so the ranges are the same for every thread count and backend.
+    const std::size_t chunks = (count - 1) / grain + 1;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, chunks),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                body(i * grain, std::min(count, (i + 1) * grain));
+            }
+        },
+        tbb::simple_partitioner());
+}
+
+void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b) {
+    tbb::parallel_invoke(a, b);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,44 @@
+#include "alhazen/scene/accelerator_table.h"
+
+#include <array>
+#include <utility>
+
+#include "alhazen/accel/accel_list.h"
+#include "alhazen/base/error.h"
+#include "alhazen/scene/aggregate_of.h"
+
+namespace alhazen {
+namespace {
+
+template <class A>
+std::shared_ptr<const Aggregate> make_scalar(PrimitiveTable table) {
+    return std::make_shared<const AggregateOf<A>>(std::move(table));
+}
+
+/// Entries of the wide BVH and of all scalar accelerators.
+template <class... A>
+constexpr auto entries(std::tuple<A...>*) {
+    return std::array{AcceleratorEntry{A::kName, A::kDescription, &make_scalar<A>}...};
+}
+
+constexpr auto kEntries = entries(static_cast<ScalarAccelerators*>(nullptr));
+
+}  // namespace
+
+std::span<const AcceleratorEntry> accelerator_table() {
+    return kEntries;
+}
+
+std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,
+                                                PrimitiveTable table) {
+    std::string names;
+    for (const AcceleratorEntry& entry : accelerator_table()) {
+        if (accelerator_name == entry.name) return entry.make(std::move(table));
+        names += names.empty() ? "" : ", ";
+        names += entry.name;
+    }
+    throw Error(ErrorKind::Usage,
+                "no accelerator '" + accelerator_name + "'; the valid names are: " + names);
+}
+
+}  // namespace alhazen

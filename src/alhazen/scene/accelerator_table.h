@@ -1,0 +1,29 @@
+#pragma once
+/// Every accelerator by name.
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "alhazen/scene/aggregate.h"
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+
+struct AcceleratorEntry {
+    const char* name;
+    const char* description;  ///< one line
+    std::shared_ptr<const Aggregate> (*make)(PrimitiveTable table);
+};
+
+/// The default one first.
+[[nodiscard]] std::span<const AcceleratorEntry> accelerator_table();
+
+inline constexpr const char* kDefaultAccelerator = "wide_bvh";
+
+/// Builds the accelerator over a finished table. Throws Error(Usage) with the valid names for an
+/// unknown one.
+[[nodiscard]] std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,
+                                                              PrimitiveTable table);
+
+}  // namespace alhazen

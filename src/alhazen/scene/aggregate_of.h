@@ -1,0 +1,136 @@
+#pragma once
+/// Makes an aggregate of a primitive table and any accelerator that visits primitives one at a
+/// time.
+///
+/// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside the
+/// accelerator.
+/// Complexity and threads: one virtual call per ray; the traversal is instantiated for each query
+/// with the visitor in it. Const functions may be called from many threads.
+
+#include <algorithm>
+#include <utility>
+
+#include "alhazen/accel/accelerator.h"
+#include "alhazen/scene/aggregate.h"
+#include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+
+/// Sorts what a query appended; crossings of one primitive keep their order.
+inline void sort_appended(std::vector<Hit>& hits, std::size_t before) {
+    std::stable_sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(), hit_less);
+}
+
+/// Calls `query(stats)` with the policy that counts into `stats`, or the one that does not.
+template <class Query>
+decltype(auto) with_stats(TraversalStats* stats, Query&& query) {
+    if (stats != nullptr) return query(CountingStats{stats});
+    return query(NoStats{});
+}
+
+template <Accelerator A>
+class AggregateOf final : public Aggregate {
+  public:
+    explicit AggregateOf(PrimitiveTable table, const typename A::Config& config = {})
+        : table_(std::move(table)), accelerator_(build(config)) {}
+
+    [[nodiscard]] Box3 box() const override { return box_; }
+    [[nodiscard]] std::size_t memory_bytes() const override {
+        return accelerator_.memory_bytes() + unbounded_.capacity() * sizeof(PrimitiveId) +
+               bounded_.capacity() * sizeof(std::uint32_t);
+    }
+    [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
+
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, TraversalStats* stats) const override {
+        hit = Hit{};
+        if (!is_valid(ray)) return false;
+        Ray shrinking = ray;
+        const RayShear shear(ray.direction);
+        with_stats(stats, [&](auto policy) {
+            each(shrinking, policy, [&](PrimitiveId id) {
+                table_.closest(id, shrinking, shear, hit, policy);
+                return false;
+            });
+        });
+        return hit.found();
+    }
+
+    [[nodiscard]] bool occluded(const Ray& ray, TraversalStats* stats) const override {
+        if (!is_valid(ray)) return false;
+        const RayShear shear(ray.direction);
+        return with_stats(stats, [&](auto policy) {
+            return each(ray, policy,
+                        [&](PrimitiveId id) { return table_.occluded(id, ray, shear, policy); });
+        });
+    }
+
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const override {
+        if (!is_valid(ray)) return;
+        const RayShear shear(ray.direction);
+        const std::size_t before = hits.size();
+        with_stats(stats, [&](auto policy) {
+            each(ray, policy, [&](PrimitiveId id) {
+                table_.all_hits(id, ray, shear, hits, policy);
+                return false;
+            });
+        });
+        sort_appended(hits, before);
+    }
+
+    [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                TraversalStats* stats) const override {
+        if (!is_valid(ray)) return false;
+        const RayShear shear(ray.direction);
+        const std::size_t before = crossings.size();
+        const bool opaque = with_stats(stats, [&](auto policy) {
+            return each(ray, policy, [&](PrimitiveId id) {
+                return table_.shadowed(id, ray, shear, crossings, policy);
+            });
+        });
+        if (!opaque) sort_appended(crossings, before);
+        return opaque;
+    }
+
+  private:
+    A build(const typename A::Config& config) {
+        BoundedPrimitives bounded(table_);
+        A accelerator = A::build(bounded, config);
+        box_ = bounded.all();
+        unbounded_ = bounded.unbounded();
+        bounded_ = bounded.take_bounded();
+        return accelerator;
+    }
+
+    /// Calls `test(id)` for every primitive the ray may meet until it returns true; true when it
+    /// did.
+    template <class Stats, class Test>
+    bool each(const Ray& ray, Stats stats, Test&& test) const {
+        for (const PrimitiveId id : unbounded_) {
+            if (test(id)) return true;
+        }
+        struct Visitor {
+            const Ray& ray;
+            const std::uint32_t* ids;  ///< null: the accelerator's numbers are the table's ids
+            Test& test;
+            bool stopped = false;
+            [[nodiscard]] double t_max() const { return ray.t_max; }
+            bool visit(std::uint32_t i) {
+                stopped = test(PrimitiveId{ids != nullptr ? ids[i] : i});
+                return stopped;
+            }
+        };
+        Visitor visitor{ray, bounded_.empty() ? nullptr : bounded_.data(), test};
+        accelerator_.traverse(ray, visitor, stats);
+        return visitor.stopped;
+    }
+
+    PrimitiveTable table_;
+    // Set by `build`, so declared before the accelerator.
+    Box3 box_;
+    std::vector<PrimitiveId> unbounded_;
+    std::vector<std::uint32_t> bounded_;
+    A accelerator_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,158 @@
+#include "alhazen/parallel/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace alhazen {
+namespace {
+
+TEST(Parallel, AtLeastOneCoreIsAvailable) {
+    EXPECT_GE(available_cores(), 1);
+}
+
+TEST(Parallel, RangesCoverEveryItemOnceAndHoldAtMostGrainItems) {
+    for (const std::size_t count : {0, 1, 2, 7, 64, 1000, 100003}) {
+        for (const std::size_t grain : {1, 3, 64, 200000}) {
+            std::vector<std::atomic<int>> seen(count);
+            std::atomic<bool> too_large{false};
+            parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+                if (end - begin > grain || begin >= end) too_large = true;
+                for (std::size_t i = begin; i < end; ++i) ++seen[i];
+            });
+            EXPECT_FALSE(too_large) << count << " by " << grain;
+            for (std::size_t i = 0; i < count; ++i) {
+                ASSERT_EQ(seen[i], 1) << "item " << i << " of " << count << " by " << grain;
+            }
+        }
+    }
+}
+
+TEST(Parallel, RangesDoNotDependOnTheNumberOfThreads) {
+    const auto ranges = [](int threads) {
+        std::mutex mutex;
+        std::set<std::pair<std::size_t, std::size_t>> found;
+        ThreadLimit(threads).run([&] {
+            parallel_for(1001, 10, [&](std::size_t begin, std::size_t end) {
+                const std::lock_guard lock(mutex);
+                found.emplace(begin, end);
+            });
+        });
+        return found;
+    };
+    EXPECT_EQ(ranges(1), ranges(2));
+    EXPECT_EQ(ranges(1), ranges(5));
+}
+
+TEST(Parallel, InvokeRunsBoth) {
+    std::atomic<int> sum{0};
+    parallel_invoke([&] { sum += 1; }, [&] { sum += 2; });
+    EXPECT_EQ(sum, 3);
+}
+
+/// Counts how many threads are inside a region, and the most that ever were.
+class Crowd {
+  public:
+    void visit() {
+        const int now = ++inside_;
+        int most = most_;
+        while (now > most && !most_.compare_exchange_weak(most, now)) {
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+        --inside_;
+    }
+    [[nodiscard]] int most() const { return most_; }
+
+  private:
+    std::atomic<int> inside_{0}, most_{0};
+};
+
+TEST(Parallel, ALimitIsNotExceededByNestedCalls) {
+    for (const int threads : {1, 2, 3}) {
+        Crowd crowd;
+        ThreadLimit limit(threads);
+        EXPECT_LE(limit.threads(), threads);
+        limit.run([&] {
+            parallel_for(16, 1, [&](std::size_t, std::size_t) {
+                parallel_for(4, 1, [&](std::size_t, std::size_t) { crowd.visit(); });
+            });
+        });
+        EXPECT_LE(crowd.most(), threads);
+    }
+}
+
+TEST(Parallel, TwoThreadsReallyRunAtOnce) {
+    if (ThreadLimit(2).threads() < 2) GTEST_SKIP() << "one core";
+    // Each side waits for the other: on one thread this would never end, so it is given a time
+    // limit.
+    std::atomic<int> arrived{0};
+    const auto meet = [&] {
+        ++arrived;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (arrived < 2 && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    };
+    ThreadLimit(2).run([&] { parallel_invoke(meet, meet); });
+    EXPECT_EQ(arrived, 2);
+}
+
+TEST(Parallel, ZeroMeansAllAvailableCores) {
+    EXPECT_EQ(ThreadLimit(0).threads(), available_cores());
+    EXPECT_EQ(ThreadLimit(-3).threads(), available_cores());
+}
+
+TEST(Parallel, AnExceptionReachesTheCallerOnceAndThePoolStaysUsable) {
+    ThreadLimit limit(4);
+    for (int round = 0; round < 50; ++round) {
+        int caught = 0;
+        limit.run([&] {
+            try {
+                parallel_for(64, 1, [&](std::size_t begin, std::size_t) {
+                    if (begin % 3 == 0) throw std::runtime_error("item");
+                });
+            } catch (const std::runtime_error& error) {
+                ++caught;
+                EXPECT_STREQ(error.what(), "item");
+            }
+        });
+        ASSERT_EQ(caught, 1);
+    }
+    EXPECT_THROW(limit.run([] { parallel_invoke([] { throw 1; }, [] {}); }), int);
+    EXPECT_THROW(limit.run([] { throw std::logic_error("work"); }), std::logic_error);
+    std::atomic<int> sum{0};
+    limit.run([&] { parallel_for(100, 1, [&](std::size_t, std::size_t) { ++sum; }); });
+    EXPECT_EQ(sum, 100);
+}
+
+int recursive_sum(int depth) {
+    if (depth == 0) return 1;
+    int a = 0, b = 0;
+    parallel_invoke([&] { a = recursive_sum(depth - 1); }, [&] { b = recursive_sum(depth - 1); });
+    return a + b;
+}
+
+TEST(Parallel, DeeplyNestedCallsDoNotDeadlock) {
+    for (const int threads : {1, 2, 4}) {
+        int sum = 0;
+        ThreadLimit(threads).run([&] { sum = recursive_sum(10); });
+        EXPECT_EQ(sum, 1024);
+    }
+}
+
+TEST(Parallel, LimitsMayBeNested) {
+    std::atomic<int> sum{0};
+    ThreadLimit(2).run([&] {
+        parallel_for(4, 1, [&](std::size_t, std::size_t) {
+            ThreadLimit(3).run(
+                [&] { parallel_for(8, 1, [&](std::size_t, std::size_t) { ++sum; }); });
+        });
+    });
+    EXPECT_EQ(sum, 32);
+}
+
+}  // namespace
+}  // namespace alhazen
