@@ -1,0 +1,27 @@
+#pragma once
+/// The sub-commands. Each function adds one to the command line; its callback sets `exit_status`
+/// when it ran.
+
+#include <CLI/CLI.hpp>
+
+namespace alhazen::cli {
+
+/// Exit statuses (docs/command_line.md).
+enum ExitStatus {
+    kDone = 0,
+    kCheckFailed = 1,
+    kUsage = 2,
+    kBadScene = 3,
+    kBadFile = 4,
+    kOutOfResource = 5,
+    kNotStrict = 6,
+    kStopped = 75,
+};
+
+void add_render(CLI::App& app, int& exit_status);
+void add_info(CLI::App& app, int& exit_status);
+void add_verify(CLI::App& app, int& exit_status);
+void add_diff(CLI::App& app, int& exit_status);
+void add_list(CLI::App& app, int& exit_status);
+
+}  // namespace alhazen::cli

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/importers/importer_list.h"
+#include "alhazen/renderers/renderer.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "commands.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+void print_entry(const char* name, const char* description) {
+    fmt::print("  {:<14} {}\n", name, description);
+}
+
+void list_renderers() {
+    for (const RendererEntry& entry : renderers()) print_entry(entry.name, entry.description);
+}
+void list_accelerators() {
+    for (const AcceleratorEntry& entry : accelerator_table())
+        print_entry(entry.name, entry.description);
+}
+void list_formats() {
+    for (const Importer* importer : importers())
+        print_entry(importer->name(), importer->description());
+}
+void list_shapes() {
+    const auto print_all = []<class... S>(ShapeTypes<S...>) {
+        (print_entry(S::kName, S::kClosed ? "bounds a volume" : "a surface"), ...);
+    };
+    print_all(AnalyticShapes{});
+    print_entry("mesh", "triangles; bounds a volume where it closes");
+}
+
+struct Topic {
+    const char* name;
+    void (*print)();
+};
+constexpr Topic kTopics[] = {{"renderers", list_renderers},
+                             {"accelerators", list_accelerators},
+                             {"shapes", list_shapes},
+                             {"formats", list_formats}};
+
+}  // namespace
+
+void add_list(CLI::App& app, int& exit_status) {
+    CLI::App* command = app.add_subcommand(
+        "list", "List what can be chosen by name: renderers, accelerators, shapes, formats");
+    const auto wanted = std::make_shared<std::string>();
+    std::vector<std::string> names;
+    for (const Topic& topic : kTopics) names.emplace_back(topic.name);
+    command->add_option("what", *wanted, "Only these")->check(CLI::IsMember(names));
+    command->callback([wanted, &exit_status] {
+        for (const Topic& topic : kTopics) {
+            if (!wanted->empty() && *wanted != topic.name) continue;
+            fmt::print("{}\n", topic.name);
+            topic.print();
+        }
+        exit_status = kDone;
+    });
+}
+
+}  // namespace alhazen::cli

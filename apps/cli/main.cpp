@@ -1,0 +1,78 @@
+/// The command line: `alhazen COMMAND`. Results go to stdout, progress and messages to stderr.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+
+#include "alhazen/base/error.h"
+#include "alhazen/session/statistics.h"
+#include "commands.h"
+
+namespace {
+
+using namespace alhazen;
+using namespace alhazen::cli;
+
+int exit_status_of(ErrorKind kind) {
+    switch (kind) {
+        case ErrorKind::Usage:
+            return kUsage;
+        case ErrorKind::Scene:
+            return kBadScene;
+        case ErrorKind::File:
+            return kBadFile;
+        case ErrorKind::Resource:
+            return kOutOfResource;
+        case ErrorKind::Render:
+            break;
+    }
+    return kCheckFailed;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{
+        "Alhazen traces rays through exact solids and meshes.\n"
+        "Example: alhazen render scene.alhazen -o picture.png --spp 16"};
+    app.name("alhazen");
+    app.set_version_flag("--version", fmt::format("alhazen {}", version()));
+    app.require_subcommand(1);
+    app.footer(
+        "Exit status: 0 done; 1 a check did not hold or the render failed; 2 wrong usage; 3 bad "
+        "scene;\n"
+        "4 a file could not be read or written; 5 out of a resource; 6 finished, but not "
+        "--strict;\n"
+        "75 stopped by a signal, what was done is written.");
+    int exit_status = kDone;
+    add_render(app, exit_status);
+    add_info(app, exit_status);
+    add_verify(app, exit_status);
+    add_diff(app, exit_status);
+    add_list(app, exit_status);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help, --version
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        (void)app.exit(error);
+        return kUsage;
+    }
+    return exit_status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const Error& error) {
+        fmt::print(stderr, "alhazen: {}\n", error.what());
+        return exit_status_of(error.kind());
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "alhazen: out of memory\n");
+        return kOutOfResource;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "alhazen: internal error: {}\n", error.what());
+        return kCheckFailed;
+    }
+}

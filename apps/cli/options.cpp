@@ -1,0 +1,97 @@
+#include "options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+/// Whole numbers separated by `separator`; empty when the text is anything else.
+std::vector<int> parse_integers(const std::string& text, char separator) {
+    std::vector<int> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (true) {
+        int number = 0;
+        const auto [next, status] = std::from_chars(at, end, number);
+        if (status != std::errc{}) return {};
+        numbers.push_back(number);
+        if (next == end) return numbers;
+        if (*next != separator) return {};
+        at = next + 1;
+    }
+}
+
+}  // namespace
+
+Size parse_size(const std::string& text) {
+    const std::vector<int> n = parse_integers(text, 'x');
+    if (n.size() != 2 || n[0] < 1 || n[1] < 1) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--size '{}': expected WIDTHxHEIGHT, such as 640x480", text));
+    }
+    return {n[0], n[1]};
+}
+
+PixelBox parse_crop(const std::string& text) {
+    const std::vector<int> n = parse_integers(text, ',');
+    if (n.size() != 4) {
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("--crop '{}': expected X0,Y0,X1,Y1 in pixels from the top left", text));
+    }
+    return {n[0], n[1], n[2], n[3]};
+}
+
+void SceneArguments::add_to(CLI::App& command, const std::string& default_accelerator) {
+    accelerator = default_accelerator;
+    command.add_option("scene", scene, "Scene file; its format is recognised by content")
+        ->required()
+        ->type_name("SCENE");
+    command
+        .add_option("--accelerator", accelerator,
+                    "Accelerator by name; see `alhazen list accelerators`")
+        ->capture_default_str();
+    command
+        .add_option("--allow-path", allow_path,
+                    "Folder that files named by the scene may lie in, when not its own")
+        ->type_name("DIR");
+    command.add_option("-t,--threads", threads, "Threads; 0 = all cores")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096))
+        ->envname("ALHAZEN_THREADS");
+}
+
+LoadOptions SceneArguments::load_options() const {
+    LoadOptions options;
+    options.import.allowed_root = allow_path;
+    options.compile.accelerator = accelerator;
+    options.threads = threads;
+    return options;
+}
+
+void print_warnings(const Diagnostics& diagnostics) {
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+        fmt::print(stderr, "{}\n", to_string(diagnostic));
+    }
+    if (diagnostics.warning_count() > Diagnostics::kMaxKept) {
+        fmt::print(stderr, "({} warnings in all)\n", diagnostics.warning_count());
+    }
+}
+
+void write_report(const std::string& path, const std::string& text) {
+    if (path == "-") {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+    } else {
+        write_file_atomically(path, text);
+    }
+}
+
+}  // namespace alhazen::cli

@@ -1,0 +1,38 @@
+#pragma once
+/// Options that several commands share, and the small parsers behind them.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "alhazen/imaging/film.h"
+#include "alhazen/session/load.h"
+
+namespace alhazen::cli {
+
+struct Size {
+    int width = 0, height = 0;
+};
+
+/// "640x480". Throws Error (Usage).
+[[nodiscard]] Size parse_size(const std::string& text);
+/// "x0,y0,x1,y1" in pixels. Throws Error (Usage).
+[[nodiscard]] PixelBox parse_crop(const std::string& text);
+
+/// Where a scene is and how it may be read: the positional argument and the limits.
+struct SceneArguments {
+    std::string scene;
+    std::string accelerator;
+    std::string allow_path;
+    int threads = 0;
+
+    void add_to(CLI::App& command, const std::string& default_accelerator);
+    [[nodiscard]] LoadOptions load_options() const;
+};
+
+/// Prints warnings to stderr, one a line.
+void print_warnings(const Diagnostics& diagnostics);
+
+/// Writes a report to a file or, for "-", to stdout.
+void write_report(const std::string& path, const std::string& text);
+
+}  // namespace alhazen::cli

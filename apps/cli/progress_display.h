@@ -1,0 +1,35 @@
+#pragma once
+/// Progress on stderr: a bar with the time left on a terminal, a line every ten seconds elsewhere.
+
+#include <chrono>
+#include <string>
+
+#include "alhazen/base/progress.h"
+
+namespace alhazen::cli {
+
+class ProgressDisplay final : public ProgressSink {
+  public:
+    /// `quiet` shows nothing.
+    explicit ProgressDisplay(bool quiet);
+    ~ProgressDisplay() override;
+    ProgressDisplay(const ProgressDisplay&) = delete;
+    ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+    void update(std::string_view phase, std::size_t done, std::size_t total) override;
+    /// Ends the bar's line, so that other messages start on their own.
+    void finish();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void show(double fraction, double elapsed, bool complete);
+
+    bool quiet_;
+    bool terminal_;
+    bool line_open_ = false;
+    std::string phase_;
+    Clock::time_point phase_start_, last_shown_;
+};
+
+}  // namespace alhazen::cli

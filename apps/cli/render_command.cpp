@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "alhazen/base/error.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/session/picture.h"
+#include "alhazen/session/render.h"
+#include "alhazen/session/statistics.h"
+#include "alhazen/session/stopwatch.h"
+#include "commands.h"
+#include "options.h"
+#include "progress_display.h"
+#include "stop_signals.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+struct RenderArguments {
+    SceneArguments scene;
+    std::string output;
+    std::string size, crop, encoding, protocol, stats;
+    int depth = -1;
+    int bits = 8;
+    bool full_float = false, quiet = false, strict = false;
+    RenderOptions render;
+};
+
+Encoding parse_encoding(const std::string& name) {
+    if (name == "linear") return Encoding::LinearTruncated;
+    if (name == "srgb") return Encoding::Srgb;
+    throw Error(ErrorKind::Usage, fmt::format("--encoding '{}': expected linear or srgb", name));
+}
+
+RenderOptions render_options(const RenderArguments& args) {
+    RenderOptions options = args.render;
+    options.threads = args.scene.threads;
+    options.count_tests = !args.stats.empty();
+    if (!args.size.empty()) {
+        const Size size = parse_size(args.size);
+        options.width = size.width;
+        options.height = size.height;
+    }
+    if (!args.crop.empty()) options.crop = parse_crop(args.crop);
+    if (args.depth >= 0) options.max_depth = args.depth;
+    if (args.protocol == "spd") {
+        options.protocol = Protocol::Spd;
+    } else if (!args.protocol.empty()) {
+        throw Error(ErrorKind::Usage, fmt::format("--protocol '{}': expected spd", args.protocol));
+    }
+    return options;
+}
+
+PictureOptions picture_options(const RenderArguments& args, const RenderResult& result) {
+    PictureOptions options;
+    if (!args.encoding.empty()) options.encoding = parse_encoding(args.encoding);
+    options.bits = args.bits;
+    options.full_float = args.full_float;
+    options.metadata = {{"software", fmt::format("alhazen {}", version())},
+                        {"alhazen.scene", args.scene.scene},
+                        {"alhazen.spp", fmt::format("{}", args.render.samples_per_pixel)},
+                        {"alhazen.complete", result.complete ? "1" : "0"}};
+    return options;
+}
+
+int run(const RenderArguments& args) {
+    // Mistakes in the options are told before any work is done.
+    check_image_suffix(args.output);
+    if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
+    RenderOptions options = render_options(args);
+    ProgressDisplay progress(args.quiet);
+    LoadOptions load_options = args.scene.load_options();
+    load_options.progress = &progress;
+    const LoadedScene loaded = load(args.scene.scene, load_options);
+    progress.finish();
+    if (!args.quiet) print_warnings(loaded.diagnostics);
+
+    options.progress = &progress;
+    options.stop = &stop_on_signals();
+    const RenderResult result = render(loaded.scene, loaded.description.picture, options);
+    progress.finish();
+    const Stopwatch write_time;
+    write_picture(args.output, result.film, loaded.scene.conventions,
+                  picture_options(args, result));
+    const double write_seconds = write_time.seconds();
+    if (!args.stats.empty()) {
+        write_report(
+            args.stats,
+            statistics(args.scene.scene, loaded, options, result, write_seconds).dump(2) + "\n");
+    }
+    if (result.counters.non_finite > 0) {
+        fmt::print(stderr, "warning: {} samples were not finite and were left out\n",
+                   result.counters.non_finite);
+    }
+    if (!result.complete) {
+        fmt::print(stderr, "stopped: {} of {} tiles are in {}; the rest is black\n",
+                   result.tiles_done, result.tiles, args.output);
+        return kStopped;
+    }
+    if (!args.quiet) {
+        fmt::print(stderr, "{}: {}x{}, {:.2f} M rays in {:.2f} s on {} thread{}\n", args.output,
+                   result.film.crop().width(), result.film.crop().height(),
+                   1e-6 * static_cast<double>(result.counters.total_cast()), result.seconds,
+                   result.threads, result.threads == 1 ? "" : "s");
+    }
+    const bool spotless =
+        result.counters.non_finite == 0 && loaded.diagnostics.warning_count() == 0;
+    return args.strict && !spotless ? kNotStrict : kDone;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_status) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene to a picture");
+    const auto args = std::make_shared<RenderArguments>();
+    args->scene.add_to(*command, kDefaultAccelerator);
+    command->add_option("-o,--output", args->output, "Picture to write: .png .exr .hdr .pfm .jpg")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--size", args->size, "Picture size in pixels; default: the scene's")
+        ->type_name("WxH");
+    command->add_option("--crop", args->crop, "Render only this part, in pixels from the top left")
+        ->type_name("X0,Y0,X1,Y1");
+    command
+        ->add_option("--renderer", args->render.renderer,
+                     "Renderer by name; see `alhazen list renderers`")
+        ->capture_default_str();
+    command->add_option("--spp", args->render.samples_per_pixel, "Samples per pixel")
+        ->capture_default_str();
+    command
+        ->add_option("--depth", args->depth,
+                     "Recursion depth, 0 = eye rays only; default: the format's")
+        ->check(CLI::Range(0, 1000));
+    command->add_option("--camera", args->render.camera, "Camera by name or position");
+    command->add_option("--seed", args->render.seed, "Seed of the sample positions")
+        ->capture_default_str();
+    command->add_option("--tile-size", args->render.tile_size, "Side of a tile in pixels")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 4096));
+    command
+        ->add_option(
+            "--encoding", args->encoding,
+            "How PNG and JPG hold values: linear (truncated) or srgb; default: the format's")
+        ->type_name("NAME");
+    command->add_option("--bits", args->bits, "Bits per channel of a PNG")
+        ->capture_default_str()
+        ->check(CLI::IsMember({8, 16}));
+    command->add_flag("--full-float", args->full_float, "EXR in float instead of half");
+    command->add_option("--protocol", args->protocol,
+                        "Count as published: spd = 513x513 corner rays, depth 5");
+    command->add_option("--stats", args->stats, "Write statistics as JSON; - for stdout")
+        ->type_name("FILE");
+    command->add_flag("--strict", args->strict,
+                      "Exit 6 when there were warnings or non-finite samples");
+    command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
+    command->callback([args, &exit_status] { exit_status = run(*args); });
+}
+
+}  // namespace alhazen::cli

@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "alhazen/importers/importer_list.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/session/verify.h"
+#include "commands.h"
+#include "options.h"
+#include "progress_display.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json to_json(const VerifyReport& report) {
+    json disagreements = json::array();
+    for (const Disagreement& d : report.reported) {
+        const Ray& r = d.ray;
+        disagreements.push_back({{"kind", d.kind},
+                                 {"query", d.query},
+                                 {"origin", {r.origin.x, r.origin.y, r.origin.z}},
+                                 {"direction", {r.direction.x, r.direction.y, r.direction.z}},
+                                 {"found", d.found},
+                                 {"expected", d.expected}});
+    }
+    return {{"accelerator", report.accelerator},
+            {"rays", report.rays},
+            {"hits", report.hits},
+            {"disagreements", report.disagreements},
+            {"closed_surfaces", report.closed_surfaces},
+            {"open_meshes", report.open_meshes},
+            {"parity_lines", report.parity_lines},
+            {"odd_crossings", report.odd_crossings},
+            {"holds", report.holds()},
+            {"reported", disagreements}};
+}
+
+void print(const VerifyReport& report) {
+    fmt::print(
+        "{}: {} rays, {} hits, {} disagreements with list; {} closed surfaces, {} lines, {} with "
+        "an "
+        "odd number of crossings\n",
+        report.accelerator, report.rays, report.hits, report.disagreements, report.closed_surfaces,
+        report.parity_lines, report.odd_crossings);
+    for (const Disagreement& d : report.reported) {
+        const Vec3& o = d.ray.origin;
+        const Vec3& v = d.ray.direction;
+        fmt::print(
+            "  {} {}: origin {:.17g} {:.17g} {:.17g} direction {:.17g} {:.17g} {:.17g}\n    found "
+            "{}\n    expected {}\n",
+            d.kind, d.query, o.x, o.y, o.z, v.x, v.y, v.z, d.found, d.expected);
+    }
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, int& exit_status) {
+    struct Arguments {
+        SceneArguments scene;
+        VerifyOptions verify;
+        std::string json;
+        bool quiet = false;
+    };
+    CLI::App* command = app.add_subcommand(
+        "verify",
+        "Compare an accelerator with brute force, ray by ray; exit 0 only when they agree");
+    const auto args = std::make_shared<Arguments>();
+    args->scene.add_to(*command, "all");
+    command->add_option("--rays", args->verify.rays, "Rays to trace")->capture_default_str();
+    command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
+    command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
+    command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
+        ->type_name("FILE");
+    command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
+    command->callback([args, &exit_status] {
+        Diagnostics diagnostics;
+        const SceneDescription description =
+            load_description(args->scene.scene, args->scene.load_options(), diagnostics);
+        if (!args->quiet) print_warnings(diagnostics);
+        ProgressDisplay progress(args->quiet);
+        json reports = json::array();
+        bool holds = true;
+        const auto check = [&](const std::string& accelerator) {
+            VerifyOptions options = args->verify;
+            options.accelerator = accelerator;
+            options.progress = &progress;
+            VerifyReport report;
+            ThreadLimit(args->scene.threads).run([&] { report = verify(description, options); });
+            progress.finish();
+            holds = holds && report.holds();
+            reports.push_back(to_json(report));
+            if (args->json != "-") print(report);
+        };
+        if (args->scene.accelerator == "all") {
+            for (const AcceleratorEntry& entry : accelerator_table()) check(entry.name);
+        } else {
+            check(args->scene.accelerator);
+        }
+        if (!args->json.empty()) write_report(args->json, reports.dump(2) + "\n");
+        exit_status = holds ? kDone : kCheckFailed;
+    });
+}
+
+}  // namespace alhazen::cli

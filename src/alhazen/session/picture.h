@@ -1,0 +1,24 @@
+#pragma once
+/// From a film to a picture file.
+
+#include <filesystem>
+#include <optional>
+
+#include "alhazen/imaging/film.h"
+#include "alhazen/imaging/image_io.h"
+#include "alhazen/scene/scene.h"
+
+namespace alhazen {
+
+struct PictureOptions {
+    std::optional<Encoding> encoding;  ///< default: the format's
+    int bits = 8;
+    bool full_float = false;
+    ImageMetadata metadata;
+};
+
+/// Integer formats are encoded from the film's doubles, so that truncation is exact. Throws Error.
+void write_picture(const std::filesystem::path& path, const Film& film,
+                   const ShadingConventions& conventions, const PictureOptions& options);
+
+}  // namespace alhazen

@@ -1,0 +1,135 @@
+#include "alhazen/session/render.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <mutex>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/renderer.h"
+#include "alhazen/session/stopwatch.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr int kMaxSide = 65536;
+constexpr int kDefaultHeight = 512;
+constexpr int kSpdRays = 513;
+/// Rays are traced by recursion: deeper trees would need more stack than a thread has for sure.
+constexpr int kMaxDepth = 1000;
+
+struct FrameSize {
+    int width, height;
+};
+
+FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options, double aspect) {
+    if (options.protocol == Protocol::Spd) return {kSpdRays, kSpdRays};
+    std::optional<int> width = options.width;
+    std::optional<int> height = options.height;
+    if (!width && !height) {
+        width = picture.width;
+        height = picture.height;
+    }
+    if (!width && !height) height = kDefaultHeight;
+    if (!width) width = std::max(1, static_cast<int>(std::lround(*height * aspect)));
+    if (!height) height = std::max(1, static_cast<int>(std::lround(*width / aspect)));
+    if (*width < 1 || *height < 1 || *width > kMaxSide || *height > kMaxSide) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("picture size {}x{} is out of range; each side must be "
+                                "1 to {} pixels",
+                                *width, *height, kMaxSide));
+    }
+    return {*width, *height};
+}
+
+void check(const RenderOptions& options) {
+    const auto need = [](bool ok, const std::string& message) {
+        if (!ok) throw Error(ErrorKind::Usage, message);
+    };
+    need(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 1 << 20,
+         fmt::format("samples per pixel must be 1 to {}, found {}", 1 << 20,
+                     options.samples_per_pixel));
+    need(options.tile_size >= 1,
+         fmt::format("tile size must be at least 1, found {}", options.tile_size));
+    need(!options.max_depth || (*options.max_depth >= 0 && *options.max_depth <= kMaxDepth),
+         fmt::format("depth must be 0 to {}", kMaxDepth));
+}
+
+/// The scene with the overrides of the command line; shares all geometry.
+Scene adjusted(const Scene& scene, const RenderOptions& options) {
+    Scene result = scene;
+    ShadingConventions& conventions = result.conventions;
+    if (options.protocol == Protocol::Spd) {
+        conventions.pixel_sample = ShadingConventions::PixelSample::FrameCorners;
+        conventions.max_depth = 4;
+        conventions.min_contribution = 0.0;
+        conventions.transmitting_surfaces_reflect = true;
+    }
+    if (options.max_depth) conventions.max_depth = *options.max_depth;
+    return result;
+}
+
+/// Tiles done so far; progress is told to one caller at a time.
+class TileReport {
+  public:
+    TileReport(ProgressSink* sink, std::size_t total) : sink_(sink), total_(total) {}
+
+    void tile_done() {
+        const std::lock_guard lock(mutex_);
+        ++done_;
+        if (sink_ != nullptr) sink_->update("render", done_, total_);
+    }
+    [[nodiscard]] std::size_t done() const { return done_; }
+
+  private:
+    ProgressSink* sink_;
+    std::size_t total_;
+    std::size_t done_ = 0;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+RenderResult render(const Scene& original, const PictureSettings& picture,
+                    const RenderOptions& options) {
+    check(options);
+    const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
+    const Scene scene = adjusted(original, options);
+    const CameraDescription& camera = find_camera(scene, options.camera);
+    const FrameSize frame = frame_size(picture, options, camera.aspect);
+    const double aspect = static_cast<double>(frame.width) / frame.height;
+    const RenderJob job{.scene = scene,
+                        .camera = with_aspect(camera.camera, camera.aspect, aspect),
+                        .samples_per_pixel = options.samples_per_pixel,
+                        .seed = options.seed,
+                        .count_tests = options.count_tests};
+    RenderResult result(Film(frame.width, frame.height,
+                             options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
+
+    const std::vector<PixelBox> tiles = tiles_of(result.film.crop(), options.tile_size);
+    std::vector<RayCounters> counters(tiles.size());
+    TileReport report(options.progress, tiles.size());
+    ThreadLimit threads(options.threads);
+    const Stopwatch time;
+    threads.run([&] {
+        parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (options.stop != nullptr && options.stop->requested()) return;
+                renderer->render_tile(job, tiles[i], result.film, counters[i]);
+                report.tile_done();
+            }
+        });
+    });
+    result.seconds = time.seconds();
+    result.threads = threads.threads();
+    result.tiles = tiles.size();
+    result.tiles_done = report.done();
+    result.complete = result.tiles_done == result.tiles;
+    for (const RayCounters& c : counters) result.counters += c;
+    return result;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,63 @@
+#include "alhazen/session/statistics.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace alhazen {
+
+const char* version() {
+    return ALHAZEN_VERSION;
+}
+
+std::uint64_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedScene& loaded,
+                                  const RenderOptions& options, const RenderResult& result,
+                                  double write_seconds) {
+    using json = nlohmann::ordered_json;
+    const RayCounters& counters = result.counters;
+    json rays;
+    for (std::size_t i = 0; i < kRayKindNames.size(); ++i) {
+        rays[kRayKindNames[i]] = {{"cast", counters.rays[i].cast}, {"hit", counters.rays[i].hit}};
+    }
+    rays["refraction"]["total_internal"] = counters.total_internal;
+    const TraversalStats& tests = counters.tests;
+    const SceneCensus& census = loaded.scene.census;
+    return {
+        {"scene", scene_name},
+        {"renderer", options.renderer},
+        {"accelerator", loaded.scene.accelerator},
+        {"threads", result.threads},
+        {"version", version()},
+        {"width", result.film.crop().width()},
+        {"height", result.film.crop().height()},
+        {"samples_per_pixel", options.samples_per_pixel},
+        {"seed", options.seed},
+        {"complete", result.complete},
+        {"rays", rays},
+        {"tests",
+         {{"box", tests.box_tests},
+          {"primitive", tests.primitive_tests},
+          {"primitive_hit", tests.primitive_hits},
+          {"mailbox_saved", tests.mailbox_saved},
+          {"node_visits", tests.node_visits}}},
+        {"non_finite_samples", counters.non_finite},
+        {"memory",
+         {{"accelerator_bytes", census.accelerator_bytes},
+          {"scene_bytes", census.scene_bytes},
+          {"peak_rss_bytes", peak_rss_bytes()},
+          {"effective_primitives", census.effective_primitives}}},
+        {"seconds",
+         {{"load", loaded.load_seconds},
+          {"build", loaded.build_seconds},
+          {"render", result.seconds},
+          {"write", write_seconds}}},
+    };
+}
+
+}  // namespace alhazen
