@@ -1,7 +1,9 @@
 #pragma once
-/// Everything that was found while reading and validating a scene: reported together, not one by one.
+/// Everything that was found while reading and validating a scene: reported together, not one by
+/// one.
 ///
-/// Importers and validation add findings and go on where they can; `throw_if_errors` ends the phase.
+/// Importers and validation add findings and go on where they can; `throw_if_errors` ends the
+/// phase.
 
 #include <cstddef>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 /// The one exception type of the library, and the place in a file it speaks of.
 ///
-/// Cold code (loading, building, writing) throws `Error`; kernels never do. The message says what was
-/// found and what was expected. The kind decides the exit status of the command line.
+/// Cold code (loading, building, writing) throws `Error`; kernels never do. The message says what
+/// was found and what was expected. The kind decides the exit status of the command line.
 
 #include <stdexcept>
 #include <string>

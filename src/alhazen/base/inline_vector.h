@@ -1,6 +1,6 @@
 #pragma once
-/// A vector of at most N trivially copyable values that lives inside its owner: no allocation, and a
-/// copy costs only the values in use.
+/// A vector of at most N trivially copyable values that lives inside its owner: no allocation, and
+/// a copy costs only the values in use.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace alhazen {
 
 template <class T, std::size_t N>
-    requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 class InlineVector {
   public:
     InlineVector() = default;

@@ -20,8 +20,9 @@ Interval BoundsSource::extent(std::size_t i, const Vec3& axis) const {
 
 Box3 BoundsSource::clipped_box(std::size_t i, const Box3& cell) const {
     const Box3 b = box(i);
-    return {{std::max(b.lo.x, cell.lo.x), std::max(b.lo.y, cell.lo.y), std::max(b.lo.z, cell.lo.z)},
-            {std::min(b.hi.x, cell.hi.x), std::min(b.hi.y, cell.hi.y), std::min(b.hi.z, cell.hi.z)}};
+    return {
+        {std::max(b.lo.x, cell.lo.x), std::max(b.lo.y, cell.lo.y), std::max(b.lo.z, cell.lo.z)},
+        {std::min(b.hi.x, cell.hi.x), std::min(b.hi.y, cell.hi.y), std::min(b.hi.z, cell.hi.z)}};
 }
 
 }  // namespace alhazen

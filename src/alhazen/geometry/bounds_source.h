@@ -17,8 +17,8 @@ class BoundsSource {
     [[nodiscard]] virtual Box3 box(std::size_t i) const = 0;
     /// Range of dot(axis, p) over the points p of primitive `i`. By default that of its box.
     [[nodiscard]] virtual Interval extent(std::size_t i, const Vec3& axis) const;
-    /// A box that holds the part of primitive `i` inside `cell`; empty when there is none. By default
-    /// the intersection of the two boxes.
+    /// A box that holds the part of primitive `i` inside `cell`; empty when there is none. By
+    /// default the intersection of the two boxes.
     [[nodiscard]] virtual Box3 clipped_box(std::size_t i, const Box3& cell) const;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What a ray found: ids and parameters only, never pointers. Points and normals are computed once, for
-/// the winner (see `Surface`).
+/// What a ray found: ids and parameters only, never pointers. Points and normals are computed once,
+/// for the winner (see `Surface`).
 
 #include <cstdint>
 #include <limits>

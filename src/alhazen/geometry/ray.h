@@ -1,8 +1,8 @@
 #pragma once
 /// A ray: origin + t * direction for t in [t_min, t_max].
 ///
-/// Conventions: the direction is not normalised after a transform, so t means the same point in world
-/// and in object space. One cache line.
+/// Conventions: the direction is not normalised after a transform, so t means the same point in
+/// world and in object space. One cache line.
 
 #include <limits>
 

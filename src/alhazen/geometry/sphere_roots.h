@@ -1,25 +1,26 @@
 #pragma once
 /// The one ray-sphere solution of the system, for double and for lanes of double alike.
 ///
-/// Source: Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray
-/// Tracing Gems, 2019, ch. 7: the discriminant from the distance of the centre to the line, so that far
-/// origins do not cancel; the second root from the product of the roots.
-/// Differs: the direction need not be unit. Only + - * / and square root, all correctly rounded and never
-/// fused, so a block of lanes gives the bits of the scalar.
+/// Source: Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere
+/// Intersection", Ray Tracing Gems, 2019, ch. 7: the discriminant from the distance of the centre
+/// to the line, so that far origins do not cancel; the second root from the product of the roots.
+/// Differs: the direction need not be unit. Only + - * / and square root, all correctly rounded and
+/// never fused, so a block of lanes gives the bits of the scalar.
 
 #include "alhazen/math/vec.h"
 
 namespace alhazen {
 
-/// `t_near <= t_far` where `discriminant >= 0`; NaN or meaningless where it is negative (the line misses).
+/// `t_near <= t_far` where `discriminant >= 0`; NaN or meaningless where it is negative (the line
+/// misses).
 template <class Real>
 struct SphereRoots {
     Real discriminant, t_near, t_far;
 };
 
 /// (dx, dy, dz) direction, (fx, fy, fz) = origin - centre, a = |direction|^2 summed as x, y, z.
-/// `Real` needs + - * /, unary -, and sqrt, copysign, fmin, fmax by argument-dependent look-up (or <cmath>);
-/// fmin and fmax drop a NaN operand.
+/// `Real` needs + - * /, unary -, and sqrt, copysign, fmin, fmax by argument-dependent look-up (or
+/// <cmath>); fmin and fmax drop a NaN operand.
 template <class Real>
 inline SphereRoots<Real> sphere_roots(const Real& dx, const Real& dy, const Real& dz, const Real& a,
                                       const Real& fx, const Real& fy, const Real& fz,
@@ -40,8 +41,8 @@ inline SphereRoots<Real> sphere_roots(const Real& dx, const Real& dy, const Real
     const Real big = -(q / a);
     const Real small = -(c / q);
     // b > 0: q > 0 and `big` is the nearer (more negative) root.
-    using std::fmin;
     using std::fmax;
+    using std::fmin;
     return {discriminant, fmin(big, small), fmax(big, small)};
 }
 

@@ -2,16 +2,15 @@
 /// The one ray-triangle test of the system: no ray leaks between triangles that share an edge or a
 /// vertex, and every line crosses a closed mesh an even number of times.
 ///
-/// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (the shear
-/// that makes the ray the z axis); Edelsbrunner and Mücke, "Simulation of Simplicity", ACM TOG 9(1),
-/// 1990 (ties).
-/// Differs: (1) all in double. Rounding is monotone, so fl(ab) - fl(cd) is never of the wrong sign, it
-/// can only be a false zero; zeros (and only they) are resolved exactly by the rounding errors of the two
-/// products. (2) A true zero, the ray through an edge, is resolved as if the ray were displaced by
-/// (e, e^2), e -> 0, in the sheared plane. Each ray thus meets a mesh in general position: exactly one
-/// of the triangles around an edge or a vertex is hit, or both sheets of a fold, or none.
-/// Conventions: vertices shared by triangles must be equal bit for bit. A degenerate triangle and one
-/// seen edge on are never hit. Both sides are hit.
+/// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (the
+/// shear that makes the ray the z axis); Edelsbrunner and Mücke, "Simulation of Simplicity", ACM
+/// TOG 9(1), 1990 (ties). Differs: (1) all in double. Rounding is monotone, so fl(ab) - fl(cd) is
+/// never of the wrong sign, it can only be a false zero; zeros (and only they) are resolved exactly
+/// by the rounding errors of the two products. (2) A true zero, the ray through an edge, is
+/// resolved as if the ray were displaced by (e, e^2), e -> 0, in the sheared plane. Each ray thus
+/// meets a mesh in general position: exactly one of the triangles around an edge or a vertex is
+/// hit, or both sheets of a fold, or none. Conventions: vertices shared by triangles must be equal
+/// bit for bit. A degenerate triangle and one seen edge on are never hit. Both sides are hit.
 
 #include <cmath>
 
@@ -35,7 +34,8 @@ struct RayShear {
     }
 };
 
-/// A vertex relative to the ray, in sheared space: x and y across the ray, z along its dominant axis.
+/// A vertex relative to the ray, in sheared space: x and y across the ray, z along its dominant
+/// axis.
 template <class Real>
 struct ShearedVertex {
     Real x, y, z;
@@ -55,8 +55,8 @@ inline Real edge_function(const ShearedVertex<Real>& a, const ShearedVertex<Real
     return a.x * b.y - a.y * b.x;
 }
 
-/// Sign of the edge function with zeros resolved: exactly, then by the symbolic displacement. 0 only
-/// for a == b.
+/// Sign of the edge function with zeros resolved: exactly, then by the symbolic displacement. 0
+/// only for a == b.
 inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVertex<double>& b) {
     const auto sign = [](double x) { return (x > 0.0) - (x < 0.0); };
     const double p = a.x * b.y;
@@ -82,7 +82,8 @@ inline TriangleSolution<Real> solve_triangle(const Real& eu, const Real& ev, con
     return {t, ev / det, ew / det};
 }
 
-/// Tests triangle (a, b, c); on a hit inside [ray.t_min, ray.t_max] fills t, u (weight of b), v (of c).
+/// Tests triangle (a, b, c); on a hit inside [ray.t_min, ray.t_max] fills t, u (weight of b), v (of
+/// c).
 inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3& a, const Vec3& b,
                                const Vec3& c, ShapeHit& hit) {
     const auto shear_vertex = [&](const Vec3& p) {
@@ -102,8 +103,7 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
             return false;
         }
     }
-    const TriangleSolution<double> s =
-        solve_triangle(eu, ev, ew, va.z, vb.z, vc.z, shear.sz);
+    const TriangleSolution<double> s = solve_triangle(eu, ev, ew, va.z, vb.z, vc.z, shear.sz);
     // A NaN (all edge functions underflowed to zero) is not covered.
     if (!ray.covers(s.t)) return false;
     hit = {s.t, s.u, s.v, 0};

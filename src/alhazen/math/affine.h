@@ -1,8 +1,8 @@
 #pragma once
 /// 3x3 matrices and affine transforms.
 ///
-/// Transforms are named target-from-source: `world_from_object.point(p)` takes an object-space point to
-/// world space. Vectors are columns.
+/// Transforms are named target-from-source: `world_from_object.point(p)` takes an object-space
+/// point to world space. Vectors are columns.
 
 #include "alhazen/math/vec.h"
 
@@ -24,7 +24,9 @@ inline Mat3 operator*(const Mat3& a, const Mat3& b) {
 inline Vec3 transpose_times(const Mat3& m, const Vec3& v) {
     return {dot(m.x_axis, v), dot(m.y_axis, v), dot(m.z_axis, v)};
 }
-inline double determinant(const Mat3& m) { return dot(m.x_axis, cross(m.y_axis, m.z_axis)); }
+inline double determinant(const Mat3& m) {
+    return dot(m.x_axis, cross(m.y_axis, m.z_axis));
+}
 /// Inverse by cofactors. Not finite for a singular matrix.
 [[nodiscard]] Mat3 inverse(const Mat3& m);
 

@@ -1,9 +1,9 @@
 #pragma once
 /// Real roots of a quadratic without cancellation.
 ///
-/// Source: W. Kahan, "On the Cost of Floating-Point Computation Without Extra-Precise Arithmetic", 2004
-/// (difference of products); the second root from the product of the roots (Vieta).
-/// Differs: nothing.
+/// Source: W. Kahan, "On the Cost of Floating-Point Computation Without Extra-Precise Arithmetic",
+/// 2004 (difference of products); the second root from the product of the roots (Vieta). Differs:
+/// nothing.
 
 #include <cmath>
 
@@ -17,8 +17,8 @@ inline double difference_of_products(double a, double b, double c, double d) {
     return std::fma(a, b, -cd) + error;
 }
 
-/// Roots of a t^2 + 2 b t + c = 0 in ascending order; count 0, 1 (only when a is 0) or 2. A double root
-/// is reported twice. Not-a-number coefficients give no root.
+/// Roots of a t^2 + 2 b t + c = 0 in ascending order; count 0, 1 (only when a is 0) or 2. A double
+/// root is reported twice. Not-a-number coefficients give no root.
 struct QuadraticRoots {
     int count = 0;
     double t0 = 0, t1 = 0;

@@ -1,9 +1,10 @@
 #pragma once
-/// Random numbers that depend only on (seed, pixel, sample, dimension): the same on every thread, tile and
-/// machine.
+/// Random numbers that depend only on (seed, pixel, sample, dimension): the same on every thread,
+/// tile and machine.
 ///
-/// Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014 (the mixing
-/// function of SplitMix64). Differs: used as a hash of the coordinates, not as a sequence.
+/// Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014
+/// (the mixing function of SplitMix64). Differs: used as a hash of the coordinates, not as a
+/// sequence.
 
 #include <cstdint>
 

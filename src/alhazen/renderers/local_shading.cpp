@@ -28,8 +28,9 @@ ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit) {
 Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
     const ShadingConventions& conventions = scene.conventions;
     const MaterialSample& m = point.material;
-    Rgb ambient_factor =
-        conventions.ambient_factor == ShadingConventions::AmbientFactor::Diffuse ? m.diffuse : m.ambient;
+    Rgb ambient_factor = conventions.ambient_factor == ShadingConventions::AmbientFactor::Diffuse
+                             ? m.diffuse
+                             : m.ambient;
     if (conventions.ambient_inside_times_kt && !point.entering) {
         ambient_factor = ambient_factor * m.transmissive;
     }
@@ -49,7 +50,8 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
         highlight_cosine = dot(mirrored, point.view);
     }
     Rgb fraction = cosine * m.diffuse;
-    // 0^0 would light every point of a material without shininess from behind: only the lit side counts.
+    // 0^0 would light every point of a material without shininess from behind: only the lit side
+    // counts.
     if (highlight_cosine > 0.0 && !m.specular.is_black()) {
         fraction += std::pow(highlight_cosine, m.shininess) * m.specular;
     }

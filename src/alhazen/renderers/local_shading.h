@@ -1,9 +1,10 @@
 #pragma once
-/// The part of the shading equation that needs no further rays but shadow rays; shared by the renderers.
+/// The part of the shading equation that needs no further rays but shadow rays; shared by the
+/// renderers.
 ///
-/// Source: UW CSE 457, "Ray Tracing" lecture and Trace project: I = ke + sum_j [ ka ILa_j + Ashadow Adist IL_j Bj
-/// (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977.
-/// Differs: what formats do otherwise is read from ShadingConventions.
+/// Source: UW CSE 457, "Ray Tracing" lecture and Trace project: I = ke + sum_j [ ka ILa_j + Ashadow
+/// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977. Differs: what
+/// formats do otherwise is read from ShadingConventions.
 
 #include "alhazen/scene/scene.h"
 #include "alhazen/scene/surface.h"
@@ -14,10 +15,10 @@ namespace alhazen {
 struct ShadingPoint {
     Surface surface;
     MaterialSample material;
-    bool entering = true;      ///< the ray met the outside (by the geometric normal)
-    Vec3 geometric;            ///< unit geometric normal towards the ray's origin
-    Vec3 normal;               ///< unit shading normal, turned with the geometric one
-    Vec3 view;                 ///< unit, towards the ray's origin
+    bool entering = true;  ///< the ray met the outside (by the geometric normal)
+    Vec3 geometric;        ///< unit geometric normal towards the ray's origin
+    Vec3 normal;           ///< unit shading normal, turned with the geometric one
+    Vec3 view;             ///< unit, towards the ray's origin
 };
 
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface);
@@ -29,7 +30,8 @@ struct ShadingPoint {
 [[nodiscard]] Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point);
 
 /// kd (N.L) + ks highlight for a light in unit direction `to_light` with N.L = `cosine` > 0.
-[[nodiscard]] Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
-                                     const Vec3& to_light, double cosine);
+[[nodiscard]] Rgb reflected_fraction(const ShadingConventions& conventions,
+                                     const ShadingPoint& point, const Vec3& to_light,
+                                     double cosine);
 
 }  // namespace alhazen

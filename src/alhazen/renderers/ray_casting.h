@@ -1,9 +1,9 @@
 #pragma once
 /// Visible surfaces only: eye rays, shaded by the lights without shadows.
 ///
-/// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968; Goldstein and Nagel,
-/// "3-D Visual Simulation", Simulation 16(1), 1971.
-/// Differs: shadows are left to `whitted`; the shading is that renderer's local part.
+/// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968; Goldstein
+/// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971. Differs: shadows are left to
+/// `whitted`; the shading is that renderer's local part.
 
 #include "alhazen/renderers/renderer.h"
 

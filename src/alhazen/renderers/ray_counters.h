@@ -12,7 +12,8 @@ enum class RayKind { Eye, Shadow, Reflection, Refraction };
 inline constexpr std::array<const char*, 4> kRayKindNames{"eye", "shadow", "reflection",
                                                           "refraction"};
 
-/// `hit` counts rays that met a surface; for shadow rays, those that met anything on the way to the light.
+/// `hit` counts rays that met a surface; for shadow rays, those that met anything on the way to the
+/// light.
 struct RayCount {
     std::uint64_t cast = 0, hit = 0;
 };
@@ -23,7 +24,9 @@ struct RayCounters {
     std::uint64_t non_finite = 0;      ///< samples whose radiance was not finite
     TraversalStats tests;
 
-    [[nodiscard]] RayCount& operator[](RayKind kind) { return rays[static_cast<std::size_t>(kind)]; }
+    [[nodiscard]] RayCount& operator[](RayKind kind) {
+        return rays[static_cast<std::size_t>(kind)];
+    }
     [[nodiscard]] const RayCount& operator[](RayKind kind) const {
         return rays[static_cast<std::size_t>(kind)];
     }

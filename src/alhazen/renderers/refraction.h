@@ -1,9 +1,9 @@
 #pragma once
 /// Mirror and refracted directions.
 ///
-/// Source: Heckbert, "Writing a Ray Tracer", in Glassner (ed.), An Introduction to Ray Tracing, 1989. Differs:
-/// nothing.
-/// Conventions: `d` and `n` unit, dot(d, n) <= 0 for the side the ray comes from; results unit.
+/// Source: Heckbert, "Writing a Ray Tracer", in Glassner (ed.), An Introduction to Ray Tracing,
+/// 1989. Differs: nothing. Conventions: `d` and `n` unit, dot(d, n) <= 0 for the side the ray comes
+/// from; results unit.
 
 #include <cmath>
 
@@ -11,9 +11,12 @@
 
 namespace alhazen {
 
-inline Vec3 mirror(const Vec3& d, const Vec3& n) { return normalize(d - (2.0 * dot(d, n)) * n); }
+inline Vec3 mirror(const Vec3& d, const Vec3& n) {
+    return normalize(d - (2.0 * dot(d, n)) * n);
+}
 
-/// Snell's law, `eta` = index on the incoming side / index beyond. False for total internal reflection.
+/// Snell's law, `eta` = index on the incoming side / index beyond. False for total internal
+/// reflection.
 [[nodiscard]] inline bool refract(const Vec3& d, const Vec3& n, double eta, Vec3& direction) {
     const double cos_i = -dot(d, n);
     const double k = 1.0 - eta * eta * (1.0 - cos_i * cos_i);

@@ -1,8 +1,8 @@
 #pragma once
 /// What every renderer offers: it fills tiles of a film. To add one: CONTRIBUTING.md.
 ///
-/// Conventions: a pixel depends on the scene, the camera, the sampling and its own coordinates, never on the
-/// tile it is rendered in or the thread that does it.
+/// Conventions: a pixel depends on the scene, the camera, the sampling and its own coordinates,
+/// never on the tile it is rendered in or the thread that does it.
 
 #include <memory>
 #include <span>
@@ -17,10 +17,11 @@ namespace alhazen {
 /// Everything that a tile needs to know.
 struct RenderJob {
     const Scene& scene;
-    Camera camera;               ///< already fitted to the frame's aspect ratio
-    int samples_per_pixel = 1;   ///< 1: the convention's point of the pixel; more: stratified, jittered
+    Camera camera;  ///< already fitted to the frame's aspect ratio
+    int samples_per_pixel =
+        1;  ///< 1: the convention's point of the pixel; more: stratified, jittered
     std::uint64_t seed = 0;
-    bool count_tests = false;    ///< fill RayCounters::tests (rays are always counted)
+    bool count_tests = false;  ///< fill RayCounters::tests (rays are always counted)
 };
 
 class Renderer {

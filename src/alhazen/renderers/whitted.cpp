@@ -24,8 +24,8 @@ class Tracer {
           counters_(counters),
           stats_(job.count_tests ? &counters.tests : nullptr) {}
 
-    /// Radiance along a ray of unit direction. `depth` is 0 for eye rays; `contribution` is the product of the
-    /// coefficients on the way.
+    /// Radiance along a ray of unit direction. `depth` is 0 for eye rays; `contribution` is the
+    /// product of the coefficients on the way.
     Rgb trace(const Ray& ray, RayKind kind, int depth, const Rgb& contribution) {
         RayCount& count = counters_[kind];
         ++count.cast;
@@ -50,13 +50,14 @@ class Tracer {
         Rgb sum;
         for (const Light& light : scene_.lights) {
             if (!illuminates(light)) continue;
-            const LightSample l = sample(light, point.surface.point, conventions_.clamp_attenuation);
+            const LightSample l =
+                sample(light, point.surface.point, conventions_.clamp_attenuation);
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
             const Rgb shadow = light_let_through(point, l);
             if (shadow.is_black()) continue;
-            sum += shadow * l.intensity *
-                   reflected_fraction(conventions_, point, l.to_light, cosine);
+            sum +=
+                shadow * l.intensity * reflected_fraction(conventions_, point, l.to_light, cosine);
         }
         return sum;
     }
@@ -108,7 +109,8 @@ class Tracer {
         if (!cast || onward.max() < conventions_.min_contribution) return {};
         Vec3 direction = mirror(ray.direction, point.normal);
         // An interpolated normal may send the ray into the surface: then the true one decides.
-        if (dot(direction, point.geometric) < 0.0) direction = mirror(ray.direction, point.geometric);
+        if (dot(direction, point.geometric) < 0.0)
+            direction = mirror(ray.direction, point.geometric);
         const Ray next{offset_origin(point.surface, direction), direction};
         return kr * trace(next, RayKind::Reflection, depth + 1, onward);
     }
@@ -148,8 +150,9 @@ class Tracer {
 void Whitted::render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
                           RayCounters& counters) const {
     Tracer tracer(job, counters);
-    render_pixels(job, tile, film, counters,
-                  [&](const Ray& ray) { return tracer.trace(ray, RayKind::Eye, 0, {1, 1, 1}); });
+    render_pixels(job, tile, film, counters, [&](const Ray& ray) {
+        return tracer.trace(ray, RayKind::Eye, 0, {1, 1, 1});
+    });
 }
 
 }  // namespace alhazen

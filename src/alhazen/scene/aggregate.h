@@ -1,9 +1,9 @@
 #pragma once
 /// Many primitives behind one virtual call per ray: the border between renderers and accelerators.
 ///
-/// Conventions: hits lie in [ray.t_min, ray.t_max]. At equal t the lower primitive id wins (compared in the outermost
-/// aggregate first), so every accelerator gives the same hit. An invalid ray hits nothing.
-/// Threads: const functions may be called from many threads.
+/// Conventions: hits lie in [ray.t_min, ray.t_max]. At equal t the lower primitive id wins
+/// (compared in the outermost aggregate first), so every accelerator gives the same hit. An invalid
+/// ray hits nothing. Threads: const functions may be called from many threads.
 
 #include <cstddef>
 #include <vector>
@@ -34,8 +34,9 @@ class Aggregate {
     [[nodiscard]] virtual bool occluded(const Ray& ray, TraversalStats* stats) const = 0;
     /// Appends every hit; the appended ones are sorted by t, then by ids.
     virtual void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const = 0;
-    /// For shadow rays: true when an opaque primitive is hit (`crossings` is then meaningless); else appends every hit,
-    /// sorted as in `all_hits`: the transparent surfaces that tint the light.
+    /// For shadow rays: true when an opaque primitive is hit (`crossings` is then meaningless);
+    /// else appends every hit, sorted as in `all_hits`: the transparent surfaces that tint the
+    /// light.
     [[nodiscard]] virtual bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                         TraversalStats* stats) const = 0;
 };

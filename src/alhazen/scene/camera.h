@@ -1,8 +1,8 @@
 #pragma once
 /// Cameras: a closed variant of plain structs. ADD A CAMERA HERE: a struct, an entry in `Camera`.
 ///
-/// Conventions: film coordinates x, y in [0, 1], x to the right, y up; (0, 0) is the lower left corner of the
-/// picture. Directions are normalised: eye rays start with unit directions.
+/// Conventions: film coordinates x, y in [0, 1], x to the right, y up; (0, 0) is the lower left
+/// corner of the picture. Directions are normalised: eye rays start with unit directions.
 
 #include <string>
 #include <variant>
@@ -11,8 +11,8 @@
 
 namespace alhazen {
 
-/// ray = eye + look + (x - 1/2) right + (y - 1/2) up. The three vectors need be neither orthogonal nor unit:
-/// the sheared cameras of the old formats are given as they are.
+/// ray = eye + look + (x - 1/2) right + (y - 1/2) up. The three vectors need be neither orthogonal
+/// nor unit: the sheared cameras of the old formats are given as they are.
 struct PerspectiveCamera {
     Vec3 eye{0, 0, 0};
     Vec3 look{0, 0, -1};
@@ -32,16 +32,16 @@ using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 
 [[nodiscard]] Ray eye_ray(const Camera& camera, double x, double y);
 
-/// An orthonormal perspective camera. `fov_y` is the full vertical angle in radians, in (0, pi); `up` need not be
-/// perpendicular to `look`.
+/// An orthonormal perspective camera. `fov_y` is the full vertical angle in radians, in (0, pi);
+/// `up` need not be perpendicular to `look`.
 [[nodiscard]] PerspectiveCamera look_along(const Vec3& eye, const Vec3& look, const Vec3& up,
                                            double fov_y, double aspect);
 /// The orthographic counterpart; `height` is the picture's height in scene units.
 [[nodiscard]] OrthographicCamera look_along_parallel(const Vec3& origin, const Vec3& look,
                                                      const Vec3& up, double height, double aspect);
 
-/// The camera widened or narrowed from the aspect ratio (width / height) it was described for to another; the
-/// vertical extent is kept.
+/// The camera widened or narrowed from the aspect ratio (width / height) it was described for to
+/// another; the vertical extent is kept.
 [[nodiscard]] Camera with_aspect(const Camera& camera, double described_aspect, double aspect);
 
 }  // namespace alhazen

@@ -19,8 +19,9 @@ namespace {
 constexpr std::size_t kInstancedMeshTriangles = 64;
 
 std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
-    return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max()
-                                                             : a + b;
+    return a > std::numeric_limits<std::uint64_t>::max() - b
+               ? std::numeric_limits<std::uint64_t>::max()
+               : a + b;
 }
 
 /// An aggregate with what the census needs to know about it.
@@ -43,7 +44,8 @@ class Compiler {
         Scene scene;
         compile_looks(scene);
         for (const Material& m : scene.materials) opaque_.push_back(m.is_opaque() ? 1 : 0);
-        scene.all_opaque = std::all_of(opaque_.begin(), opaque_.end(), [](auto o) { return o != 0; });
+        scene.all_opaque =
+            std::all_of(opaque_.begin(), opaque_.end(), [](auto o) { return o != 0; });
         count_uses();
         const Built root = build_object(static_cast<std::size_t>(d_.root));
         scene.aggregate = root.aggregate;
@@ -125,8 +127,8 @@ class Compiler {
         census_.instances += draft.table.instances.size();
         census_.scene_bytes += draft.table.memory_bytes();
         Built built = std::move(draft.built);
-        built.effective_primitives = saturating_add(built.effective_primitives,
-                                                    draft.table.first(kInstanceKind));
+        built.effective_primitives =
+            saturating_add(built.effective_primitives, draft.table.first(kInstanceKind));
         built.aggregate = make_aggregate(options_.accelerator, std::move(draft.table));
         census_.accelerator_bytes += built.aggregate->memory_bytes();
         return built;
@@ -140,7 +142,8 @@ class Compiler {
             } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
                 add_mesh(*mesh, part, outer_from_part, draft);
             } else {
-                const std::size_t child = static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
+                const std::size_t child =
+                    static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
                 if (object_uses_[child] == 1) {
                     add_parts(child, outer_from_part, draft);
                 } else {
@@ -197,8 +200,7 @@ class Compiler {
             {child.aggregate, {outer_from_inner, inverse(outer_from_inner)}});
         draft.built.effective_primitives =
             saturating_add(draft.built.effective_primitives, child.effective_primitives);
-        draft.built.instance_depth =
-            std::max(draft.built.instance_depth, child.instance_depth + 1);
+        draft.built.instance_depth = std::max(draft.built.instance_depth, child.instance_depth + 1);
     }
 
     const SceneDescription& d_;

@@ -20,14 +20,16 @@ decltype(auto) with_column(Columns& columns, std::uint32_t kind, F&& f) {
 
 constexpr int kMostHits = [] {
     int most = 1;
-    const auto widen = [&]<class... S>(ShapeTypes<S...>) { ((most = std::max(most, S::kMaxHits)), ...); };
+    const auto widen = [&]<class... S>(ShapeTypes<S...>) {
+        ((most = std::max(most, S::kMaxHits)), ...);
+    };
     widen(AnalyticShapes{});
     return most;
 }();
 static_assert(kMostHits <= kMaxShapeHits);
 
-/// Room for what carrying a ray into the inner frame and back rounds: it grows with the condition of the
-/// transform.
+/// Room for what carrying a ray into the inner frame and back rounds: it grows with the condition
+/// of the transform.
 Box3 placed_box(const Placement& placement, const Box3& inner) {
     const Box3 box = transformed(placement.outer_from_inner, inner);
     if (!box.bounded()) return box;
@@ -156,7 +158,8 @@ Interval PrimitiveTable::extent(std::size_t i, const Vec3& axis) const {
         const Affine& m = placements[p].outer_from_inner;
         const Interval inner = c.shapes[j].extent(transpose_times(m.linear, axis));
         const double shift = dot(axis, m.translation);
-        const double pad = 1e-15 * (std::abs(shift) + std::max(std::abs(inner.lo), std::abs(inner.hi)));
+        const double pad =
+            1e-15 * (std::abs(shift) + std::max(std::abs(inner.lo), std::abs(inner.hi)));
         return Interval{inner.lo + shift - pad, inner.hi + shift + pad};
     });
 }
@@ -172,7 +175,8 @@ int PrimitiveTable::intersect(PrimitiveId id, const Ray& ray, const RayShear& sh
     return with_column(columns, k, [&](const auto& c) {
         const std::uint32_t placement = c.placements[i];
         if (placement == kNoPlacement) return c.shapes[i].intersect(ray, hits);
-        return c.shapes[i].intersect(transformed(placements[placement].inner_from_outer, ray), hits);
+        return c.shapes[i].intersect(transformed(placements[placement].inner_from_outer, ray),
+                                     hits);
     });
 }
 
@@ -255,7 +259,8 @@ bool PrimitiveTable::shadowed(PrimitiveId id, const Ray& ray, const RayShear& sh
 }
 
 template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&, NoStats) const;
-template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&, CountingStats) const;
+template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&,
+                                      CountingStats) const;
 template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&, NoStats) const;
 template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&,
                                        CountingStats) const;
@@ -270,7 +275,8 @@ template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&,
 
 std::size_t PrimitiveTable::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    std::size_t total = bytes(meshes) + bytes(instances) + bytes(placements) + bytes(material_is_opaque);
+    std::size_t total =
+        bytes(meshes) + bytes(instances) + bytes(placements) + bytes(material_is_opaque);
     std::apply(
         [&](const auto&... c) {
             ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials)), ...);

@@ -1,9 +1,9 @@
 #pragma once
-/// The things that the rays of one aggregate meet, by type in contiguous columns, and the one test of a ray with
-/// each of them that every accelerator shares.
+/// The things that the rays of one aggregate meet, by type in contiguous columns, and the one test
+/// of a ray with each of them that every accelerator shares.
 ///
-/// Ids run through the analytic shapes in the order of `AnalyticShapes`, then the triangles mesh by mesh, then the
-/// instances; a primitive's type follows from the range its id lies in.
+/// Ids run through the analytic shapes in the order of `AnalyticShapes`, then the triangles mesh by
+/// mesh, then the instances; a primitive's type follows from the range its id lies in.
 
 #include <memory>
 #include <tuple>
@@ -29,16 +29,17 @@ inline constexpr std::uint32_t kNoPlacement = 0xFFFFFFFFu;
 template <class S>
 struct ShapeColumn {
     std::vector<S> shapes;
-    std::vector<std::uint32_t> placements;  ///< [shape] index into PrimitiveTable::placements or kNoPlacement
-    std::vector<MaterialId> materials;      ///< [shape]
+    std::vector<std::uint32_t>
+        placements;  ///< [shape] index into PrimitiveTable::placements or kNoPlacement
+    std::vector<MaterialId> materials;  ///< [shape]
 };
 
 /// A mesh in the frame of the aggregate.
 struct PlacedMesh {
     std::shared_ptr<const TriangleMesh> mesh;
     MaterialId material{0};
-    std::uint32_t first_triangle = 0;       ///< number of triangles in the meshes before this one
-    bool mirrored = false;                  ///< its transform turned the winding over: normals are flipped back
+    std::uint32_t first_triangle = 0;  ///< number of triangles in the meshes before this one
+    bool mirrored = false;  ///< its transform turned the winding over: normals are flipped back
 };
 
 struct Instance {
@@ -46,7 +47,8 @@ struct Instance {
     Placement placement;
 };
 
-/// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two below.
+/// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two
+/// below.
 inline constexpr std::uint32_t kTriangleKind = AnalyticShapes::kCount;
 inline constexpr std::uint32_t kInstanceKind = kTriangleKind + 1;
 inline constexpr std::uint32_t kKindCount = kInstanceKind + 1;
@@ -84,12 +86,13 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
 
-    // ---- the one test. Crossings of analytic shapes and triangles in [ray.t_min, ray.t_max], ascending; not for
-    // instances. `hits` has room for kMaxShapeHits entries.
+    // ---- the one test. Crossings of analytic shapes and triangles in [ray.t_min, ray.t_max],
+    // ascending; not for instances. `hits` has room for kMaxShapeHits entries.
     int intersect(PrimitiveId id, const Ray& ray, const RayShear& shear, ShapeHit* hits) const;
 
     // ---- the three queries on one primitive of any kind, instances included
-    /// Makes `best` the better of itself and the primitive's nearest hit, and shrinks ray.t_max to it.
+    /// Makes `best` the better of itself and the primitive's nearest hit, and shrinks ray.t_max to
+    /// it.
     template <class Stats>
     void closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best, Stats stats) const;
     template <class Stats>
@@ -99,8 +102,8 @@ class PrimitiveTable final : public BoundsSource {
     void all_hits(PrimitiveId id, const Ray& ray, const RayShear& shear, std::vector<Hit>& hits,
                   Stats stats) const;
     template <class Stats>
-    bool shadowed(PrimitiveId id, const Ray& ray, const RayShear& shear, std::vector<Hit>& crossings,
-                  Stats stats) const;
+    bool shadowed(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                  std::vector<Hit>& crossings, Stats stats) const;
 
     [[nodiscard]] std::size_t memory_bytes() const;
 

@@ -13,12 +13,12 @@ namespace alhazen {
 
 /// How much is in a scene.
 struct SceneCensus {
-    std::uint64_t analytic_shapes = 0;      ///< stored, each object once
-    std::uint64_t triangles = 0;            ///< stored, each object once
-    std::uint64_t instances = 0;            ///< stored
-    std::uint64_t effective_primitives = 0; ///< as seen by rays, instances expanded; saturates
-    int instance_depth = 0;                 ///< deepest nesting of instances
-    std::uint64_t scene_bytes = 0;          ///< shapes, meshes, textures
+    std::uint64_t analytic_shapes = 0;       ///< stored, each object once
+    std::uint64_t triangles = 0;             ///< stored, each object once
+    std::uint64_t instances = 0;             ///< stored
+    std::uint64_t effective_primitives = 0;  ///< as seen by rays, instances expanded; saturates
+    int instance_depth = 0;                  ///< deepest nesting of instances
+    std::uint64_t scene_bytes = 0;           ///< shapes, meshes, textures
     std::uint64_t accelerator_bytes = 0;
 };
 
@@ -30,7 +30,7 @@ struct Scene {
     std::vector<CameraDescription> cameras;
     ShadingConventions conventions;
     Rgb background;
-    bool all_opaque = false;                ///< no material lets light through
+    bool all_opaque = false;  ///< no material lets light through
     std::string accelerator;
     SceneCensus census;
 };
@@ -39,12 +39,13 @@ struct CompileOptions {
     std::string accelerator = "wide_bvh";
 };
 
-/// Builds the scene. The description must have passed `validate`. Throws Error: Usage for an unknown accelerator,
-/// Resource for too many primitives or too deep nesting.
-[[nodiscard]] Scene compile(const SceneDescription& description, const CompileOptions& options = {});
+/// Builds the scene. The description must have passed `validate`. Throws Error: Usage for an
+/// unknown accelerator, Resource for too many primitives or too deep nesting.
+[[nodiscard]] Scene compile(const SceneDescription& description,
+                            const CompileOptions& options = {});
 
-/// The camera called `name`, or the one at that position when `name` is a number, or the first for an empty name.
-/// Throws Error (Usage) listing the cameras.
+/// The camera called `name`, or the one at that position when `name` is a number, or the first for
+/// an empty name. Throws Error (Usage) listing the cameras.
 [[nodiscard]] const CameraDescription& find_camera(const Scene& scene, const std::string& name);
 
 }  // namespace alhazen

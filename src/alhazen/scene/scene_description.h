@@ -1,9 +1,11 @@
 #pragma once
-/// What a scene file says: names, values and where each was written. Importers make it, `validate` judges it,
-/// `compile` turns it into the `Scene` that rays meet. Plain data, free to edit in between.
+/// What a scene file says: names, values and where each was written. Importers make it, `validate`
+/// judges it, `compile` turns it into the `Scene` that rays meet. Plain data, free to edit in
+/// between.
 ///
-/// Conventions: an object is a list of parts; a part is a shape, a mesh or another object under a transform.
-/// `root` is the object that is rendered; an object used by several parts is instanced, not copied.
+/// Conventions: an object is a list of parts; a part is a shape, a mesh or another object under a
+/// transform. `root` is the object that is rendered; an object used by several parts is instanced,
+/// not copied.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +31,7 @@ enum class ObjectIndex : std::uint32_t {};
 
 struct Part {
     std::variant<AnyShape, MeshIndex, ObjectIndex> what;
-    Affine object_from_part;                ///< into the frame of the object that owns the part
+    Affine object_from_part;  ///< into the frame of the object that owns the part
     /// Ignored for an object (its parts have their own) and for a mesh with vertex materials.
     MaterialId material{0};
     std::string name;
@@ -44,20 +46,20 @@ struct ObjectDescription {
 
 struct MeshDescription {
     std::string name;
-    std::shared_ptr<TriangleMesh> mesh;     ///< vertex_materials hold values of MaterialId
+    std::shared_ptr<TriangleMesh> mesh;  ///< vertex_materials hold values of MaterialId
     FileLocation location;
 };
 
 struct TextureDescription {
     std::string name;
-    Texture texture;                        ///< image already read
+    Texture texture;  ///< image already read
     FileLocation location;
 };
 
 struct CameraDescription {
     std::string name;
     Camera camera;
-    double aspect = 1;                      ///< width / height the camera was described for
+    double aspect = 1;  ///< width / height the camera was described for
     FileLocation location;
 };
 
@@ -74,14 +76,14 @@ struct MaterialDescription {
 
 /// What the file says about the picture; the command line overrides it.
 struct PictureSettings {
-    std::optional<int> width, height;       ///< pixels
+    std::optional<int> width, height;  ///< pixels
     Rgb background;
 };
 
 struct SceneDescription {
-    std::string format;                     ///< name of the importer
+    std::string format;  ///< name of the importer
     std::filesystem::path path;
-    std::vector<CameraDescription> cameras; ///< the first is the default
+    std::vector<CameraDescription> cameras;  ///< the first is the default
     std::vector<LightDescription> lights;
     std::vector<MaterialDescription> materials;  ///< indexed by MaterialId
     std::vector<TextureDescription> textures;    ///< indexed by TextureId
@@ -92,9 +94,9 @@ struct SceneDescription {
     ShadingConventions conventions;
 };
 
-/// Adds every finding about `description` to `diagnostics`: values that are not finite, singular transforms, bad
-/// shapes and meshes, ids out of range, objects that contain themselves, nesting deeper than
-/// kMaxInstanceDepth, no camera (warning), nothing to see (warning).
+/// Adds every finding about `description` to `diagnostics`: values that are not finite, singular
+/// transforms, bad shapes and meshes, ids out of range, objects that contain themselves, nesting
+/// deeper than kMaxInstanceDepth, no camera (warning), nothing to see (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace alhazen

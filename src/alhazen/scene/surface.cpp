@@ -14,8 +14,8 @@ Vec3 times_abs(const Mat3& m, const Vec3& v) {
     return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
 }
 
-/// Carries a surface out of an inner frame. The new error has the old one, the rounding of the transform, and
-/// that of the ray on its way in (which the next ray will suffer again).
+/// Carries a surface out of an inner frame. The new error has the old one, the rounding of the
+/// transform, and that of the ray on its way in (which the next ray will suffer again).
 void carry_outward(const Placement& placement, Surface& surface) {
     const Affine& outer = placement.outer_from_inner;
     const Affine& inner = placement.inner_from_outer;
@@ -50,7 +50,8 @@ Surface analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::u
             surface = from_shape(column.shapes[index].surface(ray, hit));
         } else {
             const Placement& p = table.placements[placement];
-            surface = from_shape(column.shapes[index].surface(transformed(p.inner_from_outer, ray), hit));
+            surface =
+                from_shape(column.shapes[index].surface(transformed(p.inner_from_outer, ray), hit));
             carry_outward(p, surface);
         }
         surface.materials[0] = column.materials[index];
@@ -65,7 +66,8 @@ Surface triangle_surface(const PrimitiveTable& table, std::uint32_t index, const
     const std::uint32_t triangle = index - placed.first_triangle;
     Surface surface = from_shape(mesh.surface(triangle, hit));
     const auto& corners = mesh.triangles[triangle];
-    // The test of the next ray rounds relative to the size of the triangle, not to where the point lies.
+    // The test of the next ray rounds relative to the size of the triangle, not to where the point
+    // lies.
     for (const std::uint32_t corner : corners) {
         surface.error += 4 * kEpsilon * abs(mesh.positions[corner] - surface.point);
     }
@@ -91,8 +93,8 @@ Surface surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hi
     if (depth > 0) {
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
         Surface surface =
-            surface_inside(*instance.aggregate, transformed(instance.placement.inner_from_outer, ray),
-                           hit, depth - 1);
+            surface_inside(*instance.aggregate,
+                           transformed(instance.placement.inner_from_outer, ray), hit, depth - 1);
         carry_outward(instance.placement, surface);
         return surface;
     }
@@ -110,8 +112,8 @@ Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
 
 Vec3 offset_origin(const Surface& surface, const Vec3& direction) {
     const double margin = 32.0 * dot(abs(surface.normal), surface.error);
-    const Vec3 offset =
-        dot(direction, surface.normal) >= 0.0 ? margin * surface.normal : (-margin) * surface.normal;
+    const Vec3 offset = dot(direction, surface.normal) >= 0.0 ? margin * surface.normal
+                                                              : (-margin) * surface.normal;
     Vec3 origin = surface.point + offset;
     for (int axis = 0; axis < 3; ++axis) {
         if (offset[axis] > 0.0) {

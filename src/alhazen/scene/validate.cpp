@@ -8,7 +8,9 @@ namespace alhazen {
 
 namespace {
 
-bool finite(const Rgb& c) { return c.is_finite(); }
+bool finite(const Rgb& c) {
+    return c.is_finite();
+}
 
 class Validator {
   public:
@@ -78,9 +80,10 @@ class Validator {
                     if constexpr (requires { l.position; }) {
                         need(is_finite(l.position), "the light's position must be finite");
                         const Attenuation& a = l.attenuation;
-                        need(a.constant >= 0 && a.linear >= 0 && a.quadratic >= 0 &&
-                                 std::isfinite(a.constant + a.linear + a.quadratic),
-                             "the light's attenuation coefficients must be finite and not negative");
+                        need(
+                            a.constant >= 0 && a.linear >= 0 && a.quadratic >= 0 &&
+                                std::isfinite(a.constant + a.linear + a.quadratic),
+                            "the light's attenuation coefficients must be finite and not negative");
                     }
                     if constexpr (requires { l.to_light; }) {
                         need(is_finite(l.to_light) && l.to_light != Vec3{},
@@ -119,8 +122,9 @@ class Validator {
             check_texture_id(m.index.texture, description.location, "index");
             if (!std::isfinite(m.shininess.value) || m.shininess.value < 0) {
                 error(description.location,
-                      fmt::format("shininess of material '{}' must be finite and not negative, found {}",
-                                  m.name, m.shininess.value));
+                      fmt::format(
+                          "shininess of material '{}' must be finite and not negative, found {}",
+                          m.name, m.shininess.value));
             }
             if (!std::isfinite(m.index.value) || m.index.value < 0) {
                 error(description.location,
@@ -154,9 +158,8 @@ class Validator {
         }
         const TriangleMesh& mesh = *description.mesh;
         mesh.validate(description.location, out_);
-        const auto bad = std::find_if(
-            mesh.vertex_materials.begin(), mesh.vertex_materials.end(),
-            [&](std::uint32_t m) { return m >= d_.materials.size(); });
+        const auto bad = std::find_if(mesh.vertex_materials.begin(), mesh.vertex_materials.end(),
+                                      [&](std::uint32_t m) { return m >= d_.materials.size(); });
         if (bad != mesh.vertex_materials.end()) {
             error(description.location,
                   fmt::format("a vertex of mesh '{}' refers to material {} of {}", description.name,
@@ -172,10 +175,12 @@ class Validator {
             std::visit([&](const auto& s) { s.validate(part.location, out_); }, *shape);
         } else if (const MeshIndex* mesh = std::get_if<MeshIndex>(&part.what)) {
             if (static_cast<std::uint32_t>(*mesh) >= d_.meshes.size()) {
-                error(part.location, fmt::format("refers to mesh {} of {}",
-                                                 static_cast<std::uint32_t>(*mesh), d_.meshes.size()));
+                error(part.location,
+                      fmt::format("refers to mesh {} of {}", static_cast<std::uint32_t>(*mesh),
+                                  d_.meshes.size()));
             }
-        } else if (static_cast<std::uint32_t>(std::get<ObjectIndex>(part.what)) >= d_.objects.size()) {
+        } else if (static_cast<std::uint32_t>(std::get<ObjectIndex>(part.what)) >=
+                   d_.objects.size()) {
             error(part.location,
                   fmt::format("refers to object {} of {}",
                               static_cast<std::uint32_t>(std::get<ObjectIndex>(part.what)),
@@ -183,9 +188,9 @@ class Validator {
         }
         if (!std::holds_alternative<ObjectIndex>(part.what) &&
             static_cast<std::uint32_t>(part.material) >= d_.materials.size()) {
-            error(part.location, fmt::format("refers to material {} of {}",
-                                             static_cast<std::uint32_t>(part.material),
-                                             d_.materials.size()));
+            error(part.location,
+                  fmt::format("refers to material {} of {}",
+                              static_cast<std::uint32_t>(part.material), d_.materials.size()));
         }
     }
 
@@ -236,8 +241,8 @@ class Validator {
         const int deepest = depth[static_cast<std::size_t>(d_.root)];
         // Automatic instances of meshes may add one level of their own.
         if (deepest + 1 > static_cast<int>(kMaxInstanceDepth)) {
-            error({}, fmt::format("objects are nested {} deep; at most {} levels are supported", deepest,
-                                  kMaxInstanceDepth - 1));
+            error({}, fmt::format("objects are nested {} deep; at most {} levels are supported",
+                                  deepest, kMaxInstanceDepth - 1));
         }
         if (d_.objects[static_cast<std::size_t>(d_.root)].parts.empty()) {
             warning({}, "the scene is empty");
@@ -247,7 +252,8 @@ class Validator {
     void check_picture() {
         const auto side = [&](const std::optional<int>& pixels, const char* what) {
             if (pixels && (*pixels < 1 || *pixels > 65536)) {
-                error({}, fmt::format("picture {} must be 1 to 65536 pixels, found {}", what, *pixels));
+                error({},
+                      fmt::format("picture {} must be 1 to 65536 pixels, found {}", what, *pixels));
             }
         };
         side(d_.picture.width, "width");

@@ -22,7 +22,8 @@ Approach approach(const Vec3& position, const Attenuation& a, const Vec3& point,
     const Vec3 offset = position - point;
     const double d = length(offset);
     double factor = 1.0 / (a.constant + a.linear * d + a.quadratic * (d * d));
-    // A light with no falloff given (all zero) divides by zero: clamping makes it 1, as the course does.
+    // A light with no falloff given (all zero) divides by zero: clamping makes it 1, as the course
+    // does.
     if (clamp && !(factor < 1.0)) factor = 1.0;
     return {offset / d, d, factor};
 }
@@ -38,7 +39,9 @@ double spot_falloff(const SpotLight& light, const Vec3& to_light) {
 
 }  // namespace
 
-bool illuminates(const Light& light) { return !std::holds_alternative<AmbientLight>(light); }
+bool illuminates(const Light& light) {
+    return !std::holds_alternative<AmbientLight>(light);
+}
 
 LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation) {
     return std::visit(

@@ -1,8 +1,9 @@
 #pragma once
-/// Lights without extent: a closed variant of plain structs. ADD A LIGHT HERE: a struct and an entry in `Light`.
+/// Lights without extent: a closed variant of plain structs. ADD A LIGHT HERE: a struct and an
+/// entry in `Light`.
 ///
-/// Conventions: every light may carry an ambient term, added at every point whatever is in between (the
-/// course's I_La); an `AmbientLight` is nothing else.
+/// Conventions: every light may carry an ambient term, added at every point whatever is in between
+/// (the course's I_La); an `AmbientLight` is nothing else.
 
 #include <variant>
 
@@ -33,11 +34,11 @@ struct PointLight {
     Rgb ambient;
 };
 
-/// A point light that shines into a cone: full within `inner_angle` of the axis, none beyond `outer_angle`,
-/// a smooth cubic step of the angle between.
+/// A point light that shines into a cone: full within `inner_angle` of the axis, none beyond
+/// `outer_angle`, a smooth cubic step of the angle between.
 struct SpotLight {
     Vec3 position;
-    Vec3 direction{0, 0, -1};  ///< unit, from the light into the scene
+    Vec3 direction{0, 0, -1};                     ///< unit, from the light into the scene
     double inner_angle = 0.5, outer_angle = 0.6;  ///< radians from the axis
     Rgb color{1, 1, 1};
     Attenuation attenuation;
@@ -46,8 +47,8 @@ struct SpotLight {
 
 using Light = std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight>;
 
-/// A light as seen from a point: unit direction towards it, distance (infinite for directional lights) and the
-/// intensity that arrives unshadowed, attenuation included.
+/// A light as seen from a point: unit direction towards it, distance (infinite for directional
+/// lights) and the intensity that arrives unshadowed, attenuation included.
 struct LightSample {
     Vec3 to_light;
     double distance = 0;

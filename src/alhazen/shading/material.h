@@ -26,12 +26,12 @@ struct ScalarInput {
 /// (kt = 1 - ks, kr = ks) so that renderers need no rules of formats.
 struct Material {
     std::string name;
-    ColorInput emission;      ///< ke
-    ColorInput ambient;       ///< ka
-    ColorInput diffuse;       ///< kd
-    ColorInput specular;      ///< ks, the highlight
-    ColorInput reflective;    ///< kr, the mirror direction
-    ColorInput transmissive;  ///< kt, the refracted direction
+    ColorInput emission;                   ///< ke
+    ColorInput ambient;                    ///< ka
+    ColorInput diffuse;                    ///< kd
+    ColorInput specular;                   ///< ks, the highlight
+    ColorInput reflective;                 ///< kr, the mirror direction
+    ColorInput transmissive;               ///< kt, the refracted direction
     ScalarInput shininess{0, kNoTexture};  ///< ns, exponent of the highlight
     ScalarInput index{1, kNoTexture};      ///< index of refraction inside the surface's normal
 

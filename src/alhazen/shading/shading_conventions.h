@@ -1,16 +1,17 @@
 #pragma once
-/// Where the scene formats differ in what a picture means: values that an importer sets, read by the
-/// renderers. No renderer asks which format a scene came from.
+/// Where the scene formats differ in what a picture means: values that an importer sets, read by
+/// the renderers. No renderer asks which format a scene came from.
 ///
-/// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; the equation of the
-/// UW CSE 457 Trace project:
-///   I = ke + sum_j [ kd ILa_j + Ashadow Adist IL_j Bj (kd (N.L) + ks (N.H)+^ns) ] + kr I(Q,R) + kt I(Q,T).
+/// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; the
+/// equation of the UW CSE 457 Trace project:
+///   I = ke + sum_j [ kd ILa_j + Ashadow Adist IL_j Bj (kd (N.L) + ks (N.H)+^ns) ] + kr I(Q,R) + kt
+///   I(Q,T).
 
 namespace alhazen {
 
 struct ShadingConventions {
-    /// The highlight's cosine: of the mirrored light direction and the eye (Phong) or of the normal and the
-    /// half vector (Blinn-Phong).
+    /// The highlight's cosine: of the mirrored light direction and the eye (Phong) or of the normal
+    /// and the half vector (Blinn-Phong).
     enum class Highlight { Phong, BlinnPhong };
     Highlight highlight = Highlight::BlinnPhong;
 
@@ -25,7 +26,8 @@ struct ShadingConventions {
     /// What kt does to a ray that travels inside.
     enum class RefractionTint {
         PerEvent,     ///< times kt at each refraction
-        PerDistance,  ///< times kt^(distance travelled inside); the refraction itself is not attenuated
+        PerDistance,  ///< times kt^(distance travelled inside); the refraction itself is not
+                      ///< attenuated
     };
     RefractionTint refraction_tint = RefractionTint::PerEvent;
 
@@ -50,7 +52,7 @@ struct ShadingConventions {
     enum class PixelSample {
         Center,
         LowerLeftCorner,  ///< x = i / width, y = j / height with j counted from the bottom row
-        FrameCorners,     ///< x = i / (width - 1): the outermost rays go through the frame's corners
+        FrameCorners,  ///< x = i / (width - 1): the outermost rays go through the frame's corners
     };
     PixelSample pixel_sample = PixelSample::Center;
 
@@ -59,7 +61,8 @@ struct ShadingConventions {
 
     /// Recursion depth of the format: 0 = eye rays only.
     int max_depth = 5;
-    /// Rays whose product of coefficients falls below this in every channel are not cast; 0 = all are.
+    /// Rays whose product of coefficients falls below this in every channel are not cast; 0 = all
+    /// are.
     double min_contribution = 0.0;
 };
 

@@ -34,9 +34,11 @@ Rgb texel(const Texture& texture, long long x, long long y) {
     return c;
 }
 
-/// Coordinates beyond this many repeats carry no fraction worth interpolating; also keeps NaN and infinity
-/// away from the integer conversion.
-double bounded(double x) { return x > -1e9 && x < 1e9 ? x : 0.0; }
+/// Coordinates beyond this many repeats carry no fraction worth interpolating; also keeps NaN and
+/// infinity away from the integer conversion.
+double bounded(double x) {
+    return x > -1e9 && x < 1e9 ? x : 0.0;
+}
 
 }  // namespace
 

@@ -21,11 +21,11 @@ struct Texture {
     std::shared_ptr<const Image> image;  ///< never null in a compiled scene
     Wrap wrap_u = Wrap::Repeat;
     Wrap wrap_v = Wrap::Repeat;
-    bool bilinear = true;                ///< else the nearest texel
-    /// Texel positions: false = texel centres at (i + 0.5) / width (the usual rule); true = the course's
-    /// rule, texel i at i / (width - 1).
+    bool bilinear = true;  ///< else the nearest texel
+    /// Texel positions: false = texel centres at (i + 0.5) / width (the usual rule); true = the
+    /// course's rule, texel i at i / (width - 1).
     bool corner_texels = false;
-    bool decode_srgb = false;            ///< samples are sRGB encoded and must be made linear
+    bool decode_srgb = false;  ///< samples are sRGB encoded and must be made linear
 };
 
 /// The texture's colour at `uv`, linear interpolation of the four nearest texels when bilinear.
