@@ -2,10 +2,10 @@
 /// A solid box with sides along the axes of its frame.
 ///
 /// Source: Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (slabs).
-/// Differs: faces are chosen by the sign of the direction; a ray in the plane of a face is treated as just
-/// outside, so that it never yields a single crossing.
-/// Conventions: part = 0..5 for the faces -x +x -y +y -z +z; uv run over each face from 0 to 1 along the
-/// other two axes in cyclic order.
+/// Differs: faces are chosen by the sign of the direction; a ray in the plane of a face is treated
+/// as just outside, so that it never yields a single crossing. Conventions: part = 0..5 for the
+/// faces -x +x -y +y -z +z; uv run over each face from 0 to 1 along the other two axes in cyclic
+/// order.
 
 #include "alhazen/shapes/shape.h"
 

@@ -3,6 +3,7 @@
 ///
 /// Conventions: radii >= 0, not both zero; equal radii make a cylinder. part and uv as in Cylinder.
 
+#include "alhazen/shapes/frustum.h"
 #include "alhazen/shapes/shape.h"
 
 namespace alhazen {
@@ -17,6 +18,7 @@ struct Cone {
     double base_radius = 1;
     double top_radius = 0;
     bool capped = true;
+    Frustum frustum;  ///< derived: set by prepare
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -1,9 +1,10 @@
 #pragma once
 /// A circular cylinder between two points, open or with caps.
 ///
-/// Conventions: part 0 the side, 1 the cap at `base`, 2 the cap at `top`. u runs around the axis (0 to 1), v
-/// along it from `base` (0) to `top` (1); on caps v runs from the axis (0) to the rim (1).
+/// Conventions: part 0 the side, 1 the cap at `base`, 2 the cap at `top`. u runs around the axis (0
+/// to 1), v along it from `base` (0) to `top` (1); on caps v runs from the axis (0) to the rim (1).
 
+#include "alhazen/shapes/frustum.h"
 #include "alhazen/shapes/shape.h"
 
 namespace alhazen {
@@ -17,6 +18,7 @@ struct Cylinder {
     Vec3 top{0, 0, 1};
     double radius = 1;
     bool capped = true;
+    Frustum frustum;  ///< derived: set by prepare
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

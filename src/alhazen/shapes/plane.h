@@ -2,8 +2,8 @@
 /// An unbounded plane.
 ///
 /// Source: Foley, van Dam et al., "Computer Graphics", eq. 15.18-15.21. Differs: nothing.
-/// Conventions: both sides are hit; `normal` need not be unit. uv are coordinates along two unit vectors in
-/// the plane from `point`. A ray in the plane misses it.
+/// Conventions: both sides are hit; `normal` need not be unit. uv are coordinates along two unit
+/// vectors in the plane from `point`. A ray in the plane misses it.
 
 #include "alhazen/shapes/shape.h"
 
@@ -16,6 +16,8 @@ struct Plane {
 
     Vec3 point{0, 0, 0};
     Vec3 normal{0, 0, 1};
+    Vec3 unit_normal{0, 0, 1};  ///< derived: set by prepare
+    Vec3 u_axis{1, 0, 0};       ///< derived: unit, in the plane
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -1,12 +1,15 @@
 #pragma once
 /// A planar polygon of one or several loops, concave or with holes; inside by the odd-even rule.
 ///
-/// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1 (drop the axis along which the normal
-/// is longest).
-/// Differs: the plane's normal is Newell's, over all loops; an edge belongs to one of its two sides (half-open
-/// rule), so polygons that share an edge are crossed exactly once there.
-/// Conventions: counter-clockwise from the side the normal points to. uv are coordinates in the plane, from the
-/// first vertex along the first edge.
+/// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1 (drop the axis along which
+/// the normal is longest). Differs: the plane's normal is Newell's, over all loops; the point is
+/// not projected along an axis but along the ray, by the shear and the exact edge signs of
+/// geometry/watertight_triangle.h. Polygons that share vertices bit for bit, in one plane or around
+/// a solid, thus leave no gap and no double hit: a ray through a shared edge or vertex meets
+/// exactly one side of it. The plane only gives t. Conventions: counter-clockwise from the side the
+/// normal points to. uv are coordinates in the plane, from the first vertex along the first edge.
+/// Vertices need not lie in one plane; a hit lies in the plane of the mean. Complexity: O(vertices)
+/// for a ray that meets the polygon's box where it meets its plane, else O(1).
 
 #include "alhazen/shapes/shape.h"
 
@@ -17,10 +20,13 @@ struct Polygon {
     static constexpr int kMaxHits = 1;
     static constexpr bool kClosed = false;
 
-    std::vector<Vec3> vertices;             ///< all loops, one after another
-    std::vector<std::uint32_t> loop_ends;   ///< end (one past the last vertex) of each loop
-    Vec3 point;                             ///< derived: on the plane
-    Vec3 normal;                            ///< derived: unit
+    std::vector<Vec3> vertices;            ///< all loops, one after another
+    std::vector<std::uint32_t> loop_ends;  ///< [loop] one past its last vertex; empty: one loop
+    Vec3 point{};                          ///< derived: on the plane
+    Vec3 normal{0, 0, 1};                  ///< derived: unit
+    Vec3 u_axis{1, 0, 0};                  ///< derived: unit, in the plane, along the first edge
+    Box3 bounds{};                         ///< derived: of the vertices and their feet on the plane
+    double off_plane = 0;                  ///< derived: no vertex is farther from the plane
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -1,13 +1,13 @@
 #pragma once
 /// What a shape must offer, and what it answers about a point on it.
 ///
-/// A shape is a plain struct that describes a surface in its own frame. It knows neither materials nor
-/// transforms nor file formats. To add one: docs in CONTRIBUTING.md.
-/// Conventions: `intersect` works on un-normalised rays; it writes every crossing with t in
-/// [ray.t_min, ray.t_max] in ascending order of t, at most `kMaxHits`. The nearest crossing, any
-/// crossing and all crossings are all read from that one list, so they cannot disagree. A tangent ray may
-/// be reported as two equal crossings or none, never as one (for closed shapes the count is even).
-/// Threads: const functions may be called from many threads.
+/// A shape is a plain struct that describes a surface in its own frame. It knows neither materials
+/// nor transforms nor file formats. To add one: docs in CONTRIBUTING.md. Conventions: `intersect`
+/// works on un-normalised rays; it writes every crossing with t in [ray.t_min, ray.t_max] in
+/// ascending order of t, at most `kMaxHits`. The nearest crossing, any crossing and all crossings
+/// are all read from that one list, so they cannot disagree. A tangent ray may be reported as two
+/// equal crossings or none, never as one (for closed shapes the count is even). Threads: const
+/// functions may be called from many threads.
 
 #include <array>
 #include <concepts>
@@ -32,12 +32,14 @@ struct ShapeSurface {
 };
 
 template <class S>
-concept Shape = requires(S& fresh, const S& shape, const Ray& ray, ShapeHit* hits, const ShapeHit& hit,
-                         const Vec3& axis, const FileLocation& where, Diagnostics& diagnostics) {
+concept Shape = requires(S& fresh, const S& shape, const Ray& ray, ShapeHit* hits,
+                         const ShapeHit& hit, const Vec3& axis, const FileLocation& where,
+                         Diagnostics& diagnostics) {
     { S::kMaxHits } -> std::convertible_to<int>;
     { S::kName } -> std::convertible_to<const char*>;  // as in scene files: "sphere"
     { S::kClosed } -> std::convertible_to<bool>;       // could bound a volume whatever its options
-    /// Sets derived fields. Called once, after the public fields are set and validated, before any query.
+    /// Sets derived fields. Called once, after the public fields are set and validated, before any
+    /// query.
     { fresh.prepare() } -> std::same_as<void>;
     /// Reports every way in which the fields make no such shape (NaN, zero radius, ...).
     { shape.validate(where, diagnostics) } -> std::same_as<void>;

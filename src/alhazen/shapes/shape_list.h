@@ -24,7 +24,8 @@ struct ShapeTypes {
     static constexpr std::size_t kCount = sizeof...(S);
 };
 
-using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon>;
+using AnalyticShapes =
+    ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon>;
 
 /// Any one analytic shape by value.
 using AnyShape = AnalyticShapes::Variant;

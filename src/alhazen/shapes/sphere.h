@@ -2,9 +2,9 @@
 /// A sphere.
 ///
 /// Source: Foley, van Dam et al., "Computer Graphics", eq. 15.12-15.17; Haines, Günther and
-/// Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, ch. 7.
-/// Differs: the direction need not be unit.
-/// Conventions: u runs around the z axis from +x (0 to 1), v from the -z pole (0) to the +z pole (1).
+/// Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019,
+/// ch. 7. Differs: the direction need not be unit. Conventions: u runs around the z axis from +x (0
+/// to 1), v from the -z pole (0) to the +z pole (1).
 
 #include "alhazen/shapes/shape.h"
 

@@ -1,9 +1,10 @@
 #pragma once
-/// An indexed triangle mesh with optional normals, texture coordinates and materials at the vertices.
+/// An indexed triangle mesh with optional normals, texture coordinates and materials at the
+/// vertices.
 ///
 /// Each triangle is a primitive of its own in an accelerator; the mesh is what they share.
-/// Conventions: counter-clockwise from outside. Without vertex normals shading is flat; without texture
-/// coordinates uv are the barycentrics (weight of the second and of the third vertex).
+/// Conventions: counter-clockwise from outside. Without vertex normals shading is flat; without
+/// texture coordinates uv are the barycentrics (weight of the second and of the third vertex).
 
 #include <cstdint>
 
@@ -12,10 +13,10 @@
 namespace alhazen {
 
 struct TriangleMesh {
-    std::vector<Vec3> positions;                            ///< [vertex]
-    std::vector<std::array<std::uint32_t, 3>> triangles;    ///< [triangle] vertex indices
-    std::vector<Vec3> normals;                              ///< [vertex] unit, or empty
-    std::vector<Vec2> uvs;                                  ///< [vertex], or empty
+    std::vector<Vec3> positions;                          ///< [vertex]
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [triangle] vertex indices
+    std::vector<Vec3> normals;                            ///< [vertex] unit, or empty
+    std::vector<Vec2> uvs;                                ///< [vertex], or empty
     /// [vertex] index into the list of materials that the owner keeps, or empty.
     std::vector<std::uint32_t> vertex_materials;
 
@@ -30,7 +31,8 @@ struct TriangleMesh {
     /// merged: every line then crosses the mesh an even number of times.
     [[nodiscard]] bool closed() const;
 
-    /// Sets `normals` to the normalised sum over each vertex's triangles of their area-weighted normals.
+    /// Sets `normals` to the normalised sum over each vertex's triangles of their area-weighted
+    /// normals.
     void generate_normals();
     /// Applies a transform to positions and (by the inverse transpose) to normals.
     void transform(const Affine& to_from);

@@ -1,0 +1,43 @@
+#include "alhazen/shapes/sphere.h"
+
+#include "alhazen/geometry/sphere_roots.h"
+#include "alhazen/shapes/shape_numerics.h"
+
+namespace alhazen {
+
+void Sphere::validate(const FileLocation& where, Diagnostics& diagnostics) const {
+    FieldChecks checks(kName, where, diagnostics);
+    checks.point("center", center);
+    checks.length("radius", radius);
+}
+
+Box3 Sphere::box() const {
+    return outward_box(center, {radius, radius, radius});
+}
+
+Interval Sphere::extent(const Vec3& axis) const {
+    return outward_extent(axis, center, radius * length(axis));
+}
+
+int Sphere::intersect(const Ray& ray, ShapeHit* hits) const {
+    const Vec3& d = ray.direction;
+    const Vec3 f = ray.origin - center;
+    const auto roots =
+        sphere_roots<double>(d.x, d.y, d.z, length_squared(d), f.x, f.y, f.z, radius);
+    if (!(roots.discriminant >= 0.0)) return 0;
+    return report_span(ray, roots.t_near, 0, roots.t_far, 0, hits);
+}
+
+ShapeSurface Sphere::surface(const Ray& ray, const ShapeHit& hit) const {
+    const Vec3 n = unit_or(ray.at(hit.t) - center, {0, 0, 1});
+    const Vec3 from_center = radius * n;
+    ShapeSurface surface;
+    surface.point = center + from_center;
+    surface.normal = surface.shading_normal = n;
+    surface.uv = {turn_fraction(n.x, n.y), 0.5 + std::atan2(n.z, std::hypot(n.x, n.y)) / kPi};
+    // |n| is 1 to four roundings, its product with the radius one more, the sum one.
+    surface.error = gamma_bound(6) * abs(from_center) + gamma_bound(2) * abs(surface.point);
+    return surface;
+}
+
+}  // namespace alhazen
