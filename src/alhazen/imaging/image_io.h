@@ -1,10 +1,13 @@
 #pragma once
 /// Picture files in and out, chosen by name, recognised by content.
 ///
-/// In: PNG (all colour types, 8 and 16 bit), JPEG, BMP (8-bit palette, 24, 32 bit uncompressed), EXR, HDR,
-/// PFM. Out: PNG, JPG, EXR, HDR, PFM. Reading checks the header against `ImageLimits` before it allocates
-/// or decodes.
+/// In: PNG (all colour types, 1 to 16 bit), JPEG, BMP (1, 4 and 8-bit palette, 16, 24, 32 bit, not
+/// RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Out: PNG, JPG, EXR, HDR, PFM.
+/// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes, and
+/// memory grows with what is decoded, not with what the header claims. An EXR is read as its data
+/// window.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -12,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "alhazen/imaging/encoding.h"
 #include "alhazen/imaging/image.h"
 
 namespace alhazen {
@@ -21,36 +25,49 @@ struct ImageLimits {
     std::uint64_t max_pixels = std::uint64_t{1} << 28;
 };
 
-/// Reads a picture. Throws Error: File when it cannot be read, Scene when it is malformed or of an unknown
-/// kind, Resource when it exceeds the limits.
+/// Reads a picture. Throws Error: File when it cannot be read, Scene when it is malformed or of an
+/// unknown kind, Resource when it exceeds the limits.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 /// The same from bytes; `name` is used in messages.
 [[nodiscard]] Image decode_image(std::string_view bytes, const std::string& name,
                                  const ImageLimits& limits = {});
 
-/// How linear values become the integers of PNG and JPG.
-enum class Encoding {
-    LinearTruncated,  ///< floor(max * clamp(c, 0, 1)): the course's and the old formats' pictures
-    Srgb,             ///< IEC 61966-2-1 transfer curve, rounded to nearest
-};
+using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
 struct ImageWriteOptions {
     Encoding encoding = Encoding::Srgb;
     int bits = 8;             ///< PNG: 8 or 16
     bool full_float = false;  ///< EXR: float instead of half
-    int jpeg_quality = 95;
-    /// Written as PNG text chunks and EXR string attributes.
-    std::vector<std::pair<std::string, std::string>> metadata;
-    /// EXR: displayWindow when the image is a crop of a larger frame (x0, y0 its place); 0 = no crop.
+    int jpeg_quality = 95;    ///< 1 to 100
+    /// Key and value in UTF-8, written as PNG text chunks and EXR string attributes.
+    ImageMetadata metadata = {};
+    /// EXR: displayWindow when the image is a crop of a larger frame (x0, y0 its place); 0 = no
+    /// crop.
     int full_width = 0, full_height = 0, crop_x0 = 0, crop_y0 = 0;
 };
 
 /// Suffixes that `write_image` knows: png, jpg, jpeg, exr, hdr, pfm.
 [[nodiscard]] const std::vector<std::string>& image_suffixes();
 
-/// Writes by the suffix of `path`, as one step (see write_file_atomically). Throws Error: Usage for an
-/// unknown suffix (the message lists the known ones), File when writing fails.
+/// Throws Error (Usage) that lists the known suffixes when the suffix of `path` is not one of them:
+/// for callers that want to know before they render.
+void check_image_suffix(const std::filesystem::path& path);
+
+/// Writes by the suffix of `path`, as one step (see write_file_atomically). EXR, HDR and PFM hold
+/// linear values: a picture that is encoded is decoded from sRGB first. Throws Error: Usage for an
+/// unknown suffix, an empty picture or bad options, File when writing fails.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageWriteOptions& options = {});
+
+/// The bytes that `write_image` would write to a file with this suffix (without the dot).
+[[nodiscard]] std::vector<std::byte> encode_image(const std::string& suffix, const Image& image,
+                                                  const ImageWriteOptions& options = {});
+
+/// Writes exactly these codes, as one step. Throws Error: Usage for codes that do not fit, File.
+void write_png(const std::filesystem::path& path, const EncodedImage& image,
+               const ImageMetadata& metadata = {});
+
+/// Writes 8-bit codes as a JPEG, as one step; alpha is dropped. Throws as write_png.
+void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality = 95);
 
 }  // namespace alhazen

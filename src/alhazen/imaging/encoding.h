@@ -1,0 +1,49 @@
+#pragma once
+/// Linear values as the integers of display pictures (PNG, JPG).
+///
+/// Source: IEC 61966-2-1 (sRGB), the transfer curve.
+/// Differs: nothing.
+/// Conventions: a code is in [0, 2^bits - 1]; values are clamped to [0, 1]; NaN becomes 0. Codes
+/// are made from doubles, because a truncated code can change when its value is first rounded to
+/// float.
+
+#include <cstdint>
+#include <vector>
+
+namespace alhazen {
+
+struct Image;
+
+/// How linear values become integers.
+enum class Encoding {
+    LinearTruncated,  ///< floor(max * clamp(c, 0, 1)): the course's and the old formats' pictures
+    Srgb,             ///< IEC 61966-2-1 transfer curve, rounded to nearest
+};
+
+/// A picture of integer codes, top row first: exactly what a PNG holds.
+struct EncodedImage {
+    int width = 0, height = 0;
+    int channels = 3;                         ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGB + alpha
+    int bits = 8;                             ///< 8 or 16
+    std::vector<std::uint16_t> samples = {};  ///< [height][width][channels]
+};
+
+/// The sRGB curve and its inverse for c in [0, 1]; values beyond 1 follow the same curve, below 0
+/// the line.
+[[nodiscard]] double srgb_from_linear(double c);
+[[nodiscard]] double linear_from_srgb(double c);
+
+/// The code of `c`; `bits` in 1..16.
+[[nodiscard]] std::uint32_t encode_channel(double c, Encoding encoding, int bits);
+
+/// Codes of `rgb` [height][width][3]. Throws Error (Usage) when a side is not positive or `bits` is
+/// neither 8 nor 16.
+[[nodiscard]] EncodedImage encode(const double* rgb, int width, int height, Encoding encoding,
+                                  int bits);
+
+/// Codes of a picture. One that is not linear is encoded already: its values are only rounded.
+/// Alpha never goes through the transfer curve. Throws Error (Usage) as above, or when the samples
+/// do not fit the sizes.
+[[nodiscard]] EncodedImage encode(const Image& image, Encoding encoding, int bits);
+
+}  // namespace alhazen

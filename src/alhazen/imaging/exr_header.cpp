@@ -1,0 +1,117 @@
+#include "alhazen/imaging/exr_header.h"
+
+#include <cstdint>
+
+#include "alhazen/imaging/byte_reader.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::uint32_t kTiledFlag = 0x200, kLongNamesFlag = 0x400, kDeepFlag = 0x800,
+                        kMultiPartFlag = 0x1000;
+constexpr std::uint32_t kKnownFlags = kTiledFlag | kLongNamesFlag | kDeepFlag | kMultiPartFlag;
+constexpr std::size_t kMaxName = 255;
+constexpr std::size_t kMaxTextAttribute = 1u << 24;
+constexpr int kMaxParts = 1000;
+constexpr int kMaxAttributes = 10'000;
+constexpr std::uint32_t kMaxTileSide = 4096;
+/// Width times channels: the library decodes up to 256 rows at a time, of 4 bytes a sample.
+constexpr std::uint64_t kMaxRowSamples = std::uint64_t{1} << 18;
+
+struct PartHeader {
+    std::int64_t width = 0, height = 0;
+    std::uint64_t channels = 0;
+    bool has_window = false;
+};
+
+std::uint64_t count_channels(ByteReader list) {
+    std::uint64_t count = 0;
+    while (!list.until('\0', kMaxName).empty()) {
+        (void)list.take(16);  // pixel type, pLinear, reserved, xSampling, ySampling
+        ++count;
+    }
+    return count;
+}
+
+void read_window(ByteReader value, PartHeader& part) {
+    const std::int64_t x0 = value.i32_little(), y0 = value.i32_little();
+    const std::int64_t x1 = value.i32_little(), y1 = value.i32_little();
+    // The library computes with the corners in int.
+    constexpr std::int64_t kFar = std::int64_t{1} << 29;
+    if (x0 < -kFar || y0 < -kFar || x1 > kFar || y1 > kFar) {
+        bad_image(value.name(), "damaged EXR: the data window is out of range");
+    }
+    part.width = x1 - x0 + 1;
+    part.height = y1 - y0 + 1;
+    part.has_window = true;
+}
+
+void read_tiles(ByteReader value) {
+    const std::uint32_t width = value.u32_little(), height = value.u32_little();
+    if (width < 1 || height < 1 || width > kMaxTileSide || height > kMaxTileSide) {
+        bad_image(value.name(), "EXR tiles of " + std::to_string(width) + " x " +
+                                    std::to_string(height) + " pixels, expected sides of 1 to " +
+                                    std::to_string(kMaxTileSide));
+    }
+}
+
+void read_attribute(std::string_view attribute, std::string_view type, std::uint64_t size,
+                    ByteReader& reader, PartHeader& part) {
+    const std::string& name = reader.name();
+    if (size > kMaxTextAttribute) bad_image(name, "damaged EXR: an attribute is too large");
+    ByteReader value(reader.take(size), name);
+    if (attribute == "dataWindow") {
+        read_window(value, part);
+    } else if (attribute == "channels") {
+        part.channels = count_channels(value);
+    } else if (attribute == "tiles") {
+        read_tiles(value);
+    } else if (attribute == "type" && type == "string" && value.take(size).starts_with("deep")) {
+        bad_image(name, "deep EXR pictures are not supported");
+    }
+}
+
+/// False at the empty header that ends a list of parts.
+bool read_part(ByteReader& reader, const ImageLimits& limits) {
+    const std::string& name = reader.name();
+    PartHeader part;
+    for (int i = 0;; ++i) {
+        const std::string_view attribute = reader.until('\0', kMaxName);
+        if (attribute.empty() && i == 0) return false;
+        if (attribute.empty()) break;
+        if (i == kMaxAttributes) bad_image(name, "damaged EXR: too many attributes");
+        const std::string_view type = reader.until('\0', kMaxName);
+        read_attribute(attribute, type, reader.u32_little(), reader, part);
+    }
+    if (!part.has_window) bad_image(name, "damaged EXR: there is no dataWindow");
+    check_image_size(part.width, part.height, limits, name);
+    if (part.channels == 0) bad_image(name, "damaged EXR: there are no channels");
+    if (part.channels > kMaxRowSamples / std::uint64_t(part.width)) {
+        throw Error(ErrorKind::Resource,
+                    "the picture is too large: rows of " + std::to_string(part.width) + " x " +
+                        std::to_string(part.channels) + " samples",
+                    {name, 0, 0});
+    }
+    return true;
+}
+
+}  // namespace
+
+void check_exr_header(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+    ByteReader reader(bytes, name);
+    (void)reader.u32_little();
+    const std::uint32_t version = reader.u32_little();
+    if ((version & 0xff) != 2 || (version & ~(kKnownFlags | 0xffu)) != 0) {
+        bad_image(name, "EXR of an unknown version or kind");
+    }
+    if ((version & kDeepFlag) != 0) bad_image(name, "deep EXR pictures are not supported");
+    int parts = 0;
+    while (read_part(reader, limits)) {
+        if ((version & kMultiPartFlag) == 0) return;
+        if (++parts > kMaxParts) bad_image(name, "damaged EXR: too many parts");
+    }
+    if (parts == 0) bad_image(name, "damaged EXR: the header is empty");
+}
+
+}  // namespace alhazen

@@ -1,0 +1,139 @@
+#include "alhazen/imaging/image_io.h"
+
+#include <algorithm>
+#include <cctype>
+#include <new>
+#include <span>
+
+#include "alhazen/base/file.h"
+#include "alhazen/imaging/bmp.h"
+#include "alhazen/imaging/exr.h"
+#include "alhazen/imaging/hdr.h"
+#include "alhazen/imaging/image_size.h"
+#include "alhazen/imaging/jpeg.h"
+#include "alhazen/imaging/pfm.h"
+#include "alhazen/imaging/png.h"
+
+namespace alhazen {
+
+namespace {
+
+using Decoder = Image (*)(std::string_view, const std::string&, const ImageLimits&);
+
+/// A kind of picture by its first bytes. ADD A KIND THAT IS READ HERE.
+struct Signature {
+    std::string_view start;
+    Decoder decode;
+};
+
+constexpr Signature kSignatures[] = {
+    {"\x89PNG\r\n\x1a\n", decode_png},
+    {"\xff\xd8\xff", decode_jpeg},
+    {"\x76\x2f\x31\x01", decode_exr},
+    {"#?", decode_hdr},
+    {"PF", decode_pfm},
+    {"Pf", decode_pfm},
+    {"BM", decode_bmp},
+};
+
+std::string suffix_of(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    if (!suffix.empty()) suffix.erase(0, 1);
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return suffix;
+}
+
+[[noreturn]] void unknown_suffix(const std::string& suffix, FileLocation location) {
+    std::string known;
+    for (const std::string& name : image_suffixes()) known += (known.empty() ? "" : ", ") + name;
+    throw Error(ErrorKind::Usage,
+                "cannot write a picture as \"" + suffix + "\", expected one of " + known,
+                std::move(location));
+}
+
+void check_samples(const Image& image) {
+    const auto count =
+        std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
+    if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.channels > 4 ||
+        image.samples.size() != count) {
+        throw Error(ErrorKind::Usage, "cannot write a picture of " + std::to_string(image.width) +
+                                          " x " + std::to_string(image.height) + " pixels with " +
+                                          std::to_string(image.samples.size()) + " samples");
+    }
+}
+
+/// The same picture in linear values; alpha is linear already.
+Image linear_image(Image image) {
+    if (image.linear) return image;
+    image.linear = true;
+    const auto channels = std::size_t(image.channels);
+    const bool has_alpha = channels == 2 || channels == 4;
+    for (std::size_t i = 0; i < image.samples.size(); ++i) {
+        if (has_alpha && i % channels == channels - 1) continue;
+        image.samples[i] = float(linear_from_srgb(double(image.samples[i])));
+    }
+    return image;
+}
+
+}  // namespace
+
+Image decode_image(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+    try {
+        for (const Signature& signature : kSignatures) {
+            if (bytes.starts_with(signature.start)) return signature.decode(bytes, name, limits);
+        }
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::Resource, "not enough memory for the picture", {name, 0, 0});
+    }
+    bad_image(name, "not a picture of a known kind; expected PNG, JPEG, BMP, EXR, HDR or PFM");
+}
+
+Image read_image(const std::filesystem::path& path, const ImageLimits& limits) {
+    return decode_image(read_file(path), path.string(), limits);
+}
+
+const std::vector<std::string>& image_suffixes() {
+    static const std::vector<std::string> suffixes{"png", "jpg", "jpeg", "exr", "hdr", "pfm"};
+    return suffixes;
+}
+
+void check_image_suffix(const std::filesystem::path& path) {
+    const std::string suffix = suffix_of(path);
+    const std::vector<std::string>& known = image_suffixes();
+    if (std::find(known.begin(), known.end(), suffix) == known.end()) {
+        unknown_suffix(suffix, {path.string(), 0, 0});
+    }
+}
+
+std::vector<std::byte> encode_image(const std::string& suffix, const Image& image,
+                                    const ImageWriteOptions& options) {
+    check_samples(image);
+    if (suffix == "png") {
+        return encode_png(encode(image, options.encoding, options.bits), options.metadata);
+    }
+    if (suffix == "jpg" || suffix == "jpeg") {
+        return encode_jpeg(encode(image, options.encoding, 8), options.jpeg_quality);
+    }
+    if (suffix == "exr") return encode_exr(linear_image(image), options);
+    if (suffix == "hdr") return encode_hdr(linear_image(image));
+    if (suffix == "pfm") return encode_pfm(linear_image(image));
+    unknown_suffix(suffix, {});
+}
+
+void write_image(const std::filesystem::path& path, const Image& image,
+                 const ImageWriteOptions& options) {
+    check_image_suffix(path);
+    write_file_atomically(path, encode_image(suffix_of(path), image, options));
+}
+
+void write_png(const std::filesystem::path& path, const EncodedImage& image,
+               const ImageMetadata& metadata) {
+    write_file_atomically(path, encode_png(image, metadata));
+}
+
+void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality) {
+    write_file_atomically(path, encode_jpeg(image, quality));
+}
+
+}  // namespace alhazen

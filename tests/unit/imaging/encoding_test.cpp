@@ -1,0 +1,94 @@
+#include "alhazen/imaging/encoding.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "unit/imaging/test_images.h"
+
+namespace alhazen {
+namespace {
+
+using testing::error_of;
+
+TEST(Encoding, TruncationUsesTheDoubleNotItsFloat) {
+    // 0.3 in double is just below 76.5 / 255; take the value just below a step, which float rounds
+    // up to it.
+    const double just_below = std::nextafter(1.0 / 3.0, 0.0);
+    EXPECT_EQ(encode_channel(just_below, Encoding::LinearTruncated, 8), 84u);
+    EXPECT_EQ(encode_channel(double(float(just_below)), Encoding::LinearTruncated, 8), 85u);
+    const double rgb[3] = {just_below, 0.5, 1.0 / 3.0};
+    const EncodedImage encoded = encode(rgb, 1, 1, Encoding::LinearTruncated, 8);
+    EXPECT_EQ(encoded.samples, (std::vector<std::uint16_t>{84, 127, 85}));
+}
+
+TEST(Encoding, ValuesOutsideTheUnitRangeAndNanAreClamped) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const Encoding encoding : {Encoding::LinearTruncated, Encoding::Srgb}) {
+        for (const int bits : {8, 16}) {
+            const std::uint32_t max = bits == 8 ? 255 : 65535;
+            for (const double low : {0.0, -0.0, -1.0, -infinity, nan, -nan}) {
+                EXPECT_EQ(encode_channel(low, encoding, bits), 0u) << low;
+            }
+            for (const double high : {1.0, 2.0, 1e300, infinity}) {
+                EXPECT_EQ(encode_channel(high, encoding, bits), max) << high;
+            }
+        }
+    }
+}
+
+TEST(Encoding, SrgbMeetsTheValuesOfTheStandard) {
+    EXPECT_EQ(encode_channel(0.5, Encoding::Srgb, 8), 188u);
+    EXPECT_EQ(encode_channel(0.18, Encoding::Srgb, 8), 118u);
+    EXPECT_EQ(encode_channel(0.0031308, Encoding::Srgb, 8), 10u);
+    EXPECT_EQ(encode_channel(0.5, Encoding::Srgb, 16), 48192u);
+    for (int code = 0; code < 256; ++code) {
+        EXPECT_EQ(encode_channel(linear_from_srgb(code / 255.0), Encoding::Srgb, 8),
+                  std::uint32_t(code));
+    }
+}
+
+TEST(Encoding, CodesNeverFallWhereTheValueRises) {
+    for (const Encoding encoding : {Encoding::LinearTruncated, Encoding::Srgb}) {
+        std::uint32_t last = 0;
+        for (int i = 0; i <= 100'000; ++i) {
+            const std::uint32_t code = encode_channel(i / 100'000.0, encoding, 16);
+            ASSERT_GE(code, last) << "at " << i;
+            last = code;
+        }
+    }
+}
+
+TEST(Encoding, PicturesThatAreEncodedKeepTheirCodes) {
+    Image image(256, 1, 1);
+    image.linear = false;
+    for (int i = 0; i < 256; ++i) image.pixel(i, 0)[0] = float(i) / 255.0f;
+    for (const Encoding encoding : {Encoding::LinearTruncated, Encoding::Srgb}) {
+        const EncodedImage encoded = encode(image, encoding, 8);
+        for (std::size_t i = 0; i < 256; ++i) EXPECT_EQ(encoded.samples[i], i);
+    }
+}
+
+TEST(Encoding, AlphaDoesNotGoThroughTheCurve) {
+    Image image(1, 1, 4);
+    image.samples = {0.5f, 0.5f, 0.5f, 0.5f};
+    EXPECT_EQ(encode(image, Encoding::Srgb, 8).samples,
+              (std::vector<std::uint16_t>{188, 188, 188, 128}));
+}
+
+TEST(Encoding, WrongSizesAreUsageErrors) {
+    const double rgb[3] = {};
+    Image image(2, 2, 3);
+    image.samples.pop_back();
+    const auto srgb = Encoding::Srgb;
+    EXPECT_EQ(error_of([&] { (void)encode(rgb, 0, 1, srgb, 8); }), ErrorKind::Usage);
+    EXPECT_EQ(error_of([&] { (void)encode(rgb, 1, -1, srgb, 8); }), ErrorKind::Usage);
+    EXPECT_EQ(error_of([&] { (void)encode(rgb, 1, 1, srgb, 10); }), ErrorKind::Usage);
+    EXPECT_EQ(error_of([&] { (void)encode(image, srgb, 8); }), ErrorKind::Usage);
+    EXPECT_EQ(error_of([&] { (void)encode(Image(), srgb, 8); }), ErrorKind::Usage);
+}
+
+}  // namespace
+}  // namespace alhazen

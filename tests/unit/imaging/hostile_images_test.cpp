@@ -1,0 +1,171 @@
+/// Damaged and hostile pictures: an error that names the file, never a crash, a hang or a flood of
+/// memory.
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include "alhazen/base/file.h"
+#include "support/test_data.h"
+#include "unit/imaging/test_images.h"
+
+namespace alhazen {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::as_string;
+using testing::error_of;
+
+struct Sample {
+    std::string name, bytes;
+};
+
+/// A file of every kind that can be written, with long runs and noise.
+std::vector<Sample> samples() {
+    Image image = testing::random_image(41, 19, 3, 0, 1, 1);
+    std::fill_n(image.samples.begin(), 1000, 0.5f);
+    std::vector<Sample> result;
+    for (const char* suffix : {"png", "jpg", "exr", "hdr", "pfm"}) {
+        result.push_back({std::string("sample.") + suffix, as_string(encode_image(suffix, image))});
+    }
+    return result;
+}
+
+bool is_bad_data(std::optional<ErrorKind> kind) {
+    return kind == ErrorKind::Scene || kind == ErrorKind::Resource;
+}
+
+TEST(HostileImages, EveryTruncationIsAnErrorThatNamesTheFile) {
+    for (const Sample& sample : samples()) {
+        for (std::size_t size = 0; size < sample.bytes.size(); size += size < 200 ? 1 : 17) {
+            try {
+                (void)decode_image(std::string_view(sample.bytes).substr(0, size), sample.name);
+                // all.
+                ADD_FAILURE() << sample.name << " cut to " << size << " of " << sample.bytes.size();
+            } catch (const Error& error) {
+                ASSERT_EQ(error.kind(), ErrorKind::Scene) << error.what();
+                ASSERT_EQ(error.location().file, sample.name) << error.what();
+            }
+        }
+    }
+}
+
+TEST(HostileImages, ChangedBytesNeverDoHarm) {
+    std::mt19937 random(7);
+    const ImageLimits limits{.max_side = 4096, .max_pixels = 1 << 22};
+    for (const Sample& sample : samples()) {
+        for (int i = 0; i < 1500; ++i) {
+            std::string bytes = sample.bytes;
+            const std::size_t reach =
+                i % 2 == 0 ? std::min<std::size_t>(400, bytes.size()) : bytes.size();
+            for (unsigned k = 0; k <= random() % 4; ++k) {
+                bytes[random() % reach] = char(random());
+            }
+            const auto kind = error_of([&] { (void)decode_image(bytes, sample.name, limits); });
+            ASSERT_TRUE(!kind || is_bad_data(kind)) << sample.name << " case " << i;
+        }
+    }
+}
+
+TEST(HostileImages, SizesBeyondTheLimitsAreResourceErrors) {
+    for (const Sample& sample : samples()) {
+        const auto kind_at = [&](ImageLimits limits) {
+            return error_of([&] { (void)decode_image(sample.bytes, sample.name, limits); });
+        };
+        EXPECT_EQ(kind_at({.max_side = 41, .max_pixels = 41 * 19}), std::nullopt) << sample.name;
+        EXPECT_EQ(kind_at({.max_side = 40, .max_pixels = 41 * 19}), ErrorKind::Resource)
+            << sample.name;
+        EXPECT_EQ(kind_at({.max_side = 41, .max_pixels = 41 * 19 - 1}), ErrorKind::Resource)
+            << sample.name;
+    }
+}
+
+TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
+    const auto peak_kib = [] {
+        rusage usage{};
+        ::getrusage(RUSAGE_SELF, &usage);
+        return usage.ru_maxrss;
+    };
+    const long before = peak_kib();
+    const std::string size = "-Y 16384 +X 16384\n";
+    const std::string hdr = "#?RADIANCE\n\n" + size + std::string(100, 'x');
+    const std::string pfm = "PF\n16384 16384\n-1\n" + std::string(100, 'x');
+    EXPECT_EQ(error_of([&] { (void)decode_image(hdr, "lie.hdr"); }), ErrorKind::Scene);
+    EXPECT_EQ(error_of([&] { (void)decode_image(pfm, "lie.pfm"); }), ErrorKind::Scene);
+    for (Sample sample : samples()) {
+        // Sides of 41 and 19, or the corners 40 and 18 of a window, become 16384 (0x4000) or a little less.
+        const auto change = [&](const std::string& from, const std::string& to) {
+            const std::size_t at = sample.bytes.find(from);
+            ASSERT_NE(at, std::string::npos) << sample.name;
+            sample.bytes.replace(at, from.size(), to);
+        };
+        if (sample.name == "sample.exr") {
+            const std::string start("dataWindow\0box2i\0\x10\0\0\0\0\0\0\0\0\0\0\0", 29);
+            change(start + std::string("\x28\0\0\0\x12\0", 6),
+                   start + std::string("\0\x3f\0\0\0\x3f", 6));
+        } else if (sample.name == "sample.jpg") {
+            change(std::string("\x08\0\x13\0\x29", 5), std::string("\x08\x40\0\x40\0", 5));
+        } else {
+            continue;
+        }
+        EXPECT_EQ(error_of([&] { (void)decode_image(sample.bytes, sample.name); }),
+                  ErrorKind::Scene)
+            << sample.name;
+    }
+    EXPECT_LT(peak_kib() - before, 200 * 1024);
+}
+
+struct Counts {
+    int read = 0, refused = 0;
+};
+
+/// Decodes all files below `folder`; none may take long.
+Counts decode_all(const fs::path& folder) {
+    Counts counts;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        const std::string bytes = read_file(entry.path());
+        const auto start = std::chrono::steady_clock::now();
+        const auto kind =
+            error_of([&] { (void)decode_image(bytes, entry.path().filename().string()); });
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        EXPECT_TRUE(!kind || is_bad_data(kind)) << entry.path();
+        EXPECT_LT(seconds.count(), 20) << entry.path();
+        ++(kind ? counts.refused : counts.read);
+    }
+    return counts;
+}
+
+TEST(HostileImages, FilesThatBrokeOtherReadersAreHarmless) {
+    ALHAZEN_NEEDS_DATA("hostile");
+    const fs::path hostile = testing::test_data() / "hostile";
+    int files = 0;
+    for (const char* folder : {"exr", "oiio", "mitsuba/bitmap", "png"}) {
+        if (!fs::exists(hostile / folder)) continue;
+        const Counts counts = decode_all(hostile / folder);
+        files += counts.read + counts.refused;
+    }
+    EXPECT_GT(files, 100);
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    EXPECT_LT(usage.ru_maxrss, 1024 * 1024) << "KiB";
+}
+
+TEST(HostileImages, TheGoodPngFilesOfTheSuiteAreReadAndTheCorruptAreNot) {
+    ALHAZEN_NEEDS_DATA("hostile/png/pngsuite/corrupt");
+    const fs::path suite = testing::test_data() / "hostile/png/pngsuite";
+    for (const char* folder : {"primary", "16bit"}) {
+        const Counts counts = decode_all(suite / folder);
+        EXPECT_EQ(counts.refused, 0) << folder;
+        EXPECT_GT(counts.read, 0) << folder;
+    }
+    const Counts corrupt = decode_all(suite / "corrupt");
+    EXPECT_EQ(corrupt.read, 0);
+    EXPECT_GT(corrupt.refused, 0);
+}
+
+}  // namespace
+}  // namespace alhazen
