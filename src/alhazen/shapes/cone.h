@@ -18,7 +18,7 @@ struct Cone {
     double base_radius = 1;
     double top_radius = 0;
     bool capped = true;
-    Frustum frustum;  ///< derived: set by prepare
+    Frustum frustum{};  ///< derived: set by prepare
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -18,7 +18,7 @@ struct Cylinder {
     Vec3 top{0, 0, 1};
     double radius = 1;
     bool capped = true;
-    Frustum frustum;  ///< derived: set by prepare
+    Frustum frustum{};  ///< derived: set by prepare
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -1,0 +1,154 @@
+#pragma once
+/// A random shape of each type, for the tests that every shape passes. ADD A SHAPE HERE: one maker.
+
+#include <string>
+
+#include "alhazen/shapes/shape_list.h"
+#include "support/random.h"
+
+namespace alhazen::testing {
+
+/// Where the numbers of a random shape come from: anywhere, or from a coarse grid and along the
+/// axes.
+struct ShapeSource {
+    Random& random;
+    bool lattice = false;
+
+    Vec3 point() const { return lattice ? random.on_lattice(2, 0.5) : random.in_cube(30); }
+    Vec3 vector() const {
+        if (!lattice) return random.log_uniform(0.1, 10) * random.unit_vector();
+        Vec3 v{};
+        v[random.below(3)] = random.sign() * length();
+        return v;
+    }
+    double length() const {
+        return lattice ? 0.5 * (1 + random.below(4)) : random.log_uniform(0.05, 20);
+    }
+};
+
+template <class>
+inline constexpr bool kNoMaker = false;
+
+template <class S>
+struct RandomShape {
+    static_assert(kNoMaker<S>,
+                  "A new shape needs a RandomShape<S> in tests/support/random_shapes.h; the "
+                  "conformance tests then run on it.");
+};
+
+template <>
+struct RandomShape<Sphere> {
+    static Sphere make(const ShapeSource& from) {
+        return {.center = from.point(), .radius = from.length()};
+    }
+};
+
+template <>
+struct RandomShape<Plane> {
+    static Plane make(const ShapeSource& from) {
+        return {.point = from.point(), .normal = from.vector()};
+    }
+};
+
+template <>
+struct RandomShape<Disc> {
+    static Disc make(const ShapeSource& from) {
+        const double radius = from.length();
+        return {.center = from.point(),
+                .normal = from.vector(),
+                .radius = radius,
+                .inner_radius = from.random.coin() ? 0.0 : 0.5 * radius};
+    }
+};
+
+template <>
+struct RandomShape<Rectangle> {
+    static Rectangle make(const ShapeSource& from) {
+        for (;;) {
+            const Rectangle r{
+                .corner = from.point(), .edge_u = from.vector(), .edge_v = from.vector()};
+            const double area = length(cross(r.edge_u, r.edge_v));
+            if (area > 0.05 * length(r.edge_u) * length(r.edge_v)) return r;
+        }
+    }
+};
+
+template <>
+struct RandomShape<BoxShape> {
+    static BoxShape make(const ShapeSource& from) {
+        const Vec3 lo = from.point();
+        const double x = from.length();
+        const double y = from.length();
+        return {.lo = lo, .hi = lo + Vec3{x, y, from.length()}};
+    }
+};
+
+template <>
+struct RandomShape<Cylinder> {
+    static Cylinder make(const ShapeSource& from) {
+        const Vec3 base = from.point();
+        return {.base = base,
+                .top = base + from.vector(),
+                .radius = from.length(),
+                .capped = from.random.below(4) != 0};
+    }
+};
+
+template <>
+struct RandomShape<Cone> {
+    static Cone make(const ShapeSource& from) {
+        const Vec3 base = from.point();
+        const int kind = from.random.below(4);
+        return {.base = base,
+                .top = base + from.vector(),
+                .base_radius = kind == 0 ? 0.0 : from.length(),
+                .top_radius = kind == 1 ? 0.0 : from.length(),
+                .capped = from.random.below(4) != 0};
+    }
+};
+
+template <>
+struct RandomShape<Polygon> {
+    /// A star around a point, in half of the cases with a hole; or an L along the axes.
+    static Polygon make(const ShapeSource& from) {
+        const Vec3 middle = from.point();
+        Vec3 x{1, 0, 0}, y{0, 1, 0};
+        if (from.lattice) {
+            const int k = from.random.below(3);
+            x = y = {};
+            x[k] = from.length();
+            y[(k + 1) % 3] = from.length();
+            Polygon ell;
+            for (const Vec2 c : {Vec2{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) {
+                ell.vertices.push_back(middle + c.x * x + c.y * y);
+            }
+            return ell;
+        }
+        x = from.random.unit_vector();
+        y = perpendicular(x);
+        const double size = from.length();
+        const int count = 3 + from.random.below(20);
+        Polygon star;
+        const int loops = from.random.coin() ? 1 : 2;
+        for (int loop = 0; loop < loops; ++loop) {
+            for (int i = 0; i < count; ++i) {
+                const double angle = 2 * 3.14159265358979 * i / count;
+                // With three corners the inner circle of radius 1/2 is all that is sure to be
+                // inside.
+                const double r = loop == 0 ? size * from.random.uniform(0.9, 1.5) : 0.2 * size;
+                star.vertices.push_back(middle + r * std::cos(angle) * x + r * std::sin(angle) * y);
+            }
+            star.loop_ends.push_back(static_cast<std::uint32_t>(star.vertices.size()));
+        }
+        return star;
+    }
+};
+
+template <class S>
+S random_shape(const ShapeSource& from) {
+    S shape = RandomShape<S>::make(from);
+    shape.prepare();
+    return shape;
+}
+
+}  // namespace alhazen::testing

@@ -1,0 +1,312 @@
+// What every shape of the list must do, whatever it is. A new shape is enrolled by its line in the
+// list.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "alhazen/geometry/bounds_source.h"
+#include "support/random_shapes.h"
+
+namespace alhazen {
+namespace {
+
+using testing::line;
+using testing::Random;
+using testing::random_shape;
+using testing::ShapeSource;
+
+constexpr double kUlp = 0x1p-52;
+constexpr int kRoom = 8;  // for more hits than any shape may write
+
+template <class>
+struct AsTestTypes;
+template <Shape... S>
+struct AsTestTypes<ShapeTypes<S...>> {
+    using Type = ::testing::Types<S...>;
+};
+
+std::string to_text(const Ray& ray) {
+    std::ostringstream out;
+    out << std::hexfloat << "origin " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
+        << " direction " << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z;
+    return out.str();
+}
+
+template <class S>
+Vec3 point_near(const S& shape, Random& random) {
+    const Box3 box = shape.box();
+    Vec3 p = random.in_cube(30);
+    for (int k = 0; k < 3; ++k) {
+        if (!std::isfinite(box.lo[k]) || !std::isfinite(box.hi[k])) continue;
+        p[k] = random.uniform(box.lo[k], box.hi[k]);
+    }
+    return p;
+}
+
+/// Aimed at the shape's box, from inside it, from close by or from far away.
+template <class S>
+Ray random_ray(const S& shape, Random& random) {
+    const double far[] = {0.0, 1.0, 10.0, 1e3, 1e6};
+    const Vec3 target = point_near(shape, random);
+    const Vec3 direction = random.log_uniform(0.01, 100) * random.unit_vector();
+    const Vec3 origin = target - far[random.below(5)] * direction;
+    return line(origin, direction);
+}
+
+Ray lattice_ray(Random& random) {
+    return line(random.on_lattice(5, 0.25), random.lattice_direction());
+}
+
+/// Calls check(shape, ray, hits, count) for random shapes and rays and for those on a lattice.
+template <class S, class Check>
+void for_random_rays(std::uint64_t seed, Check check) {
+    Random random(seed);
+    for (int i = 0; i < 400; ++i) {
+        const bool lattice = i % 2 == 1;
+        const S shape = random_shape<S>(ShapeSource{random, lattice});
+        for (int k = 0; k < 200; ++k) {
+            const Ray ray = lattice && k % 8 != 0 ? lattice_ray(random) : random_ray(shape, random);
+            ShapeHit hits[kRoom];
+            const int count = shape.intersect(ray, hits);
+            check(shape, ray, hits, count);
+            if (!::testing::Test::HasFailure()) continue;
+            FAIL() << "seed " << seed << ", shape " << i << ", ray " << k << ": " << to_text(ray);
+        }
+    }
+}
+
+template <class S>
+class ShapeConformance : public ::testing::Test {};
+TYPED_TEST_SUITE(ShapeConformance, AsTestTypes<AnalyticShapes>::Type);
+
+/// Rounding of a point at t, as a length in each component.
+Vec3 point_slack(const Ray& ray, double t) {
+    return 64 * kUlp * (abs(ray.origin) + std::abs(t) * abs(ray.direction));
+}
+
+bool near(const Vec3& a, const Vec3& b, const Vec3& slack) {
+    const Vec3 d = abs(a - b);
+    return d.x <= slack.x && d.y <= slack.y && d.z <= slack.z;
+}
+
+Box3 grown(const Box3& box, const Vec3& by) {
+    return {box.lo - by, box.hi + by};
+}
+
+TYPED_TEST(ShapeConformance, RandomShapesAreValid) {
+    Random random(1);
+    for (int i = 0; i < 1000; ++i) {
+        const auto shape = testing::RandomShape<TypeParam>::make({random, i % 2 == 1});
+        Diagnostics diagnostics;
+        shape.validate({}, diagnostics);
+        ASSERT_EQ(diagnostics.error_count(), 0u) << diagnostics.all().front().message;
+    }
+}
+
+TYPED_TEST(ShapeConformance, MostAimedRaysHit) {
+    // Else the tests below would pass for a shape that is never hit.
+    Random random(2);
+    int hit = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto shape = random_shape<TypeParam>({random});
+        ShapeHit hits[kRoom];
+        hit += shape.intersect(random_ray(shape, random), hits) > 0;
+    }
+    EXPECT_GT(hit, 400);
+}
+
+TYPED_TEST(ShapeConformance, HitsAscendAndClosedShapesHaveAnEvenNumber) {
+    int closed_hits = 0;
+    for_random_rays<TypeParam>(3, [&](const auto& shape, const Ray&, const ShapeHit* hits, int n) {
+        ASSERT_LE(n, TypeParam::kMaxHits);
+        for (int i = 0; i < n; ++i) ASSERT_TRUE(std::isfinite(hits[i].t));
+        for (int i = 1; i < n; ++i) ASSERT_LE(hits[i - 1].t, hits[i].t);
+        if (!shape.closed()) return;
+        ASSERT_EQ(n % 2, 0);
+        closed_hits += n;
+    });
+    if (TypeParam::kClosed) {
+        EXPECT_GT(closed_hits, 10000);
+    }
+}
+
+TYPED_TEST(ShapeConformance, ARangeOfTSelectsFromTheCrossingsOfTheLine) {
+    Random limits(4);
+    for_random_rays<TypeParam>(5, [&](const auto& shape, Ray ray, const ShapeHit* all, int n) {
+        if (n == 0) return;
+        // Limits exactly at a crossing are included.
+        const double a = all[limits.below(n)].t;
+        const double b = limits.coin() ? all[limits.below(n)].t : a + limits.uniform(-10, 10);
+        ray.t_min = std::min(a, b);
+        ray.t_max = std::max(a, b);
+        ShapeHit some[kRoom];
+        const int count = shape.intersect(ray, some);
+        int expected = 0;
+        for (int i = 0; i < n; ++i) {
+            if (!ray.covers(all[i].t)) continue;
+            ASSERT_LT(expected, count);
+            ASSERT_EQ(some[expected].t, all[i].t);
+            ASSERT_EQ(some[expected].part, all[i].part);
+            ++expected;
+        }
+        ASSERT_EQ(count, expected);
+    });
+}
+
+TYPED_TEST(ShapeConformance, BoxAndExtentsHoldTheCrossings) {
+    Random axes(6);
+    for_random_rays<TypeParam>(
+        7, [&](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
+            const Vec3 axis = axes.coin() ? axes.unit_vector() : axes.lattice_direction();
+            for (int i = 0; i < n; ++i) {
+                const Vec3 slack = point_slack(ray, hits[i].t);
+                ASSERT_TRUE(grown(shape.box(), slack).contains(ray.at(hits[i].t)));
+                const ShapeSurface surface = shape.surface(ray, hits[i]);
+                const Vec3 error = surface.error;
+                ASSERT_TRUE(grown(shape.box(), error).contains(surface.point));
+                const Interval extent = shape.extent(axis);
+                const double reach = dot(abs(axis), error + 4 * kUlp * abs(surface.point));
+                ASSERT_LE(extent.lo - reach, dot(axis, surface.point));
+                ASSERT_GE(extent.hi + reach, dot(axis, surface.point));
+            }
+        });
+}
+
+TYPED_TEST(ShapeConformance, ExtentAlongAnAxisIsTheBoxAndElsewhereWithinIt) {
+    Random random(8);
+    for (int i = 0; i < 2000; ++i) {
+        const auto shape = random_shape<TypeParam>({random, i % 2 == 1});
+        const Box3 box = shape.box();
+        for (int k = 0; k < 3; ++k) {
+            Vec3 axis{};
+            axis[k] = 1.0;
+            const Interval extent = shape.extent(axis);
+            if (!std::isfinite(box.lo[k])) {
+                ASSERT_EQ(extent, (Interval{box.lo[k], box.hi[k]}));
+                continue;
+            }
+            const double tolerance = 1e-14 * (std::abs(box.lo[k]) + std::abs(box.hi[k]) + 60);
+            ASSERT_NEAR(extent.lo, box.lo[k], tolerance) << i << " " << k;
+            ASSERT_NEAR(extent.hi, box.hi[k], tolerance) << i << " " << k;
+        }
+        const Vec3 axis = random.unit_vector();
+        const Interval own = shape.extent(axis), of_box = extent(box, axis);
+        ASSERT_GE(own.lo, of_box.lo - 1e-12) << i;
+        ASSERT_LE(own.hi, of_box.hi + 1e-12) << i;
+        ASSERT_FALSE(own.empty()) << i;
+    }
+}
+
+TYPED_TEST(ShapeConformance, SurfaceIsAtTheCrossing) {
+    for_random_rays<TypeParam>(
+        9, [](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
+            const Box3 box = shape.box();
+            for (int i = 0; i < n; ++i) {
+                const ShapeSurface surface = shape.surface(ray, hits[i]);
+                const Vec3 p = ray.at(hits[i].t);
+                double reach = max_component(abs(ray.origin)) + max_component(abs(p));
+                if (box.bounded()) reach += max_component(abs(box.lo)) + max_component(abs(box.hi));
+                const double slack = 128 * kUlp * reach;
+                ASSERT_TRUE(near(surface.point, p, {slack, slack, slack}))
+                    << surface.point.x - p.x << " " << surface.point.y - p.y << " "
+                    << surface.point.z - p.z << " allowed " << slack;
+                ASSERT_NEAR(length(surface.normal), 1.0, 1e-14);
+                ASSERT_EQ(surface.shading_normal, surface.normal);
+                ASSERT_TRUE(std::isfinite(surface.uv.x) && std::isfinite(surface.uv.y));
+                // The bound is usable: not negative, and a few last digits of the sizes involved.
+                const double magnitudes =
+                    box.bounded() ? max_component(abs(box.lo)) + max_component(abs(box.hi))
+                                  : 3 * max_component(abs(surface.point)) + 60;
+                for (int k = 0; k < 3; ++k) {
+                    ASSERT_GE(surface.error[k], 0.0);
+                    ASSERT_LE(surface.error[k], 64 * kUlp * magnitudes);
+                }
+            }
+        });
+}
+
+TYPED_TEST(ShapeConformance, NormalsOfClosedShapesFaceOutward) {
+    for_random_rays<TypeParam>(10, [](const auto& shape, const Ray& ray, const ShapeHit* hits,
+                                      int n) {
+        if (!shape.closed()) return;
+        for (int i = 0; i < n; ++i) {
+            const double cosine = dot(shape.surface(ray, hits[i]).normal, normalize(ray.direction));
+            // Seen from afar, a grazing ray may round to the other side of the horizon.
+            const double outward = i % 2 == 0 ? -cosine : cosine;
+            ASSERT_GE(outward, -1e-3);
+        }
+    });
+}
+
+TYPED_TEST(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
+    Random random(11);
+    int checked = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto shape = random_shape<TypeParam>({random});
+        Ray ray = random_ray(shape, random);
+        const double distance = length(ray.origin - point_near(shape, random));
+        if (distance > 1e3) continue;
+        ShapeHit hits[kRoom], beside[kRoom];
+        const int n = shape.intersect(ray, hits);
+        const Vec3 across = perpendicular(normalize(ray.direction));
+        const Vec3 step = 1e-6 * across;
+        const Ray neighbour = line(ray.origin + step, ray.direction);
+        if (n == 0 || shape.intersect(neighbour, beside) != n) continue;
+        for (int k = 0; k < n; ++k) {
+            if (hits[k].part != beside[k].part) continue;
+            const ShapeSurface a = shape.surface(ray, hits[k]);
+            const ShapeSurface b = shape.surface(neighbour, beside[k]);
+            if (std::abs(dot(a.normal, normalize(ray.direction))) < 0.2) continue;
+            const Vec3 way = b.point - a.point;
+            // Curvature turns it by the step over the smallest radius; rounding by 1e-13 over the
+            // step.
+            if (length(way) > 1e-5 || length(a.normal - b.normal) > 1e-3) continue;
+            ASSERT_LE(std::abs(dot(a.normal, way)), 1e-3 * length(way) + 1e-11)
+                << i << ": " << to_text(ray);
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 1000);
+}
+
+TYPED_TEST(ShapeConformance, ScalingTheDirectionScalesT) {
+    Random scales(12);
+    for_random_rays<TypeParam>(13, [&](const auto& shape, Ray ray, const ShapeHit* hits, int n) {
+        // By a power of two, so that not one bit may change.
+        const double scale = std::ldexp(1.0, scales.below(21) - 10);
+        ray.direction = scale * ray.direction;
+        ShapeHit scaled[kRoom];
+        ASSERT_EQ(shape.intersect(ray, scaled), n);
+        for (int i = 0; i < n; ++i) {
+            ASSERT_EQ(scaled[i].t * scale, hits[i].t);
+            ASSERT_EQ(scaled[i].part, hits[i].part);
+        }
+    });
+}
+
+TYPED_TEST(ShapeConformance, ExtremeRaysGiveFiniteHitsOrNone) {
+    Random random(14);
+    const double extremes[] = {0.0, -0.0, 1e-320, 1e-200, -1e-100, 1.0, -1.0, 1e100, -1e200, 1e308};
+    for (int i = 0; i < 50000; ++i) {
+        const auto shape = random_shape<TypeParam>({random, random.coin()});
+        Ray ray = line({}, {});
+        for (int k = 0; k < 3; ++k) {
+            ray.origin[k] = random.coin() ? extremes[random.below(10)] : random.uniform(-5, 5);
+            ray.direction[k] = extremes[random.below(10)];
+        }
+        if (!is_valid(ray)) continue;
+        ShapeHit hits[kRoom];
+        const int n = shape.intersect(ray, hits);
+        if (shape.closed()) {
+            ASSERT_EQ(n % 2, 0) << to_text(ray);
+        }
+        for (int k = 0; k < n; ++k) {
+            ASSERT_TRUE(std::isfinite(hits[k].t)) << to_text(ray);
+            ASSERT_TRUE(is_finite(shape.surface(ray, hits[k]).normal)) << to_text(ray);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen
