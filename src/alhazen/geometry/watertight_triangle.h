@@ -34,26 +34,7 @@ struct RayShear {
     }
 };
 
-/// A vertex relative to the ray, in sheared space: x and y across the ray, z along its dominant
-/// axis.
-template <class Real>
-struct ShearedVertex {
-    Real x, y, z;
-};
-
-/// `Real` is double or a block of lanes of double: the operations and so the bits are the same.
-template <class Real>
-inline ShearedVertex<Real> sheared(const Real& vx, const Real& vy, const Real& vz, const Real& ox,
-                                   const Real& oy, const Real& oz, const Real& sx, const Real& sy) {
-    const Real z = vz - oz;
-    return {(vx - ox) - sx * z, (vy - oy) - sy * z, z};
-}
-
-/// Twice the signed area of (origin, a, b); its sign is right or it is zero.
-template <class Real>
-inline Real edge_function(const ShearedVertex<Real>& a, const ShearedVertex<Real>& b) {
-    return a.x * b.y - a.y * b.x;
-}
+#include "alhazen/geometry/watertight_triangle_formulas-inl.h"
 
 /// Sign of the edge function with zeros resolved: exactly, then by the symbolic displacement. 0
 /// only for a == b.
@@ -66,20 +47,6 @@ inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVerte
     if (exact != 0.0) return sign(exact);
     if (a.y != b.y) return sign(a.y - b.y);
     return sign(b.x - a.x);
-}
-
-/// t and barycentrics (weights of the second and third vertex) from the edge functions.
-template <class Real>
-struct TriangleSolution {
-    Real t, u, v;
-};
-template <class Real>
-inline TriangleSolution<Real> solve_triangle(const Real& eu, const Real& ev, const Real& ew,
-                                             const Real& az, const Real& bz, const Real& cz,
-                                             const Real& sz) {
-    const Real det = eu + ev + ew;
-    const Real t = (eu * az + ev * bz + ew * cz) * sz / det;
-    return {t, ev / det, ew / det};
 }
 
 /// Tests triangle (a, b, c); on a hit inside [ray.t_min, ray.t_max] fills t, u (weight of b), v (of

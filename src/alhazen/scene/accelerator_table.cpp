@@ -6,19 +6,22 @@
 #include "alhazen/accel/accel_list.h"
 #include "alhazen/base/error.h"
 #include "alhazen/scene/aggregate_of.h"
+#include "alhazen/scene/wide_bvh_aggregate.h"
 
 namespace alhazen {
 namespace {
 
 template <class A>
-std::shared_ptr<const Aggregate> make_scalar(PrimitiveTable table) {
-    return std::make_shared<const AggregateOf<A>>(std::move(table));
+std::shared_ptr<const Aggregate> make(PrimitiveTable table) {
+    return std::make_shared<const A>(std::move(table));
 }
 
 /// Entries of the wide BVH and of all scalar accelerators.
 template <class... A>
 constexpr auto entries(std::tuple<A...>*) {
-    return std::array{AcceleratorEntry{A::kName, A::kDescription, &make_scalar<A>}...};
+    return std::array{AcceleratorEntry{WideBvhAggregate::kName, WideBvhAggregate::kDescription,
+                                       &make<WideBvhAggregate>},
+                      AcceleratorEntry{A::kName, A::kDescription, &make<AggregateOf<A>>}...};
 }
 
 constexpr auto kEntries = entries(static_cast<ScalarAccelerators*>(nullptr));

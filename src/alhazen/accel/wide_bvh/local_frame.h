@@ -1,0 +1,65 @@
+#pragma once
+/// The frame in which the float boxes of a wide BVH live: the scene moved to the origin and scaled
+/// by a power of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps the full
+/// resolution of float.
+///
+/// Conventions: local = (world - center) * scale, computed in double. The rounding of that and of
+/// the exact tests is covered once per ray (`SlabRay`), not in the boxes; boxes carry only the
+/// rounding to float.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "alhazen/accel/wide_bvh/wide_node.h"
+#include "alhazen/geometry/box.h"
+
+namespace alhazen {
+
+/// The largest float not above `x`, and the smallest not below it.
+inline float round_down(double x) {
+    const float f = static_cast<float>(x);
+    if (static_cast<double>(f) <= x) return f;
+    if (f == 0.0f) return -std::numeric_limits<float>::denorm_min();
+    // One step towards -infinity: away from zero is up in the bits.
+    const auto bits = std::bit_cast<std::uint32_t>(f);
+    return std::bit_cast<float>(f > 0.0f ? bits - 1 : bits + 1);
+}
+inline float round_up(double x) {
+    return -round_down(-x);
+}
+
+struct LocalFrame {
+    Vec3 center;
+    double scale = 1;
+    /// Largest coordinate of the center, in local units: how much of a double the offset uses up.
+    double offset = 0;
+
+    LocalFrame() = default;
+    /// `box` is finite or empty, with coordinates up to 1e150.
+    explicit LocalFrame(const Box3& box) {
+        if (box.empty()) return;
+        center = box.center();
+        const Vec3 half = 0.5 * box.size();
+        const double far = max_component(abs(center));
+        // Not finer than the rounding of the coordinates themselves.
+        const double reach = std::max({max_component(half), far * 0x1p-30, 0x1p-500});
+        scale = std::ldexp(1.0, -std::ilogb(reach) - 1);
+        offset = far * scale;
+    }
+
+    [[nodiscard]] Vec3 local(const Vec3& p) const { return scale * (p - center); }
+    [[nodiscard]] FloatBox local(const Box3& box) const {
+        const Vec3 lo = local(box.lo);
+        const Vec3 hi = local(box.hi);
+        FloatBox out;
+        for (int k = 0; k < 3; ++k) {
+            out.lo[k] = round_down(lo[k]);
+            out.hi[k] = round_up(hi[k]);
+        }
+        return out;
+    }
+};
+
+}  // namespace alhazen

@@ -1,0 +1,146 @@
+/// The traversal kernel of the wide BVH: one ray, eight children at a time, compiled once per
+/// instruction set.
+///
+/// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
+/// Differs: slab test with all slack in the ray's constants (`SlabRay`); ways of their own for one
+/// and two children hit. Conventions: included once per target (see simd/lanes-inl.h). `Leaf`
+/// offers `bool visit(NodeRef)`, true to stop, and `float s_max()`, how far the ray still needs to
+/// go: boxes that begin at exactly that are visited.
+
+#if defined(ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_
+#undef ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_
+#else
+#define ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_
+#endif
+
+#include "alhazen/accel/wide_bvh/slab_ray.h"
+#include "alhazen/accel/wide_bvh/wide_node.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// The constants of a ray in every lane.
+struct WideRay {
+    Floats reciprocal[3], near_offset[3], far_offset[3], s_min;
+    std::uint32_t near_row[3], far_row[3];
+
+    HWY_INLINE explicit WideRay(const SlabRay& ray) {
+        for (int k = 0; k < 3; ++k) {
+            reciprocal[k] = Floats(ray.reciprocal[k]);
+            near_offset[k] = Floats(ray.near_offset[k]);
+            far_offset[k] = Floats(ray.far_offset[k]);
+            near_row[k] = ray.near_row[k];
+            far_row[k] = ray.far_row(k);
+        }
+        s_min = Floats(ray.s_min);
+    }
+};
+
+/// Bits of the children whose boxes the ray meets; `entry` is where.
+HWY_INLINE std::uint32_t meet_children(const WideNode& node, const WideRay& ray, float s_max,
+                                       Floats& entry) {
+    Floats nearest = ray.s_min;
+    Floats farthest = Floats(s_max);
+    HWY_UNROLL(3)
+    for (int k = 0; k < 3; ++k) {
+        const Floats near = mul_add(load_lanes(node.planes[ray.near_row[k]]), ray.reciprocal[k],
+                                    ray.near_offset[k]);
+        const Floats far =
+            mul_add(load_lanes(node.planes[ray.far_row[k]]), ray.reciprocal[k], ray.far_offset[k]);
+        nearest = max_lanes(nearest, near);
+        farthest = min_lanes(farthest, far);
+    }
+    entry = nearest;
+    return bits_of(nearest <= farthest);
+}
+
+struct StackEntry {
+    float entry;
+    NodeRef ref;
+};
+
+/// Puts the children that are hit on the stack, the nearest on top; returns the new height.
+HWY_INLINE std::size_t push_sorted(const WideNode& node, std::uint32_t hit, const float* entry,
+                                   StackEntry* stack, std::size_t height) {
+    const std::size_t base = height;
+    for (; hit != 0; hit &= hit - 1) {
+        const auto slot = static_cast<std::size_t>(std::countr_zero(hit));
+        const StackEntry child{entry[slot], node.child[slot]};
+        std::size_t place = height++;
+        while (place > base && stack[place - 1].entry < child.entry) {
+            stack[place] = stack[place - 1];
+            --place;
+        }
+        stack[place] = child;
+    }
+    return height;
+}
+
+/// Visits the leaves the ray meets, nearest first if `kOrdered`, until `leaf` says stop; true when
+/// it did.
+template <bool kOrdered, class Leaf, class Stats>
+HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRay& slab_ray, Leaf& leaf,
+                         Stats stats) {
+    const WideRay ray(slab_ray);
+    StackEntry stack[kTraversalStackSize];
+    std::size_t height = 0;
+    NodeRef ref = root;
+    while (true) {
+        if (ref.is_leaf()) {
+            if (leaf.visit(ref)) return true;
+        } else {
+            const WideNode& node = nodes[ref.index()];
+            stats.nodes(1);
+            stats.boxes(node.child_count);
+            Floats entries;
+            std::uint32_t hit = meet_children(node, ray, leaf.s_max(), entries);
+            if (hit != 0) {
+                const auto first = static_cast<std::size_t>(std::countr_zero(hit));
+                hit &= hit - 1;
+                if (hit == 0) {
+                    ref = node.child[first];
+                    continue;
+                }
+                HWY_ALIGN float entry[kWideNodeWidth];
+                store_lanes(entries, entry);
+                const auto second = static_cast<std::size_t>(std::countr_zero(hit));
+                hit &= hit - 1;
+                if (hit == 0) {
+                    const bool swap = kOrdered && entry[second] < entry[first];
+                    const std::size_t later = swap ? first : second;
+                    stack[height++] = {entry[later], node.child[later]};
+                    ref = node.child[swap ? second : first];
+                    continue;
+                }
+                if constexpr (kOrdered) {
+                    hit |= 1u << first | 1u << second;
+                    height = push_sorted(node, hit, entry, stack, height);
+                    ref = stack[--height].ref;
+                } else {
+                    stack[height++] = {entry[second], node.child[second]};
+                    for (; hit != 0; hit &= hit - 1) {
+                        const auto slot = static_cast<std::size_t>(std::countr_zero(hit));
+                        stack[height++] = {entry[slot], node.child[slot]};
+                    }
+                    ref = node.child[first];
+                }
+                continue;
+            }
+        }
+        // Written so that a NaN is not passed over.
+        do {
+            if (height == 0) return false;
+            --height;
+        } while (stack[height].entry > leaf.s_max());
+        ref = stack[height].ref;
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

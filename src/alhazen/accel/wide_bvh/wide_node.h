@@ -1,0 +1,102 @@
+#pragma once
+/// The nodes of the wide BVH and the references between them.
+///
+/// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for single
+/// rays). Differs: planes are rows chosen by the sign of the direction, so that no t is ever
+/// swapped; leaves hold blocks of one kind of primitive each. Conventions: boxes are in the local
+/// frame of the tree (`LocalFrame`), rounded outward.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace alhazen {
+
+inline constexpr std::size_t kWideNodeWidth = 8;
+
+/// A child: an inner node, or a leaf of consecutive blocks of one kind.
+class NodeRef {
+  public:
+    static constexpr std::uint32_t kMaxBlocks = 16;
+    static constexpr std::uint32_t kMaxOffset = (1u << 25) - 1;
+    static constexpr std::uint32_t kMaxNodes = 1u << 31;
+
+    NodeRef() = default;
+    [[nodiscard]] static NodeRef node(std::uint32_t index) { return NodeRef(index); }
+    /// `count` blocks of `kind` (0 to 3), the first at `offset`.
+    [[nodiscard]] static NodeRef leaf(std::uint32_t kind, std::uint32_t offset,
+                                      std::uint32_t count) {
+        return NodeRef(kLeafBit | kind << 29 | (count - 1) << 25 | offset);
+    }
+    [[nodiscard]] static NodeRef from_bits(std::uint32_t bits) { return NodeRef(bits); }
+
+    [[nodiscard]] bool is_leaf() const { return (bits_ & kLeafBit) != 0; }
+    [[nodiscard]] std::uint32_t index() const { return bits_; }
+    [[nodiscard]] std::uint32_t kind() const { return bits_ >> 29 & 3; }
+    [[nodiscard]] std::uint32_t count() const { return (bits_ >> 25 & 15) + 1; }
+    [[nodiscard]] std::uint32_t offset() const { return bits_ & kMaxOffset; }
+    [[nodiscard]] std::uint32_t bits() const { return bits_; }
+    friend bool operator==(NodeRef, NodeRef) = default;
+
+  private:
+    static constexpr std::uint32_t kLeafBit = 1u << 31;
+    explicit NodeRef(std::uint32_t bits) : bits_(bits) {}
+    std::uint32_t bits_ = 0;
+};
+
+/// A box in the local frame.
+struct FloatBox {
+    float lo[3] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
+                   std::numeric_limits<float>::infinity()};
+    float hi[3] = {-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+                   -std::numeric_limits<float>::infinity()};
+
+    void include(const FloatBox& b) {
+        for (int k = 0; k < 3; ++k) {
+            lo[k] = b.lo[k] < lo[k] ? b.lo[k] : lo[k];
+            hi[k] = b.hi[k] > hi[k] ? b.hi[k] : hi[k];
+        }
+    }
+    /// What the surface area heuristic weighs: half the surface, and a little of the edges and of
+    /// the mere existence, so that flat, thin and pointlike sets are divided well too. The box must
+    /// not be empty.
+    [[nodiscard]] float weight() const {
+        const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
+        return x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
+    }
+    friend bool operator==(const FloatBox&, const FloatBox&) = default;
+};
+
+/// Four cache lines. A free slot has planes no ray can meet.
+struct alignas(256) WideNode {
+    /// Rows lo.x, lo.y, lo.z, hi.x, hi.y, hi.z.
+    float planes[6][kWideNodeWidth];
+    NodeRef child[kWideNodeWidth];
+    std::uint32_t child_count = 0;  ///< slots in use: the first ones
+
+    WideNode() {
+        for (std::size_t i = 0; i < kWideNodeWidth; ++i) set_box(i, FloatBox{});
+    }
+    void set_box(std::size_t slot, const FloatBox& box) {
+        for (int k = 0; k < 3; ++k) {
+            planes[k][slot] = box.lo[k];
+            planes[k + 3][slot] = box.hi[k];
+        }
+    }
+    [[nodiscard]] FloatBox box(std::size_t slot) const {
+        FloatBox box;
+        for (int k = 0; k < 3; ++k) {
+            box.lo[k] = planes[k][slot];
+            box.hi[k] = planes[k + 3][slot];
+        }
+        return box;
+    }
+};
+static_assert(sizeof(WideNode) == 256);
+
+/// Levels of inner nodes that a builder may make; the traversal stack is sized for it.
+inline constexpr int kMaxWideDepth = 88;
+inline constexpr std::size_t kTraversalStackSize = (kWideNodeWidth - 1) * kMaxWideDepth + 8;
+
+}  // namespace alhazen

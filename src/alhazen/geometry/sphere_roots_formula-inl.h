@@ -1,0 +1,38 @@
+/// The arithmetic of the ray-sphere solution; a fragment without a guard, included by sphere_roots.h in
+/// namespace alhazen and by kernels in the namespace of each instruction set (see
+/// watertight_triangle_formulas-inl.h for why).
+
+/// `t_near <= t_far` where `discriminant >= 0`; NaN or meaningless where it is negative (the line
+/// misses).
+template <class Real>
+struct SphereRoots {
+    Real discriminant, t_near, t_far;
+};
+
+/// (dx, dy, dz) direction, (fx, fy, fz) = origin - centre, a = |direction|^2 summed as x, y, z.
+/// `Real` needs + - * /, unary -, and sqrt, copysign, fmin, fmax by argument-dependent look-up (or
+/// <cmath>); fmin and fmax drop a NaN operand.
+template <class Real>
+inline SphereRoots<Real> sphere_roots(const Real& dx, const Real& dy, const Real& dz, const Real& a,
+                                      const Real& fx, const Real& fy, const Real& fz,
+                                      const Real& radius) {
+    using std::copysign;
+    using std::sqrt;
+    const Real b = fx * dx + fy * dy + fz * dz;
+    const Real s = b / a;
+    // The point of the line nearest the centre.
+    const Real lx = fx - s * dx;
+    const Real ly = fy - s * dy;
+    const Real lz = fz - s * dz;
+    const Real discriminant = radius * radius - (lx * lx + ly * ly + lz * lz);
+    const Real q = b + copysign(sqrt(discriminant * a), b);
+    const Real f = sqrt(fx * fx + fy * fy + fz * fz);
+    const Real c = (f - radius) * (f + radius);
+    // Roots of a t^2 + 2 b t + c = 0: -q / a and -c / q; the larger in magnitude is the former.
+    const Real big = -(q / a);
+    const Real small = -(c / q);
+    // b > 0: q > 0 and `big` is the nearer (more negative) root.
+    using std::fmax;
+    using std::fmin;
+    return {discriminant, fmin(big, small), fmax(big, small)};
+}

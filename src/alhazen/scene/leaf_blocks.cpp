@@ -1,0 +1,150 @@
+#include "alhazen/scene/leaf_blocks.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "alhazen/accel/wide_bvh/binary_builder.h"
+#include "alhazen/base/error.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+namespace {
+
+/// Costs in visits of a wide node, measured.
+constexpr LeafKinds kLeafKindTable{LeafKind{kBlockWidth, 1.5f}, LeafKind{kBlockWidth, 1.5f},
+                                   LeafKind{1, 2.0f}};
+
+template <class S>
+constexpr std::uint32_t column_of() {
+    std::uint32_t column = 0;
+    const auto search = [&]<class... T>(ShapeTypes<T...>) {
+        bool found = false;
+        ((found = found || std::is_same_v<S, T>, column += found ? 0 : 1), ...);
+    };
+    search(AnalyticShapes{});
+    return column;
+}
+
+LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id) {
+    const std::uint32_t kind = table.kind(id);
+    if (kind == kTriangleKind) return LeafType::Triangles;
+    if (kind == column_of<Sphere>()) {
+        const auto& column = std::get<ShapeColumn<Sphere>>(table.columns);
+        if (column.placements[table.index(id)] == kNoPlacement) return LeafType::Spheres;
+    }
+    return LeafType::Others;
+}
+
+/// Copies primitives into blocks, leaf by leaf.
+class Packer final : public LeafSink {
+  public:
+    Packer(const PrimitiveTable& table, WideBvhLayout& layout) : table_(table), layout_(layout) {}
+
+    NodeRef add_leaf(std::uint32_t kind, std::span<const BuildReference> references) override {
+        ids_.clear();
+        for (const BuildReference& r : references) ids_.push_back(PrimitiveId{r.id});
+        std::sort(ids_.begin(), ids_.end());
+        switch (static_cast<LeafType>(kind)) {
+            case LeafType::Triangles:
+                return add_blocks(kind, layout_.triangles);
+            case LeafType::Spheres:
+                return add_blocks(kind, layout_.spheres);
+            case LeafType::Others:
+                break;
+        }
+        const std::size_t offset = layout_.others.size();
+        layout_.others.insert(layout_.others.end(), ids_.begin(), ids_.end());
+        return reference(kind, offset, ids_.size());
+    }
+
+  private:
+    template <class Block>
+    NodeRef add_blocks(std::uint32_t kind, std::vector<Block>& blocks) {
+        const std::size_t offset = blocks.size();
+        for (std::size_t i = 0; i < ids_.size(); i += kBlockWidth) {
+            const std::size_t count = std::min(kBlockWidth, ids_.size() - i);
+            Block& block = blocks.emplace_back();
+            for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
+                const PrimitiveId id = ids_[i + (lane < count ? lane : 0)];
+                fill(block, lane, id);
+                block.ids.id[lane] = id;
+                if (table_.is_opaque(id)) block.ids.opaque |= 1u << lane;
+            }
+            block.ids.lanes = (1u << count) - 1;
+            block.ids.opaque &= block.ids.lanes;
+        }
+        return reference(kind, offset, blocks.size() - offset);
+    }
+
+    void fill(TriangleBlock& block, std::size_t lane, PrimitiveId id) const {
+        const auto corners = table_.triangle_vertices(table_.index(id));
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            for (int axis = 0; axis < 3; ++axis) {
+                block.vertex[corner][axis][lane] = corners[corner][axis];
+            }
+        }
+    }
+    void fill(SphereBlock& block, std::size_t lane, PrimitiveId id) const {
+        const Sphere& sphere =
+            std::get<ShapeColumn<Sphere>>(table_.columns).shapes[table_.index(id)];
+        for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
+        block.radius[lane] = sphere.radius;
+    }
+
+    static NodeRef reference(std::uint32_t kind, std::size_t offset, std::size_t count) {
+        if (offset > NodeRef::kMaxOffset) {
+            throw Error(ErrorKind::Resource, "too many primitives for one wide BVH");
+        }
+        return NodeRef::leaf(kind, static_cast<std::uint32_t>(offset),
+                             static_cast<std::uint32_t>(count));
+    }
+
+    const PrimitiveTable& table_;
+    WideBvhLayout& layout_;
+    std::vector<PrimitiveId> ids_;
+};
+
+constexpr std::size_t kGrain = 16384;
+
+Box3 box_of_all(const BoundedPrimitives& bounded) {
+    std::vector<Box3> parts((bounded.size() + kGrain - 1) / kGrain);
+    parallel_for(bounded.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) parts[begin / kGrain].include(bounded.box(i));
+    });
+    Box3 box;
+    for (const Box3& part : parts) box.include(part);
+    return box;
+}
+
+}  // namespace
+
+WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitives& bounded) {
+    WideBvhLayout layout;
+    layout.frame = LocalFrame(box_of_all(bounded));
+    std::vector<BuildReference> references(bounded.size());
+    parallel_for(bounded.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t id = bounded.id(i);
+            references[i] = {layout.frame.local(bounded.box(i)), id,
+                             static_cast<std::uint32_t>(leaf_type(table, PrimitiveId{id}))};
+        }
+    });
+    const BinaryBvh binary = build_binary(references, kLeafKindTable);
+    Packer packer(table, layout);
+    layout.tree = collapse(binary, references, kLeafKindTable, packer);
+    layout.tree.nodes.shrink_to_fit();
+    layout.triangles.shrink_to_fit();
+    layout.spheres.shrink_to_fit();
+    layout.others.shrink_to_fit();
+    return layout;
+}
+
+std::size_t WideBvhLayout::memory_bytes() const {
+    const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    return bytes(tree.nodes) + bytes(triangles) + bytes(spheres) + bytes(others);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,90 @@
+#include "alhazen/scene/wide_bvh_aggregate.h"
+
+#include <utility>
+
+#include "alhazen/scene/aggregate_of.h"
+#include "alhazen/scene/bounded_primitives.h"
+
+namespace alhazen {
+
+WideBvhAggregate::WideBvhAggregate(PrimitiveTable table)
+    : table_(std::move(table)), kernels_(&wide_bvh_kernels()) {
+    const BoundedPrimitives bounded(table_);
+    box_ = bounded.all();
+    unbounded_ = bounded.unbounded();
+    layout_ = build_wide_bvh(table_, bounded);
+}
+
+std::size_t WideBvhAggregate::memory_bytes() const {
+    return layout_.memory_bytes() + unbounded_.capacity() * sizeof(PrimitiveId);
+}
+
+template <class Test>
+bool WideBvhAggregate::any_unbounded(TraversalStats* stats, Test&& test) const {
+    if (unbounded_.empty()) return false;
+    return with_stats(stats, [&](auto policy) {
+        for (const PrimitiveId id : unbounded_) {
+            if (test(id, policy)) return true;
+        }
+        return false;
+    });
+}
+
+bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, TraversalStats* stats) const {
+    hit = Hit{};
+    if (!is_valid(ray)) return false;
+    Ray shrinking = ray;
+    const RayShear shear(ray.direction);
+    any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+        table_.closest(id, shrinking, shear, hit, policy);
+        return false;
+    });
+    if (!layout_.tree.empty) kernels_->closest(scene(), shrinking, shear, hit, stats);
+    return hit.found();
+}
+
+bool WideBvhAggregate::occluded(const Ray& ray, TraversalStats* stats) const {
+    if (!is_valid(ray)) return false;
+    const RayShear shear(ray.direction);
+    const bool found = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+        return table_.occluded(id, ray, shear, policy);
+    });
+    if (found || layout_.tree.empty) return found;
+    return kernels_->occluded(scene(), ray, shear, stats);
+}
+
+void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits,
+                                TraversalStats* stats) const {
+    if (!is_valid(ray)) return;
+    const RayShear shear(ray.direction);
+    const std::size_t before = hits.size();
+    any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+        table_.all_hits(id, ray, shear, hits, policy);
+        return false;
+    });
+    if (!layout_.tree.empty) (void)kernels_->all_hits(scene(), ray, shear, hits, stats);
+    sort_appended(hits, before);
+}
+
+bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                TraversalStats* stats) const {
+    if (!is_valid(ray)) return false;
+    const RayShear shear(ray.direction);
+    const std::size_t before = crossings.size();
+    const bool opaque = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+        return table_.shadowed(id, ray, shear, crossings, policy);
+    });
+    if (opaque) return true;
+    if (!layout_.tree.empty && kernels_->shadowed(scene(), ray, shear, crossings, stats))
+        return true;
+    sort_appended(crossings, before);
+    return false;
+}
+
+void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id) {
+    Hit& appended = hits.emplace_back();
+    static_cast<ShapeHit&>(appended) = hit;
+    appended.primitive = id;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,52 @@
+#pragma once
+/// The production accelerator: a bounding volume hierarchy eight wide, traversed with SIMD, its
+/// leaves blocks of eight triangles or spheres in double.
+///
+/// Source: ALGORITHMS in the headers of accel/wide_bvh/. Differs: boxes are float but conservative
+/// with respect to tests in double, so the hits are those of brute force, bit for bit. Conventions:
+/// those of `Aggregate`. Primitives without a finite box are tested first, outside the tree.
+/// Complexity and threads: built in parallel; const functions may be called from many threads; no
+/// allocation per ray, except for the hits that are asked for.
+
+#include <vector>
+
+#include "alhazen/scene/aggregate.h"
+#include "alhazen/scene/leaf_blocks.h"
+#include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/wide_bvh_kernels.h"
+
+namespace alhazen {
+
+class WideBvhAggregate final : public Aggregate {
+  public:
+    static constexpr const char* kName = "wide_bvh";
+    static constexpr const char* kDescription =
+        "bounding volume hierarchy, eight children per node, SIMD: the fastest";
+
+    explicit WideBvhAggregate(PrimitiveTable table);
+
+    [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
+    [[nodiscard]] Box3 box() const override { return box_; }
+    [[nodiscard]] std::size_t memory_bytes() const override;
+    [[nodiscard]] const WideBvhLayout& layout() const { return layout_; }
+
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, TraversalStats* stats) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, TraversalStats* stats) const override;
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
+    [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                TraversalStats* stats) const override;
+
+  private:
+    [[nodiscard]] WideBvhScene scene() const { return {&table_, &layout_}; }
+    /// Calls test(id, policy) for the primitives outside the tree until it returns true.
+    template <class Test>
+    bool any_unbounded(TraversalStats* stats, Test&& test) const;
+
+    PrimitiveTable table_;
+    Box3 box_;
+    std::vector<PrimitiveId> unbounded_;
+    WideBvhLayout layout_;
+    const WideBvhKernels* kernels_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,437 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <sstream>
+
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/wide_bvh_aggregate.h"
+#include "alhazen/simd/targets.h"
+#include "unit/aggregate/random_tables.h"
+
+namespace alhazen {
+namespace {
+
+using namespace testing;
+
+std::string show(const Vec3& v) {
+    std::ostringstream out;
+    out << std::hexfloat << "{" << v.x << ", " << v.y << ", " << v.z << "}";
+    return out.str();
+}
+std::string show(const Ray& ray) {
+    std::ostringstream out;
+    out << "origin " << show(ray.origin) << " direction " << show(ray.direction) << " t "
+        << std::hexfloat << ray.t_min << " to " << ray.t_max;
+    return out.str();
+}
+std::string show(const Hit& hit) {
+    std::ostringstream out;
+    out << "primitive " << static_cast<std::uint32_t>(hit.primitive) << " t " << std::hexfloat
+        << hit.t << " u " << hit.u << " v " << hit.v << " part " << hit.part;
+    return out.str();
+}
+bool same_bits(double a, double b) {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+bool same(const Hit& a, const Hit& b) {
+    return a.primitive == b.primitive && same_bits(a.t, b.t) && same_bits(a.u, b.u) &&
+           same_bits(a.v, b.v) && a.part == b.part && a.path == b.path;
+}
+
+/// What an aggregate says about a ray.
+struct Answer {
+    Hit closest;
+    bool found = false, occluded = false, shadowed = false;
+    std::vector<Hit> all, crossings;
+};
+
+Answer ask(const Aggregate& aggregate, const Ray& ray) {
+    Answer answer;
+    answer.found = aggregate.closest(ray, answer.closest, nullptr);
+    answer.occluded = aggregate.occluded(ray, nullptr);
+    aggregate.all_hits(ray, answer.all, nullptr);
+    answer.shadowed = aggregate.shadowed(ray, answer.crossings, nullptr);
+    if (answer.shadowed) answer.crossings.clear();  // meaningless then
+    return answer;
+}
+
+/// What went differently; empty when nothing did.
+std::string difference(const Answer& list, const Answer& tested) {
+    const auto same_all = [](const std::vector<Hit>& a, const std::vector<Hit>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+    };
+    if (tested.found != list.found || !same(list.closest, tested.closest)) {
+        return "closest: " + show(list.closest) + " became " + show(tested.closest);
+    }
+    if (tested.occluded != list.occluded || list.occluded != list.found) return "occluded";
+    if (!same_all(list.all, tested.all)) {
+        return "all hits: " + std::to_string(list.all.size()) + " became " +
+               std::to_string(tested.all.size());
+    }
+    if (list.shadowed != tested.shadowed) return "shadowed";
+    if (!same_all(list.crossings, tested.crossings)) return "crossings of a shadow ray";
+    return "";
+}
+
+using MakeRay = std::function<Ray(Random&)>;
+
+/// Compares with the list on `count` rays, on every instruction set.
+void compare(const std::string& name, const PrimitiveTable& table, const MakeRay& make_ray,
+             int count = 2000) {
+    const auto list = make_aggregate("list", table);
+    Random random(7);
+    std::vector<Ray> rays;
+    std::vector<Answer> answers;
+    int hits = 0;
+    for (int i = 0; i < count; ++i) {
+        rays.push_back(make_ray(random));
+        answers.push_back(ask(*list, rays.back()));
+        hits += answers.back().found;
+    }
+    // A comparison of misses only would say little.
+    EXPECT_TRUE(table.size() == 0 || hits > 0) << name;
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        const auto tested = make_aggregate("wide_bvh", table);
+        EXPECT_EQ(list->box(), tested->box()) << name;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(difference(answers[i], ask(*tested, rays[i])), "")
+                << name << " on " << target << ", ray " << i << ": " << show(rays[i]);
+        }
+    }
+}
+
+MakeRay random_rays(double reach) {
+    return [reach](Random& random) {
+        Ray ray{uniform_point(random, 2 * reach), {}, 0, std::numeric_limits<double>::infinity()};
+        ray.direction = uniform_point(random, reach) - ray.origin;
+        if (random() % 4 == 0) ray.direction = normalize(ray.direction);
+        if (random() % 8 == 0) ray.t_min = uniform(random, 0, 0.5);
+        if (random() % 8 == 0) ray.t_max = ray.t_min + uniform(random, 0, 1);
+        return ray;
+    };
+}
+
+/// Axis-parallel and diagonal rays between lattice points, with zeros of both signs.
+MakeRay lattice_rays(int reach) {
+    return [reach](Random& random) {
+        Ray ray{lattice_point(random, 2 * reach), {}, 0, std::numeric_limits<double>::infinity()};
+        for (int k = 0; k < 3; ++k) {
+            constexpr double kComponents[] = {0.0, -0.0, 0.0, -0.0, 1.0, -1.0, 2.0, -0x1p-1070};
+            ray.direction[k] = kComponents[random() % 8];
+        }
+        if (ray.direction == Vec3{}) ray.direction.x = random() % 2 == 0 ? 1.0 : -1.0;
+        if (random() % 4 == 0) ray.t_max = uniform_int(random, 0, 4);
+        return ray;
+    };
+}
+
+PrimitiveTable random_triangles(int count, double reach, double size, std::uint64_t seed) {
+    Random random(seed);
+    TableBuilder builder;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 a = uniform_point(random, reach);
+        builder.add_triangle(a, a + uniform_point(random, size), a + uniform_point(random, size),
+                             random() % 3 != 0);
+    }
+    return builder.finish();
+}
+
+PrimitiveTable random_spheres(int count, double reach, double size, std::uint64_t seed) {
+    Random random(seed);
+    TableBuilder builder;
+    for (int i = 0; i < count; ++i) {
+        builder.add_sphere(uniform_point(random, reach), uniform(random, 0.1 * size, size),
+                           random() % 3 != 0);
+    }
+    return builder.finish();
+}
+
+PrimitiveTable random_mixture(int count, double reach, double size, std::uint64_t seed) {
+    Random random(seed);
+    TableBuilder builder;
+    Placement placement;
+    placement.outer_from_inner.linear = {{1, 0.5, 0}, {0, 2, 0.25}, {0.5, 0, 0.5}};
+    placement.outer_from_inner.translation = {reach / 4, 0, 0};
+    placement.inner_from_outer = inverse(placement.outer_from_inner);
+    builder.table.placements.push_back(placement);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 p = uniform_point(random, reach);
+        const bool opaque = random() % 3 != 0;
+        switch (random() % 4) {
+            case 0:
+                builder.add_sphere(p, uniform(random, 0.1 * size, size), opaque);
+                break;
+            case 1:
+                builder.add_sphere(0.3 * p, uniform(random, 0.1 * size, size), opaque, 0);
+                break;
+            default:
+                builder.add_triangle(p, p + uniform_point(random, size),
+                                     p + uniform_point(random, size), opaque);
+        }
+    }
+    builder.add_plane({0, 0, -reach}, {0, 0.1, 1}, true);
+    builder.add_plane({0, 0, 0.1 * reach}, {1, 0, 1}, false);
+    return builder.finish();
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceAmongRandomTriangles) {
+    for (const int count : {2, 3, 8, 9, 17, 100, 1000}) {
+        compare(std::to_string(count) + " triangles", random_triangles(count, 1, 0.3, 11),
+                random_rays(1), 1000);
+    }
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceAmongRandomSpheres) {
+    for (const int count : {2, 9, 300}) {
+        compare(std::to_string(count) + " spheres", random_spheres(count, 1, 0.2, 12),
+                random_rays(1), 1000);
+    }
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceInAMixtureWithPlanes) {
+    for (const int count : {1, 7, 40, 400}) {
+        compare(std::to_string(count) + " primitives", random_mixture(count, 1, 0.3, 13),
+                random_rays(1), 1000);
+    }
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceOnALattice) {
+    Random random(14);
+    TableBuilder builder;
+    for (int i = 0; i < 600; ++i) {
+        const Vec3 a = lattice_point(random, 3);
+        builder.add_triangle(a, a + lattice_point(random, 1), a + lattice_point(random, 1),
+                             random() % 2 == 0);
+        if (i % 4 == 0) builder.add_sphere(a, uniform_int(random, 1, 2) * 0.5, random() % 2 == 0);
+    }
+    const PrimitiveTable table = builder.finish();
+    compare("lattice, lattice rays", table, lattice_rays(3), 4000);
+    compare("lattice, random rays", table, random_rays(3), 1000);
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceOnAFlatGrid) {
+    TableBuilder builder;
+    for (int x = -8; x < 8; ++x) {
+        for (int y = -8; y < 8; ++y) {
+            const Vec3 p{double(x), double(y), 0};
+            builder.add_triangle(p, p + Vec3{1, 0, 0}, p + Vec3{1, 1, 0});
+            builder.add_triangle(p, p + Vec3{1, 1, 0}, p + Vec3{0, 1, 0});
+        }
+    }
+    const PrimitiveTable table = builder.finish();
+    compare("grid, lattice rays", table, lattice_rays(8), 4000);
+    compare("grid, random rays", table, random_rays(8), 1000);
+}
+
+TEST(WideBvh, FindsTheLowestIdAmongCoincidentPrimitives) {
+    TableBuilder builder;
+    for (int i = 0; i < 200; ++i) {
+        builder.add_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, i > 100);
+        builder.add_sphere({2, 0, 0}, 0.5, i > 100);
+    }
+    const PrimitiveTable table = builder.finish();
+    compare("coincident", table, random_rays(1.5), 1000);
+    const auto tree = make_aggregate("wide_bvh", table);
+    Hit hit;
+    ASSERT_TRUE(tree->closest({{0.25, 0.25, 1}, {0, 0, -1}}, hit, nullptr));
+    EXPECT_EQ(hit.primitive, PrimitiveId{200});
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceAtAnySize) {
+    for (const double size : {1e-100, 1e-30, 1e-6, 1e6, 1e30, 1e100}) {
+        std::ostringstream name;
+        name << "scene of size " << size;
+        compare(name.str() + ", triangles", random_triangles(200, size, 0.3 * size, 15),
+                random_rays(size), 500);
+        compare(name.str() + ", mixture", random_mixture(200, size, 0.3 * size, 15),
+                random_rays(size), 500);
+    }
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceAmongNestedScales) {
+    Random random(16);
+    TableBuilder builder;
+    for (double scale = 1e-6; scale < 2e6; scale *= 10) {
+        for (int i = 0; i < 40; ++i) {
+            const Vec3 a = uniform_point(random, scale);
+            builder.add_triangle(a, a + uniform_point(random, scale),
+                                 a + uniform_point(random, scale), random() % 2 == 0);
+        }
+    }
+    const PrimitiveTable table = builder.finish();
+    for (const double reach : {1e-6, 1e-2, 1.0, 1e6})
+        compare("nested", table, random_rays(reach), 500);
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
+    for (const double distance : {1e3, 1e6, 1e9, 1e12, 1e15, 1e30}) {
+        const auto rays = [distance](Random& random) {
+            Ray ray{distance * uniform_point(random, 1), {}, 0, 1e300};
+            if (random() % 3 == 0) {
+                // Along an axis towards a point of the scene: no rounding in the tests.
+                const int axis = uniform_int(random, 0, 2);
+                ray.origin = uniform_point(random, 1);
+                ray.origin[axis] = distance;
+                ray.direction[axis] = -1;
+                return ray;
+            }
+            ray.direction = uniform_point(random, 1) - ray.origin;
+            return ray;
+        };
+        std::ostringstream name;
+        name << "rays from " << distance;
+        compare(name.str() + ", triangles", random_triangles(200, 1, 0.5, 17), rays, 500);
+        compare(name.str() + ", mixture", random_mixture(200, 1, 0.5, 17), rays, 500);
+    }
+    Random random(18);
+    TableBuilder builder;
+    const Vec3 there{1e8, -3e8, 2e8};
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 a = there + uniform_point(random, 1);
+        builder.add_triangle(a, a + uniform_point(random, 0.3), a + uniform_point(random, 0.3));
+        builder.add_sphere(a, 0.1);
+    }
+    const auto rays = [&there](Random& generator) {
+        Ray ray{there + uniform_point(generator, 2), {}, 0, 1e300};
+        ray.direction = there + uniform_point(generator, 1) - ray.origin;
+        return ray;
+    };
+    compare("scene far from the origin", builder.finish(), rays, 1000);
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceOnSliversSeenEdgeOn) {
+    Random random(19);
+    TableBuilder builder;
+    for (int i = 0; i < 300; ++i) {
+        // Nearly in the plane through the x axis at some angle, so that rays along x see them edge
+        // on.
+        const double angle = uniform(random, 0, 6.28);
+        const Vec3 across{0, std::cos(angle), std::sin(angle)};
+        const auto corner = [&] {
+            return Vec3{uniform(random, -1, 1), 0, 0} + uniform(random, -1, 1) * across +
+                   uniform_point(random, 1e-13);
+        };
+        builder.add_triangle(corner(), corner(), corner(), random() % 2 == 0);
+    }
+    const auto rays = [](Random& generator) {
+        const Vec3 from{-2, uniform(generator, -1e-13, 1e-13), uniform(generator, -1e-13, 1e-13)};
+        return Ray{from, Vec3{1, 0, 0} + uniform_point(generator, 1e-14), 0, 1e300};
+    };
+    compare("slivers", builder.finish(), rays, 3000);
+}
+
+TEST(WideBvh, HandlesNoneAndOnePrimitive) {
+    compare("empty", TableBuilder{}.finish(), random_rays(1), 100);
+    compare("one triangle", random_triangles(1, 0.1, 1, 20), random_rays(1), 2000);
+    compare("one sphere", random_spheres(1, 0.1, 1, 20), random_rays(1), 2000);
+    TableBuilder planes;
+    planes.add_plane({0, 0, 0}, {0, 0, 1});
+    compare("one plane", planes.finish(), random_rays(1), 1000);
+    TableBuilder points;
+    for (int i = 0; i < 100; ++i) points.add_triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});
+    points.add_sphere({0, 0, 0}, 0.5);
+    compare("points", points.finish(), random_rays(1), 1000);
+}
+
+TEST(WideBvh, InvalidRaysHitNothing) {
+    const double inf = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const PrimitiveTable table = random_mixture(100, 1, 2, 21);
+    for (const auto& entry : accelerator_table()) {
+        const auto aggregate = make_aggregate(entry.name, table);
+        for (const Ray& ray :
+             {Ray{{nan, 0, 0}, {1, 0, 0}}, Ray{{0, 0, 0}, {1, nan, 0}}, Ray{{inf, 0, 0}, {1, 0, 0}},
+              Ray{{0, 0, 0}, {-inf, 0, 0}}, Ray{{0, 0, 0}, {0, -0.0, 0}},
+              Ray{{0, 0, 0}, {1, 0, 0}, nan, 1}, Ray{{0, 0, 0}, {1, 0, 0}, 0, nan},
+              Ray{{0, 0, 0}, {1, 0, 0}, 2, 1}}) {
+            Hit hit;
+            std::vector<Hit> hits;
+            EXPECT_FALSE(aggregate->closest(ray, hit, nullptr)) << entry.name << show(ray);
+            EXPECT_FALSE(aggregate->occluded(ray, nullptr)) << entry.name << show(ray);
+            EXPECT_FALSE(aggregate->shadowed(ray, hits, nullptr)) << entry.name << show(ray);
+            aggregate->all_hits(ray, hits, nullptr);
+            EXPECT_TRUE(hits.empty()) << entry.name << show(ray);
+        }
+    }
+}
+
+TEST(WideBvh, NestedAggregatesGiveTheHitsOfNestedLists) {
+    const auto nest = [](const char* name) {
+        const std::shared_ptr<const Aggregate> inner =
+            make_aggregate(name, random_mixture(60, 1, 0.3, 22));
+        const std::shared_ptr<const Aggregate> nothing =
+            make_aggregate(name, TableBuilder{}.finish());
+        Random random(23);
+        TableBuilder builder;
+        for (int i = 0; i < 30; ++i) {
+            Placement placement;
+            placement.outer_from_inner.linear = {{0.2, 0, 0}, {0, 0.1, 0.1}, {0, -0.1, 0.1}};
+            placement.outer_from_inner.translation = uniform_point(random, 1);
+            placement.inner_from_outer = inverse(placement.outer_from_inner);
+            builder.table.instances.push_back({i % 5 == 0 ? nothing : inner, placement});
+        }
+        builder.add_sphere({0, 0, 0}, 0.4);
+        return make_aggregate(name, builder.finish());
+    };
+    const auto list = nest("list");
+    const auto tree = nest("wide_bvh");
+    Random random(24);
+    const MakeRay rays = random_rays(1);
+    for (int i = 0; i < 1000; ++i) {
+        const Ray ray = rays(random);
+        ASSERT_EQ(difference(ask(*list, ray), ask(*tree, ray)), "")
+            << "ray " << i << ": " << show(ray);
+    }
+}
+
+TEST(WideBvh, CountsWhatItDid) {
+    const auto tree = make_aggregate("wide_bvh", random_triangles(1000, 1, 0.1, 25));
+    Random random(26);
+    const MakeRay rays = random_rays(1);
+    TraversalStats stats;
+    std::uint64_t found = 0;
+    for (int i = 0; i < 1000; ++i) {
+        Hit hit;
+        found += tree->closest(rays(random), hit, &stats);
+    }
+    EXPECT_GT(found, 0u);
+    EXPECT_GE(stats.primitive_hits, found);
+    EXPECT_GE(stats.primitive_tests, stats.primitive_hits);
+    EXPECT_LT(stats.primitive_tests, 1000u * 100u) << "of a million by brute force";
+    EXPECT_GE(stats.box_tests, 2 * stats.node_visits);
+    EXPECT_LE(stats.box_tests, 8 * stats.node_visits);
+}
+
+bool same_layout(const WideBvhLayout& a, const WideBvhLayout& b) {
+    const auto equal = [](const auto& x, const auto& y) {
+        return x.size() == y.size() &&
+               std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
+    };
+    if (a.tree.nodes.size() != b.tree.nodes.size() || a.tree.root != b.tree.root) return false;
+    for (std::size_t i = 0; i < a.tree.nodes.size(); ++i) {
+        const WideNode& m = a.tree.nodes[i];
+        const WideNode& n = b.tree.nodes[i];
+        if (std::memcmp(m.planes, n.planes, sizeof(m.planes)) != 0) return false;
+        if (std::memcmp(m.child, n.child, sizeof(m.child)) != 0) return false;
+    }
+    if (a.triangles.size() != b.triangles.size()) return false;
+    for (std::size_t i = 0; i < a.triangles.size(); ++i) {
+        if (std::memcmp(a.triangles[i].ids.id, b.triangles[i].ids.id, 32) != 0) return false;
+    }
+    return equal(a.others, b.others);
+}
+
+TEST(WideBvh, TheTreeDoesNotDependOnTheNumberOfThreads) {
+    const PrimitiveTable table = random_triangles(100000, 1, 0.01, 27);
+    std::unique_ptr<WideBvhAggregate> one, two;
+    ThreadLimit(1).run([&] { one = std::make_unique<WideBvhAggregate>(table); });
+    ThreadLimit(2).run([&] { two = std::make_unique<WideBvhAggregate>(table); });
+    EXPECT_TRUE(same_layout(one->layout(), two->layout()));
+    EXPECT_GT(one->layout().tree.nodes.size(), 1000u);
+}
+
+}  // namespace
+}  // namespace alhazen
