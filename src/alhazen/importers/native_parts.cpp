@@ -1,0 +1,290 @@
+#include "alhazen/importers/native_parts.h"
+
+#include <memory>
+
+#include "alhazen/base/file.h"
+#include "alhazen/importers/mesh_io.h"
+#include "alhazen/importers/mesh_lists.h"
+#include "alhazen/importers/native_include.h"
+#include "alhazen/importers/native_materials.h"
+#include "alhazen/importers/native_settings.h"
+#include "alhazen/importers/native_shapes.h"
+#include "alhazen/importers/native_transform.h"
+#include "alhazen/importers/native_view.h"
+
+namespace alhazen {
+
+namespace {
+
+Part placed_part(BlockReader& reader, const NativeBlock& block, const NativeScope& scope) {
+    Part part;
+    part.name = block.name;
+    part.location = block.location;
+    part.object_from_part = scope.object_from_here * read_native_transform(reader);
+    return part;
+}
+
+void read_shape(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    Part part = placed_part(reader, block, scope);
+    part.what = read_native_shape(block.type, reader);
+    part.material = read_part_material(reader, context, scope);
+    reader.finish();
+    context.count_elements(1, block.location);
+    scope.parts.push_back(std::move(part));
+}
+
+// Meshes.
+
+void read_inline_mesh(BlockReader& reader, TriangleMesh& mesh) {
+    reader.require("points");
+    reader.require("faces");
+    const auto points = reader.find("points"), faces = reader.find("faces");
+    const auto normals = reader.find("normals"), uvs = reader.find("uvs");
+    if (!points || !read_points(*points, "points", reader.values(), mesh)) return;
+    if (faces) read_faces(*faces, "faces", reader.values(), mesh);
+    if (normals) read_normals(*normals, "normals", reader.values(), mesh);
+    if (uvs) read_uvs(*uvs, "uvs", reader.values(), mesh);
+}
+
+void read_mesh_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
+                    TriangleMesh& mesh) {
+    std::string file;
+    if (!reader.read("file", file)) return;
+    try {
+        mesh = read_mesh(resolve_inside(context.root, scope.folder, file), context.options,
+                         context.diagnostics);
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::Resource) throw;
+        reader.error(*reader.find("file"), error.what());
+    }
+}
+
+void read_vertex_materials(BlockReader& reader, NativeContext& context, TriangleMesh& mesh) {
+    const auto list = reader.find("vertex_materials");
+    if (!list || !reader.values().is_list(*list, "vertex_materials")) return;
+    if (!has_one_per_vertex(*list, "vertex_materials", mesh.positions.size(), reader.values())) {
+        return;
+    }
+    for (const TextNode value : *list) {
+        const MaterialId id = read_material_value(value, context).value_or(MaterialId{0});
+        mesh.vertex_materials.push_back(static_cast<std::uint32_t>(id));
+    }
+}
+
+void read_mesh_block(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    auto mesh = std::make_shared<TriangleMesh>();
+    bool smooth = false;
+    Part part = placed_part(reader, block, scope);
+    reader.ignore("file");
+    if (reader.has("file")) {
+        read_mesh_file(reader, context, scope, *mesh);
+    } else {
+        read_inline_mesh(reader, *mesh);
+    }
+    read_vertex_materials(reader, context, *mesh);
+    if (reader.read("smooth", smooth) && smooth) mesh->generate_normals();
+    part.material = read_part_material(reader, context, scope);
+    reader.finish();
+    context.count_elements(mesh->positions.size() + mesh->triangles.size() + 1, block.location);
+    context.scene.meshes.push_back({block.name, std::move(mesh), block.location});
+    part.what = static_cast<MeshIndex>(context.scene.meshes.size() - 1);
+    scope.parts.push_back(std::move(part));
+}
+
+// What holds parts.
+
+void read_group(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    NativeScope inner{scope.parts, scope.object_from_here * read_native_transform(reader),
+                      scope.material, scope.folder, scope.nesting + 1};
+    if (const auto value = reader.find("material")) {
+        if (const auto id = read_material_value(*value, context)) inner.material = id;
+    }
+    reader.finish(true);
+    read_native_items(*block.block, context, inner);
+}
+
+void read_object(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    if (block.name.empty()) {
+        context.diagnostics.error(block.location,
+                                  "object: expected a name, as in object \"chair\" { }");
+    }
+    BlockReader reader = context.reader(*block.block, block.type);
+    ObjectDescription object{block.name, {}, block.location};
+    NativeScope inner{object.parts, {}, scope.material, scope.folder, scope.nesting + 1};
+    if (const auto value = reader.find("material")) {
+        if (const auto id = read_material_value(*value, context)) inner.material = id;
+    }
+    reader.finish(true);
+    read_native_items(*block.block, context, inner);
+    context.scene.objects.push_back(std::move(object));
+    const auto index = static_cast<ObjectIndex>(context.scene.objects.size() - 1);
+    if (!block.name.empty()) {
+        define_name(block.name, index, "object", block.location, context.object_names,
+                    context.diagnostics);
+    }
+}
+
+/// `instance "object" { transform = ... }` or `instance "object";`
+void read_instance(TextNode entry, NativeContext& context, NativeScope& scope) {
+    if (entry.empty() || !entry.first().is(NodeKind::String)) {
+        context.diagnostics.error(entry.location(),
+                                  "instance: expected the name of an object, as in instance "
+                                  "\"chair\" { }");
+        return;
+    }
+    const auto object = look_up(entry.first(), "object", context.object_names, context.diagnostics);
+    Part part;
+    part.object_from_part = scope.object_from_here;
+    part.location = entry.location();
+    if (entry.size() == 2) {
+        BlockReader reader = context.reader(*++entry.begin(), "instance");
+        part.object_from_part = scope.object_from_here * read_native_transform(reader);
+        reader.read("name", part.name);
+        reader.finish();
+    }
+    if (!object) return;
+    part.what = *object;
+    context.count_elements(1, part.location);
+    scope.parts.push_back(std::move(part));
+}
+
+void read_defaults(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    if (const auto value = reader.find("material")) {
+        if (const auto id = read_material_value(*value, context)) scope.material = id;
+    }
+    reader.finish();
+}
+
+// Which block goes where.
+
+using ReadTop = void (*)(const NativeBlock&, NativeContext&);
+constexpr std::pair<std::string_view, ReadTop> kTopLevelBlocks[] = {
+    {"picture", read_picture},
+    {"conventions", read_conventions},
+    {"perspective_camera", read_perspective_camera},
+    {"sheared_camera", read_sheared_camera},
+    {"orthographic_camera", read_orthographic_camera},
+    {"ambient_light", read_ambient_light},
+    {"directional_light", read_directional_light},
+    {"point_light", read_point_light},
+    {"spot_light", read_spot_light},
+};
+
+using ReadPart = void (*)(const NativeBlock&, NativeContext&, NativeScope&);
+constexpr std::pair<std::string_view, ReadPart> kPartBlocks[] = {
+    {"mesh", read_mesh_block},
+    {"group", read_group},
+    {"object", read_object},
+    {"defaults", read_defaults},
+};
+
+std::string known_blocks() {
+    std::vector<std::string_view> names;
+    for (const auto& [name, read] : kTopLevelBlocks) names.push_back(name);
+    names.insert(names.end(), {"material", "texture", "instance", "include"});
+    for (const auto& [name, read] : kPartBlocks) names.push_back(name);
+    for (const std::string_view name : native_shape_names()) names.push_back(name);
+    return joined(names);
+}
+
+/// True when `type` is a block of the top level; reads it, or reports that it stands too deep.
+bool read_top_level_block(const NativeBlock& block, NativeContext& context,
+                          const NativeScope& scope) {
+    for (const auto& [name, read] : kTopLevelBlocks) {
+        if (name != block.type) continue;
+        if (scope.top_level()) {
+            read(block, context);
+        } else {
+            context.diagnostics.error(block.location,
+                                      block.type + " belongs at the top level of the file");
+        }
+        return true;
+    }
+    return false;
+}
+
+void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
+    if (entry.text() == "include") return read_native_include(entry, context, scope);
+    if (entry.text() == "instance") return read_instance(entry, context, scope);
+    const NativeBlock block = take_apart(entry, context.diagnostics);
+    if (block.block && block.block->broken()) return;
+    if (read_top_level_block(block, context, scope)) return;
+    if (block.type == "material") return read_native_material(block, context);
+    if (block.type == "texture") return read_native_texture(block, context, scope);
+    if (is_native_shape(block.type)) {
+        if (block.block) read_shape(block, context, scope);
+        return;
+    }
+    for (const auto& [name, read] : kPartBlocks) {
+        if (name != block.type) continue;
+        if (block.block) read(block, context, scope);
+        return;
+    }
+    context.diagnostics.error(block.location, "unknown block '" + printable(block.type) +
+                                                  "'; known are " + known_blocks());
+}
+
+}  // namespace
+
+NativeContext::NativeContext(SceneDescription& scene_, Diagnostics& diagnostics_,
+                             const ImportOptions& options_)
+    : scene(scene_),
+      diagnostics(diagnostics_),
+      options(options_),
+      root(scene_root(options_, folder_of(scene_.path))),
+      textures(scene_, diagnostics_, root) {}
+
+void NativeContext::count_elements(std::uint64_t more, const FileLocation& where) {
+    elements += more;
+    if (elements > options.max_elements) {
+        throw Error(
+            ErrorKind::Resource,
+            "more than " + std::to_string(options.max_elements) + " vertices, triangles and parts",
+            where);
+    }
+}
+
+NativeBlock take_apart(TextNode entry, Diagnostics& diagnostics) {
+    NativeBlock block;
+    block.type = entry.text();
+    block.location = entry.location();
+    for (const TextNode argument : entry) {
+        if (argument.is(NodeKind::String)) block.name = argument.text();
+        if (argument.is(NodeKind::Block)) block.block = argument;
+    }
+    if (!block.block) {
+        diagnostics.error(block.location, printable(block.type) + ": expected a block { }");
+    }
+    return block;
+}
+
+void read_native_items(TextNode block, NativeContext& context, NativeScope& scope,
+                       std::size_t skip) {
+    if (scope.nesting > context.options.max_nesting) {
+        context.diagnostics.error(
+            block.location(),
+            "blocks are nested deeper than " + std::to_string(context.options.max_nesting));
+        return;
+    }
+    for (const TextNode item : block) {
+        if (skip > 0) {
+            --skip;
+            continue;
+        }
+        if (item.broken()) continue;
+        if (item.is(NodeKind::Entry)) {
+            read_entry(item, context, scope);
+        } else if (item.is(NodeKind::Pair) && !scope.top_level()) {
+            continue;  // belongs to the group or object, which has read it
+        } else {
+            context.diagnostics.error(
+                item.location(), "expected a block such as sphere { }, found " + item.describe());
+        }
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,79 @@
+#include "alhazen/importers/native_settings.h"
+
+namespace alhazen {
+
+namespace {
+
+void read_pixels(BlockReader& reader, std::string_view key, std::optional<int>& out) {
+    constexpr int kMostPixels = 1'000'000;
+    int pixels = 0;
+    if (!reader.read(key, pixels)) return;
+    if (pixels > 0 && pixels <= kMostPixels) {
+        out = pixels;
+    } else {
+        reader.error(*reader.find(key), "'" + std::string(key) + "' must be from 1 to 1000000");
+    }
+}
+
+}  // namespace
+
+void read_picture(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    PictureSettings& picture = context.scene.picture;
+    read_pixels(reader, "width", picture.width);
+    read_pixels(reader, "height", picture.height);
+    reader.read("background", picture.background);
+    reader.finish();
+}
+
+ShadingConventions native_conventions() {
+    ShadingConventions c;
+    c.ambient_inside_times_kt = false;
+    c.clamp_attenuation = false;
+    c.air_index = 1.0;
+    c.linear_output = false;
+    return c;
+}
+
+void read_conventions(const NativeBlock& block, NativeContext& context) {
+    using C = ShadingConventions;
+    static const Vocabulary<C::Highlight> kHighlights{{"phong", C::Highlight::Phong},
+                                                      {"blinn_phong", C::Highlight::BlinnPhong}};
+    static const Vocabulary<C::ShadowTint> kShadowTints{
+        {"per_crossing", C::ShadowTint::PerCrossing},
+        {"per_distance", C::ShadowTint::PerDistance},
+        {"opaque", C::ShadowTint::Opaque}};
+    static const Vocabulary<C::RefractionTint> kRefractionTints{
+        {"per_event", C::RefractionTint::PerEvent},
+        {"per_distance", C::RefractionTint::PerDistance}};
+    static const Vocabulary<C::AmbientFactor> kAmbientFactors{
+        {"ambient", C::AmbientFactor::Ambient}, {"diffuse", C::AmbientFactor::Diffuse}};
+    static const Vocabulary<C::PixelSample> kPixelSamples{
+        {"center", C::PixelSample::Center}, {"lower_left_corner", C::PixelSample::LowerLeftCorner}};
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    C& c = context.scene.conventions;
+    reader.read_word("highlight", kHighlights, c.highlight);
+    reader.read_word("shadow_tint", kShadowTints, c.shadow_tint);
+    reader.read_word("refraction_tint", kRefractionTints, c.refraction_tint);
+    reader.read_word("ambient_factor", kAmbientFactors, c.ambient_factor);
+    reader.read("ambient_inside_times_kt", c.ambient_inside_times_kt);
+    reader.read("clamp_attenuation", c.clamp_attenuation);
+    reader.read("truncate_material_colors", c.truncate_material_colors);
+    reader.read("transmitting_surfaces_reflect", c.transmitting_surfaces_reflect);
+    if (reader.read("air_index", c.air_index) && !(c.air_index > 0)) {
+        reader.error(*reader.find("air_index"), "'air_index' must be greater than 0");
+    }
+    reader.read_word("pixel_sample", kPixelSamples, c.pixel_sample);
+    reader.read("linear_output", c.linear_output);
+    if (reader.read("max_depth", c.max_depth) && (c.max_depth < 0 || c.max_depth > 1000)) {
+        reader.error(*reader.find("max_depth"), "'max_depth' must be from 0 to 1000");
+    }
+    if (reader.read("min_contribution", c.min_contribution) && c.min_contribution < 0) {
+        reader.error(*reader.find("min_contribution"), "'min_contribution' must not be negative");
+    }
+    reader.finish();
+}
+
+}  // namespace alhazen
