@@ -1,0 +1,21 @@
+#pragma once
+/// Reads a PLY file into a triangle mesh.
+///
+/// Source: Turk, "The PLY Polygon File Format", Stanford, 1994.
+/// Differs: vertices and faces are read wherever they stand; other elements and properties are
+/// skipped. Conventions: x y z, nx ny nz and one of (u, v), (s, t), (texture_u, texture_v) of
+/// `vertex`; the list `vertex_indices` or `vertex_index` of `face`. Polygons are cut into triangles
+/// (triangulate.h).
+
+#include <string>
+#include <string_view>
+
+#include "alhazen/importers/importer.h"
+
+namespace alhazen {
+
+/// The mesh of a whole file; empty after an error. `file` is only used in messages.
+[[nodiscard]] TriangleMesh read_ply(std::string_view bytes, const std::string& file,
+                                    const ImportOptions& options, Diagnostics& diagnostics);
+
+}  // namespace alhazen

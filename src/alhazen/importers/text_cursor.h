@@ -1,0 +1,165 @@
+#pragma once
+/// A place in a text that moves forward word by word and knows its line and column.
+///
+/// Used by the formats whose files are large (NFF, PLY, OBJ): nothing is copied, numbers are read
+/// with std::from_chars, whatever the locale. Conventions: a number may start with `+`; it ends at
+/// white space or at the end of the text. Lines end at \n, \r\n or \r. Lines and columns count
+/// from 1. NaN and infinities are no numbers.
+
+#include <charconv>
+#include <climits>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "alhazen/base/error.h"
+
+namespace alhazen {
+
+class TextCursor {
+  public:
+    explicit TextCursor(std::string_view text, std::int64_t first_line = 1)
+        : next_(text.data()),
+          line_start_(text.data()),
+          end_(text.data() + text.size()),
+          line_(first_line) {}
+
+    [[nodiscard]] bool at_end() const { return next_ == end_; }
+    /// The next character; NUL at the end of the text.
+    [[nodiscard]] char peek() const { return next_ == end_ ? '\0' : *next_; }
+    [[nodiscard]] std::size_t bytes_left() const { return std::size_t(end_ - next_); }
+
+    /// Where the next character is.
+    [[nodiscard]] FileLocation location(const std::string& file) const {
+        const auto clamped = [](std::int64_t n) { return n > INT_MAX ? INT_MAX : int(n); };
+        return {file, clamped(line_), clamped(next_ - line_start_ + 1)};
+    }
+    [[nodiscard]] std::int64_t line() const { return line_; }
+
+    /// Moves to the next character of this line that is not blank; false at the end of the line. A
+    /// backslash before the end of the line joins the next line to it.
+    bool skip_blanks() {
+        for (;;) {
+            while (next_ != end_ && is_blank(*next_)) ++next_;
+            if (next_ == end_ || is_newline(*next_)) return false;
+            if (*next_ != '\\' || !joins_lines()) return true;
+        }
+    }
+    /// Moves behind the end of this line.
+    void skip_line() {
+        while (next_ != end_ && !is_newline(*next_)) ++next_;
+        step_over_newline();
+    }
+    /// Moves to the next word, over lines and over comments, which run from one of `comment_marks`
+    /// to the end of their line; false at the end of the text.
+    bool skip_to_word(std::string_view comment_marks = {}) {
+        while (next_ != end_) {
+            if (is_newline(*next_)) {
+                step_over_newline();
+            } else if (is_blank(*next_)) {
+                ++next_;
+            } else if (comment_marks.find(*next_) != std::string_view::npos) {
+                skip_line();
+            } else {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// The characters up to the next white space, which are then behind the cursor.
+    std::string_view word() {
+        const char* const begin = next_;
+        while (next_ != end_ && !is_space(*next_)) ++next_;
+        return {begin, std::size_t(next_ - begin)};
+    }
+    /// The same, but the cursor stays; at most 40 characters, for messages.
+    [[nodiscard]] std::string shown_word() const {
+        TextCursor copy = *this;
+        const std::string_view text = copy.word();
+        if (text.empty()) return "the end of the line";
+        std::string shown = "'";
+        for (const char c : text.substr(0, 40)) {
+            shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+        }
+        return shown + (text.size() > 40 ? "...'" : "'");
+    }
+
+    /// Reads a finite number; on false the cursor has not moved.
+    bool number(double& value) {
+        const char* const begin = next_ != end_ && *next_ == '+' ? next_ + 1 : next_;
+        if (begin != next_ && begin != end_ && *begin == '-') return false;
+        const auto [stop, error] = std::from_chars(begin, end_, value);
+        if (error == std::errc::result_out_of_range) {
+            // Too small is zero; too large is no number.
+            if (!underflows({begin, std::size_t(stop - begin)})) return false;
+            value = 0.0;
+        } else if (error != std::errc{} || !std::isfinite(value)) {
+            return false;
+        }
+        if (stop != end_ && !is_space(*stop)) return false;
+        next_ = stop;
+        return true;
+    }
+    /// Reads a whole number that ends at white space; on false the cursor has not moved.
+    bool integer(std::int64_t& value) {
+        const char* const start = next_;
+        if (!leading_integer(value)) return false;
+        if (next_ == end_ || is_space(*next_)) return true;
+        next_ = start;
+        return false;
+    }
+    /// Reads a whole number, whatever follows it.
+    bool leading_integer(std::int64_t& value) {
+        const char* const begin = next_ != end_ && *next_ == '+' ? next_ + 1 : next_;
+        if (begin != next_ && begin != end_ && *begin == '-') return false;
+        const auto [stop, error] = std::from_chars(begin, end_, value);
+        if (error != std::errc{}) return false;
+        next_ = stop;
+        return true;
+    }
+    /// Steps over the next character when it is `c`, which is not the end of a line.
+    bool take(char c) {
+        if (next_ == end_ || *next_ != c) return false;
+        ++next_;
+        return true;
+    }
+
+    [[nodiscard]] static bool is_newline(char c) { return c == '\n' || c == '\r'; }
+    [[nodiscard]] static bool is_blank(char c) {
+        return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+    }
+    [[nodiscard]] static bool is_space(char c) { return is_blank(c) || is_newline(c); }
+
+  private:
+    void step_over_newline() {
+        if (next_ == end_) return;
+        if (*next_ == '\r' && next_ + 1 != end_ && next_[1] == '\n') ++next_;
+        ++next_;
+        ++line_;
+        line_start_ = next_;
+    }
+    bool joins_lines() {
+        if (next_ + 1 == end_ || !is_newline(next_[1])) return false;
+        ++next_;
+        step_over_newline();
+        return true;
+    }
+    /// Of a number that does not fit a double: true when it is too small.
+    static bool underflows(std::string_view number) {
+        const std::size_t exponent = number.find_first_of("eE");
+        if (exponent != std::string_view::npos && exponent + 1 < number.size()) {
+            return number[exponent + 1] == '-';
+        }
+        const std::size_t digit = number.find_first_of("123456789.");
+        return digit != std::string_view::npos && number[digit] == '.';
+    }
+
+    const char* next_;
+    const char* line_start_;
+    const char* end_;
+    std::int64_t line_;
+};
+
+}  // namespace alhazen

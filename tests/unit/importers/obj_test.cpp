@@ -1,0 +1,230 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "import_text.h"
+#include "support/test_data.h"
+
+namespace alhazen {
+namespace {
+
+using testing::mentions;
+using testing::mesh_of;
+using testing::text_of;
+
+const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST(Obj, AllFormsOfAFaceAreRead) {
+    const std::string more = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n";
+    for (const char* face :
+         {"f 1 2 3 4", "f 1/1 2/2 3/3 4/4", "f 1//1 2//1 3//1 4//1", "f 1/1/1 2/2/1 3/3/1 4/4/1",
+          "f -4 -3 -2 -1", "f -4/-4/-1 -3/-3/-1 3/3/1 4/4/1", "f 1 2 \\\n 3 4", "f 1/ 2/ 3/ 4/",
+          "  f\t1 2 3 4  # a comment"}) {
+        Diagnostics found;
+        const TriangleMesh mesh = mesh_of(kCorners + more + face, "a.obj", found);
+        EXPECT_EQ(text_of(found), "") << face;
+        EXPECT_EQ(mesh.positions.size(), 4u) << face;
+        EXPECT_EQ(mesh.triangles.size(), 2u) << face;
+        EXPECT_DOUBLE_EQ(area(mesh), 1.0) << face;
+        if (!mesh.normals.empty()) {
+            EXPECT_EQ(mesh.normals[3], (Vec3{0, 0, 1})) << face;
+        }
+        if (!mesh.uvs.empty()) {
+            EXPECT_EQ(mesh.uvs[2], (Vec2{1, 1})) << face;
+        }
+    }
+}
+
+TEST(Obj, VerticesAreDuplicatedOnlyWhereTheirNormalOrTextureDiffers) {
+    Diagnostics found;
+    const TriangleMesh mesh = mesh_of(kCorners +
+                                          "vt 0 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n"
+                                          "f 1/1/1 2/1/1 3/1/1\nf 1/1/1 3/1/1 4/1/1\n"
+                                          "f 1/2/1 3/1/1 4/1/2\n",
+                                      "a.obj", found);
+    EXPECT_EQ(mesh.triangles.size(), 3u) << text_of(found);
+    EXPECT_EQ(mesh.positions.size(), 6u);
+    EXPECT_EQ(mesh.normals.size(), 6u);
+    EXPECT_EQ(mesh.uvs.size(), 6u);
+    EXPECT_EQ(mesh.triangles[0][0], mesh.triangles[1][0]);
+    EXPECT_NE(mesh.triangles[0][0], mesh.triangles[2][0]);
+}
+
+TEST(Obj, ACornerWithoutNormalAmongOthersGetsThatOfItsTriangles) {
+    Diagnostics found;
+    const TriangleMesh mesh =
+        mesh_of(kCorners + "vn 0 1 0\nf 1//1 2//1 3//1\nf 1 3 4\n", "a.obj", found);
+    ASSERT_EQ(mesh.normals.size(), 6u) << text_of(found);
+    EXPECT_EQ(mesh.normals[mesh.triangles[0][0]], (Vec3{0, 1, 0}));
+    EXPECT_EQ(mesh.normals[mesh.triangles[1][0]], (Vec3{0, 0, 1}));
+}
+
+TEST(Obj, FindingsNameLineAndColumn) {
+    const auto finding = [](const std::string& text) {
+        Diagnostics found;
+        EXPECT_TRUE(mesh_of(kCorners + text, "a.obj", found).triangles.empty());
+        return text_of(found);
+    };
+    const auto expect = [&](const std::string& text, const char* part) {
+        const std::string found = finding(text);
+        EXPECT_NE(found.find(part), std::string::npos) << text << "\n" << found;
+    };
+    expect("v 1 2", "a.obj:5:6: error: expected 3 numbers, found 2");
+    expect("v 1 2 x", "a.obj:5:7: error: expected a number, found 'x'");
+    expect("v 1 2 3.1-e2", "a.obj:5:7: error");
+    expect("f 1 2 0", "a.obj:5:7: error: the index 0; indices count from 1");
+    expect("f 1 2 -5", "a.obj:5:7: error: the index -5 is out of range");
+    expect("f 1 2 5", "a.obj:5: error: the index 5 is above the 4 statements 'v'");
+    expect("f 1/1 2/1 3/1", "a.obj:5: error: the index 1 is above the 0 statements 'vt'");
+    expect("f 1 2", "a.obj:5:6: error: a face needs at least three vertices, found 2");
+    expect("f", "a.obj:5:2: error: a face needs");
+    expect("f 1 2 3x", "a.obj:5:8: error: expected a vertex");
+    expect("f 1 2 99999999999999999999", "a.obj:5:7: error");
+    expect("f 1 2 3/1/1/1", "a.obj:5:12: error: expected a vertex");
+    expect("v 1e999 0 0", "a.obj:5:3: error");
+    expect("v nan 0 0", "a.obj:5:3: error");
+    expect("g a\n\n\nf 1 2 1000", "a.obj:8: error");
+}
+
+TEST(Obj, ManyErrorsEndTheReading) {
+    std::string text = kCorners;
+    for (int i = 0; i < 100000; ++i) text += "f 1 2 0\n";
+    Diagnostics found;
+    mesh_of(text, "a.obj", found);
+    EXPECT_LT(found.error_count(), 100u);
+}
+
+TEST(Obj, ManyCombinationsAtOneVertexStayFast) {
+    std::string text = kCorners;
+    for (int i = 0; i < 200000; ++i) text += "vt 0 0\nf 1/-1 2/-1 3/-1\n";
+    Diagnostics found;
+    const TriangleMesh mesh = mesh_of(text, "a.obj", found);
+    EXPECT_EQ(mesh.positions.size(), 600000u) << text_of(found);
+}
+
+TEST(Obj, RandomDamageNeverDoesMoreThanFindings) {
+    std::mt19937 random(5);
+    const std::string good = kCorners + "vt 1 1\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -4 -3 -2\n";
+    for (int round = 0; round < 2000; ++round) {
+        std::string bytes = good;
+        for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = char(random() % 256);
+        Diagnostics found;
+        const TriangleMesh mesh = mesh_of(bytes, "a.obj", found);
+        for (const auto& t : mesh.triangles) {
+            for (const std::uint32_t i : t)
+                ASSERT_LT(i, mesh.positions.size()) << "round " << round;
+        }
+    }
+}
+
+TEST(Obj, TheKnownMeshesHaveTheirAreaAndVolume) {
+    ALHAZEN_NEEDS_DATA("meshes/alecjacobson/data");
+    struct Fact {
+        const char* name;
+        double area, volume;
+    };
+    for (const Fact& fact :
+         {Fact{"cow", 108.845364, 53.5674458}, Fact{"fandisk", 60.6691092, 20.2433749},
+          Fact{"spot", 5.70951879, 0.718258788}, Fact{"cheburashka", 1.21240317, 0.0543816195}}) {
+        Diagnostics found;
+        const TriangleMesh mesh = read_mesh(
+            testing::test_data() / "meshes/alecjacobson/data" / (std::string(fact.name) + ".obj"),
+            {}, found);
+        EXPECT_EQ(text_of(found), "");
+        EXPECT_NEAR(area(mesh), fact.area, 2e-8 * fact.area) << fact.name;
+        EXPECT_NEAR(signed_volume(mesh), fact.volume, 2e-8 * fact.volume) << fact.name;
+    }
+    Diagnostics found;
+    const TriangleMesh bunny =
+        read_mesh(testing::test_data() / "meshes/alecjacobson/data/stanford-bunny.obj", {}, found);
+    EXPECT_EQ(bunny.triangles.size(), 69451u);
+    EXPECT_NEAR(area(bunny), 0.0571287861, 5e-11);
+    std::vector<bool> used(bunny.positions.size());
+    for (const auto& t : bunny.triangles) {
+        for (const std::uint32_t i : t) used[i] = true;
+    }
+    EXPECT_EQ(std::count(used.begin(), used.end(), false), 1113);
+}
+
+TEST(Obj, HostileFilesGiveFindingsOrMeshes) {
+    ALHAZEN_NEEDS_DATA("hostile/tinyobj/models");
+    const auto folder = testing::test_data() / "hostile";
+    const auto triangles = [&](const char* name, Diagnostics& found) {
+        return read_mesh(folder / name, {}, found).triangles.size();
+    };
+    Diagnostics good;
+    EXPECT_EQ(triangles("assimp/OBJ/WusonOBJ.obj", good), 3732u);
+    EXPECT_EQ(triangles("assimp/OBJ/multiple_spaces.obj", good), 1u);
+    EXPECT_EQ(triangles("assimp/OBJ/cube_with_vertexcolors.obj", good), 12u);
+    EXPECT_EQ(triangles("assimp/OBJ/testmixed.obj", good), 12u);
+    EXPECT_EQ(triangles("assimp/OBJ/testline.obj", good), 0u);
+    EXPECT_EQ(triangles("tinyobj/models/cornell_box.obj", good), 36u);
+    EXPECT_EQ(triangles("tinyobj/models/issue-319-003.obj", good), 8u);
+    EXPECT_EQ(triangles("tinyobj/models/cube-vertex-w-component.obj", good), 12u);
+    EXPECT_EQ(good.error_count(), 0u) << text_of(good);
+    for (const char* name :
+         {"assimp/OBJ/box_UTF16BE.obj", "assimp/OBJ/number_formats.obj",
+          "assimp/invalid/malformed2.obj", "tinyobj/models/invalid-face-definition.obj"}) {
+        Diagnostics bad;
+        EXPECT_EQ(triangles(name, bad), 0u);
+        EXPECT_GT(bad.error_count(), 0u) << name;
+        EXPECT_TRUE(mentions(bad, ".obj:")) << text_of(bad);
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".obj") continue;
+        Diagnostics found;
+        const TriangleMesh mesh = read_mesh(entry.path(), {}, found);
+        Diagnostics invalid;
+        mesh.validate({}, invalid);
+        EXPECT_EQ(invalid.error_count(), 0u) << entry.path();
+    }
+}
+
+TEST(Obj, AConcavePolygonKeepsItsArea) {
+    ALHAZEN_NEEDS_DATA("hostile/assimp/OBJ/concave_polygon.obj");
+    Diagnostics found;
+    const TriangleMesh mesh =
+        read_mesh(testing::test_data() / "hostile/assimp/OBJ/concave_polygon.obj", {}, found);
+    EXPECT_EQ(text_of(found), "");
+    // One polygon in a plane x = constant: triangles that overlapped would add up to more than its
+    // area.
+    Vec3 sum;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        sum += cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    }
+    EXPECT_GT(area(mesh), 0.0);
+    EXPECT_NEAR(area(mesh), 0.5 * length(sum), 1e-12);
+}
+
+TEST(MeshIo, FilesAreRecognisedByContentAndOthersRefused) {
+    const testing::TemporaryFolder folder;
+    const std::string obj = kCorners + "f 1 2 3 4\n";
+    const auto triangles = [&](const std::string& name, const std::string& bytes,
+                               Diagnostics& found) {
+        return read_mesh(folder.write(name, bytes), {}, found).triangles.size();
+    };
+    Diagnostics good;
+    EXPECT_EQ(triangles("a.obj", obj, good), 2u);
+    EXPECT_EQ(triangles("a.OBJ", "\xEF\xBB\xBF" + obj, good), 2u);
+    EXPECT_EQ(triangles("a.mesh", "# comment\n" + obj, good), 2u);
+    EXPECT_EQ(triangles("a.obj",
+                        "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+                        "property float y\nproperty float z\nend_header\n",
+                        good),
+              0u);
+    EXPECT_EQ(good.error_count(), 0u) << text_of(good);
+    Diagnostics bad;
+    triangles("a.stl", "solid stl\nfacet normal", bad);
+    EXPECT_TRUE(mentions(bad, "expected PLY or OBJ")) << text_of(bad);
+    triangles("b.obj", "\xFF\xFEv\0", bad);
+    EXPECT_TRUE(mentions(bad, "UTF-16")) << text_of(bad);
+    try {
+        const TriangleMesh mesh = read_mesh(folder.path() / "none.obj", {}, bad);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::File);
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

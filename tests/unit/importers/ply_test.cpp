@@ -1,0 +1,254 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <random>
+
+#include "import_text.h"
+#include "support/test_data.h"
+
+namespace alhazen {
+namespace {
+
+using testing::mentions;
+using testing::mesh_of;
+using testing::text_of;
+
+const std::string kSquare =
+    "ply\nformat ascii 1.0\ncomment a square\nelement vertex 4\nproperty float x\n"
+    "property float y\nproperty float z\nelement face 1\n"
+    "property list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+
+/// The bytes of `value`, in the order asked for.
+template <class T>
+void put(std::string& out, T value, bool big) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    const bool swap = big == (std::endian::native == std::endian::little);
+    for (std::size_t i = 0; i < sizeof(T); ++i) out += bytes[swap ? sizeof(T) - 1 - i : i];
+}
+
+/// A triangle whose properties stand in an odd order among unknown ones, with an unknown element
+/// before.
+std::string binary_triangle(bool big, const std::string& newline) {
+    std::string s;
+    for (const char* line :
+         {"ply",
+          big ? "format binary_big_endian 1.0" : "format binary_little_endian 1.0",
+          "element camera 2",
+          "property list uchar short id",
+          "property double w",
+          "element face 1",
+          "property uchar red",
+          "property list uint ushort vertex_index",
+          "property list uchar float weights",
+          "element vertex 3",
+          "property float ny",
+          "property double z",
+          "property uchar quality",
+          "property short x",
+          "property int8 y",
+          "property float nx",
+          "property float nz",
+          "property float s",
+          "property float t",
+          "end_header"}) {
+        s += line + newline;
+    }
+    for (int i = 0; i < 2; ++i) {
+        put<std::uint8_t>(s, 2, big);
+        put<std::int16_t>(s, 7, big);
+        put<std::int16_t>(s, 8, big);
+        put<double>(s, 0.5, big);
+    }
+    put<std::uint8_t>(s, 10, big);  // looks like a newline
+    put<std::uint32_t>(s, 3, big);
+    for (const int i : {2, 1, 0}) put<std::uint16_t>(s, std::uint16_t(i), big);
+    put<std::uint8_t>(s, 1, big);
+    put<float>(s, 1.0f, big);
+    for (int i = 0; i < 3; ++i) {
+        put<float>(s, 0.0f, big);
+        put<double>(s, 1.25 * i, big);
+        put<std::uint8_t>(s, 255, big);
+        put<std::int16_t>(s, std::int16_t(-300 + i), big);
+        put<std::int8_t>(s, std::int8_t(-2 * i), big);
+        put<float>(s, 3.0f, big);
+        put<float>(s, 4.0f, big);
+        put<float>(s, 0.25f, big);
+        put<float>(s, 0.75f, big);
+    }
+    return s;
+}
+
+TEST(Ply, AnAsciiSquareBecomesTwoTriangles) {
+    Diagnostics found;
+    const TriangleMesh mesh = mesh_of(kSquare, "a.ply", found);
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(mesh.positions.size(), 4u);
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_DOUBLE_EQ(area(mesh), 1.0);
+    EXPECT_TRUE(mesh.normals.empty());
+    EXPECT_TRUE(mesh.uvs.empty());
+}
+
+TEST(Ply, BinaryFilesOfBothOrdersMayNameTheirPropertiesInAnyOrder) {
+    for (const bool big : {false, true}) {
+        for (const char* newline : {"\n", "\r\n", "\r"}) {
+            SCOPED_TRACE(std::string(big ? "big" : "little") + std::to_string(newline[0]));
+            Diagnostics found;
+            const TriangleMesh mesh = mesh_of(binary_triangle(big, newline), "a.ply", found);
+            ASSERT_EQ(text_of(found), "");
+            ASSERT_EQ(mesh.positions.size(), 3u);
+            EXPECT_EQ(mesh.positions[2], (Vec3{-298, -4, 2.5}));
+            EXPECT_EQ(mesh.triangles[0], (std::array<std::uint32_t, 3>{2, 1, 0}));
+            EXPECT_NEAR(mesh.normals[1].x, 0.6, 1e-15);
+            EXPECT_NEAR(mesh.normals[1].z, 0.8, 1e-15);
+            EXPECT_EQ(mesh.uvs[0], (Vec2{0.25, 0.75}));
+        }
+    }
+}
+
+TEST(Ply, EveryPrefixOfAFileIsRefusedOrIsAWholeMesh) {
+    for (const std::string& whole : {kSquare, binary_triangle(true, "\n")}) {
+        // Without the last newline or digit of an ascii file nothing is missing yet.
+        for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
+            Diagnostics found;
+            const TriangleMesh mesh = mesh_of(whole.substr(0, size), "a.ply", found);
+            EXPECT_GT(found.error_count(), 0u) << "of the first " << size << " bytes";
+            EXPECT_TRUE(mesh.triangles.empty());
+        }
+    }
+}
+
+TEST(Ply, CountsAreCheckedAgainstTheBytesPresent) {
+    for (const char* count : {"4000000000", "123456789", "9223372036854775807"}) {
+        std::string huge = kSquare;
+        huge.replace(huge.find("vertex 4") + 7, 1, count);
+        Diagnostics found;
+        mesh_of(huge, "a.ply", found);
+        EXPECT_TRUE(mentions(found, "a.ply:4:1: error: element vertex")) << text_of(found);
+    }
+    std::string long_list = kSquare;
+    long_list.replace(long_list.find("4 0 1"), 1, "4000000000");
+    Diagnostics found;
+    mesh_of(long_list, "a.ply", found);
+    EXPECT_TRUE(mentions(found, "a.ply:15:1: error: face 0: a list longer")) << text_of(found);
+}
+
+TEST(Ply, ElementsWithoutPropertiesTakeNoTimeHoweverMany) {
+    std::string many = kSquare;
+    many.insert(many.find("element face"), "element nothing 9000000000000000000\n");
+    Diagnostics found;
+    EXPECT_EQ(mesh_of(many, "a.ply", found).triangles.size(), 2u);
+    EXPECT_EQ(text_of(found), "");
+}
+
+TEST(Ply, FindingsNameTheLine) {
+    const auto finding = [](const std::string& from, const std::string& to) {
+        std::string text = kSquare;
+        text.replace(text.find(from), from.size(), to);
+        Diagnostics found;
+        EXPECT_TRUE(mesh_of(text, "a.ply", found).triangles.empty());
+        EXPECT_GT(found.error_count(), 0u);
+        return text_of(found);
+    };
+    EXPECT_NE(
+        finding("1 1 0", "1 x 0").find("a.ply:13:3: error: vertex 2: expected a number, found 'x'"),
+        std::string::npos);
+    EXPECT_NE(finding("1 2 3", "1 2 4").find("a.ply:15:1: error: face 0"), std::string::npos);
+    EXPECT_NE(finding("1 2 3", "1 2 -1").find("a.ply:15:1"), std::string::npos);
+    EXPECT_NE(finding("float y", "half y").find("a.ply:6"), std::string::npos);
+    EXPECT_NE(finding("ascii", "morse").find("a.ply:2"), std::string::npos);
+    EXPECT_NE(finding("float z", "float w").find("a.ply:4:1"), std::string::npos);
+    EXPECT_NE(finding("uchar int", "float int").find("a.ply:9"), std::string::npos);
+    EXPECT_NE(finding("1 1 0", "1 nan 0").find("a.ply:13:3"), std::string::npos);
+}
+
+TEST(Ply, ZeroNormalsAreReplacedByThoseOfTheTriangles) {
+    std::string text = kSquare;
+    text.insert(text.find("element face"),
+                "property float nx\nproperty float ny\nproperty float nz\n");
+    const std::string from = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    text.replace(text.find("end_header\n") + 11, from.size(),
+                 "0 0 0 0 0 0\n1 0 0 0 3 4\n1 1 0 1e-200 0 0\n0 1 0 0 0 -2\n");
+    Diagnostics found;
+    const TriangleMesh mesh = mesh_of(text, "a.ply", found);
+    ASSERT_EQ(mesh.normals.size(), 4u) << text_of(found);
+    EXPECT_EQ(mesh.normals[0], (Vec3{0, 0, 1}));
+    EXPECT_NEAR(mesh.normals[1].y, 0.6, 1e-15);
+    EXPECT_EQ(mesh.normals[2], (Vec3{1, 0, 0}));
+    EXPECT_EQ(mesh.normals[3], (Vec3{0, 0, -1}));
+}
+
+TEST(Ply, MoreElementsThanAllowedAreAnErrorOfResources) {
+    ImportOptions options;
+    options.max_elements = 3;
+    Diagnostics found;
+    try {
+        mesh_of(kSquare, "a.ply", found, options);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Resource);
+    }
+}
+
+TEST(Ply, RandomDamageNeverDoesMoreThanFindings) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 2000; ++round) {
+        std::string bytes = round % 2 ? kSquare : binary_triangle(round % 4 == 0, "\n");
+        for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = char(random() % 256);
+        Diagnostics found;
+        const TriangleMesh mesh = mesh_of(bytes, "a.ply", found);
+        for (const auto& t : mesh.triangles) {
+            for (const std::uint32_t i : t)
+                ASSERT_LT(i, mesh.positions.size()) << "round " << round;
+        }
+    }
+}
+
+TEST(Ply, TheCoursesMeshesCarryTheirNormals) {
+    ALHAZEN_NEEDS_DATA("ray/uw2020_yaml/assets/trace");
+    const auto folder = testing::test_data() / "ray/uw2020_yaml/assets";
+    Diagnostics found;
+    const TriangleMesh sphere = read_mesh(folder / "trace/simple/poly-sphere.ply", {}, found);
+    EXPECT_EQ(sphere.positions.size(), 121u);
+    EXPECT_EQ(sphere.triangles.size(), 180u);
+    EXPECT_EQ(sphere.uvs.size(), 121u);
+    ASSERT_EQ(sphere.normals.size(), 121u);
+    for (std::size_t i = 0; i < 121; ++i) {
+        EXPECT_NEAR(length(sphere.normals[i] - normalize(sphere.positions[i])), 0.0, 1e-5);
+    }
+    const TriangleMesh ant = read_mesh(folder / "ant.ply", {}, found);
+    EXPECT_EQ(ant.triangles.size(), 912u);
+    EXPECT_TRUE(ant.normals.empty());
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(read_mesh(folder / "trace/trimeshes/knight.ply", {}, found).triangles.size(), 206u);
+    EXPECT_TRUE(mentions(found, "knight.ply:3:1: warning")) << text_of(found);
+}
+
+TEST(Ply, HostileFilesGiveFindingsOrMeshes) {
+    ALHAZEN_NEEDS_DATA("hostile/assimp/PLY");
+    const auto folder = testing::test_data() / "hostile/assimp";
+    const auto triangles = [&](const char* name, Diagnostics& found) {
+        return read_mesh(folder / name, {}, found).triangles.size();
+    };
+    Diagnostics good;
+    EXPECT_EQ(triangles("PLY/cube.ply", good), 12u);
+    EXPECT_EQ(triangles("PLY/cube_binary.ply", good), 12u);
+    EXPECT_EQ(triangles("PLY/cube_binary_header_with_RN_newline.ply", good), 12u);
+    EXPECT_EQ(triangles("PLY/cube_binary_starts_with_nl.ply", good), 12u);
+    EXPECT_EQ(triangles("PLY/cube_uv.ply", good), 12u);
+    EXPECT_EQ(triangles("PLY/Wuson.ply", good), 3732u);
+    EXPECT_EQ(triangles("PLY/points.ply", good), 0u);
+    EXPECT_EQ(triangles("PLY/pond.0.ply", good), 0u);
+    EXPECT_EQ(good.error_count(), 0u) << text_of(good);
+    Diagnostics bad;
+    triangles("invalid/empty.ply", bad);
+    EXPECT_EQ(bad.error_count(), 1u);
+    triangles("PLY/issue623.ply", bad);
+    EXPECT_EQ(bad.error_count(), 2u) << text_of(bad);
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,318 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "import_text.h"
+#include "support/test_data.h"
+
+namespace alhazen {
+namespace {
+
+using testing::import_text;
+using testing::mentions;
+using testing::text_of;
+
+const std::string kMaterials = R"(
+Materials:
+    Red One:
+        Shader: Blinn-Phong Shader
+        Uniforms:
+            Diffuse: {Color: {R: 0.75, G: 0, B: 5e-05, A: 1}, Color Map: "", Use Texture: false}
+            Specular: {Color: {R: 0.5, G: 0.25, B: 0.125, A: 1}, Color Map: "", Use Texture: false}
+            Emissive: {Color: {R: 0.01, G: 0, B: 0, A: 1}, Color Map: "", Use Texture: false}
+            Transmittence: {Color: {R: 0, G: 0.9, B: 0, A: 1}, Color Map: "", Use Texture: false}
+            Shininess: 25.6
+            IndexOfRefraction: 1.5
+)";
+
+/// A scene whose root holds `components` (lines indented by 8) and `children` (by 4).
+std::string scene_of(const std::string& components, const std::string& children = "    []\n") {
+    return "Name: test" + kMaterials +
+           "Root:\n    Name: Root\n    Enabled: true\n    Components:\n" + components +
+           "    Children:\n" + children;
+}
+
+const std::string kCamera = R"(        Camera:
+            FOV: 60
+            Render Width (px): 400
+            Render Height (px): 200
+            Perspective Camera?: true
+            Trace: {Maximum Recursion Depth: 3, Shadows: 2, Monte Carlo: 0, Samples Per Pixel: 0}
+)";
+
+template <class S>
+const S& shape_of(const SceneDescription& scene, std::size_t part) {
+    return std::get<S>(std::get<AnyShape>(scene.objects.at(0).parts.at(part).what));
+}
+
+void expect_point(const Vec3& p, const Vec3& expected) {
+    EXPECT_NEAR(length(p - expected), 0.0, 1e-12)
+        << p.x << " " << p.y << " " << p.z << " instead of " << expected.x << " " << expected.y
+        << " " << expected.z;
+}
+
+TEST(UwYaml, MaterialsAreTakenAsWrittenAndMirrorsFollowTheHighlight) {
+    Diagnostics found;
+    const SceneDescription scene =
+        import_text(scene_of("        Sphere: {Material: Red One, Quality: 4}\n"), "a.yaml", found);
+    EXPECT_EQ(text_of(found), "");
+    ASSERT_EQ(scene.materials.size(), 1u);
+    const Material& m = scene.materials[0].material;
+    EXPECT_EQ(m.name, "Red One");
+    EXPECT_EQ(m.diffuse.color, (Rgb{0.75, 0, 5e-05}));
+    EXPECT_EQ(m.specular.color, (Rgb{0.5, 0.25, 0.125}));
+    EXPECT_EQ(m.reflective.color, m.specular.color);
+    EXPECT_EQ(m.transmissive.color, (Rgb{0, 0.9, 0}));
+    EXPECT_EQ(m.emission.color, (Rgb{0.01, 0, 0}));
+    EXPECT_EQ(m.shininess.value, 25.6);
+    EXPECT_EQ(m.index.value, 1.5);
+    EXPECT_TRUE(scene.conventions.truncate_material_colors);
+    EXPECT_EQ(scene.conventions.air_index, 1.0003);
+    EXPECT_EQ(shape_of<Sphere>(scene, 0).radius, 0.5);
+}
+
+TEST(UwYaml, TransformsTurnAboutZThenYThenXAndChildrenMultiplyOnTheRight) {
+    Diagnostics found;
+    const SceneDescription scene = import_text(
+        scene_of(
+            "        Transform: {Translation: {X: 1, Y: 2, Z: 3}, Rotation: {X: 90, Y: 0, Z: 90}, "
+            "Scale: {X: 2, Y: 1, Z: 1}}\n",
+            "    -   Name: a child\n        Enabled: true\n        Components:\n"
+            "            Transform: {Translation: {X: 1, Y: 0, Z: 0}}\n"
+            "            TriangleMesh: {Mesh: Cube, Material: Red One, LoopSubdivision: 0}\n"),
+        "a.yaml", found);
+    ASSERT_EQ(scene.objects[0].parts.size(), 1u) << text_of(found);
+    const Part& part = scene.objects[0].parts[0];
+    EXPECT_EQ(part.name, "a child");
+    // x: + 1, * 2; about z to y; about x to z; + (1, 2, 3).
+    expect_point(part.object_from_part.point({0, 0, 0}), {1, 2, 5});
+    expect_point(part.object_from_part.point({0.5, 0, 0}), {1, 2, 6});
+    expect_point(part.object_from_part.point({0, 1, 0}), {0, 2, 5});
+    expect_point(part.object_from_part.point({0, 0, 1}), {1, 1, 5});
+}
+
+TEST(UwYaml, EveryShapeHasTheCoursesSizeAndPlace) {
+    Diagnostics found;
+    const SceneDescription scene = import_text(
+        scene_of("        Sphere: {Material: Red One}\n        Cylinder: {Material: Red One}\n"
+                 "        Cone: {Material: Red One}\n        Plane: {Material: Red One}\n"
+                 "        Ring: {Material: Red One, Width: 0.2}\n"
+                 "        TriangleMesh: {Material: Red One, Mesh: Cube}\n"),
+        "a.yaml", found);
+    EXPECT_EQ(found.error_count(), 0u) << text_of(found);
+    ASSERT_EQ(scene.objects[0].parts.size(), 7u);
+    const Affine& sphere = scene.objects[0].parts[0].object_from_part;
+    expect_point(sphere.point({0, 0, 1}), {0, 1, 0});
+    EXPECT_EQ(shape_of<Cylinder>(scene, 1).base, (Vec3{0, -0.5, 0}));
+    EXPECT_EQ(shape_of<Cylinder>(scene, 1).top, (Vec3{0, 0.5, 0}));
+    EXPECT_TRUE(shape_of<Cylinder>(scene, 1).capped);
+    EXPECT_EQ(shape_of<Cone>(scene, 2).top_radius, 0.0);
+    EXPECT_EQ(shape_of<Rectangle>(scene, 3).corner.z, 1e-5);
+    EXPECT_EQ(shape_of<Rectangle>(scene, 4).corner.z, -1e-5);
+    EXPECT_NEAR(shape_of<Disc>(scene, 5).inner_radius, 0.3, 1e-15);
+    EXPECT_EQ(shape_of<BoxShape>(scene, 6).hi, (Vec3{0.5, 0.5, 0.5}));
+}
+
+TEST(UwYaml, LightsAndCameraFollowTheirNodes) {
+    Diagnostics found;
+    const SceneDescription scene = import_text(
+        scene_of(
+            "        Transform: {Translation: {X: 0, Y: 0, Z: 5}, Rotation: {X: 90, Y: 0, Z: "
+            "0}}\n" +
+            kCamera +
+            "        PointLight: {Color: {R: 1, G: 0.5, B: 0}, Ambient: {R: 0.09, G: 0, B: 0}, "
+            "Quad Atten: 5e-05, Linear Atten: 0.00337, Const Atten: 0.25, Radius (Trace): 0}\n"
+            "        DirectionalLight: {Color: {R: 1, G: 1, B: 0.5}, Intensity Multiplier: 2}\n"),
+        "a.yaml", found);
+    EXPECT_EQ(text_of(found), "");
+    ASSERT_EQ(scene.lights.size(), 2u);
+    const auto& point = std::get<PointLight>(scene.lights[0].light);
+    EXPECT_EQ(point.position, (Vec3{0, 0, 5}));
+    EXPECT_EQ(point.ambient, (Rgb{0.09, 0, 0}));
+    EXPECT_EQ(point.attenuation.quadratic, 5e-05);
+    const auto& sun = std::get<DirectionalLight>(scene.lights[1].light);
+    expect_point(sun.to_light, {0, 0, 1});
+    EXPECT_EQ(sun.color, (Rgb{2, 2, 1}));
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.picture.width, 400);
+    EXPECT_EQ(scene.picture.height, 200);
+    EXPECT_EQ(scene.conventions.max_depth, 3);
+    const Ray ray = eye_ray(scene.cameras[0].camera, 0.5, 1.0);
+    expect_point(ray.origin, {0, 0, 5});
+    // Looking along +y with +z up, half the angle (30 degrees) to the top.
+    expect_point(ray.direction, {0, std::cos(std::acos(-1.0) / 6), 0.5});
+}
+
+TEST(UwYaml, WhatIsNotEnabledIsNotThere) {
+    Diagnostics found;
+    const SceneDescription scene = import_text(
+        scene_of("        Sphere: {Material: Red One}\n",
+                 "    -   Name: off\n        Enabled: false\n        Components:\n"
+                 "            Sphere: {Material: Nothing}\n        Children:\n"
+                 "        -   Components:\n                Sphere: {Material: Nothing}\n"),
+        "a.yaml", found);
+    EXPECT_EQ(text_of(found), "");
+    EXPECT_EQ(scene.objects[0].parts.size(), 1u);
+}
+
+TEST(UwYaml, WhatCannotBeDrawnIsAWarningThatNamesIt) {
+    Diagnostics found;
+    const SceneDescription scene = import_text(
+        scene_of(
+            "        SurfaceOfRevolution: {Material: Red One}\n        RobotArmProp: {Angle: 0}\n"
+            "        ParticleSystem: {Material: Red One}\n        AreaLight: {Color: {R: 1}}\n"
+            "        EnvironmentMap: {Far Plane: 100}\n",
+            "    -   Components:\n            Transform: {Scale: {X: 0, Y: 1, Z: 1}}\n"
+            "            Sphere: {Material: Red One}\n"),
+        "a.yaml", found);
+    EXPECT_EQ(found.error_count(), 0u);
+    EXPECT_EQ(found.warning_count(), 5u) << text_of(found);
+    for (const char* name :
+         {"SurfaceOfRevolution", "RobotArmProp", "ParticleSystem", "AreaLight"}) {
+        EXPECT_TRUE(mentions(found, name)) << name;
+    }
+    EXPECT_TRUE(scene.objects[0].parts.empty());
+    EXPECT_EQ(scene.lights.size(), 1u);
+}
+
+TEST(UwYaml, FindingsNameLineAndColumn) {
+    const auto expect = [](const std::string& components, const char* part) {
+        Diagnostics found;
+        import_text(scene_of(components), "a.yaml", found);
+        EXPECT_GT(found.error_count(), 0u);
+        EXPECT_TRUE(mentions(found, part)) << components << "\n" << text_of(found);
+    };
+    // The first component stands in line 16.
+    expect("        Sphere: {Material: Blue}\n",
+           "a.yaml:16:17: error: unknown material 'Blue'; expected one of Red One");
+    expect("        TriangleMesh: {Material: Red One, Mesh: cow}\n",
+           "a.yaml:16:23: error: unknown mesh 'cow'");
+    expect("        Transform: {Scale: {X: much}}\n",
+           "a.yaml:16:32: error: 'X' must be a finite number");
+    expect("        Transform: {Scale: {X: .inf}}\n", "a.yaml:16:32: error");
+    expect("        Transform: {Scale: [1, 2]}\n",
+           "a.yaml:16:28: error: 'Scale' must have X, Y and Z");
+    expect("        Camera: {FOV: 180}\n", "a.yaml:16:17: error: the FOV");
+    expect("        Camera: {FOV: 50, Render Width (px): 1e9}\n",
+           "a.yaml:16:17: error: the picture");
+    expect("        Sphere: {Material: [\n", "not valid YAML");
+    expect("\tSphere:\n", "a.yaml:");
+    Diagnostics found;
+    import_text("Materials:\nRoot:\n", "a.yaml", found);
+    EXPECT_TRUE(mentions(found, "no map 'Root'"));
+}
+
+TEST(UwYaml, DeepAndLargeTextsAreErrorsOfResources) {
+    std::string brackets = "Materials: 1\nRoot: ";
+    std::string dashes = brackets;
+    std::string lines = "Materials: 1\nRoot:\n";
+    for (int i = 0; i < 5000; ++i) {
+        brackets += '[';
+        dashes += "\n" + std::string(std::size_t(i), ' ') + "-";
+        lines += std::string(std::size_t(i % 1000) + 1, ' ') + "a:\n";
+    }
+    const std::string large(std::size_t{9} << 20, ' ');
+    for (const std::string& text : {brackets, dashes, lines, "Materials: 1\nRoot: 1\n" + large}) {
+        Diagnostics found;
+        try {
+            import_text(text, "a.yaml", found);
+            ADD_FAILURE() << "accepted";
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Resource) << e.what();
+        }
+    }
+}
+
+TEST(UwYaml, AliasesCannotMakeAShortTextEndless) {
+    std::string laughs = "Materials: {}\nA0: &a0 {Components: {}}\n";
+    for (int i = 1; i < 60; ++i) {
+        const std::string before = std::to_string(i - 1);
+        laughs += "A" + std::to_string(i) + ": &a" + std::to_string(i) + " {Children: [*a" +
+                  before + ", *a" + before + "]}\n";
+    }
+    for (const std::string& text :
+         {laughs + "Root: *a59\n", std::string("Materials: {}\nRoot: &r {Children: [*r, *r]}\n")}) {
+        Diagnostics found;
+        EXPECT_THROW(import_text(text, "a.yaml", found), Error);
+    }
+}
+
+TEST(UwYaml, FilesAreLookedForFromTheFolderThatHoldsAssets) {
+    const testing::TemporaryFolder folder;
+    folder.write("assets/meshes/one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("secret.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto import_mesh = [&](const std::string& path, Diagnostics& found) {
+        const std::string text = "Meshes: {one: {Path: " + path + "}}\n" +
+                                 scene_of("        TriangleMesh: {Material: Red One, Mesh: one}\n");
+        const auto file = folder.write("assets/scenes/deep/a.yaml", text);
+        return import_text(text, file, found).meshes.size();
+    };
+    Diagnostics found;
+    EXPECT_EQ(import_mesh("assets/meshes/one.obj", found), 1u) << text_of(found);
+    EXPECT_EQ(found.error_count(), 0u);
+    for (const char* path :
+         {"../secret.obj", "/etc/passwd", "assets/../../x.obj", "assets/none.obj", "\"\""}) {
+        Diagnostics refused;
+        EXPECT_EQ(import_mesh(path, refused), 0u);
+        EXPECT_TRUE(mentions(refused, "a.yaml:1:15: error: the mesh 'one'")) << text_of(refused);
+    }
+}
+
+TEST(UwYaml, RandomDamageNeverDoesMoreThanFindings) {
+    const std::string good = scene_of(
+        "        Sphere: {Material: Red One}\n" + kCamera,
+        "    -   Name: child\n        Components:\n            PointLight: {Color: {R: 1}}\n");
+    std::mt19937 random(13);
+    for (int round = 0; round < 2000; ++round) {
+        std::string bytes = good;
+        for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = char(random() % 256);
+        SCOPED_TRACE(round);
+        const ImportOptions options;
+        const ImportSource source{bytes, "a.yaml", options};
+        Diagnostics found;
+        try {
+            validate(find_importer(source).import(source, found), found);
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::Resource) << e.what();
+        }
+    }
+}
+
+TEST(UwYaml, EverySceneOfTheCourseIsImportedAndValid) {
+    ALHAZEN_NEEDS_DATA("ray/uw2020_yaml/assets");
+    struct Fact {
+        const char* file;
+        std::size_t parts, lights;
+        int depth, width;
+    };
+    for (const Fact& fact :
+         {Fact{"trace/simple/box", 1, 1, 3, 512},
+          Fact{"trace/simple/box_cyl_reflect", 2, 2, 3, 512},
+          Fact{"trace/simple/box_cyl_trans_shadow", 2, 1, 3, 512},
+          Fact{"trace/simple/cyl_ambient", 1, 1, 3, 512},
+          Fact{"trace/simple/cyl_diffuse", 1, 1, 3, 512},
+          Fact{"trace/simple/poly_sphere", 1, 1, 3, 512},
+          Fact{"trace/simple/sphere_refract", 3, 1, 3, 512},
+          Fact{"trace/trimeshes/revolution", 1, 2, 3, 512}, Fact{"robotarm", 3, 2, 5, 1280},
+          Fact{"robotarm_with_ui", 3, 2, 5, 1280},
+          Fact{"scene/point_light_scene", 1, 3, 5, 1280}}) {
+        SCOPED_TRACE(fact.file);
+        Diagnostics found;
+        const SceneDescription scene = import_scene(
+            testing::test_data() / "ray/uw2020_yaml/assets" / (std::string(fact.file) + ".yaml"),
+            {}, found);
+        EXPECT_EQ(scene.format, "uw_yaml");
+        EXPECT_EQ(scene.objects[0].parts.size(), fact.parts);
+        EXPECT_EQ(scene.lights.size(), fact.lights);
+        EXPECT_EQ(scene.conventions.max_depth, fact.depth);
+        EXPECT_EQ(scene.picture.width, fact.width);
+        EXPECT_EQ(scene.cameras.size(), 1u);
+        const bool has_prop = std::string(fact.file) == "robotarm_with_ui";
+        EXPECT_EQ(found.warning_count(), has_prop ? 1u : 0u) << text_of(found);
+    }
+}
+
+}  // namespace
+}  // namespace alhazen
