@@ -21,17 +21,23 @@ namespace alhazen {
 
 namespace {
 
+/// The checked header in front of the rest of the file.
 class MemoryInput final : public Imf::IStream {
   public:
-    MemoryInput(std::string_view bytes, const std::string& name)
-        : Imf::IStream(name.c_str()), bytes_(bytes) {}
+    MemoryInput(const std::string& header, std::string_view bytes, const std::string& name)
+        : Imf::IStream(name.c_str()), header_(header), bytes_(bytes) {}
 
     bool read(char target[], int count) override {
         if (count < 0 || std::uint64_t(count) > bytes_.size() - position_) {
             throw std::runtime_error("the data end too early");
         }
-        std::memcpy(target, bytes_.data() + position_, std::size_t(count));
-        position_ += std::size_t(count);
+        const auto end = position_ + std::size_t(count);
+        const std::size_t from_header =
+            std::min(end, header_.size()) - std::min(position_, header_.size());
+        std::memcpy(target, header_.data() + std::min(position_, header_.size()), from_header);
+        std::memcpy(target + from_header, bytes_.data() + position_ + from_header,
+                    std::size_t(count) - from_header);
+        position_ = end;
         return position_ < bytes_.size();
     }
     std::uint64_t tellg() override { return position_; }
@@ -41,6 +47,7 @@ class MemoryInput final : public Imf::IStream {
     }
 
   private:
+    const std::string& header_;
     std::string_view bytes_;
     std::size_t position_ = 0;
 };
@@ -113,8 +120,9 @@ void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, 
     }
 }
 
-Image read_exr(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
-    MemoryInput stream(bytes, name);
+Image read_exr(const std::string& header, std::string_view bytes, const std::string& name,
+               const ImageLimits& limits) {
+    MemoryInput stream(header, bytes, name);
     Imf::InputFile file(stream, 0);
     const Imath::Box2i window = file.header().dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
@@ -186,9 +194,9 @@ void write_exr(MemoryOutput& stream, const Image& image, Imf::Header header) {
 }  // namespace
 
 Image decode_exr(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
-    check_exr_header(bytes, name, limits);
+    const std::string header = checked_exr_header(bytes, name, limits);
     try {
-        return read_exr(bytes, name, limits);
+        return read_exr(header, bytes, name, limits);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {

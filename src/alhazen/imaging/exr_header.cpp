@@ -1,6 +1,8 @@
 #include "alhazen/imaging/exr_header.h"
 
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "alhazen/imaging/byte_reader.h"
 
@@ -12,7 +14,6 @@ constexpr std::uint32_t kTiledFlag = 0x200, kLongNamesFlag = 0x400, kDeepFlag = 
                         kMultiPartFlag = 0x1000;
 constexpr std::uint32_t kKnownFlags = kTiledFlag | kLongNamesFlag | kDeepFlag | kMultiPartFlag;
 constexpr std::size_t kMaxName = 255;
-constexpr std::size_t kMaxTextAttribute = 1u << 24;
 constexpr int kMaxParts = 1000;
 constexpr int kMaxAttributes = 10'000;
 constexpr std::uint32_t kMaxTileSide = 4096;
@@ -31,6 +32,7 @@ std::uint64_t count_channels(ByteReader list) {
         (void)list.take(16);  // pixel type, pLinear, reserved, xSampling, ySampling
         ++count;
     }
+    if (list.left() != 0) bad_image(list.name(), "damaged EXR: the list of channels is too long");
     return count;
 }
 
@@ -56,24 +58,70 @@ void read_tiles(ByteReader value) {
     }
 }
 
-void read_attribute(std::string_view attribute, std::string_view type, std::uint64_t size,
-                    ByteReader& reader, PartHeader& part) {
-    const std::string& name = reader.name();
-    if (size > kMaxTextAttribute) bad_image(name, "damaged EXR: an attribute is too large");
-    ByteReader value(reader.take(size), name);
+/// The attributes that the library needs, and the bytes of their values (0: any).
+struct Needed {
+    std::string_view name, type;
+    std::uint32_t bytes;
+};
+constexpr std::array<Needed, 13> kNeeded{{{"channels", "chlist", 0},
+                                          {"chunkCount", "int", 4},
+                                          {"compression", "compression", 1},
+                                          {"dataWindow", "box2i", 16},
+                                          {"displayWindow", "box2i", 16},
+                                          {"lineOrder", "lineOrder", 1},
+                                          {"name", "string", 0},
+                                          {"pixelAspectRatio", "float", 4},
+                                          {"screenWindowCenter", "v2f", 8},
+                                          {"screenWindowWidth", "float", 4},
+                                          {"tiles", "tiledesc", 9},
+                                          {"type", "string", 0},
+                                          {"version", "int", 4}}};
+
+/// The library reads a value by its type and believes the type more than the size that is written
+/// beside it.
+bool is_needed(std::string_view attribute, std::string_view type, std::uint32_t size,
+               const std::string& name) {
+    for (const Needed& needed : kNeeded) {
+        if (attribute != needed.name) continue;
+        if (type != needed.type || (needed.bytes != 0 && size != needed.bytes)) {
+            bad_image(name, "damaged EXR: the attribute " + std::string(attribute) +
+                                " has a wrong type or size");
+        }
+        return true;
+    }
+    return false;
+}
+
+void read_value(std::string_view attribute, ByteReader value, PartHeader& part) {
     if (attribute == "dataWindow") {
         read_window(value, part);
     } else if (attribute == "channels") {
         part.channels = count_channels(value);
     } else if (attribute == "tiles") {
         read_tiles(value);
-    } else if (attribute == "type" && type == "string" && value.take(size).starts_with("deep")) {
-        bad_image(name, "deep EXR pictures are not supported");
+    } else if (attribute == "type" && value.take(value.left()).starts_with("deep")) {
+        bad_image(value.name(), "deep EXR pictures are not supported");
+    }
+}
+
+/// Reads one attribute and, in the copy, gives those that are not needed a type that no library
+/// knows.
+void read_attribute(std::string_view attribute, ByteReader& reader,
+                    std::vector<std::string_view>& ignored, PartHeader& part) {
+    const std::string& name = reader.name();
+    const std::string_view type = reader.until('\0', kMaxName);
+    const std::uint32_t size = reader.u32_little();
+    const std::string_view value = reader.take(size);
+    if (is_needed(attribute, type, size, name)) {
+        read_value(attribute, ByteReader(value, name), part);
+    } else {
+        ignored.push_back(type);
     }
 }
 
 /// False at the empty header that ends a list of parts.
-bool read_part(ByteReader& reader, const ImageLimits& limits) {
+bool read_part(ByteReader& reader, std::vector<std::string_view>& ignored,
+               const ImageLimits& limits) {
     const std::string& name = reader.name();
     PartHeader part;
     for (int i = 0;; ++i) {
@@ -81,8 +129,7 @@ bool read_part(ByteReader& reader, const ImageLimits& limits) {
         if (attribute.empty() && i == 0) return false;
         if (attribute.empty()) break;
         if (i == kMaxAttributes) bad_image(name, "damaged EXR: too many attributes");
-        const std::string_view type = reader.until('\0', kMaxName);
-        read_attribute(attribute, type, reader.u32_little(), reader, part);
+        read_attribute(attribute, reader, ignored, part);
     }
     if (!part.has_window) bad_image(name, "damaged EXR: there is no dataWindow");
     check_image_size(part.width, part.height, limits, name);
@@ -98,7 +145,8 @@ bool read_part(ByteReader& reader, const ImageLimits& limits) {
 
 }  // namespace
 
-void check_exr_header(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+std::string checked_exr_header(std::string_view bytes, const std::string& name,
+                               const ImageLimits& limits) {
     ByteReader reader(bytes, name);
     (void)reader.u32_little();
     const std::uint32_t version = reader.u32_little();
@@ -106,12 +154,19 @@ void check_exr_header(std::string_view bytes, const std::string& name, const Ima
         bad_image(name, "EXR of an unknown version or kind");
     }
     if ((version & kDeepFlag) != 0) bad_image(name, "deep EXR pictures are not supported");
+    std::vector<std::string_view> ignored;
     int parts = 0;
-    while (read_part(reader, limits)) {
-        if ((version & kMultiPartFlag) == 0) return;
-        if (++parts > kMaxParts) bad_image(name, "damaged EXR: too many parts");
+    while (read_part(reader, ignored, limits)) {
+        ++parts;
+        if ((version & kMultiPartFlag) == 0) break;
+        if (parts > kMaxParts) bad_image(name, "damaged EXR: too many parts");
     }
     if (parts == 0) bad_image(name, "damaged EXR: the header is empty");
+    std::string header(bytes.substr(0, reader.position()));
+    for (const std::string_view type : ignored) {
+        header.replace(std::size_t(type.data() - bytes.data()), type.size(), type.size(), '?');
+    }
+    return header;
 }
 
 }  // namespace alhazen

@@ -96,7 +96,8 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
     EXPECT_EQ(error_of([&] { (void)decode_image(hdr, "lie.hdr"); }), ErrorKind::Scene);
     EXPECT_EQ(error_of([&] { (void)decode_image(pfm, "lie.pfm"); }), ErrorKind::Scene);
     for (Sample sample : samples()) {
-        // Sides of 41 and 19, or the corners 40 and 18 of a window, become 16384 (0x4000) or a little less.
+        // Sides of 41 and 19, or the corners 40 and 18 of a window, become 16384 (0x4000) or a
+        // little less.
         const auto change = [&](const std::string& from, const std::string& to) {
             const std::size_t at = sample.bytes.find(from);
             ASSERT_NE(at, std::string::npos) << sample.name;
@@ -116,6 +117,21 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
             << sample.name;
     }
     EXPECT_LT(peak_kib() - before, 200 * 1024);
+}
+
+TEST(HostileImages, TheCorpusIsReadButForTheBadFilesThatOnceDidHarm) {
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(ALHAZEN_SOURCE_DIR "/tests/corpus/image")) {
+        const std::string name = entry.path().filename().string();
+        const auto kind = error_of([&] { (void)read_image(entry.path()); });
+        if (name.starts_with("bad_")) {
+            EXPECT_TRUE(is_bad_data(kind)) << name;
+        } else {
+            EXPECT_EQ(kind, std::nullopt) << name;
+        }
+        ++files;
+    }
+    EXPECT_GT(files, 20);
 }
 
 struct Counts {
