@@ -16,6 +16,7 @@
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
+#include "alhazen/math/quadratic.h"
 
 namespace alhazen {
 
@@ -60,15 +61,19 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
     const ShearedVertex<double> va = shear_vertex(a);
     const ShearedVertex<double> vb = shear_vertex(b);
     const ShearedVertex<double> vc = shear_vertex(c);
-    const double eu = edge_function(vb, vc);
-    const double ev = edge_function(vc, va);
-    const double ew = edge_function(va, vb);
+    double eu = edge_function(vb, vc);
+    double ev = edge_function(vc, va);
+    double ew = edge_function(va, vb);
     if ((eu < 0.0 || ev < 0.0 || ew < 0.0) && (eu > 0.0 || ev > 0.0 || ew > 0.0)) return false;
     if (eu == 0.0 || ev == 0.0 || ew == 0.0) {
         const int su = resolved_edge_sign(vb, vc);
         if (su == 0 || su != resolved_edge_sign(vc, va) || su != resolved_edge_sign(va, vb)) {
             return false;
         }
+        // All three may be false zeros, on a sliver seen almost edge on. Not all are true zeros.
+        eu = difference_of_products(vb.x, vc.y, vb.y, vc.x);
+        ev = difference_of_products(vc.x, va.y, vc.y, va.x);
+        ew = difference_of_products(va.x, vb.y, va.y, vb.x);
     }
     const TriangleSolution<double> s = solve_triangle(eu, ev, ew, va.z, vb.z, vc.z, shear.sz);
     // A NaN (all edge functions underflowed to zero) is not covered.
