@@ -35,8 +35,24 @@ void UwSceneReader::read() {
         return;
     }
     read_node(root, Affine{}, 0);
+    if (!reflections_) {
+        for (MaterialDescription& m : scene_.materials) m.material.reflective = {};
+    }
+    if (!refractions_) drop_transmission();
     // Everything downstream counts on one material.
     if (scene_.materials.empty()) scene_.materials.emplace_back();
+}
+
+/// Without refractions nothing is seen through a surface; what else kt does (tinting shadows) is
+/// lost with it.
+void UwSceneReader::drop_transmission() {
+    for (MaterialDescription& m : scene_.materials) {
+        if (m.material.is_opaque()) continue;
+        m.material.transmissive = {};
+        warn_once(document_, "Refractions",
+                  "the camera's 'Refractions' is false: transparent materials are opaque, for "
+                  "shadows too");
+    }
 }
 
 void UwSceneReader::count_visit(const YAML::Node& node) {
@@ -266,6 +282,8 @@ void UwSceneReader::trace_settings(const YAML::Node& trace) {
     } else {
         values_.error(trace, "the Maximum Recursion Depth must be 0 to 1000");
     }
+    reflections_ = values_.flag(trace, "Reflections", true);
+    refractions_ = values_.flag(trace, "Refractions", true);
     const double shadows = values_.number(trace, "Shadows", 2.0);
     if (shadows == 1.0) conventions.shadow_tint = ShadingConventions::ShadowTint::Opaque;
     if (shadows == 0.0) values_.warning(trace, "'Shadows: 0' is ignored: shadows are always cast");

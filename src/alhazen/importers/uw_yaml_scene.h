@@ -31,6 +31,7 @@ class UwSceneReader {
     static ReadComponent reader_of(const std::string& component);
 
     void read_node(const YAML::Node& node, const Affine& world_from_parent, int depth);
+    void drop_transmission();
     void count_visit(const YAML::Node& node);
 
     void nothing(const Place&, const YAML::Node&) {}
@@ -60,6 +61,8 @@ class UwSceneReader {
     UwAssets assets_;
     std::set<std::string> warned_;
     std::size_t visits_ = 0;
+    bool reflections_ = true;  ///< of the first camera
+    bool refractions_ = true;
 };
 
 }  // namespace alhazen

@@ -145,6 +145,23 @@ TEST(UwYaml, LightsAndCameraFollowTheirNodes) {
     expect_point(ray.direction, {0, std::cos(std::acos(-1.0) / 6), 0.5});
 }
 
+TEST(UwYaml, TheCameraDecidesWhetherMirrorsAndGlassAreTraced) {
+    for (const bool on : {true, false}) {
+        std::string camera = kCamera;
+        const std::string flag = on ? "true" : "false";
+        camera.replace(camera.find("Shadows: 2"), 10,
+                       "Reflections: " + flag + ", Refractions: " + flag);
+        Diagnostics found;
+        const SceneDescription scene = import_text(
+            scene_of("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
+        const Material& m = scene.materials.at(0).material;
+        EXPECT_EQ(m.reflective.color.is_black(), !on);
+        EXPECT_EQ(m.transmissive.color.is_black(), !on);
+        EXPECT_FALSE(m.specular.color.is_black());
+        EXPECT_EQ(found.warning_count(), on ? 0u : 1u) << text_of(found);
+    }
+}
+
 TEST(UwYaml, WhatIsNotEnabledIsNotThere) {
     Diagnostics found;
     const SceneDescription scene = import_text(
