@@ -10,6 +10,8 @@ template <class... F>
 struct Overloaded : F... {
     using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce this by itself
 
 /// Direction and distance to a position, and the attenuation over that distance.
 struct Approach {
