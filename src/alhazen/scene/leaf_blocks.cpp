@@ -14,8 +14,8 @@ namespace alhazen {
 namespace {
 
 /// Costs in visits of a wide node, measured.
-constexpr LeafKinds kLeafKindTable{LeafKind{kBlockWidth, 1.5f}, LeafKind{kBlockWidth, 1.5f},
-                                   LeafKind{1, 2.0f}};
+constexpr LeafKinds kLeafKindTable{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{0, 2.0f}};
+static_assert(1u << kLeafKindTable[0].width_log2 == kBlockWidth);
 
 template <class S>
 constexpr std::uint32_t column_of() {

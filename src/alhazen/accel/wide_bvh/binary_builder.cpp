@@ -9,8 +9,8 @@ namespace alhazen {
 namespace {
 
 constexpr int kMaxSahLevel = 48;
-constexpr int kBins = 32;
-constexpr std::uint32_t kSweepSize = 16;       // ranges up to this are swept, not binned
+constexpr int kMaxBins = 32;
+constexpr std::uint32_t kSweepSize = 12;       // ranges up to this are swept, not binned
 constexpr std::uint32_t kParallelSize = 8192;  // ranges from this on are tasks of their own
 constexpr std::size_t kChunk = 32768;          // references binned by one task
 
@@ -33,7 +33,7 @@ struct Summary {
     [[nodiscard]] float cost(const LeafKinds& kinds) const {
         float blocks = 0;
         for (std::size_t k = 0; k < kLeafKinds; ++k) {
-            blocks += kinds[k].cost * static_cast<float>(blocks_of(kinds[k], count[k]));
+            blocks += kinds[k].cost * static_cast<float>(kinds[k].blocks(count[k]));
         }
         return blocks == 0.0f ? 0.0f : box.weight() * blocks;
     }
@@ -69,24 +69,28 @@ struct Range {
 
 /// The bin of a center along an axis of a range; the same function counts and partitions.
 struct Binning {
+    int bins;
     float lo[3], scale[3];
 
-    explicit Binning(const FloatBox& centers) {
+    Binning(const FloatBox& centers, std::uint32_t size)
+        : bins(size < 64     ? 8
+               : size < 1024 ? 16
+                             : kMaxBins) {
         for (int k = 0; k < 3; ++k) {
             const float extent = centers.hi[k] - centers.lo[k];
             lo[k] = centers.lo[k];
             // A range too thin to divide has one bin.
-            const float s = static_cast<float>(kBins) * (1.0f - 1e-6f) / extent;
+            const float s = static_cast<float>(bins) * (1.0f - 1e-6f) / extent;
             scale[k] = extent > 0.0f && s < 1e37f ? s : 0.0f;
         }
     }
     [[nodiscard]] int bin(const BuildReference& reference, int axis) const {
-        const int bin = static_cast<int>((reference.center2(axis) - lo[axis]) * scale[axis]);
-        return std::min(std::max(bin, 0), kBins - 1);
+        const int i = static_cast<int>((reference.center2(axis) - lo[axis]) * scale[axis]);
+        return std::min(std::max(i, 0), bins - 1);
     }
 };
 
-using Bins = std::array<std::array<Summary, kBins>, 3>;
+using Bins = std::array<std::array<Summary, kMaxBins>, 3>;
 
 struct Split {
     float cost = std::numeric_limits<float>::infinity();
@@ -131,7 +135,7 @@ class Builder {
         const std::uint32_t kind = range.kind();
         if (kind == kLeafKinds) return false;
         // Half a block is not worth a box of its own, except by the cost that `collapse` weighs.
-        return range.size() <= std::max(1u, kinds_[kind].width / 2);
+        return range.size() <= std::max(1u, kinds_[kind].width() / 2);
     }
 
     [[nodiscard]] Range summarize(std::uint32_t begin, std::uint32_t end) const {
@@ -182,7 +186,7 @@ class Builder {
 
     /// 0 when the centers cannot be told apart.
     std::uint32_t split_by_bins(const Range& range, std::span<BuildReference> all) {
-        const Binning binning(range.centers);
+        const Binning binning(range.centers, range.size());
         const auto add = [&](Bins& bins, std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const BuildReference& r = references_[i];
@@ -194,11 +198,11 @@ class Builder {
             range.begin, range.end, add,
             [&](const Bins& part) {
                 for (int axis = 0; axis < 3; ++axis) {
-                    for (int b = 0; b < kBins; ++b) bins[axis][b].include(part[axis][b]);
+                    for (int b = 0; b < binning.bins; ++b) bins[axis][b].include(part[axis][b]);
                 }
             },
             bins);
-        const Split best = best_of_bins(bins);
+        const Split best = best_of_bins(bins, binning.bins);
         if (best.axis < 0) return 0;
         const auto middle = std::partition(all.begin(), all.end(), [&](const BuildReference& r) {
             return binning.bin(r, best.axis) <= best.bin;
@@ -206,19 +210,19 @@ class Builder {
         return static_cast<std::uint32_t>(middle - all.begin());
     }
 
-    [[nodiscard]] Split best_of_bins(const Bins& bins) const {
+    [[nodiscard]] Split best_of_bins(const Bins& bins, int count) const {
         Split best;
         for (int axis = 0; axis < 3; ++axis) {
-            std::array<float, kBins> right_cost{};
+            std::array<float, kMaxBins> right_cost{};
             Summary right;
-            for (int b = kBins - 1; b > 0; --b) {
+            for (int b = count - 1; b > 0; --b) {
                 right.include(bins[axis][b]);
                 right_cost[b] = right.cost(kinds_);
             }
             const std::uint32_t right_size = right.size();
             const std::uint32_t total = right_size + bins[axis][0].size();
             Summary left;
-            for (int b = 0; b + 1 < kBins; ++b) {
+            for (int b = 0; b + 1 < count; ++b) {
                 left.include(bins[axis][b]);
                 const std::uint32_t size = left.size();
                 if (size == 0 || size == total) continue;

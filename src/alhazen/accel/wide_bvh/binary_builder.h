@@ -23,8 +23,14 @@ inline constexpr std::size_t kLeafKinds = 3;
 
 /// What a leaf of one kind costs to test.
 struct LeafKind {
-    std::uint32_t width = 1;  ///< primitives in a block
-    float cost = 1;           ///< of a block, in visits of a wide node
+    std::uint32_t width_log2 = 0;  ///< of the number of primitives in a block
+    float cost = 1;                ///< of a block, in visits of a wide node
+
+    [[nodiscard]] std::uint32_t width() const { return 1u << width_log2; }
+    /// Blocks that `count` primitives fill.
+    [[nodiscard]] std::uint32_t blocks(std::uint32_t count) const {
+        return (count + width() - 1) >> width_log2;
+    }
 };
 using LeafKinds = std::array<LeafKind, kLeafKinds>;
 
@@ -58,10 +64,5 @@ struct BinaryBvh {
 /// fits into one block.
 [[nodiscard]] BinaryBvh build_binary(std::vector<BuildReference>& references,
                                      const LeafKinds& kinds);
-
-/// Blocks that `count` primitives of a kind fill.
-[[nodiscard]] inline std::uint32_t blocks_of(const LeafKind& kind, std::uint32_t count) {
-    return (count + kind.width - 1) / kind.width;
-}
 
 }  // namespace alhazen

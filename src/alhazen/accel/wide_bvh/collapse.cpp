@@ -58,7 +58,7 @@ class Collapse {
     [[nodiscard]] float leaf_cost(const BinaryNode& node, float area) const {
         if (node.kind == kLeafKinds) return kNever;
         const LeafKind& kind = kinds_[node.kind];
-        const std::uint32_t blocks = blocks_of(kind, node.size());
+        const std::uint32_t blocks = kind.blocks(node.size());
         if (blocks > NodeRef::kMaxBlocks) return kNever;
         return area * kind.cost * static_cast<float>(blocks);
     }

@@ -24,7 +24,7 @@ class LeafSink {
 
 struct WideBvh {
     std::vector<WideNode> nodes;
-    NodeRef root;  ///< may be a leaf
+    NodeRef root{};  ///< may be a leaf
     bool empty = true;
     int depth = 0;  ///< levels of inner nodes
 };

@@ -30,6 +30,15 @@ namespace alhazen {
 /// Bound, relative to the distances in play, of how far from the ray a computed hit can be.
 inline constexpr double kExactTestSlack = 0x1p-38;
 
+/// A float not above `x` (or not below), by up to two steps more than needed, without a branch:
+/// which way a number is rounded cannot be predicted.
+inline float well_below(double x) {
+    return static_cast<float>(x - (std::abs(x) * 0x1p-23 + 0x1p-100));
+}
+inline float well_above(double x) {
+    return static_cast<float>(x + (std::abs(x) * 0x1p-23 + 0x1p-100));
+}
+
 struct SlabRay {
     float reciprocal[3];
     float near_offset[3], far_offset[3];
@@ -46,19 +55,18 @@ struct SlabRay {
     [[nodiscard]] float local_max(double t) const {
         if (t_scale == 0) return std::numeric_limits<float>::infinity();
         const double s = t * t_scale;
-        return round_up(s - t_shift + margin(s));
+        return well_above(s - t_shift + margin(s));
     }
-    [[nodiscard]] float local_min(double t) const { return -local_max_of_negated(t); }
+    /// Rounded down.
+    [[nodiscard]] float local_min(double t) const {
+        if (t_scale == 0) return -std::numeric_limits<float>::infinity();
+        const double s = t * t_scale;
+        return well_below(s - t_shift - margin(s));
+    }
 
   private:
     [[nodiscard]] double margin(double s) const {
-        // An infinite s gives an infinite margin of the same effect.
         return 0x1p-50 * (std::abs(s) + std::abs(t_shift));
-    }
-    [[nodiscard]] float local_max_of_negated(double t) const {
-        if (t_scale == 0) return std::numeric_limits<float>::infinity();
-        const double s = t * t_scale;
-        return round_up(t_shift - s + margin(s));
     }
     void pass_everything();
 };
@@ -119,8 +127,8 @@ inline SlabRay::SlabRay(const LocalFrame& frame, const Ray& ray) {
         const double slack =
             0x1p-24 * 2.2 * reach + (0x1p-24 + delta) * std::abs(static_cast<double>(r));
         reciprocal[k] = r;
-        near_offset[k] = round_down(c - slack);
-        far_offset[k] = round_up(c + slack);
+        near_offset[k] = well_below(c - slack);
+        far_offset[k] = well_above(c + slack);
         near_row[k] = static_cast<std::uint32_t>(std::signbit(d) ? k + 3 : k);
     }
     s_min = local_min(ray.t_min);

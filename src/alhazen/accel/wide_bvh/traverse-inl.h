@@ -25,15 +25,15 @@ namespace HWY_NAMESPACE {
 /// The constants of a ray in every lane.
 struct WideRay {
     Floats reciprocal[3], near_offset[3], far_offset[3], s_min;
-    std::uint32_t near_row[3], far_row[3];
+    std::size_t near_row[3], far_row[3];  ///< distances from planes[0], in floats
 
     HWY_INLINE explicit WideRay(const SlabRay& ray) {
         for (int k = 0; k < 3; ++k) {
             reciprocal[k] = Floats(ray.reciprocal[k]);
             near_offset[k] = Floats(ray.near_offset[k]);
             far_offset[k] = Floats(ray.far_offset[k]);
-            near_row[k] = ray.near_row[k];
-            far_row[k] = ray.far_row(k);
+            near_row[k] = ray.near_row[k] * kWideNodeWidth;
+            far_row[k] = ray.far_row(k) * kWideNodeWidth;
         }
         s_min = Floats(ray.s_min);
     }
@@ -42,14 +42,15 @@ struct WideRay {
 /// Bits of the children whose boxes the ray meets; `entry` is where.
 HWY_INLINE std::uint32_t meet_children(const WideNode& node, const WideRay& ray, float s_max,
                                        Floats& entry) {
+    const float* planes = node.planes[0];
     Floats nearest = ray.s_min;
     Floats farthest = Floats(s_max);
     HWY_UNROLL(3)
     for (int k = 0; k < 3; ++k) {
-        const Floats near = mul_add(load_lanes(node.planes[ray.near_row[k]]), ray.reciprocal[k],
-                                    ray.near_offset[k]);
+        const Floats near =
+            mul_add(load_lanes(planes + ray.near_row[k]), ray.reciprocal[k], ray.near_offset[k]);
         const Floats far =
-            mul_add(load_lanes(node.planes[ray.far_row[k]]), ray.reciprocal[k], ray.far_offset[k]);
+            mul_add(load_lanes(planes + ray.far_row[k]), ray.reciprocal[k], ray.far_offset[k]);
         nearest = max_lanes(nearest, near);
         farthest = min_lanes(farthest, far);
     }

@@ -6,7 +6,6 @@
 /// swapped; leaves hold blocks of one kind of primitive each. Conventions: boxes are in the local
 /// frame of the tree (`LocalFrame`), rounded outward.
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -22,7 +21,7 @@ class NodeRef {
     static constexpr std::uint32_t kMaxOffset = (1u << 25) - 1;
     static constexpr std::uint32_t kMaxNodes = 1u << 31;
 
-    NodeRef() = default;
+    NodeRef() = default;  // not set: the traversal stack holds hundreds
     [[nodiscard]] static NodeRef node(std::uint32_t index) { return NodeRef(index); }
     /// `count` blocks of `kind` (0 to 3), the first at `offset`.
     [[nodiscard]] static NodeRef leaf(std::uint32_t kind, std::uint32_t offset,
@@ -42,7 +41,7 @@ class NodeRef {
   private:
     static constexpr std::uint32_t kLeafBit = 1u << 31;
     explicit NodeRef(std::uint32_t bits) : bits_(bits) {}
-    std::uint32_t bits_ = 0;
+    std::uint32_t bits_;
 };
 
 /// A box in the local frame.
@@ -72,7 +71,7 @@ struct FloatBox {
 struct alignas(256) WideNode {
     /// Rows lo.x, lo.y, lo.z, hi.x, hi.y, hi.z.
     float planes[6][kWideNodeWidth];
-    NodeRef child[kWideNodeWidth];
+    NodeRef child[kWideNodeWidth]{};
     std::uint32_t child_count = 0;  ///< slots in use: the first ones
 
     WideNode() {

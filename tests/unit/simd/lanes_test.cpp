@@ -1,0 +1,256 @@
+// Lanes give the bits of the scalar, on every instruction set: operators, the triangle and the
+// sphere.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "alhazen/geometry/sphere_roots.h"
+#include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "unit/simd/lanes_test.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
+#include "alhazen/simd/lanes-inl.h"
+
+#ifndef ALHAZEN_LANES_TEST_ONCE
+#define ALHAZEN_LANES_TEST_ONCE
+namespace alhazen::lanes_test {
+
+/// Inputs and results of a formula on eight lanes, one row per quantity.
+constexpr std::size_t kInputs = 11;
+constexpr std::size_t kOutputs = 12;
+struct alignas(64) Case {
+    double in[kInputs][8];
+    double out[kOutputs][8];
+    std::uint32_t bits[4];
+};
+
+}  // namespace alhazen::lanes_test
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+namespace {
+
+#include "alhazen/geometry/sphere_roots_formula-inl.h"
+#include "alhazen/geometry/watertight_triangle_formulas-inl.h"
+
+using lanes_test::Case;
+
+void operators(Case& c) {
+    const Doubles a = load_lanes(c.in[0]);
+    const Doubles b = load_lanes(c.in[1]);
+    store_lanes(a + b, c.out[0]);
+    store_lanes(a - b, c.out[1]);
+    store_lanes(a * b, c.out[2]);
+    store_lanes(a / b, c.out[3]);
+    store_lanes(-a, c.out[4]);
+    store_lanes(sqrt(a), c.out[5]);
+    store_lanes(copysign(a, b), c.out[6]);
+    store_lanes(fmin(a, b), c.out[7]);
+    store_lanes(fmax(a, b), c.out[8]);
+    store_lanes(Doubles(c.in[0][3]), c.out[9]);
+    c.bits[0] = bits_of(a < b);
+    c.bits[1] = bits_of(a <= b);
+    c.bits[2] = bits_of(a > b) | bits_of(a >= b) << 8;
+    c.bits[3] = bits_of((a < b) | (a > b)) | bits_of((a <= b) & (a >= b)) << 8;
+}
+
+void triangle(Case& c) {
+    const auto in = [&](std::size_t i) HWY_ATTR { return load_lanes(c.in[i]); };
+    const ShearedVertex<Doubles> a =
+        sheared(in(0), in(1), in(2), in(3), in(4), in(5), in(6), in(7));
+    const ShearedVertex<Doubles> b{in(8), in(9), in(10)};
+    const Doubles eu = edge_function(a, b);
+    const Doubles ev = in(3) * in(4);
+    const Doubles ew = edge_function(b, a);
+    const TriangleSolution<Doubles> s = solve_triangle(eu, ev, ew, a.z, b.z, in(5), in(6));
+    const Doubles results[] = {a.x, a.y, a.z, eu, ew, s.t, s.u, s.v};
+    for (std::size_t i = 0; i < 8; ++i) store_lanes(results[i], c.out[i]);
+}
+
+void sphere(Case& c) {
+    const auto in = [&](std::size_t i) HWY_ATTR { return load_lanes(c.in[i]); };
+    const SphereRoots<Doubles> r =
+        sphere_roots(in(0), in(1), in(2), in(3), in(4), in(5), in(6), in(7));
+    store_lanes(r.discriminant, c.out[0]);
+    store_lanes(r.t_near, c.out[1]);
+    store_lanes(r.t_far, c.out[2]);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+namespace {
+
+HWY_EXPORT(operators);
+HWY_EXPORT(triangle);
+HWY_EXPORT(sphere);
+
+using lanes_test::Case;
+using lanes_test::kInputs;
+using lanes_test::kOutputs;
+
+/// Doubles of all sorts: ordinary, on a lattice, huge, tiny, special.
+double any_double(std::mt19937_64& random, int sort) {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    constexpr double kSpecial[] = {0.0, -0.0,      1.0,        -1.0,      kInf,     -kInf,
+                                   NAN, 0x1p-1074, -0x1p-1074, 0x1p-1022, 0x1p1023, -0x1p1023,
+                                   0.5, 2.0,       0x1p-600,   0x1p600};
+    const double unit = static_cast<double>(random() >> 11) * 0x1p-53 * 2 - 1;
+    switch (sort) {
+        case 0:
+            return unit;
+        case 1:
+            return static_cast<double>(static_cast<int>(random() % 7) - 3);
+        case 2:
+            return std::ldexp(unit, static_cast<int>(random() % 800) - 400);
+        case 3:
+            return kSpecial[random() % std::size(kSpecial)];
+        default:
+            return any_double(random, static_cast<int>(random() % 4));
+    }
+}
+
+bool same(double a, double b) {
+    return (std::isnan(a) && std::isnan(b)) ||
+           std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+/// A zero of either sign: the minimum of two zeros may have any.
+bool same_value(double a, double b) {
+    return same(a, b) || (a == 0 && b == 0);
+}
+
+using Scalar = std::array<double, kOutputs>;
+
+void fill(Case& c, std::mt19937_64& random) {
+    const int sort = static_cast<int>(random() % 5);
+    for (auto& row : c.in) {
+        for (double& x : row) x = any_double(random, sort);
+    }
+}
+
+/// Runs `kernel` on every instruction set and compares the first rows of its results with `scalar`.
+template <class Kernel, class ScalarForm, class Same>
+void compare(std::size_t outputs, const Kernel& kernel, const ScalarForm& scalar,
+             const Same& equal) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        std::mt19937_64 random(42);
+        std::uint64_t numbers = 0;
+        for (int block = 0; block < 65000; ++block) {
+            Case c{};
+            fill(c, random);
+            kernel(c);
+            for (std::size_t lane = 0; lane < 8; ++lane) {
+                double in[kInputs];
+                for (std::size_t i = 0; i < kInputs; ++i) in[i] = c.in[i][lane];
+                const Scalar expected = scalar(in);
+                for (std::size_t i = 0; i < outputs; ++i) {
+                    ASSERT_TRUE(equal(i, expected[i], c.out[i][lane]))
+                        << target << " block " << block << " lane " << lane << " result " << i
+                        << std::hexfloat << ": " << expected[i] << " became " << c.out[i][lane];
+                    numbers += !std::isnan(expected[i]);
+                }
+            }
+        }
+        EXPECT_GT(numbers, 500000u) << "too many NaNs to prove anything";
+    }
+}
+
+TEST(Lanes, OperatorsGiveTheBitsOfTheScalar) {
+    compare(
+        9,
+        [](Case& c) {
+            HWY_DYNAMIC_DISPATCH(operators)
+            (c);
+        },
+        [](const double* in) {
+            const double a = in[0], b = in[1];
+            return Scalar{a + b,
+                          a - b,
+                          a * b,
+                          a / b,
+                          -a,
+                          std::sqrt(a),
+                          std::copysign(a, b),
+                          std::fmin(a, b),
+                          std::fmax(a, b)};
+        },
+        [](std::size_t i, double a, double b) { return i < 7 ? same(a, b) : same_value(a, b); });
+}
+
+TEST(Lanes, ComparisonsAreThoseOfTheScalar) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        std::mt19937_64 random(43);
+        for (int block = 0; block < 20000; ++block) {
+            Case c{};
+            fill(c, random);
+            if (block % 3 == 0) std::memcpy(c.in[1], c.in[0], 4 * sizeof(double));
+            HWY_DYNAMIC_DISPATCH(operators)(c);
+            std::uint32_t bits[4] = {};
+            for (std::uint32_t lane = 0; lane < 8; ++lane) {
+                const double a = c.in[0][lane], b = c.in[1][lane];
+                const auto bit = [lane](bool x) { return std::uint32_t{x} << lane; };
+                bits[0] |= bit(a < b);
+                bits[1] |= bit(a <= b);
+                bits[2] |= bit(a > b) | bit(a >= b) << 8;
+                bits[3] |= bit(a < b || a > b) | bit(a <= b && a >= b) << 8;
+                ASSERT_TRUE(same(c.out[9][lane], c.in[0][3]));
+            }
+            for (int i = 0; i < 4; ++i) ASSERT_EQ(bits[i], c.bits[i]) << target << " mask " << i;
+        }
+    }
+}
+
+TEST(Lanes, TheTriangleTestGivesTheBitsOfTheScalar) {
+    compare(
+        8,
+        [](Case& c) {
+            HWY_DYNAMIC_DISPATCH(triangle)
+            (c);
+        },
+        [](const double* in) {
+            const ShearedVertex<double> a =
+                sheared(in[0], in[1], in[2], in[3], in[4], in[5], in[6], in[7]);
+            const ShearedVertex<double> b{in[8], in[9], in[10]};
+            const double eu = edge_function(a, b), ev = in[3] * in[4], ew = edge_function(b, a);
+            const TriangleSolution<double> s = solve_triangle(eu, ev, ew, a.z, b.z, in[5], in[6]);
+            return Scalar{a.x, a.y, a.z, eu, ew, s.t, s.u, s.v};
+        },
+        [](std::size_t, double a, double b) { return same(a, b); });
+}
+
+TEST(Lanes, TheSphereTestGivesTheBitsOfTheScalar) {
+    compare(
+        3,
+        [](Case& c) {
+            HWY_DYNAMIC_DISPATCH(sphere)
+            (c);
+        },
+        [](const double* in) {
+            const SphereRoots<double> r =
+                sphere_roots(in[0], in[1], in[2], in[3], in[4], in[5], in[6], in[7]);
+            return Scalar{r.discriminant, r.t_near, r.t_far};
+        },
+        [](std::size_t, double a, double b) { return same_value(a, b); });
+}
+
+}  // namespace
+}  // namespace alhazen
+#endif
