@@ -27,6 +27,8 @@ target_compile_options(alhazen_flags INTERFACE
     -ffp-contract=off -fno-math-errno -fstack-protector-strong
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Wimplicit-fallthrough -Wundef
+    # Designated initialisers leave the other fields to their defaults on purpose.
+    -Wno-missing-field-initializers
     $<$<BOOL:${ALHAZEN_WERROR}>:-Werror>)
 target_compile_definitions(alhazen_flags INTERFACE
     ALHAZEN_VERSION="${PROJECT_VERSION}"

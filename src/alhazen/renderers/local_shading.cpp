@@ -21,7 +21,10 @@ ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit) {
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
-    point.normal = point.entering ? point.surface.shading_normal : -point.surface.shading_normal;
+    // The interpolated normal is turned by its own sign: near silhouettes, and in meshes wound against their
+    // normals, it may face the ray although the geometric one does not.
+    const Vec3& shading = point.surface.shading_normal;
+    point.normal = dot(ray.direction, shading) > 0.0 ? -shading : shading;
     return point;
 }
 

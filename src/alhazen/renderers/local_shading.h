@@ -17,7 +17,7 @@ struct ShadingPoint {
     MaterialSample material;
     bool entering = true;  ///< the ray met the outside (by the geometric normal)
     Vec3 geometric;        ///< unit geometric normal towards the ray's origin
-    Vec3 normal;           ///< unit shading normal, turned with the geometric one
+    Vec3 normal;           ///< unit shading normal, turned towards the ray's origin
     Vec3 view;             ///< unit, towards the ray's origin
 };
 

@@ -64,8 +64,7 @@ class Tracer {
 
     /// What is left of a light on its way to the point: A_shadow.
     Rgb light_let_through(const ShadingPoint& point, const LightSample& light) {
-        const Ray ray{offset_origin(point.surface, light.to_light), light.to_light, 0.0,
-                      light.distance};
+        const Ray ray = leaving_ray(point.surface, light.to_light, light.distance);
         RayCount& count = counters_[RayKind::Shadow];
         ++count.cast;
         if (scene_.all_opaque ||
@@ -109,9 +108,10 @@ class Tracer {
         if (!cast || onward.max() < conventions_.min_contribution) return {};
         Vec3 direction = mirror(ray.direction, point.normal);
         // An interpolated normal may send the ray into the surface: then the true one decides.
-        if (dot(direction, point.geometric) < 0.0)
+        if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) < 0.0) {
             direction = mirror(ray.direction, point.geometric);
-        const Ray next{offset_origin(point.surface, direction), direction};
+        }
+        const Ray next = leaving_ray(point.surface, direction);
         return kr * trace(next, RayKind::Reflection, depth + 1, onward);
     }
 
@@ -126,12 +126,12 @@ class Tracer {
             ++counters_.total_internal;
             return {};
         }
-        if (dot(direction, point.geometric) > 0.0 &&
+        if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) > 0.0 &&
             !refract(ray.direction, point.geometric, eta, direction)) {
             ++counters_.total_internal;
             return {};
         }
-        const Ray next{offset_origin(point.surface, direction), direction};
+        const Ray next = leaving_ray(point.surface, direction);
         const Rgb beyond = trace(next, RayKind::Refraction, depth + 1, onward);
         return conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent
                    ? kt * beyond

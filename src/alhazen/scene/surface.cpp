@@ -110,7 +110,7 @@ Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
     return surface_inside(aggregate, ray, hit, hit.path.size());
 }
 
-Vec3 offset_origin(const Surface& surface, const Vec3& direction) {
+Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {
     const double margin = 32.0 * dot(abs(surface.normal), surface.error);
     const Vec3 offset = dot(direction, surface.normal) >= 0.0 ? margin * surface.normal
                                                               : (-margin) * surface.normal;
@@ -122,7 +122,7 @@ Vec3 offset_origin(const Surface& surface, const Vec3& direction) {
             origin[axis] = std::nextafter(origin[axis], -HUGE_VAL);
         }
     }
-    return origin;
+    return {origin, direction, std::numeric_limits<double>::min(), t_max};
 }
 
 }  // namespace alhazen

@@ -26,10 +26,14 @@ struct Surface {
 /// `ray` is the world-space ray that found `hit` in `aggregate`.
 [[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit);
 
-/// Where a ray that leaves the surface towards `direction` starts: outside the error bound of the
-/// point, on the side the direction points to, so that it does not meet the surface again. Source:
-/// Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6. Differs: the
-/// margin is 32 times the bound, which also covers the rounding of the next intersection test.
-[[nodiscard]] Vec3 offset_origin(const Surface& surface, const Vec3& direction);
+/// The ray that leaves the surface along `direction`, as far as `t_max`. It starts outside the
+/// error bound of the point, on the side the direction points to, and excludes t = 0, so that it
+/// does not meet the surface again.
+///
+/// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
+/// Differs: the margin is 32 times the bound, which also covers the rounding of the next
+/// intersection test.
+[[nodiscard]] Ray leaving_ray(const Surface& surface, const Vec3& direction,
+                              double t_max = std::numeric_limits<double>::infinity());
 
 }  // namespace alhazen

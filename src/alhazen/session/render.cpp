@@ -67,6 +67,7 @@ Scene adjusted(const Scene& scene, const RenderOptions& options) {
         conventions.max_depth = 4;
         conventions.min_contribution = 0.0;
         conventions.transmitting_surfaces_reflect = true;
+        conventions.correct_interpolated_normals = false;
     }
     if (options.max_depth) conventions.max_depth = *options.max_depth;
     return result;

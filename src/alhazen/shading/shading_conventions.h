@@ -46,6 +46,10 @@ struct ShadingConventions {
     /// A transparent surface reflects although its kr is zero (the ray is cast and counted).
     bool transmitting_surfaces_reflect = false;
 
+    /// A reflected ray that an interpolated normal sends into the surface, or a refracted one that
+    /// it sends back out, is made anew with the geometric normal.
+    bool correct_interpolated_normals = true;
+
     double air_index = 1.0003;
 
     /// Where in a pixel its ray goes when there is one sample per pixel.

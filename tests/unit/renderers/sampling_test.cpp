@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include "alhazen/renderers/pixel_loop.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using PixelSample = ShadingConventions::PixelSample;
+
+TEST(PixelSampling, TheSingleSampleFollowsTheConvention) {
+    EXPECT_EQ(single_sample(PixelSample::Center, 0, 0, 4, 2), (Vec2{0.125, 0.75}));
+    EXPECT_EQ(single_sample(PixelSample::LowerLeftCorner, 1, 1, 4, 2), (Vec2{0.25, 0.0}));
+    EXPECT_EQ(single_sample(PixelSample::FrameCorners, 4, 0, 5, 3), (Vec2{1.0, 1.0}));
+    EXPECT_EQ(single_sample(PixelSample::FrameCorners, 0, 2, 5, 3), (Vec2{0.0, 0.0}));
+}
+
+TEST(PixelSampling, JitteredSamplesFillTheirStrataOfThePixel) {
+    testing::SceneMaker maker;
+    maker.add(Sphere{});
+    const Scene scene = maker.compile();
+    RenderJob job{scene, scene.cameras[0].camera, 16, 5, false};
+    std::array<int, 16> strata{};
+    for (int s = 0; s < 16; ++s) {
+        const Vec2 p = jittered_sample(job, 3, 1, 8, 8, s);
+        const double x = p.x * 8 - 3;
+        const double y = p.y * 8 - 6;
+        ASSERT_TRUE(x >= 0 && x < 1 && y >= 0 && y < 1) << s;
+        ++strata[static_cast<std::size_t>(4 * static_cast<int>(y * 4) + static_cast<int>(x * 4))];
+    }
+    for (const int count : strata) EXPECT_EQ(count, 1);
+    for (int count = 2; count < 40; ++count) {
+        job.samples_per_pixel = count;
+        for (int s = 0; s < count; ++s) {
+            const Vec2 p = jittered_sample(job, 0, 0, 1, 1, s);
+            ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) << s << " of " << count;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

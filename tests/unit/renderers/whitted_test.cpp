@@ -1,0 +1,266 @@
+#include "alhazen/renderers/whitted.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "alhazen/renderers/ray_casting.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+/// Colour of the middle of the picture; the only sample goes exactly along the camera's axis.
+Rgb center(const Scene& scene, RayCounters& counters, const Renderer& renderer = Whitted{}) {
+    Film film(1, 1, {0, 0, 1, 1});
+    const RenderJob job{scene, scene.cameras[0].camera, 1, 0, true};
+    renderer.render_tile(job, {0, 0, 1, 1}, film, counters);
+    return film.at(0, 0);
+}
+Rgb center(const Scene& scene, const Renderer& renderer = Whitted{}) {
+    RayCounters counters;
+    return center(scene, counters, renderer);
+}
+
+void expect_near(const Rgb& a, const Rgb& b, double tolerance = 1e-12) {
+    EXPECT_NEAR(a.r, b.r, tolerance);
+    EXPECT_NEAR(a.g, b.g, tolerance);
+    EXPECT_NEAR(a.b, b.b, tolerance);
+}
+
+Material plain(double kd) {
+    Material m;
+    m.diffuse.color = {kd, kd, kd};
+    return m;
+}
+Material glass(const Rgb& kt, double index = 1.0) {
+    Material m;
+    m.transmissive.color = kt;
+    m.index.value = index;
+    return m;
+}
+
+/// A sphere in front of the camera, lit by two lights: every term by hand.
+TEST(Whitted, OneSphereAndTwoLightsAreTheEquation) {
+    SceneMaker maker;
+    Material m;
+    m.emission.color = {0.01, 0.02, 0.03};
+    m.ambient.color = {0.5, 0.5, 0.5};
+    m.diffuse.color = {0.4, 0.3, 0.2};
+    m.specular.color = {0.6, 0.6, 0.6};
+    m.shininess.value = 20;
+    maker.add(Sphere{}, maker.material(m));
+    maker.light(AmbientLight{{0.1, 0.2, 0.3}});
+    maker.light(DirectionalLight{.to_light = {0, 3, 4}, .color = {1, 0.5, 0.25}});
+    // The point is (0, 0, 1), its normal +z; this light stands 2 away, at 30 degrees from the
+    // normal.
+    const double a = std::numbers::pi / 6;
+    maker.light(PointLight{.position = {2 * std::sin(a), 0, 1 + 2 * std::cos(a)},
+                           .color = {1, 1, 1},
+                           .attenuation = {0.5, 0.25, 0.25}});
+    const Scene scene = maker.compile();
+    const auto blinn = [](double cos_l) { return std::pow(std::sqrt((1 + cos_l) / 2), 20); };
+    const auto term = [&](double intensity, double kd, double cos_l) {
+        return intensity * (kd * cos_l + 0.6 * blinn(cos_l));
+    };
+    const double distant = 1.0 / (0.5 + 0.5 + 1.0);
+    const double c = std::cos(a);
+    expect_near(center(scene), {0.01 + 0.05 + term(1, 0.4, 0.8) + term(distant, 0.4, c),
+                                0.02 + 0.1 + term(0.5, 0.3, 0.8) + term(distant, 0.3, c),
+                                0.03 + 0.15 + term(0.25, 0.2, 0.8) + term(distant, 0.2, c)});
+    expect_near(center(scene, RayCasting{}), center(scene));
+}
+
+TEST(Whitted, PhongMeasuresTheMirroredLightInsteadOfTheHalfVector) {
+    SceneMaker maker;
+    Material m;
+    m.specular.color = {1, 1, 1};
+    m.shininess.value = 3;
+    maker.add(Sphere{}, maker.material(m));
+    maker.light(DirectionalLight{.to_light = {0, 3, 4}});
+    maker.description().conventions.highlight = ShadingConventions::Highlight::Phong;
+    expect_near(center(maker.compile()), std::pow(0.8, 3) * Rgb{1, 1, 1});
+}
+
+/// Slabs of glass between the point and the light: each is entered and left, so each counts twice.
+TEST(Whitted, ASlabOfGlassAttenuatesShadowRaysByKtSquaredAndTwoByItsFourthPower) {
+    for (int slabs = 0; slabs <= 3; ++slabs) {
+        SceneMaker maker;
+        const MaterialId white = maker.material(plain(1));
+        const MaterialId pane = maker.material(glass({0.9, 0.8, 0.5}, 1.5));
+        maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}},
+                  white);
+        for (int i = 0; i < slabs; ++i) {
+            maker.add(BoxShape{.lo = {1 + 2.0 * i, -9, 0.5}, .hi = {2 + 2.0 * i, 9, 40}}, pane);
+        }
+        maker.light(DirectionalLight{.to_light = {4, 0, 3}});
+        RayCounters counters;
+        const Rgb color = center(maker.compile(), counters);
+        const double n = 2.0 * slabs;
+        expect_near(color, 0.6 * Rgb{std::pow(0.9, n), std::pow(0.8, n), std::pow(0.5, n)});
+        EXPECT_EQ(counters[RayKind::Shadow].cast, 1u);
+        EXPECT_EQ(counters[RayKind::Shadow].hit, slabs > 0 ? 1u : 0u);
+    }
+}
+
+TEST(Whitted, BeerShadowsDependOnTheDistanceInside) {
+    SceneMaker maker;
+    const MaterialId white = maker.material(plain(1));
+    const MaterialId pane = maker.material(glass({0.9, 0.8, 0.5}));
+    maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}}, white);
+    maker.add(BoxShape{.lo = {1, -9, 0.5}, .hi = {2, 9, 40}}, pane);
+    maker.light(DirectionalLight{.to_light = {4, 0, 3}});
+    maker.description().conventions.shadow_tint = ShadingConventions::ShadowTint::PerDistance;
+    const double d = 1.0 / 0.8;
+    expect_near(center(maker.compile()),
+                0.6 * Rgb{std::pow(0.9, d), std::pow(0.8, d), std::pow(0.5, d)});
+}
+
+TEST(Whitted, LightBehindAnOpaqueObjectIsBlockedButNotBeyondTheLight) {
+    SceneMaker maker;
+    const MaterialId white = maker.material(plain(1));
+    maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}}, white);
+    maker.add(Sphere{.center = {2, 0, 2}, .radius = 0.5}, white);
+    maker.light(PointLight{.position = {1, 0, 1}});
+    const double lit = 1.0 / std::sqrt(2.0);
+    expect_near(center(maker.compile()), {lit, lit, lit});
+    maker.description().lights.clear();
+    maker.light(PointLight{.position = {4, 0, 4}});
+    expect_near(center(maker.compile()), {0, 0, 0});
+}
+
+TEST(Whitted, AMirrorShowsWhatIsBehindTheCameraTimesKr) {
+    SceneMaker maker;
+    Material m;
+    m.reflective.color = {0.5, 0.25, 1};
+    maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}},
+              maker.material(m));
+    Material glow;
+    glow.emission.color = {1, 1, 1};
+    maker.add(Sphere{.center = {0, 0, 20}}, maker.material(glow));
+    RayCounters counters;
+    expect_near(center(maker.compile(), counters), {0.5, 0.25, 1});
+    EXPECT_EQ(counters[RayKind::Reflection].cast, 1u);
+    EXPECT_EQ(counters[RayKind::Reflection].hit, 1u);
+}
+
+/// Two facing mirrors: the depth ends the recursion, or the product of the coefficients does.
+TEST(Whitted, RecursionEndsByDepthAndByContribution) {
+    SceneMaker maker;
+    Material m;
+    m.reflective.color = {0.5, 0.5, 0.5};
+    const MaterialId mirror_material = maker.material(m);
+    for (const double z : {0.0, 10.0}) {
+        maker.add(Rectangle{.corner = {-9, -9, z}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}},
+                  mirror_material);
+    }
+    SceneDescription& d = maker.description();
+    const auto reflections = [&] {
+        RayCounters counters;
+        (void)center(maker.compile(), counters);
+        return counters[RayKind::Reflection].cast;
+    };
+    d.conventions.max_depth = 0;
+    EXPECT_EQ(reflections(), 0u);
+    d.conventions.max_depth = 7;
+    EXPECT_EQ(reflections(), 7u);
+    d.conventions.min_contribution = 0.1;  // 0.5, 0.25, 0.125 go on, 0.0625 does not
+    EXPECT_EQ(reflections(), 3u);
+}
+
+TEST(Whitted, APaneOfGlassLetsTheBackgroundThroughTimesKtTwice) {
+    SceneMaker maker;
+    maker.add(BoxShape{.lo = {-9, -9, 0}, .hi = {9, 9, 1}},
+              maker.material(glass({0.5, 1, 0.2}, 1.5)));
+    maker.description().picture.background = {1, 1, 1};
+    RayCounters counters;
+    expect_near(center(maker.compile(), counters), {0.25, 1, 0.04});
+    EXPECT_EQ(counters[RayKind::Refraction].cast, 2u);
+    EXPECT_EQ(counters[RayKind::Refraction].hit, 1u);
+}
+
+TEST(Whitted, InsideAmbientLightIsMultipliedByKtWhereTheConventionSaysSo) {
+    SceneMaker maker;
+    Material m = glass({0.5, 0.5, 0.5});
+    m.ambient.color = {1, 1, 1};
+    maker.add(BoxShape{.lo = {-9, -9, 0}, .hi = {9, 9, 1}}, maker.material(m));
+    maker.light(AmbientLight{{0.8, 0.8, 0.8}});
+    // Front face: 0.8; back face, seen through one crossing: 0.5 * 0.8 (times kt once more inside).
+    expect_near(center(maker.compile()), Rgb{1.2, 1.2, 1.2});
+    maker.description().conventions.ambient_inside_times_kt = true;
+    expect_near(center(maker.compile()), Rgb{1.0, 1.0, 1.0});
+}
+
+TEST(Whitted, TotalInternalReflectionIsCountedAndCarriesNoLight) {
+    SceneMaker maker;
+    // A prism whose second face is met at 45 degrees from inside glass of index 1.52.
+    TriangleMesh prism;
+    prism.positions = {{-1, -9, 0}, {1, -9, 0}, {-1, -9, -2}, {-1, 9, 0}, {1, 9, 0}, {-1, 9, -2}};
+    prism.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
+                       {2, 0, 3}, {2, 3, 5}, {0, 2, 1}, {3, 4, 5}};
+    maker.add(maker.mesh(prism), maker.material(glass({1, 1, 1}, 1.52)));
+    maker.description().picture.background = {1, 1, 1};
+    RayCounters counters;
+    expect_near(center(maker.compile(), counters), {0, 0, 0});
+    EXPECT_EQ(counters.total_internal, 1u);
+    EXPECT_EQ(counters[RayKind::Refraction].cast, 1u);
+}
+
+/// The interpolated normal leans so far that the mirrored ray would enter the surface.
+TEST(Whitted, AReflectionThatWouldEnterTheSurfaceUsesTheGeometricNormal) {
+    TriangleMesh mesh;
+    mesh.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    const Vec3 leaning = normalize(Vec3{1, 0, 0.5});
+    mesh.normals = {leaning, leaning, leaning};
+    SceneMaker maker;
+    Material m;
+    m.reflective.color = {1, 1, 1};
+    maker.add(maker.mesh(mesh), maker.material(m));
+    Material glow;
+    glow.emission.color = {0.3, 0.6, 0.9};
+    maker.add(Sphere{.center = {0, 0, 20}}, maker.material(glow));
+    expect_near(center(maker.compile()), {0.3, 0.6, 0.9});
+}
+
+TEST(Whitted, TheSamePixelsComeOutOfAnyTiling) {
+    SceneMaker maker;
+    Material m = plain(0.5);
+    m.reflective.color = {0.5, 0.5, 0.5};
+    maker.add(Sphere{}, maker.material(m));
+    maker.add(Plane{.point = {0, -1, 0}, .normal = {0, 1, 0}}, maker.material(plain(0.8)));
+    maker.light(PointLight{.position = {3, 4, 5}});
+    const Scene scene = maker.compile();
+    const RenderJob job{scene, scene.cameras[0].camera, 4, 11, false};
+    const auto picture = [&](int tile_size) {
+        Film film(40, 30, {0, 0, 40, 30});
+        RayCounters counters;
+        for (const PixelBox& tile : tiles_of(film.crop(), tile_size)) {
+            Whitted{}.render_tile(job, tile, film, counters);
+        }
+        return film;
+    };
+    const Film a = picture(40);
+    const Film b = picture(7);
+    for (int y = 0; y < 30; ++y) {
+        for (int x = 0; x < 40; ++x) ASSERT_EQ(a.at(x, y), b.at(x, y)) << x << ',' << y;
+    }
+}
+
+TEST(Whitted, RadianceThatIsNotFiniteIsCountedAndLeftOut) {
+    SceneMaker maker;
+    Material m = plain(1);
+    m.emission.color = {1e308, 0, 0};
+    maker.add(Sphere{}, maker.material(m));
+    maker.light(AmbientLight{{1e308, 0, 0}});
+    maker.description().conventions.ambient_factor = ShadingConventions::AmbientFactor::Diffuse;
+    maker.light(AmbientLight{{1e308, 0, 0}});
+    RayCounters counters;
+    expect_near(center(maker.compile(), counters), {0, 0, 0});
+    EXPECT_EQ(counters.non_finite, 1u);
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "alhazen/scene/scene_description.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t errors_in(const SceneDescription& description) {
+    Diagnostics diagnostics;
+    validate(description, diagnostics);
+    return diagnostics.error_count();
+}
+
+SceneMaker good_scene() {
+    SceneMaker maker;
+    maker.material({});
+    maker.add(Sphere{});
+    return maker;
+}
+
+TEST(Validate, AGoodSceneHasNoFinding) {
+    EXPECT_EQ(errors_in(good_scene().description()), 0u);
+}
+
+TEST(Validate, EveryFindingIsReportedAtOnceWithItsPlace) {
+    SceneMaker maker = good_scene();
+    SceneDescription& d = maker.description();
+    d.objects[0].parts[0].object_from_part = Affine::scale({1, 0, 1});
+    d.objects[0].parts[0].location = {"scene", 7, 3};
+    d.materials[0].material.shininess.value = -1;
+    d.lights.push_back({"", PointLight{.position = {kNan, 0, 0}}, {}});
+    d.picture.width = 0;
+    Diagnostics diagnostics;
+    validate(d, diagnostics);
+    EXPECT_EQ(diagnostics.error_count(), 4u);
+    bool found = false;
+    for (const Diagnostic& finding : diagnostics.all()) {
+        found |= to_string(finding).starts_with("scene:7:3: error: the transform is singular");
+    }
+    EXPECT_TRUE(found);
+}
+
+TEST(Validate, IdsOutOfRangeAreErrors) {
+    SceneMaker maker = good_scene();
+    SceneDescription& d = maker.description();
+    d.objects[0].parts[0].material = MaterialId{9};
+    d.materials[0].material.diffuse.texture = TextureId{3};
+    Part part;
+    part.what = MeshIndex{5};
+    d.objects[0].parts.push_back(part);
+    part.what = ObjectIndex{5};
+    d.objects[0].parts.push_back(part);
+    EXPECT_EQ(errors_in(d), 4u);
+}
+
+TEST(Validate, AnObjectThatContainsItselfIsAnError) {
+    SceneMaker maker = good_scene();
+    const ObjectIndex a = maker.object("a");
+    const ObjectIndex b = maker.object("b");
+    maker.add(b, MaterialId{0}, {}, a);
+    maker.add(a, MaterialId{0}, {}, b);
+    maker.add(a);
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
+TEST(Validate, NestingIsLimitedWithoutRecursion) {
+    SceneMaker maker = good_scene();
+    ObjectIndex previous{0};
+    for (int i = 0; i < 100000; ++i) {
+        const ObjectIndex next = maker.object("deep");
+        maker.add(next, MaterialId{0}, {}, previous);
+        previous = next;
+    }
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
+TEST(Validate, CamerasThatCannotMakeAPictureAreErrors) {
+    SceneMaker maker = good_scene();
+    auto& camera = std::get<PerspectiveCamera>(maker.description().cameras[0].camera);
+    camera.up = camera.right;
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+    camera.up = {0, 1, 0};
+    camera.look = {0, 0, 0};
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
+}  // namespace
+}  // namespace alhazen
