@@ -69,8 +69,8 @@ RayMaterial RayMaterials::read_block(TextNode block, const RayMaterial& enclosin
     read_scalar(reader, "shininess", context_.family.shininess_scale, kShininessMapScale,
                 m.shininess);
     read_scalar(reader, "index", 1.0, 1.0, m.index);
-    const bool mirrors_by_specular = context_.family.dictionary && !reader.has("reflective");
-    if (mirrors_by_specular && reader.has("specular")) m.reflective = m.specular;
+    // Both families: what shines also mirrors, unless the block says how much.
+    if (reader.has("specular") && !reader.has("reflective")) m.reflective = m.specular;
     m.name = read_name(reader);
     refuse_extensions(reader);
     reader.finish(true);
