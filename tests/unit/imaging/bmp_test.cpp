@@ -10,7 +10,7 @@ namespace {
 using testing::error_of;
 
 void put(std::string& bytes, std::uint32_t value, int count) {
-    for (int i = 0; i < count; ++i) bytes += char(value >> (8 * i));
+    for (int i = 0; i < count; ++i, value >>= 8) bytes += char(value);
 }
 
 struct Bitmap {
