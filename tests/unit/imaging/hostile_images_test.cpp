@@ -130,7 +130,9 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
                   ErrorKind::Scene)
             << sample.name;
     }
-    if (!kMemoryIsWatched) EXPECT_LT(peak_kib() - before, 200 * 1024);
+    if (!kMemoryIsWatched) {
+        EXPECT_LT(peak_kib() - before, 200 * 1024);
+    }
 }
 
 TEST(HostileImages, TheCorpusIsReadButForTheBadFilesThatOnceDidHarm) {
@@ -181,7 +183,9 @@ TEST(HostileImages, FilesThatBrokeOtherReadersAreHarmless) {
     EXPECT_GT(files, 100);
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
-    if (!kMemoryIsWatched) EXPECT_LT(usage.ru_maxrss, 256 * 1024) << "KiB";
+    if (!kMemoryIsWatched) {
+        EXPECT_LT(usage.ru_maxrss, 256 * 1024) << "KiB";
+    }
 }
 
 TEST(HostileImages, TheGoodPngFilesOfTheSuiteAreReadAndTheCorruptAreNot) {
