@@ -2,8 +2,8 @@
 /// Makes an aggregate of a primitive table and any accelerator that visits primitives one at a
 /// time.
 ///
-/// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside the
-/// accelerator.
+/// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside
+/// the accelerator.
 /// Complexity and threads: one virtual call per ray; the traversal is instantiated for each query
 /// with the visitor in it. Const functions may be called from many threads.
 

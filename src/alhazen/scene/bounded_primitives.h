@@ -1,6 +1,6 @@
 #pragma once
-/// The primitives of a table that an accelerator can be built over, and those it cannot: planes and
-/// whatever else has no finite box. The latter are few, and tested for every ray.
+/// The primitives of a table that an accelerator can be built over, and those it cannot: planes
+/// and whatever else has no finite box. The latter are few, and tested for every ray.
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
-/// How primitives lie in the leaves of the wide BVH: eight of one kind side by side, lane by lane,
-/// in double, so that the block test has the very numbers of the scalar one. Kinds without a block
-/// are tested one by one.
+/// How primitives lie in the leaves of the wide BVH: eight of one kind side by side, lane by
+/// lane, in double, so that the block test has the very numbers of the scalar one. Kinds without
+/// a block are tested one by one.
 ///
 /// Conventions: lanes are in ascending order of id; `lanes` has a bit for each lane in use,
 /// `opaque` for each that lets no light through; lanes not in use repeat the first.

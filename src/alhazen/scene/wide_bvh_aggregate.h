@@ -2,9 +2,11 @@
 /// The production accelerator: a bounding volume hierarchy eight wide, traversed with SIMD, its
 /// leaves blocks of eight triangles or spheres in double.
 ///
-/// Source: ALGORITHMS in the headers of accel/wide_bvh/. Differs: boxes are float but conservative
-/// with respect to tests in double, so the hits are those of brute force, bit for bit. Conventions:
-/// those of `Aggregate`. Primitives without a finite box are tested first, outside the tree.
+/// Source: see the headers of accel/wide_bvh/.
+/// Differs: boxes are float but conservative with respect to tests in double, so the hits are
+/// those of brute force, bit for bit.
+/// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside
+/// the tree.
 /// Complexity and threads: built in parallel; const functions may be called from many threads; no
 /// allocation per ray, except for the hits that are asked for.
 

@@ -2,9 +2,10 @@
 /// need to run on a block of eight primitives, and the node test on eight children.
 ///
 /// A block is one AVX-512 register of double, two of AVX, four of SSE. Every operation is the
-/// correctly rounded IEEE one and nothing is fused unless `mul_add` is called, so each lane has the
-/// bits of the scalar form on every target. Conventions: included once per target, by the pattern
-/// of Highway's foreach_target.h; everything is in HWY_NAMESPACE and must not escape from it.
+/// correctly rounded IEEE one and nothing is fused unless `mul_add` is called, so each lane has
+/// the bits of the scalar form on every target.
+/// Conventions: included once per target, by the pattern of Highway's foreach_target.h;
+/// everything is in HWY_NAMESPACE and must not escape from it.
 
 #if defined(ALHAZEN_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SIMD_LANES_INL_H_

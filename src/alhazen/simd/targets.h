@@ -1,9 +1,10 @@
 #pragma once
 /// The instruction sets that kernels are compiled for, and a way to force one of them.
 ///
-/// Conventions: names are Highway's ("AVX3" is AVX-512, "EMU128" plain C++). Every target gives the
-/// same bits. Threads: objects that hold kernels choose them when they are built, so a target
-/// should be forced before, and by one thread.
+/// Conventions: names are Highway's ("AVX3" is AVX-512, "EMU128" plain C++). Every target gives
+/// the same bits.
+/// Threads: objects that hold kernels choose them when they are built, so a target should be
+/// forced before, and by one thread.
 
 #include <string>
 #include <vector>

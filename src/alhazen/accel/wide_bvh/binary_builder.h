@@ -4,10 +4,12 @@
 ///
 /// Source: MacDonald and Booth, "Heuristics for Ray Tracing Using Space Subdivision", The Visual
 /// Computer 6, 1990 (the cost); Wald, "On Fast Construction of SAH-based Bounding Volume
-/// Hierarchies", RT 2007 (binning). Differs: primitives are counted in blocks of the lanes that
-/// test them together, by kind; small ranges are swept exactly; from level 48 on ranges are halved,
-/// so the depth is bounded whatever the input. Complexity and threads: O(n log n), parallel; the
-/// result is the same for every number of threads.
+/// Hierarchies", RT 2007 (binning).
+/// Differs: primitives are counted in blocks of the lanes that test them together, by kind; small
+/// ranges are swept exactly; from level 48 on ranges are halved, so the depth is bounded whatever
+/// the input.
+/// Complexity and threads: O(n log n), parallel; the result is the same for every number of
+/// threads.
 
 #include <array>
 #include <cstdint>

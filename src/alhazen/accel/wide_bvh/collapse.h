@@ -1,9 +1,10 @@
 #pragma once
 /// Makes a wide BVH of a binary one, at the least expected cost.
 ///
-/// Source: Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed
-/// Wide BVHs", HPG 2017, section 3 (the dynamic program). Differs: the cost of a leaf is that of
-/// its blocks; leaves hold one kind. Complexity: O(n) time; serial.
+/// Source: Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through
+/// Compressed Wide BVHs", HPG 2017, section 3 (the dynamic program).
+/// Differs: the cost of a leaf is that of its blocks; leaves hold one kind.
+/// Complexity: O(n) time; serial.
 
 #include <cstdint>
 #include <span>

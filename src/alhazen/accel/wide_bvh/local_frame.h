@@ -1,7 +1,7 @@
 #pragma once
-/// The frame in which the float boxes of a wide BVH live: the scene moved to the origin and scaled
-/// by a power of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps the full
-/// resolution of float.
+/// The frame in which the float boxes of a wide BVH live: the scene moved to the origin and
+/// scaled by a power of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps
+/// the full resolution of float.
 ///
 /// Conventions: local = (world - center) * scale, computed in double. The rounding of that and of
 /// the exact tests is covered once per ray (`SlabRay`), not in the boxes; boxes carry only the

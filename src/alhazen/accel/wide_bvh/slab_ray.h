@@ -1,23 +1,25 @@
 #pragma once
-/// A ray made ready for the slab test on float boxes: the test never loses a box in which the exact
-/// test, in double, of a primitive can find a hit.
+/// A ray made ready for the slab test on float boxes: the test never loses a box in which the
+/// exact test, in double, of a primitive can find a hit.
 ///
 /// Source: Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013 (the problem).
 /// Differs: a relative factor on the far distance is not enough for the form p * r + c; all slack
-/// is absolute and folded into the constants c, once per ray. For a hit at parameter s with |s| <=
-/// T, and e = 2^-24:
-///   plane parameter       s_p = (p - o) / d,   computed fl(fl(p r) + c), r = (1 / d) (1 + e1),
-///   |e1| <= e near plane, s_p <= s: computed <= s when c is lowered by 2.2 e T (rounding of r and
-///   of the sum), e |r|
-///                         (the product, where there is no fused multiply-add) and delta |r|
-///   far plane:            the mirror image.
+/// is absolute and folded into the constants c, once per ray.
+/// For a hit at parameter s with |s| <= T, and e = 2^-24:
+/// - plane parameter s_p = (p - o) / d; computed fl(fl(p r) + c) with r = (1 / d) (1 + e1), |e1| <=
+/// e
+/// - near plane, s_p <= s: computed <= s when c is lowered by 2.2 e T (rounding of r and of the
+///   sum), e |r| (of the product, where multiply-add is not fused) and delta |r|
+/// - far plane: the mirror image
+///
 /// `delta` is a displacement in space that covers everything done in double: the local frame, the
 /// shift of the origin, the rounding inside the exact tests (whose computed hit lies that near to
-/// the ray). A direction component below 2^-60 is replaced by that: inside the scene this displaces
-/// the ray by less than delta. An origin that is not near the scene is first moved along the ray to
-/// the point nearest to the scene's center. Conventions: parameters in the local frame, s = t *
-/// t_scale - t_shift, with the largest direction component in [1, 2). A ray from farther than 2^40
-/// scene sizes passes every box: doubles say nothing at that distance.
+/// the ray). A direction component below 2^-60 is replaced by that: inside the scene this
+/// displaces the ray by less than delta. An origin that is not near the scene is first moved
+/// along the ray to the point nearest to the scene's center.
+/// Conventions: parameters in the local frame, s = t * t_scale - t_shift, with the largest
+/// direction component in [1, 2). A ray from farther than 2^40 scene sizes passes every box:
+/// doubles say nothing at that distance.
 
 #include <bit>
 #include <cstdint>

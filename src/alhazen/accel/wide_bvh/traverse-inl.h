@@ -2,10 +2,11 @@
 /// instruction set.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
-/// Differs: slab test with all slack in the ray's constants (`SlabRay`); ways of their own for one
-/// and two children hit. Conventions: included once per target (see simd/lanes-inl.h). `Leaf`
-/// offers `bool visit(NodeRef)`, true to stop, and `float s_max()`, how far the ray still needs to
-/// go: boxes that begin at exactly that are visited.
+/// Differs: slab test with all slack in the ray's constants (`SlabRay`); ways of their own for
+/// one and two children hit.
+/// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` offers `bool
+/// visit(NodeRef)`, true to stop, and `float s_max()`, how far the ray still needs to go: boxes
+/// that begin at exactly that are visited.
 
 #if defined(ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_

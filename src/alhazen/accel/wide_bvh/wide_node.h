@@ -2,9 +2,10 @@
 /// The nodes of the wide BVH and the references between them.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for single
-/// rays). Differs: planes are rows chosen by the sign of the direction, so that no t is ever
-/// swapped; leaves hold blocks of one kind of primitive each. Conventions: boxes are in the local
-/// frame of the tree (`LocalFrame`), rounded outward.
+/// rays).
+/// Differs: planes are rows chosen by the sign of the direction, so that no t is ever swapped;
+/// leaves hold blocks of one kind of primitive each.
+/// Conventions: boxes are in the local frame of the tree (`LocalFrame`), rounded outward.
 
 #include <cstddef>
 #include <cstdint>
