@@ -1,5 +1,6 @@
 #include "alhazen/scene/surface.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/scene/primitive_table.h"
@@ -39,6 +40,26 @@ Surface from_shape(const ShapeSurface& s) {
     return surface;
 }
 
+/// Farthest coordinate of a shape along each axis; where it is unbounded, that of the point.
+Vec3 reach_of(const Box3& box, const Vec3& point) {
+    Vec3 reach;
+    for (int k = 0; k < 3; ++k) {
+        const double farthest = std::max(std::abs(box.lo[k]), std::abs(box.hi[k]));
+        reach[k] = std::isfinite(farthest) ? farthest : std::abs(point[k]);
+    }
+    return reach;
+}
+
+/// The surface in the shape's own frame. The shape bounds the error of the point; what is added is
+/// the rounding of the next ray's test, which is relative to the size of the shape, not to where
+/// the point lies.
+template <class S>
+Surface shape_surface(const S& shape, const Ray& ray, const Hit& hit) {
+    Surface surface = from_shape(shape.surface(ray, hit));
+    surface.error += 4 * kEpsilon * reach_of(shape.box(), surface.point);
+    return surface;
+}
+
 Surface analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
                          const Ray& ray, const Hit& hit) {
     Surface surface;
@@ -47,11 +68,11 @@ Surface analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::u
         if (k++ != kind) return;
         const std::uint32_t placement = column.placements[index];
         if (placement == kNoPlacement) {
-            surface = from_shape(column.shapes[index].surface(ray, hit));
+            surface = shape_surface(column.shapes[index], ray, hit);
         } else {
             const Placement& p = table.placements[placement];
             surface =
-                from_shape(column.shapes[index].surface(transformed(p.inner_from_outer, ray), hit));
+                shape_surface(column.shapes[index], transformed(p.inner_from_outer, ray), hit);
             carry_outward(p, surface);
         }
         surface.materials[0] = column.materials[index];

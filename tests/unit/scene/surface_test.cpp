@@ -63,6 +63,38 @@ TEST(Surface, RaysThatLeaveAConvexShapeDoNotMeetItAgain) {
     expect_no_self_intersection(Plane{}, 7);
 }
 
+TEST(Surface, RaysThatLeaveAFlatShapeNearTheOriginOfCoordinatesDoNotMeetItAgain) {
+    RandomStream random(9);
+    for (int round = 0; round < 2000; ++round) {
+        // A tilted shape through the origin, met where all coordinates of the point vanish.
+        const Affine tilt = Affine::rotate(random_direction(random), random.uniform(0, 6));
+        const double size = std::pow(10.0, random.uniform(0, 6));
+        const Vec3 u = size * tilt.vector({1, 0, 0});
+        const Vec3 v = size * tilt.vector({0, 1, 0});
+        SceneMaker maker;
+        if (round % 2 == 0) {
+            maker.add(Rectangle{.corner = -0.3 * u - 0.6 * v, .edge_u = u, .edge_v = v});
+        } else {
+            TriangleMesh mesh;
+            mesh.positions = {-0.3 * u - 0.3 * v, u - 0.2 * v, v - 0.3 * u};
+            mesh.triangles = {{0, 1, 2}};
+            maker.add(maker.mesh(mesh));
+        }
+        const Scene scene = maker.compile();
+        const Vec3 target = 1e-14 * random_direction(random);
+        const Vec3 from = 3.0 * random_direction(random);
+        const Ray ray{target - from, normalize(from)};
+        Hit hit;
+        if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
+        const Surface surface = surface_at(*scene.aggregate, ray, hit);
+        for (int i = 0; i < 20; ++i) {
+            const Ray next = leaving_ray(surface, random_direction(random));
+            EXPECT_FALSE(scene.aggregate->occluded(next, nullptr))
+                << "round " << round << " ray " << i;
+        }
+    }
+}
+
 TEST(Surface, RaysThatLeaveAConvexMeshDoNotMeetItAgain) {
     RandomStream random(8);
     for (int round = 0; round < 300; ++round) {
