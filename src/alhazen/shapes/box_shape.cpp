@@ -62,10 +62,10 @@ ShapeSurface BoxShape::surface(const Ray& ray, const ShapeHit& hit) const {
     surface.point[axis] = high ? hi[axis] : lo[axis];
     surface.normal[axis] = high ? 1.0 : -1.0;
     surface.shading_normal = surface.normal;
-    const int u = axis == 2 ? 0 : axis + 1;
-    const int v = axis == 0 ? 2 : axis - 1;
-    surface.uv = {(surface.point[u] - lo[u]) / (hi[u] - lo[u]),
-                  (surface.point[v] - lo[v]) / (hi[v] - lo[v])};
+    const int u = axis == 0 ? 1 : 0;
+    const int v = axis == 2 ? 1 : 2;
+    const double along = high ? surface.point[u] - lo[u] : hi[u] - surface.point[u];
+    surface.uv = {along / (hi[u] - lo[u]), (surface.point[v] - lo[v]) / (hi[v] - lo[v])};
     // The point is on the face exactly; the bound is one of the box's own last digits, so that
     // whoever steps off the face by it does leave the face.
     surface.error = gamma_bound(2) * Vec3{std::fmax(std::abs(lo.x), std::abs(hi.x)),

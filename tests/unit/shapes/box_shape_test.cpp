@@ -106,6 +106,24 @@ TEST(BoxShape, SurfacePointsLieOnTheFaceExactly) {
     }
 }
 
+TEST(BoxShape, TextureCoordinatesRunAlongTheLowerAndHigherAxisOfEachFace) {
+    const BoxShape box{.lo = {0, 0, 0}, .hi = {1, 2, 4}};
+    const Vec3 inside{0.25, 1.5, 3};  // fractions 0.25, 0.75, 0.75
+    const Vec2 expected[] = {{0.25, 0.75}, {0.75, 0.75}, {0.75, 0.75},
+                             {0.25, 0.75}, {0.75, 0.75}, {0.25, 0.75}};
+    for (std::uint32_t part = 0; part < 6; ++part) {
+        Vec3 out{0, 0, 0};
+        out[static_cast<int>(part / 2)] = part % 2 ? 1.0 : -1.0;
+        const Ray ray{inside, out};
+        ShapeHit hits[2];
+        ASSERT_EQ(box.intersect(ray, hits), 1) << part;
+        ASSERT_EQ(hits[0].part, part);
+        const Vec2 uv = box.surface(ray, hits[0]).uv;
+        EXPECT_EQ(uv.x, expected[part].x) << part;
+        EXPECT_EQ(uv.y, expected[part].y) << part;
+    }
+}
+
 TEST(BoxShape, FlatAndInvertedBoxesAreReported) {
     Diagnostics diagnostics;
     BoxShape{.lo = {0, 0, 0}, .hi = {1, 0, 1}}.validate({}, diagnostics);
