@@ -135,11 +135,9 @@ std::optional<TextureId> RayMaterials::read_map(TextNode value, std::string_view
     if (!ValueReader{context_.diagnostics}.read(list.first(), "map", file)) return std::nullopt;
     const auto known = maps_.find(file);
     if (known != maps_.end()) return known->second;
-    // Bilinear, texel i at i / (size - 1); coordinates are in [0, 1], and clamping keeps edges from
-    // bleeding.
+    // Coordinates are in [0, 1]; clamping keeps opposite edges from bleeding into each other.
     Texture settings;
     settings.wrap_u = settings.wrap_v = Wrap::Clamp;
-    settings.corner_texels = true;
     const auto id = textures_.load(file, folder_, settings, file, list.first().location());
     if (id) maps_.emplace(file, *id);
     return id;
