@@ -1,8 +1,9 @@
 #pragma once
 /// A picture in memory: float samples, interleaved, top row first.
 ///
-/// Conventions: values are as the file or the renderer gives them; `linear` says whether they are linear
-/// radiance (EXR, HDR, PFM, renders) or still encoded for display (PNG, JPG, BMP: value / 255).
+/// Conventions: values are as the file or the renderer gives them; `linear` says whether they are
+/// linear radiance (EXR, HDR, PFM, renders) or still encoded for display (PNG, JPG, BMP: value /
+/// 255).
 
 #include <cstddef>
 #include <vector>
@@ -13,7 +14,7 @@ namespace alhazen {
 
 struct Image {
     int width = 0, height = 0;
-    int channels = 3;            ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGB + alpha
+    int channels = 3;  ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGB + alpha
     bool linear = true;
     std::vector<float> samples;  ///< [height][width][channels]
 
@@ -25,10 +26,12 @@ struct Image {
           samples(std::size_t(width_) * std::size_t(height_) * std::size_t(channels_)) {}
 
     [[nodiscard]] float* pixel(int x, int y) {
-        return samples.data() + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
+        return samples.data() +
+               (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
     }
     [[nodiscard]] const float* pixel(int x, int y) const {
-        return samples.data() + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
+        return samples.data() +
+               (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
     }
     /// The colour of a pixel; grey is repeated in the three channels.
     [[nodiscard]] Rgb rgb(int x, int y) const {

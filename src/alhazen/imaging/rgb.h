@@ -20,11 +20,23 @@ struct Rgb {
     }
 };
 
-inline Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-inline Rgb operator-(const Rgb& a, const Rgb& b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-inline Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
-inline Rgb operator*(double s, const Rgb& a) { return {s * a.r, s * a.g, s * a.b}; }
-inline Rgb operator*(const Rgb& a, double s) { return s * a; }
-inline Rgb& operator+=(Rgb& a, const Rgb& b) { return a = a + b; }
+inline Rgb operator+(const Rgb& a, const Rgb& b) {
+    return {a.r + b.r, a.g + b.g, a.b + b.b};
+}
+inline Rgb operator-(const Rgb& a, const Rgb& b) {
+    return {a.r - b.r, a.g - b.g, a.b - b.b};
+}
+inline Rgb operator*(const Rgb& a, const Rgb& b) {
+    return {a.r * b.r, a.g * b.g, a.b * b.b};
+}
+inline Rgb operator*(double s, const Rgb& a) {
+    return {s * a.r, s * a.g, s * a.b};
+}
+inline Rgb operator*(const Rgb& a, double s) {
+    return s * a;
+}
+inline Rgb& operator+=(Rgb& a, const Rgb& b) {
+    return a = a + b;
+}
 
 }  // namespace alhazen
