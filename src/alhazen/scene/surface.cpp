@@ -10,6 +10,9 @@ namespace alhazen {
 namespace {
 
 constexpr double kEpsilon = 0x1p-53;
+/// The first t of a ray that leaves a surface: not zero, and far enough from the subnormal numbers that no
+/// arithmetic on it becomes slow.
+constexpr double kBeyondZero = 0x1p-500;
 
 Vec3 times_abs(const Mat3& m, const Vec3& v) {
     return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
@@ -135,15 +138,8 @@ Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {
     const double margin = 32.0 * dot(abs(surface.normal), surface.error);
     const Vec3 offset = dot(direction, surface.normal) >= 0.0 ? margin * surface.normal
                                                               : (-margin) * surface.normal;
-    Vec3 origin = surface.point + offset;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (offset[axis] > 0.0) {
-            origin[axis] = std::nextafter(origin[axis], HUGE_VAL);
-        } else if (offset[axis] < 0.0) {
-            origin[axis] = std::nextafter(origin[axis], -HUGE_VAL);
-        }
-    }
-    return {origin, direction, std::numeric_limits<double>::min(), t_max};
+    // The sum rounds by half an ulp, far less than the margin.
+    return {surface.point + offset, direction, kBeyondZero, t_max};
 }
 
 }  // namespace alhazen
