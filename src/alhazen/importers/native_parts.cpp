@@ -1,5 +1,6 @@
 #include "alhazen/importers/native_parts.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "alhazen/base/file.h"
@@ -264,10 +265,11 @@ NativeBlock take_apart(TextNode entry, Diagnostics& diagnostics) {
 
 void read_native_items(TextNode block, NativeContext& context, NativeScope& scope,
                        std::size_t skip) {
-    if (scope.nesting > context.options.max_nesting) {
-        context.diagnostics.error(
-            block.location(),
-            "blocks are nested deeper than " + std::to_string(context.options.max_nesting));
+    // Each file is bounded by its tree; this bounds what files nest in each other.
+    const int max_nesting = std::min(context.options.max_nesting, TextTree::kMaxNesting);
+    if (scope.nesting > max_nesting) {
+        context.diagnostics.error(block.location(),
+                                  "blocks are nested deeper than " + std::to_string(max_nesting));
         return;
     }
     for (const TextNode item : block) {

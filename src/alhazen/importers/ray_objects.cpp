@@ -121,7 +121,17 @@ std::string RayObjects::known() {
 }
 
 void RayObjects::read(TextNode item, const Affine& object_from_part, RayMaterial& material) {
-    if (item.broken()) return;
+    Affine transform = object_from_part;
+    std::optional<TextNode> object = item;
+    // A chain of transforms is walked, not recursed into: only groups cost stack.
+    while (object && object->is(NodeKind::Entry) && is_transform(object->text())) {
+        object = read_transform(*object, transform);
+    }
+    if (object && !object->broken()) read_untransformed(*object, transform, material);
+}
+
+void RayObjects::read_untransformed(TextNode item, const Affine& object_from_part,
+                                    RayMaterial& material) {
     const std::string_view name = item.text();
     if (item.is(NodeKind::Block)) return read_group(item, object_from_part, material);
     if (item.is(NodeKind::Pair, "material")) {
@@ -134,7 +144,6 @@ void RayObjects::read(TextNode item, const Affine& object_from_part, RayMaterial
         return;
     }
     if (name == "material") return materials_.define(item, material);
-    if (is_transform(name)) return read_transform(item, object_from_part, material);
     const bool shape = std::any_of(std::begin(kShapes), std::end(kShapes),
                                    [&](const auto& entry) { return entry.first == name; });
     if (shape || is_mesh(name)) return read_shape(item, object_from_part, material);
@@ -158,14 +167,13 @@ void RayObjects::read_group(TextNode block, const Affine& object_from_part, RayM
     for (const TextNode item : block) read(item, object_from_part, material);
 }
 
-void RayObjects::read_transform(TextNode entry, const Affine& object_from_part,
-                                RayMaterial& material) {
-    if (entry.empty() || entry.first().broken()) return;
+std::optional<TextNode> RayObjects::read_transform(TextNode entry, Affine& object_from_part) {
+    if (entry.broken() || entry.empty() || entry.first().broken()) return std::nullopt;
     const TextNode list = entry.first();
     if (!list.is(NodeKind::List) || list.empty()) {
         context_.diagnostics.error(entry.location(),
                                    std::string(entry.text()) + ": expected (..., object)");
-        return;
+        return std::nullopt;
     }
     Arguments arguments;
     for (const TextNode argument : list) {
@@ -177,7 +185,8 @@ void RayObjects::read_transform(TextNode entry, const Affine& object_from_part,
     const std::optional<Affine> transform =
         read_affine(entry.text(), list, arguments, {context_.diagnostics});
     // The object is read even under a bad transform: its own findings count too.
-    read(object, transform ? object_from_part * *transform : object_from_part, material);
+    if (transform) object_from_part = object_from_part * *transform;
+    return object;
 }
 
 void RayObjects::read_shape(TextNode entry, const Affine& object_from_part,

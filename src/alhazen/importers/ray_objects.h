@@ -25,7 +25,9 @@ class RayObjects {
 
   private:
     void read_group(TextNode block, const Affine& object_from_part, RayMaterial material);
-    void read_transform(TextNode entry, const Affine& object_from_part, RayMaterial& material);
+    /// Multiplies the transform in; returns what stands under it.
+    std::optional<TextNode> read_transform(TextNode entry, Affine& object_from_part);
+    void read_untransformed(TextNode item, const Affine& object_from_part, RayMaterial& material);
     void read_shape(TextNode entry, const Affine& object_from_part, const RayMaterial& material);
     void refuse(TextNode entry);
 

@@ -35,8 +35,8 @@ class TextTree {
         int max_nesting = 256;  ///< of lists and blocks; capped at kMaxNesting
         std::uint64_t max_nodes = 400'000'000;
     };
-    /// Readers of the tree recurse; this bounds their stack.
-    static constexpr int kMaxNesting = 1000;
+    /// Readers of the tree recurse; this bounds their stack, sanitizers included.
+    static constexpr int kMaxNesting = 500;
 
     /// Parses the whole of `source`, which must outlive the tree. Throws Error (Resource) beyond
     /// max_nodes.

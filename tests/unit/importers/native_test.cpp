@@ -425,6 +425,15 @@ TEST(NativeImporter, CountsNestingThroughIncludedFiles) {
     EXPECT_TRUE(i.says("nested deeper than 256"));
 }
 
+TEST(NativeImporter, ReadsTheDeepestNestingItAllows) {
+    std::string text;
+    for (int k = 0; k < 498; ++k) text += "group {";
+    const Imported i =
+        import(text + "sphere { }" + std::string(498, '}'), {.max_nesting = 1'000'000});
+    EXPECT_EQ(i.messages(), "");
+    EXPECT_EQ(i.parts().size(), 1u);
+}
+
 TEST(NativeImporter, ReportsEachMistakeOnceAndGoesOn) {
     const Imported i = import(
         "sphere { radius = \"x\" }\n"

@@ -374,13 +374,16 @@ TEST(RayImporter, RefusesDeepNestingWithOneError) {
 }
 
 TEST(RayImporter, ReadsTheDeepestNestingItAllows) {
-    std::string text;
-    for (int k = 0; k < 990; ++k) text += "translate(1,0,0,";
-    text += "sphere{}";
-    for (int k = 0; k < 990; ++k) text += ")";
-    const Imported i = import(text, {.max_nesting = 1'000'000});
-    EXPECT_EQ(i.errors(), 0u) << i.messages();
-    expect_near(i.parts().at(0).object_from_part.point({0, 0, 0}), {990, 0, 0});
+    for (const bool groups : {false, true}) {
+        const int levels = groups ? 245 : 490;
+        std::string text;
+        for (int k = 0; k < levels; ++k) text += groups ? "translate(1,0,0,{" : "translate(1,0,0,";
+        text += "sphere{}";
+        for (int k = 0; k < levels; ++k) text += groups ? "})" : ")";
+        const Imported i = import(text, {.max_nesting = 1'000'000});
+        EXPECT_EQ(i.errors(), 0u) << i.messages();
+        expect_near(i.parts().at(0).object_from_part.point({0, 0, 0}), {1.0 * levels, 0, 0});
+    }
 }
 
 TEST(RayImporter, StopsAtTheLimitOfElements) {
