@@ -19,6 +19,15 @@
 #include <cstddef>
 #include <cstdint>
 
+// Loops over parts vanish, except in plain C++, where eight copies of everything only take long to
+// compile.
+#undef ALHAZEN_UNROLL
+#if HWY_TARGET == HWY_SCALAR
+#define ALHAZEN_UNROLL
+#else
+#define ALHAZEN_UNROLL HWY_UNROLL(8)
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
@@ -67,12 +76,11 @@ HWY_INLINE void store_lanes(const Lanes<T>& a, T* values) {
     for (std::size_t i = 0; i < kParts<T>; ++i) hn::Store(a.part[i], d, values + i * hn::Lanes(d));
 }
 
-// Loops over parts have at most eight trips known at compile time and vanish.
 #define ALHAZEN_LANES_UNARY(name, expression)                               \
     template <class T>                                                      \
     HWY_INLINE Lanes<T> name(const Lanes<T>& a) {                           \
         Lanes<T> r;                                                         \
-        HWY_UNROLL(8)                                                       \
+        ALHAZEN_UNROLL                                                      \
         for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = expression; \
         return r;                                                           \
     }
@@ -80,7 +88,7 @@ HWY_INLINE void store_lanes(const Lanes<T>& a, T* values) {
     template <class T>                                                      \
     HWY_INLINE Lanes<T> name(const Lanes<T>& a, const Lanes<T>& b) {        \
         Lanes<T> r;                                                         \
-        HWY_UNROLL(8)                                                       \
+        ALHAZEN_UNROLL                                                      \
         for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = expression; \
         return r;                                                           \
     }
@@ -88,7 +96,7 @@ HWY_INLINE void store_lanes(const Lanes<T>& a, T* values) {
     template <class T>                                                      \
     HWY_INLINE LaneMask<T> name(const Lanes<T>& a, const Lanes<T>& b) {     \
         LaneMask<T> r;                                                      \
-        HWY_UNROLL(8)                                                       \
+        ALHAZEN_UNROLL                                                      \
         for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = expression; \
         return r;                                                           \
     }
@@ -123,7 +131,7 @@ ALHAZEN_LANES_COMPARE(operator>=, hn::Ge(a.part[i], b.part[i]))
 template <class T>
 HWY_INLINE Lanes<T> mul_add(const Lanes<T>& a, const Lanes<T>& b, const Lanes<T>& c) {
     Lanes<T> r;
-    HWY_UNROLL(8)
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < kParts<T>; ++i) {
         r.part[i] = hn::MulAdd(a.part[i], b.part[i], c.part[i]);
     }
@@ -133,14 +141,14 @@ HWY_INLINE Lanes<T> mul_add(const Lanes<T>& a, const Lanes<T>& b, const Lanes<T>
 template <class T>
 HWY_INLINE LaneMask<T> operator|(const LaneMask<T>& a, const LaneMask<T>& b) {
     LaneMask<T> r;
-    HWY_UNROLL(8)
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = hn::Or(a.part[i], b.part[i]);
     return r;
 }
 template <class T>
 HWY_INLINE LaneMask<T> operator&(const LaneMask<T>& a, const LaneMask<T>& b) {
     LaneMask<T> r;
-    HWY_UNROLL(8)
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = hn::And(a.part[i], b.part[i]);
     return r;
 }
@@ -150,7 +158,7 @@ template <class T>
 HWY_INLINE std::uint32_t bits_of(const LaneMask<T>& a) {
     const LaneTag<T> d;
     std::uint32_t bits = 0;
-    HWY_UNROLL(8)
+    ALHAZEN_UNROLL
     for (std::size_t i = 0; i < kParts<T>; ++i) {
         std::uint8_t byte[8] = {};  // Highway may write a whole word
         hn::StoreMaskBits(d, a.part[i], byte);

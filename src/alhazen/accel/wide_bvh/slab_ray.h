@@ -6,8 +6,7 @@
 /// Differs: a relative factor on the far distance is not enough for the form p * r + c; all slack
 /// is absolute and folded into the constants c, once per ray.
 /// For a hit at parameter s with |s| <= T, and e = 2^-24:
-/// - plane parameter s_p = (p - o) / d; computed fl(fl(p r) + c) with r = (1 / d) (1 + e1), |e1| <=
-/// e
+/// - plane parameter s_p = (p - o) / d; computed fl(fl(p r) + c), r = (1 / d) (1 + e1), |e1| <= e
 /// - near plane, s_p <= s: computed <= s when c is lowered by 2.2 e T (rounding of r and of the
 ///   sum), e |r| (of the product, where multiply-add is not fused) and delta |r|
 /// - far plane: the mirror image
