@@ -485,6 +485,12 @@ TEST(NativeImporter, SurvivesEveryTruncationAndManyMutationsOfAScene) {
     }
 }
 
+TEST(NativeImporter, MakesAValidSceneOfNothing) {
+    Imported i = import("perspective_camera { eye = (0,0,0); direction = (1,0,0) }");
+    validate(i.scene, i.diagnostics);
+    EXPECT_EQ(i.errors(), 0u) << i.messages();
+}
+
 TEST(NativeImporter, StopsAtTheLimitOfElements) {
     std::string text;
     for (int k = 0; k < 200; ++k) text += "sphere { }";

@@ -386,6 +386,12 @@ TEST(RayImporter, ReadsTheDeepestNestingItAllows) {
     }
 }
 
+TEST(RayImporter, MakesAValidSceneOfNothing) {
+    Imported i = import("camera { }");
+    validate(i.scene, i.diagnostics);
+    EXPECT_EQ(i.errors(), 0u) << i.messages();
+}
+
 TEST(RayImporter, StopsAtTheLimitOfElements) {
     std::string text;
     for (int k = 0; k < 200; ++k) text += "sphere{}";
