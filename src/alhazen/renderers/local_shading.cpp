@@ -14,15 +14,16 @@ MaterialSample material_at(const Scene& scene, const Surface& surface) {
                         surface.weights[2], sample(2));
 }
 
-ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit) {
+ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside) {
     ShadingPoint point;
+    point.inside = inside;
     point.surface = surface_at(*scene.aggregate, ray, hit);
     point.material = material_at(scene, point.surface);
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
-    // The interpolated normal is turned by its own sign: near silhouettes, and in meshes wound against their
-    // normals, it may face the ray although the geometric one does not.
+    // The interpolated normal is turned by its own sign: near silhouettes, and in meshes wound
+    // against their normals, it may face the ray although the geometric one does not.
     const Vec3& shading = point.surface.shading_normal;
     point.normal = dot(ray.direction, shading) > 0.0 ? -shading : shading;
     return point;
@@ -34,7 +35,7 @@ Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
     Rgb ambient_factor = conventions.ambient_factor == ShadingConventions::AmbientFactor::Diffuse
                              ? m.diffuse
                              : m.ambient;
-    if (conventions.ambient_inside_times_kt && !point.entering) {
+    if (conventions.ambient_inside_times_kt && point.inside) {
         ambient_factor = ambient_factor * m.transmissive;
     }
     Rgb sum = m.emission;

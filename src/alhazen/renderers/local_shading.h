@@ -15,6 +15,7 @@ namespace alhazen {
 struct ShadingPoint {
     Surface surface;
     MaterialSample material;
+    bool inside = false;   ///< the ray came through the inside of something transparent
     bool entering = true;  ///< the ray met the outside (by the geometric normal)
     Vec3 geometric;        ///< unit geometric normal towards the ray's origin
     Vec3 normal;           ///< unit shading normal, turned towards the ray's origin
@@ -23,8 +24,10 @@ struct ShadingPoint {
 
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface);
 
-/// `ray.direction` must be unit.
-[[nodiscard]] ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit);
+/// `ray.direction` must be unit. Whether the ray came through the inside is known from its history,
+/// not from the normal: an open surface has a back but no inside.
+[[nodiscard]] ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit,
+                                         bool inside);
 
 /// Emission and the ambient terms of all lights.
 [[nodiscard]] Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point);

@@ -32,7 +32,7 @@ void RayCasting::render_tile(const RenderJob& job, const PixelBox& tile, Film& f
         Hit hit;
         if (!job.scene.aggregate->closest(ray, hit, stats)) return job.scene.background;
         ++count.hit;
-        return shade(job.scene, shading_point(job.scene, ray, hit));
+        return shade(job.scene, shading_point(job.scene, ray, hit, false));
     });
 }
 

@@ -25,21 +25,22 @@ class Tracer {
           stats_(job.count_tests ? &counters.tests : nullptr) {}
 
     /// Radiance along a ray of unit direction. `depth` is 0 for eye rays; `contribution` is the
-    /// product of the coefficients on the way.
-    Rgb trace(const Ray& ray, RayKind kind, int depth, const Rgb& contribution) {
+    /// product of the coefficients on the way; `inside` says that the ray starts inside something
+    /// transparent.
+    Rgb trace(const Ray& ray, RayKind kind, int depth, const Rgb& contribution, bool inside) {
         RayCount& count = counters_[kind];
         ++count.cast;
         Hit hit;
         if (!scene_.aggregate->closest(ray, hit, stats_)) return scene_.background;
         ++count.hit;
-        const ShadingPoint point = shading_point(scene_, ray, hit);
+        const ShadingPoint point = shading_point(scene_, ray, hit, inside);
         Rgb color = unshadowed_terms(scene_, point) + direct_light(point);
         if (depth < conventions_.max_depth) {
             color += reflected(point, ray, depth, contribution);
             color += transmitted(point, ray, depth, contribution);
         }
         if (conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-            !point.entering) {
+            inside) {
             color = color * power(point.material.transmissive, hit.t);
         }
         return color;
@@ -112,7 +113,7 @@ class Tracer {
             direction = mirror(ray.direction, point.geometric);
         }
         const Ray next = leaving_ray(point.surface, direction);
-        return kr * trace(next, RayKind::Reflection, depth + 1, onward);
+        return kr * trace(next, RayKind::Reflection, depth + 1, onward, point.inside);
     }
 
     Rgb transmitted(const ShadingPoint& point, const Ray& ray, int depth, const Rgb& contribution) {
@@ -132,7 +133,7 @@ class Tracer {
             return {};
         }
         const Ray next = leaving_ray(point.surface, direction);
-        const Rgb beyond = trace(next, RayKind::Refraction, depth + 1, onward);
+        const Rgb beyond = trace(next, RayKind::Refraction, depth + 1, onward, point.entering);
         return conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent
                    ? kt * beyond
                    : beyond;
@@ -151,7 +152,7 @@ void Whitted::render_tile(const RenderJob& job, const PixelBox& tile, Film& film
                           RayCounters& counters) const {
     Tracer tracer(job, counters);
     render_pixels(job, tile, film, counters, [&](const Ray& ray) {
-        return tracer.trace(ray, RayKind::Eye, 0, {1, 1, 1});
+        return tracer.trace(ray, RayKind::Eye, 0, {1, 1, 1}, false);
     });
 }
 

@@ -102,7 +102,6 @@ class Validator {
     }
 
     void check_materials() {
-        if (d_.materials.empty()) error({}, "the scene has no material");
         for (const MaterialDescription& description : d_.materials) {
             const Material& m = description.material;
             const auto color = [&](const ColorInput& input, const char* what) {

@@ -193,6 +193,34 @@ TEST(Whitted, InsideAmbientLightIsMultipliedByKtWhereTheConventionSaysSo) {
     expect_near(center(maker.compile()), Rgb{1.0, 1.0, 1.0});
 }
 
+TEST(Whitted, TheBackOfAnOpenSurfaceIsNotTheInsideOfAnything) {
+    for (const bool per_distance : {false, true}) {
+        SceneMaker maker;
+        Material m = plain(1);
+        m.ambient.color = {1, 1, 1};
+        // The normal points away from the camera.
+        maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {0, 18, 0}, .edge_v = {18, 0, 0}},
+                  maker.material(m));
+        maker.light(AmbientLight{{0.25, 0.25, 0.25}});
+        maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {0.5, 0.5, 0.5}});
+        ShadingConventions& conventions = maker.description().conventions;
+        conventions.ambient_inside_times_kt = true;
+        if (per_distance)
+            conventions.refraction_tint = ShadingConventions::RefractionTint::PerDistance;
+        expect_near(center(maker.compile()), {0.75, 0.75, 0.75});
+    }
+}
+
+TEST(Whitted, GlassThatAbsorbsByDistanceTintsWhatIsSeenThroughIt) {
+    SceneMaker maker;
+    maker.add(BoxShape{.lo = {-9, -9, 0}, .hi = {9, 9, 2}},
+              maker.material(glass({0.5, 1, 0.2}, 1.5)));
+    maker.description().picture.background = {1, 1, 1};
+    maker.description().conventions.refraction_tint =
+        ShadingConventions::RefractionTint::PerDistance;
+    expect_near(center(maker.compile()), {0.25, 1, 0.04});
+}
+
 TEST(Whitted, TotalInternalReflectionIsCountedAndCarriesNoLight) {
     SceneMaker maker;
     // A prism whose second face is met at 45 degrees from inside glass of index 1.52.
