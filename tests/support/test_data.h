@@ -1,5 +1,6 @@
 #pragma once
-/// Where the real scenes and reference images are. Tests that need them skip, and say so, where they are not.
+/// Where the real scenes and reference images are. Tests that need them skip, and say so, where
+/// they are not.
 
 #include <cstdlib>
 #include <filesystem>
@@ -16,8 +17,8 @@ inline std::filesystem::path test_data() {
 }  // namespace alhazen::testing
 
 /// Skips the test when `path` (below the test data folder) does not exist.
-#define ALHAZEN_NEEDS_DATA(path)                                                   \
-    if (!std::filesystem::exists(alhazen::testing::test_data() / (path))) {        \
+#define ALHAZEN_NEEDS_DATA(path)                                                      \
+    if (!std::filesystem::exists(alhazen::testing::test_data() / (path))) {           \
         GTEST_SKIP() << "no test data at " << alhazen::testing::test_data() / (path); \
-    }                                                                              \
+    }                                                                                 \
     static_assert(true)
