@@ -414,8 +414,7 @@ TEST(WideBvh, CountsWhatItDid) {
 
 bool same_layout(const WideBvhLayout& a, const WideBvhLayout& b) {
     const auto equal = [](const auto& x, const auto& y) {
-        return x.size() == y.size() &&
-               std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
+        return std::equal(x.begin(), x.end(), y.begin(), y.end());
     };
     if (a.tree.nodes.size() != b.tree.nodes.size() || a.tree.root != b.tree.root) return false;
     for (std::size_t i = 0; i < a.tree.nodes.size(); ++i) {
