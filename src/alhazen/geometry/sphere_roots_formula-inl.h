@@ -1,5 +1,5 @@
-/// The arithmetic of the ray-sphere solution; a fragment without a guard, included by sphere_roots.h in
-/// namespace alhazen and by kernels in the namespace of each instruction set (see
+/// The arithmetic of the ray-sphere solution; a fragment without a guard, included by
+/// sphere_roots.h in namespace alhazen and by kernels in the namespace of each instruction set (see
 /// watertight_triangle_formulas-inl.h for why).
 
 /// `t_near <= t_far` where `discriminant >= 0`; NaN or meaningless where it is negative (the line
@@ -9,23 +9,36 @@ struct SphereRoots {
     Real discriminant, t_near, t_far;
 };
 
+/// What tells whether a line meets a sphere: half the linear coefficient of the quadratic and its
+/// (scaled) discriminant, not negative where it does.
+template <class Real>
+struct SphereLine {
+    Real b, discriminant;
+};
+
 /// (dx, dy, dz) direction, (fx, fy, fz) = origin - centre, a = |direction|^2 summed as x, y, z.
 /// `Real` needs + - * /, unary -, and sqrt, copysign, fmin, fmax by argument-dependent look-up (or
 /// <cmath>); fmin and fmax drop a NaN operand.
 template <class Real>
-inline SphereRoots<Real> sphere_roots(const Real& dx, const Real& dy, const Real& dz, const Real& a,
-                                      const Real& fx, const Real& fy, const Real& fz,
-                                      const Real& radius) {
-    using std::copysign;
-    using std::sqrt;
+inline SphereLine<Real> sphere_line(const Real& dx, const Real& dy, const Real& dz, const Real& a,
+                                    const Real& fx, const Real& fy, const Real& fz,
+                                    const Real& radius) {
     const Real b = fx * dx + fy * dy + fz * dz;
     const Real s = b / a;
     // The point of the line nearest the centre.
     const Real lx = fx - s * dx;
     const Real ly = fy - s * dy;
     const Real lz = fz - s * dz;
-    const Real discriminant = radius * radius - (lx * lx + ly * ly + lz * lz);
-    const Real q = b + copysign(sqrt(discriminant * a), b);
+    return {b, radius * radius - (lx * lx + ly * ly + lz * lz)};
+}
+
+/// Both roots of a line from `sphere_line`.
+template <class Real>
+inline SphereRoots<Real> sphere_roots(const SphereLine<Real>& line, const Real& a, const Real& fx,
+                                      const Real& fy, const Real& fz, const Real& radius) {
+    using std::copysign;
+    using std::sqrt;
+    const Real q = line.b + copysign(sqrt(line.discriminant * a), line.b);
     const Real f = sqrt(fx * fx + fy * fy + fz * fz);
     const Real c = (f - radius) * (f + radius);
     // Roots of a t^2 + 2 b t + c = 0: -q / a and -c / q; the larger in magnitude is the former.
@@ -34,5 +47,12 @@ inline SphereRoots<Real> sphere_roots(const Real& dx, const Real& dy, const Real
     // b > 0: q > 0 and `big` is the nearer (more negative) root.
     using std::fmax;
     using std::fmin;
-    return {discriminant, fmin(big, small), fmax(big, small)};
+    return {line.discriminant, fmin(big, small), fmax(big, small)};
+}
+
+template <class Real>
+inline SphereRoots<Real> sphere_roots(const Real& dx, const Real& dy, const Real& dz, const Real& a,
+                                      const Real& fx, const Real& fy, const Real& fz,
+                                      const Real& radius) {
+    return sphere_roots(sphere_line(dx, dy, dz, a, fx, fy, fz, radius), a, fx, fy, fz, radius);
 }

@@ -59,8 +59,16 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
 
 EncodedImage encode(const double* rgb, int width, int height, Encoding encoding, int bits) {
     EncodedImage encoded = empty_encoded(width, height, 3, bits);
+    // Backgrounds repeat their values: the curve is costly, a comparison is not.
+    double last[3] = {0.0, 0.0, 0.0};
+    std::uint16_t code[3] = {0, 0, 0};
     for (std::size_t i = 0; i < encoded.samples.size(); ++i) {
-        encoded.samples[i] = std::uint16_t(encode_channel(rgb[i], encoding, bits));
+        const std::size_t channel = i % 3;
+        if (rgb[i] != last[channel]) {
+            last[channel] = rgb[i];
+            code[channel] = std::uint16_t(encode_channel(rgb[i], encoding, bits));
+        }
+        encoded.samples[i] = code[channel];
     }
     return encoded;
 }

@@ -193,6 +193,8 @@ void write_header(PngState& state) {
     const EncodedImage& image = *state.image;
     png_set_write_fn(state.png, &state, write_bytes, flush_nothing);
     png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    // Level 6 takes twice the time of level 3 for pictures a few percent smaller.
+    png_set_compression_level(state.png, 3);
     png_set_IHDR(state.png, state.info, png_uint_32(image.width), png_uint_32(image.height),
                  image.bits, kColourType[image.channels], PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);

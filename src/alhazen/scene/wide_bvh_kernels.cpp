@@ -26,7 +26,7 @@ struct BlockRay {
     Doubles kx_origin, ky_origin, kz_origin, sx, sy;
     int kx, ky, kz;
     // Spheres.
-    Doubles origin[3], direction[3], length_squared;
+    Doubles origin[3], direction[3], length_squared, t_min;
 
     HWY_INLINE BlockRay(const Ray& ray, const RayShear& shear)
         : kx_origin(ray.origin[shear.kx]),
@@ -37,7 +37,8 @@ struct BlockRay {
           kx(shear.kx),
           ky(shear.ky),
           kz(shear.kz),
-          length_squared(dot(ray.direction, ray.direction)) {
+          length_squared(dot(ray.direction, ray.direction)),
+          t_min(ray.t_min) {
         for (int k = 0; k < 3; ++k) {
             origin[k] = Doubles(ray.origin[k]);
             direction[k] = Doubles(ray.direction[k]);
@@ -50,7 +51,7 @@ struct BlockRay {
 
 /// Bits of the triangles whose edges the ray does not pass on both sides: the first test of
 /// `intersect_triangle`, with the same bits.
-HWY_NOINLINE std::uint32_t candidates(const TriangleBlock& block, const BlockRay& ray) {
+HWY_NOINLINE std::uint32_t candidates(const TriangleBlock& block, const BlockRay& ray, double) {
     ShearedVertex<Doubles> v[3];
     HWY_UNROLL(3)
     for (int i = 0; i < 3; ++i) {
@@ -67,14 +68,24 @@ HWY_NOINLINE std::uint32_t candidates(const TriangleBlock& block, const BlockRay
     return block.ids.lanes & ~(negative & positive);
 }
 
-/// Bits of the spheres that the line of the ray does not miss.
-HWY_NOINLINE std::uint32_t candidates(const SphereBlock& block, const BlockRay& ray) {
-    const SphereRoots<Doubles> roots = sphere_roots(
-        ray.direction[0], ray.direction[1], ray.direction[2], ray.length_squared,
-        ray.origin[0] - load_lanes(block.center[0]), ray.origin[1] - load_lanes(block.center[1]),
-        ray.origin[2] - load_lanes(block.center[2]), load_lanes(block.radius));
-    const std::uint32_t missed = bits_of(roots.discriminant < Doubles(0.0));
-    return block.ids.lanes & ~missed;
+/// Bits of the spheres that the ray meets between its t_min and `t_max`, as `Sphere::intersect`
+/// decides it.
+HWY_NOINLINE std::uint32_t candidates(const SphereBlock& block, const BlockRay& ray, double t_max) {
+    const Doubles fx = ray.origin[0] - load_lanes(block.center[0]);
+    const Doubles fy = ray.origin[1] - load_lanes(block.center[1]);
+    const Doubles fz = ray.origin[2] - load_lanes(block.center[2]);
+    const Doubles radius = load_lanes(block.radius);
+    const SphereLine<Doubles> line =
+        sphere_line(ray.direction[0], ray.direction[1], ray.direction[2], ray.length_squared, fx,
+                    fy, fz, radius);
+    const std::uint32_t missed = bits_of(line.discriminant < Doubles(0.0));
+    // Most blocks are missed altogether: their roots are not worth the square roots.
+    if ((block.ids.lanes & ~missed) == 0) return 0;
+    const SphereRoots<Doubles> roots = sphere_roots(line, ray.length_squared, fx, fy, fz, radius);
+    const Doubles last(t_max);
+    const std::uint32_t met = bits_of((ray.t_min <= roots.t_near) & (roots.t_near <= last)) |
+                              bits_of((ray.t_min <= roots.t_far) & (roots.t_far <= last));
+    return block.ids.lanes & met & ~missed;
 }
 
 /// Calls query(block, lane, stats) for the candidates of a leaf until it returns true.
@@ -83,7 +94,7 @@ HWY_INLINE bool visit_blocks(const Block* blocks, std::uint32_t count, const Blo
                              Query& query, Stats stats) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const Block& block = blocks[i];
-        std::uint32_t rest = candidates(block, ray);
+        std::uint32_t rest = candidates(block, ray, query.ray.t_max);
         // The query counts the candidates.
         stats.primitives(static_cast<std::uint64_t>(std::popcount(block.ids.lanes & ~rest)));
         for (; rest != 0; rest &= rest - 1) {
