@@ -8,6 +8,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/session/statistics.h"
 #include "commands.h"
+#include "stop_signals.h"
 
 namespace {
 
@@ -63,6 +64,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    fail_instead_of_dying_on_writes();
     try {
         return run(argc, argv);
     } catch (const Error& error) {

@@ -25,4 +25,9 @@ const StopFlag& stop_on_signals() {
     return stop_flag;
 }
 
+void fail_instead_of_dying_on_writes() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
 }  // namespace alhazen::cli

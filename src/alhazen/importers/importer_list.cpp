@@ -44,8 +44,18 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
     const std::string bytes = read_file(path);
     const ImportSource source{bytes, path, options};
     SceneDescription description = find_importer(source).import(source, diagnostics);
-    diagnostics.throw_if_errors();
-    validate(description, diagnostics);
+    // A file with mistakes is validated too, so that all of them are told at once; but what
+    // validation says of the whole (nothing to see, no camera) may only be a consequence.
+    const bool complete = diagnostics.error_count() == 0;
+    Diagnostics findings;
+    validate(description, findings);
+    for (const Diagnostic& finding : findings.all()) {
+        if (finding.severity == Severity::Warning) {
+            if (complete) diagnostics.warning(finding.location, finding.message);
+        } else if (complete || finding.location.line > 0) {
+            diagnostics.error(finding.location, finding.message);
+        }
+    }
     diagnostics.throw_if_errors();
     return description;
 }

@@ -133,25 +133,27 @@ TYPED_TEST(ShapeConformance, HitsAscendAndClosedShapesHaveAnEvenNumber) {
 
 TYPED_TEST(ShapeConformance, ARangeOfTSelectsFromTheCrossingsOfTheLine) {
     Random limits(4);
-    for_random_rays<TypeParam>(5, [&](const auto& shape, Ray ray, const ShapeHit* all, int n) {
-        if (n == 0) return;
-        // Limits exactly at a crossing are included.
-        const double a = all[limits.below(n)].t;
-        const double b = limits.coin() ? all[limits.below(n)].t : a + limits.uniform(-10, 10);
-        ray.t_min = std::min(a, b);
-        ray.t_max = std::max(a, b);
-        ShapeHit some[kRoom];
-        const int count = shape.intersect(ray, some);
-        int expected = 0;
-        for (int i = 0; i < n; ++i) {
-            if (!ray.covers(all[i].t)) continue;
-            ASSERT_LT(expected, count);
-            ASSERT_EQ(some[expected].t, all[i].t);
-            ASSERT_EQ(some[expected].part, all[i].part);
-            ++expected;
-        }
-        ASSERT_EQ(count, expected);
-    });
+    for_random_rays<TypeParam>(
+        5, [&](const auto& shape, const Ray& line, const ShapeHit* all, int n) {
+            if (n == 0) return;
+            Ray ray = line;
+            // Limits exactly at a crossing are included.
+            const double a = all[limits.below(n)].t;
+            const double b = limits.coin() ? all[limits.below(n)].t : a + limits.uniform(-10, 10);
+            ray.t_min = std::min(a, b);
+            ray.t_max = std::max(a, b);
+            ShapeHit some[kRoom];
+            const int count = shape.intersect(ray, some);
+            int expected = 0;
+            for (int i = 0; i < n; ++i) {
+                if (!ray.covers(all[i].t)) continue;
+                ASSERT_LT(expected, count);
+                ASSERT_EQ(some[expected].t, all[i].t);
+                ASSERT_EQ(some[expected].part, all[i].part);
+                ++expected;
+            }
+            ASSERT_EQ(count, expected);
+        });
 }
 
 TYPED_TEST(ShapeConformance, BoxAndExtentsHoldTheCrossings) {

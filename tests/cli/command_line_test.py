@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""Runs the command line as a user would. Usage: command_line_test.py ALHAZEN SOURCE_FOLDER"""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ALHAZEN, SOURCE = sys.argv[1:3]
+
+SPHERES = """alhazen 1
+perspective_camera "front" { eye = (0, 1, 6); look_at = (0, 0.5, 0); up = (0, 1, 0); fov_deg = 40 }
+perspective_camera "top" { eye = (0, 9, 0.1); look_at = (0, 0, 0); up = (0, 1, 0); fov_deg = 40 }
+point_light { position = (3, 5, 4); color = (1, 1, 1) }
+material "mirror" { diffuse = 0.1; reflective = 0.8 }
+sphere { center = (0, 1, 0); radius = 1; material = "mirror" }
+plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
+"""
+
+
+def run(*arguments, **options):
+    # A terminal's colours and progress must not matter: everything is piped.
+    return subprocess.run([ALHAZEN, *arguments], capture_output=True, text=True, timeout=120, **options)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.scene = self.write("scene with space.alhazen", SPHERES)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def render(self, *arguments, output="out.png", size="64x48"):
+        return run("render", self.scene, "-o", self.path(output), "--size", size, *arguments)
+
+    def test_help_and_version_go_to_stdout_and_succeed(self):
+        for arguments in (["--help"], ["render", "--help"], ["--version"]):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 0)
+            self.assertTrue(result.stdout)
+            self.assertEqual(result.stderr, "")
+
+    def test_wrong_usage_exits_2_and_says_why(self):
+        picture = self.path("out.png")
+        for arguments in ([], ["paint"], ["render"], ["render", self.scene], ["render", self.scene, "-o", "x.gif"],
+                          ["render", self.scene, "-o", picture, "--accelerator", "octopus"],
+                          ["render", self.scene, "-o", picture, "--renderer", "magic"],
+                          ["render", self.scene, "-o", picture, "--size", "10"],
+                          ["render", self.scene, "-o", picture, "--size", "0x10"],
+                          ["render", self.scene, "-o", picture, "--spp", "0"],
+                          ["render", self.scene, "-o", picture, "--crop", "5,5,5,9"],
+                          ["render", self.scene, "-o", picture, "--camera", "nobody"],
+                          ["render", self.scene, "-o", picture, "--encoding", "gamma"],
+                          ["diff", self.scene], ["list", "colours"]):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertTrue(result.stderr, arguments)
+            self.assertEqual(result.stdout, "", arguments)
+        self.assertFalse(os.path.exists(picture))
+
+    def test_names_that_are_not_known_are_answered_with_those_that_are(self):
+        self.assertIn("wide_bvh", self.render("--accelerator", "octopus").stderr)
+        self.assertIn("whitted", self.render("--renderer", "magic").stderr)
+        self.assertIn("'top'", self.render("--camera", "nobody").stderr)
+
+    def test_a_bad_scene_exits_3_with_every_place(self):
+        bad = self.write("bad.alhazen", "alhazen 1\nsphere { radius = -1 }\nsphere { radius = nan }\nbanana { }\n")
+        result = run("render", bad, "-o", self.path("out.png"))
+        self.assertEqual(result.returncode, 3)
+        for place in (":2:", ":3:", ":4:"):
+            self.assertIn(bad + place, result.stderr)
+
+    def test_files_that_are_missing_or_no_files_exit_4(self):
+        for name in (self.path("absent.alhazen"), self.folder.name):
+            self.assertEqual(run("info", name).returncode, 4, name)
+        os.mkfifo(self.path("pipe"))
+        self.assertEqual(run("info", self.path("pipe")).returncode, 4)
+
+    def test_a_failed_write_exits_4_and_keeps_the_old_picture(self):
+        self.assertEqual(self.render().returncode, 0)
+        before = self.read("out.png")
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+        result = run("render", self.scene, "-o", self.path("out.png"), "--size", "200x200", preexec_fn=limit)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertEqual(self.read("out.png"), before)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["out.png", "scene with space.alhazen"])
+        missing = os.path.join(self.folder.name, "no", "out.png")
+        self.assertEqual(run("render", self.scene, "-o", missing).returncode, 4)
+
+    def test_the_same_bits_for_any_threads_tiles_and_accelerator(self):
+        self.render("-t", "1", "--tile-size", "64", "--spp", "4", output="a.png")
+        self.render("-t", "7", "--tile-size", "5", "--spp", "4", output="b.png")
+        self.render("-t", "2", "--accelerator", "list", "--spp", "4", output="c.png")
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+        self.assertEqual(self.read("a.png"), self.read("c.png"))
+
+    def test_a_crop_is_that_part_of_the_picture(self):
+        self.render("--full-float", output="whole.exr")
+        self.render("--full-float", "--crop", "10,20,40,30", output="part.exr")
+        self.render("--crop", "10,20,40,30", output="part.pfm")
+        self.assertEqual(run("diff", self.path("part.exr"), self.path("part.pfm")).returncode, 0)
+        self.assertEqual(run("diff", self.path("part.exr"), self.path("whole.exr")).returncode, 2)
+
+    def test_every_picture_format_is_written_and_read_back(self):
+        self.render(output="reference.pfm")
+        for name, bound in (("a.exr", 2e-3), ("b.hdr", 1e-2), ("c.pfm", 0)):
+            self.assertEqual(self.render(output=name).returncode, 0)
+            result = run("diff", self.path("reference.pfm"), self.path(name), "--max", str(bound))
+            self.assertEqual(result.returncode, 0, name + result.stdout)
+        self.render(output="reference.png")
+        for name, options, bound in (("d.png", ["--bits", "16"], 1 / 250), ("e.jpg", [], 0.2), ("f.png", [], 0)):
+            self.assertEqual(self.render(*options, output=name).returncode, 0)
+            result = run("diff", self.path("reference.png"), self.path(name), "--max", str(bound))
+            self.assertEqual(result.returncode, 0, name + result.stdout)
+
+    def test_diff_exits_1_above_the_bound(self):
+        self.render(output="a.png")
+        self.render("--camera", "top", output="b.png")
+        result = run("diff", self.path("a.png"), self.path("b.png"), "-o", self.path("d.png"), "--json")
+        self.assertEqual(result.returncode, 1)
+        self.assertGreater(json.loads(result.stdout)["different"], 0.1)
+        self.assertTrue(self.read("d.png").startswith(b"\x89PNG"))
+
+    def test_statistics_have_what_is_promised(self):
+        result = self.render("--stats", "-", "-q")
+        stats = json.loads(result.stdout)
+        self.assertEqual(stats["rays"]["eye"]["cast"], 64 * 48)
+        for kind in ("eye", "shadow", "reflection", "refraction"):
+            self.assertLessEqual(stats["rays"][kind]["hit"], stats["rays"][kind]["cast"])
+        self.assertIn("total_internal", stats["rays"]["refraction"])
+        for key in ("box", "primitive", "primitive_hit", "mailbox_saved", "node_visits"):
+            self.assertIn(key, stats["tests"])
+        self.assertGreater(stats["tests"]["primitive"], 0)
+        for key in ("accelerator_bytes", "scene_bytes", "peak_rss_bytes", "effective_primitives"):
+            self.assertGreater(stats["memory"][key], 0, key)
+        for key in ("load", "build", "render", "write"):
+            self.assertGreaterEqual(stats["seconds"][key], 0)
+
+    def test_info_and_verify(self):
+        info = json.loads(run("info", self.scene, "--json").stdout)
+        self.assertEqual(info["parts"], {"plane": 1, "sphere": 1})
+        self.assertIsNone(info["bounds"])
+        result = run("verify", self.scene, "--rays", "500", "--json", "-", "-q")
+        self.assertEqual(result.returncode, 0)
+        self.assertTrue(all(report["holds"] for report in json.loads(result.stdout)))
+
+    def test_interrupted_rendering_writes_what_is_done_and_exits_75(self):
+        process = subprocess.Popen([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "--size", "2000x2000",
+                                    "--spp", "400"], stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        _, messages = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 75)
+        self.assertIn("stopped", messages)
+        self.assertTrue(self.read("out.png").startswith(b"\x89PNG"))
+
+    def test_the_readme_scene_renders(self):
+        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as readme:
+            text = readme.read()
+        scene = self.write("readme.alhazen", text[text.index("alhazen 1\n"):].split("```")[0])
+        self.assertEqual(run("render", scene, "-o", self.path("readme.png"), "--size", "32x32", "--strict").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)
