@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "alhazen/imaging/encoding.h"
+
 namespace alhazen {
 
 namespace {
@@ -22,15 +24,12 @@ int wrapped(long long i, int n, Wrap wrap) {
     return static_cast<int>(((i % n) + n) % n);
 }
 
-double srgb_to_linear(double c) {
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
 Rgb texel(const Texture& texture, long long x, long long y) {
     const Image& image = *texture.image;
     Rgb c = image.rgb(wrapped(x, image.width, texture.wrap_u),
                       wrapped(y, image.height, texture.wrap_v));
-    if (texture.decode_srgb) c = {srgb_to_linear(c.r), srgb_to_linear(c.g), srgb_to_linear(c.b)};
+    if (texture.decode_srgb)
+        c = {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
     return c;
 }
 
