@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <new>
 
 #include "alhazen/base/error.h"
@@ -66,7 +67,13 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     fail_instead_of_dying_on_writes();
     try {
-        return run(argc, argv);
+        const int status = run(argc, argv);
+        // A full disk behind a redirection shows only now.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            fmt::print(stderr, "alhazen: standard output could not be written\n");
+            return kBadFile;
+        }
+        return status;
     } catch (const Error& error) {
         fmt::print(stderr, "alhazen: {}\n", error.what());
         return exit_status_of(error.kind());

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+#include "alhazen/renderers/renderer.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/picture.h"
 #include "alhazen/session/render.h"
@@ -69,6 +71,15 @@ int run(const RenderArguments& args) {
     check_image_suffix(args.output);
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
+    (void)make_renderer(options.renderer);
+    check_accelerator_name(args.scene.accelerator);
+    check_writable(args.output);
+    if (!args.stats.empty() && args.stats != "-") {
+        if (args.stats == args.output) {
+            throw Error(ErrorKind::Usage, "--stats and --output name the same file");
+        }
+        check_writable(args.stats);
+    }
     ProgressDisplay progress(args.quiet);
     LoadOptions load_options = args.scene.load_options();
     load_options.progress = &progress;
@@ -133,6 +144,7 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Recursion depth, 0 = eye rays only; default: the format's")
         ->check(CLI::Range(0, 1000));
     command->add_option("--camera", args->render.camera, "Camera by name or position");
+    // CLI11 reads "-1" into an unsigned number as a huge one.
     command->add_option("--seed", args->render.seed, "Seed of the sample positions")
         ->capture_default_str();
     command->add_option("--tile-size", args->render.tile_size, "Side of a tile in pixels")

@@ -1,19 +1,32 @@
 #include "stop_signals.h"
 
 #include <csignal>
+#include <ctime>
 
 namespace alhazen::cli {
 
 namespace {
 
 StopFlag stop_flag;
+volatile std::sig_atomic_t first_signal_seconds = 0;
+/// A second signal so soon after the first is the same wish told twice (timeout(1) signals the
+/// process and its group).
+constexpr long kSameWishSeconds = 1;
+
+long now_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<long>(now.tv_sec);
+}
 
 extern "C" void on_stop_signal(int signal_number) {
     if (stop_flag.requested()) {
+        if (now_seconds() - first_signal_seconds <= kSameWishSeconds) return;
         std::signal(signal_number, SIG_DFL);
         std::raise(signal_number);
         return;
     }
+    first_signal_seconds = static_cast<std::sig_atomic_t>(now_seconds());
     stop_flag.request();
 }
 

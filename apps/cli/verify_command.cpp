@@ -70,7 +70,9 @@ void add_verify(CLI::App& app, int& exit_status) {
         "Compare an accelerator with brute force, ray by ray; exit 0 only when they agree");
     const auto args = std::make_shared<Arguments>();
     args->scene.add_to(*command, "all");
-    command->add_option("--rays", args->verify.rays, "Rays to trace")->capture_default_str();
+    command->add_option("--rays", args->verify.rays, "Rays to trace")
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, 1e15));
     command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")

@@ -67,6 +67,9 @@ class CommandLine(unittest.TestCase):
                           ["render", self.scene, "-o", picture, "--crop", "5,5,5,9"],
                           ["render", self.scene, "-o", picture, "--camera", "nobody"],
                           ["render", self.scene, "-o", picture, "--encoding", "gamma"],
+                          ["render", self.scene, "-o", picture, "--protocol", "spd", "--spp", "4"],
+                          ["render", self.scene, "-o", picture, "--stats", picture],
+                          ["verify", self.scene, "--rays", "-1"],
                           ["diff", self.scene], ["list", "colours"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
@@ -102,6 +105,26 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.folder.name)), ["out.png", "scene with space.alhazen"])
         missing = os.path.join(self.folder.name, "no", "out.png")
         self.assertEqual(run("render", self.scene, "-o", missing).returncode, 4)
+
+    def test_a_picture_that_cannot_be_written_is_told_before_the_work(self):
+        started = time.monotonic()
+        result = run("render", self.scene, "-o", self.path("no/out.png"), "--size", "4000x4000", "--spp", "1000")
+        self.assertEqual(result.returncode, 4)
+        self.assertLess(time.monotonic() - started, 30)
+
+    def test_standard_output_that_is_full_exits_4(self):
+        with open("/dev/full", "w", encoding="ascii") as full:
+            result = subprocess.run([ALHAZEN, "list"], stdout=full, stderr=subprocess.PIPE, check=False, timeout=60)
+        self.assertEqual(result.returncode, 4)
+
+    def test_links_do_not_lead_out_of_the_folder_of_the_scene(self):
+        os.mkdir(self.path("outside"))
+        os.mkdir(self.path("inside"))
+        self.write("outside/part.alhazen", "alhazen 1\nsphere { }\n")
+        os.symlink("../outside", self.path("inside/link"))
+        scene = self.write("inside/scene.alhazen", 'alhazen 1\ninclude "link/part.alhazen"\n')
+        self.assertEqual(run("info", scene).returncode, 3)
+        self.assertEqual(run("info", scene, "--allow-path", self.folder.name).returncode, 0)
 
     def test_the_same_bits_for_any_threads_tiles_and_accelerator(self):
         self.render("-t", "1", "--tile-size", "64", "--spp", "4", output="a.png")
@@ -165,6 +188,7 @@ class CommandLine(unittest.TestCase):
                                     "--spp", "400"], stderr=subprocess.PIPE, text=True)
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGINT)  # the same wish twice, as timeout(1) tells it
         _, messages = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 75)
         self.assertIn("stopped", messages)

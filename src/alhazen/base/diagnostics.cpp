@@ -11,19 +11,17 @@ std::string to_string(const Diagnostic& diagnostic) {
 }
 
 void Diagnostics::warning(FileLocation location, std::string message) {
-    ++warning_count_;
+    if (++warning_count_ > kMaxKept) return;
     add(Severity::Warning, std::move(location), std::move(message));
 }
 
 void Diagnostics::error(FileLocation location, std::string message) {
-    ++error_count_;
+    if (++error_count_ > kMaxKept) return;
     add(Severity::Error, std::move(location), std::move(message));
 }
 
 void Diagnostics::add(Severity severity, FileLocation location, std::string message) {
-    if (kept_.size() < kMaxKept) {
-        kept_.push_back({severity, std::move(location), std::move(message)});
-    }
+    kept_.push_back({severity, std::move(location), std::move(message)});
 }
 
 void Diagnostics::throw_if_errors() const {

@@ -26,7 +26,8 @@ struct Diagnostic {
 
 class Diagnostics {
   public:
-    /// Findings kept beyond this count are only counted, so that hostile input cannot fill memory.
+    /// Findings of one severity beyond this count are only counted, so that hostile input cannot
+    /// fill memory; a flood of warnings does not hide an error.
     static constexpr std::size_t kMaxKept = 1000;
 
     void warning(FileLocation location, std::string message);

@@ -182,6 +182,17 @@ void write_file_atomically(const fs::path& path, const std::string& text) {
     write_file_atomically(path, std::as_bytes(std::span<const char>(text.data(), text.size())));
 }
 
+void check_writable(const fs::path& path) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorKind::File, "cannot write " + path.string() + ": " + why);
+    };
+    std::error_code failed;
+    if (!fs::is_directory(folder, failed)) refuse("there is no folder " + folder.string());
+    if (::access(folder.c_str(), W_OK) != 0) refuse("the folder may not be written to");
+    if (fs::is_directory(path, failed)) refuse("it is a folder");
+}
+
 fs::path resolve_inside(const fs::path& root, const fs::path& folder, const std::string& name) {
     const auto refuse = [&](const std::string& why) {
         throw Error(ErrorKind::Scene, "the file name \"" + name + "\" " + why);
@@ -198,6 +209,14 @@ fs::path resolve_inside(const fs::path& root, const fs::path& folder, const std:
     const fs::path inside = whole(place).lexically_relative(whole(root));
     if (inside.empty() || *inside.begin() == "..") {
         refuse("leaves the folder " + root.string() + " that the scene may read");
+    }
+    // Symbolic links must not lead out either.
+    std::error_code failed;
+    const fs::path real = fs::weakly_canonical(whole(place), failed);
+    const fs::path real_root = failed ? fs::path() : fs::weakly_canonical(whole(root), failed);
+    const fs::path real_inside = failed ? fs::path() : real.lexically_relative(real_root);
+    if (real_inside.empty() || *real_inside.begin() == "..") {
+        refuse("leads out of the folder " + root.string() + " through a symbolic link");
     }
     return place;
 }

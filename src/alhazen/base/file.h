@@ -1,9 +1,9 @@
 #pragma once
 /// Reading and writing whole files, safely.
 ///
-/// Reads accept regular files only (no FIFO or device can hang or flood a loader) and stop at a byte
-/// limit. Writes go to a temporary name in the target's folder, are synced and renamed: a killed run
-/// leaves the old file or the new one, never half of it.
+/// Reads accept regular files only (no FIFO or device can hang or flood a loader) and stop at a
+/// byte limit. Writes go to a temporary name in the target's folder, are synced and renamed: a
+/// killed run leaves the old file or the new one, never half of it.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,8 +28,14 @@ void write_file_atomically(const std::filesystem::path& path, std::span<const st
 /// The same for text.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 
+/// Throws Error (File) when `path` could not be written for a reason that shows already: its folder
+/// is missing or may not be written to, or it is a folder itself. For callers with long work before
+/// the write.
+void check_writable(const std::filesystem::path& path);
+
 /// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) when it is
-/// absolute, empty, holds a NUL or leaves `root` (a folder that contains `folder`) through `..`.
+/// absolute, empty, holds a NUL or leaves `root` (a folder that contains `folder`) through `..` or
+/// a symbolic link.
 [[nodiscard]] std::filesystem::path resolve_inside(const std::filesystem::path& root,
                                                    const std::filesystem::path& folder,
                                                    const std::string& name);

@@ -41,7 +41,10 @@ const Importer& find_importer(const ImportSource& source) {
 
 SceneDescription import_scene(const std::filesystem::path& path, const ImportOptions& options,
                               Diagnostics& diagnostics) {
-    const std::string bytes = read_file(path);
+    const std::string file = read_file(path);
+    // A byte order mark says nothing here: all text formats are ASCII or UTF-8.
+    std::string_view bytes = file;
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     const ImportSource source{bytes, path, options};
     SceneDescription description = find_importer(source).import(source, diagnostics);
     // A file with mistakes is validated too, so that all of them are told at once; but what

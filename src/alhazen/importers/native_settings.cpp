@@ -5,13 +5,13 @@ namespace alhazen {
 namespace {
 
 void read_pixels(BlockReader& reader, std::string_view key, std::optional<int>& out) {
-    constexpr int kMostPixels = 1'000'000;
     int pixels = 0;
     if (!reader.read(key, pixels)) return;
-    if (pixels > 0 && pixels <= kMostPixels) {
+    if (pixels > 0 && pixels <= kMaxPictureSide) {
         out = pixels;
     } else {
-        reader.error(*reader.find(key), "'" + std::string(key) + "' must be from 1 to 1000000");
+        reader.error(*reader.find(key), "'" + std::string(key) + "' must be from 1 to " +
+                                            std::to_string(kMaxPictureSide));
     }
 }
 
@@ -43,14 +43,17 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     static const Vocabulary<C::ShadowTint> kShadowTints{
         {"per_crossing", C::ShadowTint::PerCrossing},
         {"per_distance", C::ShadowTint::PerDistance},
-        {"opaque", C::ShadowTint::Opaque}};
+        {"opaque", C::ShadowTint::Opaque},
+        {"none", C::ShadowTint::None}};
     static const Vocabulary<C::RefractionTint> kRefractionTints{
         {"per_event", C::RefractionTint::PerEvent},
         {"per_distance", C::RefractionTint::PerDistance}};
     static const Vocabulary<C::AmbientFactor> kAmbientFactors{
         {"ambient", C::AmbientFactor::Ambient}, {"diffuse", C::AmbientFactor::Diffuse}};
     static const Vocabulary<C::PixelSample> kPixelSamples{
-        {"center", C::PixelSample::Center}, {"lower_left_corner", C::PixelSample::LowerLeftCorner}};
+        {"center", C::PixelSample::Center},
+        {"lower_left_corner", C::PixelSample::LowerLeftCorner},
+        {"frame_corners", C::PixelSample::FrameCorners}};
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);
     C& c = context.scene.conventions;
@@ -62,6 +65,9 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     reader.read("clamp_attenuation", c.clamp_attenuation);
     reader.read("truncate_material_colors", c.truncate_material_colors);
     reader.read("transmitting_surfaces_reflect", c.transmitting_surfaces_reflect);
+    reader.read("trace_reflections", c.trace_reflections);
+    reader.read("trace_refractions", c.trace_refractions);
+    reader.read("correct_interpolated_normals", c.correct_interpolated_normals);
     if (reader.read("air_index", c.air_index) && !(c.air_index > 0)) {
         reader.error(*reader.find("air_index"), "'air_index' must be greater than 0");
     }

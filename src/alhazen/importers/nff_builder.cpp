@@ -89,6 +89,10 @@ void NffBuilder::add_shape(AnyShape shape, const FileLocation& where) {
 }
 
 void NffBuilder::add_sphere(const Vec3& center, double radius, const FileLocation& where) {
+    if (radius == 0.0) {
+        ++degenerate_;
+        return;
+    }
     Sphere sphere;
     sphere.center = center;
     sphere.radius = std::abs(radius);
@@ -97,6 +101,10 @@ void NffBuilder::add_sphere(const Vec3& center, double radius, const FileLocatio
 
 void NffBuilder::add_cone(const Vec3& base, double base_radius, const Vec3& apex,
                           double apex_radius, const FileLocation& where) {
+    if (base == apex || (base_radius == 0.0 && apex_radius == 0.0)) {
+        ++degenerate_;
+        return;
+    }
     if (std::abs(base_radius) == std::abs(apex_radius)) {
         Cylinder cylinder;
         cylinder.base = base;
@@ -121,7 +129,7 @@ void NffBuilder::add_polygon(const std::vector<Vec3>& vertices, const std::vecto
     std::iota(loop.begin(), loop.end(), 0u);
     const Vec3 normal = newell_normal(vertices, loop);
     if (!(length_squared(normal) > 0.0)) {
-        ++flat_polygons_;
+        ++degenerate_;
         return;
     }
     if (!is_planar(vertices, normalize(normal))) return add_triangles(vertices, normals, where);
@@ -207,9 +215,10 @@ void NffBuilder::finish(const NffView& view) {
     scene_.lights.push_back(
         {"ambient", AmbientLight{ambient_.value_or(intensity)}, {scene_.path.string(), 0, 0}});
     for (MeshDescription& mesh : scene_.meshes) make_normals_unit(*mesh.mesh);
-    if (flat_polygons_ != 0) {
-        diagnostics_.warning({scene_.path.string(), 0, 0},
-                             std::to_string(flat_polygons_) + " polygons without area are ignored");
+    if (degenerate_ != 0) {
+        diagnostics_.warning(
+            {scene_.path.string(), 0, 0},
+            std::to_string(degenerate_) + " primitives without extent are ignored");
     }
     if (scene_.materials.empty()) set_fill({{1, 1, 1}, {1, 1, 1}, {}, 0, 0, 1}, {});
 }

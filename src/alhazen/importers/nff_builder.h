@@ -64,7 +64,7 @@ class NffBuilder {
     std::vector<bool> default_intensity_;                        ///< per light
     std::optional<Rgb> ambient_;
     std::uint64_t elements_ = 0;
-    std::uint64_t flat_polygons_ = 0;
+    std::uint64_t degenerate_ = 0;
 };
 
 }  // namespace alhazen

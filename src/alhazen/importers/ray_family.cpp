@@ -14,6 +14,7 @@ constexpr double kShininessScale = 128.0;
 
 struct Signs {
     bool dictionary_spelling = false;
+    bool token_spelling = false;
     double largest_shininess = 0.0;
 };
 
@@ -27,8 +28,10 @@ void look_at(TextNode node, Signs& signs) {
     if (node.is(NodeKind::Entry)) {
         if (name == "material" || is_dictionary_extension(name)) signs.dictionary_spelling = true;
     } else if (node.is(NodeKind::Pair)) {
-        if (name == "gennormals" || name == "quaternion" || name == "focaldistance" ||
-            name == "aperture" || name == "enable_motion_blur") {
+        if (name == "quaternian") {
+            signs.token_spelling = true;
+        } else if (name == "gennormals" || name == "quaternion" || name == "focaldistance" ||
+                   name == "aperture" || name == "enable_motion_blur") {
             signs.dictionary_spelling = true;
         } else if (name == "material" && !node.empty() && node.first().is(NodeKind::Block)) {
             if (has_name_pair(node.first())) signs.dictionary_spelling = true;
@@ -51,6 +54,12 @@ Signs signs_of(TextNode root) {
             continue;
         }
         for (const TextNode child : node) {
+            // `gennormals;` and `name x;`: only the token parsers know words without a value or an
+            // equals sign.
+            if (child.is(NodeKind::Word, "gennormals") || child.is(NodeKind::Word, "name") ||
+                child.is(NodeKind::Entry, "name")) {
+                signs.token_spelling = true;
+            }
             const bool leaf = child.is(NodeKind::Number) || child.is(NodeKind::Word) ||
                               child.is(NodeKind::String);
             if (!leaf) pending.push_back(child);
@@ -85,7 +94,7 @@ RayFamily detect_ray_family(TextNode root) {
     const bool small_shininess =
         signs.largest_shininess > 0 && signs.largest_shininess <= kLargestScaledShininess;
     RayFamily family;
-    family.dictionary = signs.dictionary_spelling || small_shininess;
+    family.dictionary = signs.dictionary_spelling || (small_shininess && !signs.token_spelling);
     if (family.dictionary && signs.largest_shininess <= kLargestScaledShininess) {
         family.shininess_scale = kShininessScale;
     }

@@ -20,7 +20,9 @@ struct RayFamily {
 /// A file is of the dictionary family when it spells something only that family knows (`material {
 /// name = ...`, `gennormals = true`, `quaternion`, `focaldistance`, an object or a light that its
 /// students added), or when the largest shininess it writes is in (0, 2]: exponents of that size
-/// make no highlight, 0.2 and 2 of the one family are 25.6 and 256 in the other.
+/// make no highlight, 0.2 and 2 of the one family are 25.6 and 256 in the other. Sizes decide
+/// nothing in a file that spells what only the token parsers know (`gennormals;`, `name x;`,
+/// `quaternian`).
 [[nodiscard]] RayFamily detect_ray_family(TextNode root);
 
 }  // namespace alhazen

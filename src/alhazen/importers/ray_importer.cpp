@@ -81,6 +81,12 @@ SceneDescription RayImporter::import(const ImportSource& source, Diagnostics& di
     RayContext context{scene, diagnostics, source.options, detect_ray_family(tree.root())};
     scene.conventions = context.family.conventions;
     read_items(tree.root(), context);
+    if (scene.cameras.empty()) {
+        // The programs' own camera: at the origin, looking down -z, a picture one unit high at
+        // distance one.
+        scene.cameras.push_back(
+            {"default", PerspectiveCamera{}, 1.0, {source.path.string(), 1, 1}});
+    }
     return scene;
 }
 

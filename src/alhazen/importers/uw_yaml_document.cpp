@@ -54,7 +54,7 @@ void check_nesting(std::string_view bytes, const std::string& file, int max_nest
     for (std::size_t at = 0; at < bytes.size(); ++line) {
         const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
         if (scan.depth_of(bytes.substr(at, end - at)) > std::size_t(max_nesting)) {
-            throw Error(ErrorKind::Resource,
+            throw Error(ErrorKind::Scene,
                         "nested more than " + std::to_string(max_nesting) + " deep",
                         {file, line, 0});
         }
@@ -75,8 +75,7 @@ std::optional<YAML::Node> parse_yaml(std::string_view bytes, const std::string& 
     try {
         return YAML::Load(std::string(bytes));
     } catch (const YAML::DeepRecursion& e) {
-        throw Error(ErrorKind::Resource,
-                    "nested more than " + std::to_string(max_nesting) + " deep",
+        throw Error(ErrorKind::Scene, "nested more than " + std::to_string(max_nesting) + " deep",
                     place(file, e.mark));
     } catch (const YAML::Exception& e) {
         diagnostics.error(place(file, e.mark), "not valid YAML: " + e.msg);

@@ -20,10 +20,10 @@
 namespace alhazen {
 
 /// The largest text that is parsed: nodes take a few hundred bytes each.
-inline constexpr std::size_t kMaxYamlBytes = std::size_t{8} << 20;
+inline constexpr std::size_t kMaxYamlBytes = std::size_t{1} << 20;
 
-/// The document of `bytes`; nothing after an error. Throws Error (Resource) for text that is too
-/// large or nested deeper than `max_nesting`.
+/// The document of `bytes`; nothing after an error. Throws Error: Resource for text that is too
+/// large, Scene for text nested deeper than `max_nesting`.
 [[nodiscard]] std::optional<YAML::Node> parse_yaml(std::string_view bytes, const std::string& file,
                                                    int max_nesting, Diagnostics& diagnostics);
 

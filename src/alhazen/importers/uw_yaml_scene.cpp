@@ -35,24 +35,8 @@ void UwSceneReader::read() {
         return;
     }
     read_node(root, Affine{}, 0);
-    if (!reflections_) {
-        for (MaterialDescription& m : scene_.materials) m.material.reflective = {};
-    }
-    if (!refractions_) drop_transmission();
     // Everything downstream counts on one material.
     if (scene_.materials.empty()) scene_.materials.emplace_back();
-}
-
-/// Without refractions nothing is seen through a surface; what else kt does (tinting shadows) is
-/// lost with it.
-void UwSceneReader::drop_transmission() {
-    for (MaterialDescription& m : scene_.materials) {
-        if (m.material.is_opaque()) continue;
-        m.material.transmissive = {};
-        warn_once(document_, "Refractions",
-                  "the camera's 'Refractions' is false: transparent materials are opaque, for "
-                  "shadows too");
-    }
 }
 
 void UwSceneReader::count_visit(const YAML::Node& node) {
@@ -282,17 +266,32 @@ void UwSceneReader::trace_settings(const YAML::Node& trace) {
     } else {
         values_.error(trace, "the Maximum Recursion Depth must be 0 to 1000");
     }
-    reflections_ = values_.flag(trace, "Reflections", true);
-    refractions_ = values_.flag(trace, "Refractions", true);
-    const double shadows = values_.number(trace, "Shadows", 2.0);
-    if (shadows == 1.0) conventions.shadow_tint = ShadingConventions::ShadowTint::Opaque;
-    if (shadows == 0.0) values_.warning(trace, "'Shadows: 0' is ignored: shadows are always cast");
+    conventions.trace_reflections = values_.flag(trace, "Reflections", true);
+    conventions.trace_refractions = values_.flag(trace, "Refractions", true);
+    shadow_settings(trace);
     for (const char* setting : {"Monte Carlo", "Samples Per Pixel", "Aperture Size"}) {
         if (values_.number(trace, setting, 0.0) > 0.0) {
             values_.warning(trace,
                             std::string("'") + setting +
                                 "' is ignored: one ray through each pixel's centre is traced");
         }
+    }
+}
+
+/// `Shadows` is 0 (none), 1 (every surface is opaque) or 2 (coloured); older files have a switch,
+/// `Enable Shadows`.
+void UwSceneReader::shadow_settings(const YAML::Node& trace) {
+    using ShadowTint = ShadingConventions::ShadowTint;
+    ShadowTint& tint = scene_.conventions.shadow_tint;
+    if (!values_.flag(trace, "Enable Shadows", true)) tint = ShadowTint::None;
+    const std::string text = values_.text(trace, "Shadows");
+    if (text.empty() || text == "2" || text == "true") return;
+    if (text == "0" || text == "false") {
+        tint = ShadowTint::None;
+    } else if (text == "1") {
+        tint = ShadowTint::Opaque;
+    } else {
+        values_.error(trace, "Shadows must be 0 (none), 1 (opaque) or 2 (coloured)");
     }
 }
 

@@ -31,7 +31,6 @@ class UwSceneReader {
     static ReadComponent reader_of(const std::string& component);
 
     void read_node(const YAML::Node& node, const Affine& world_from_parent, int depth);
-    void drop_transmission();
     void count_visit(const YAML::Node& node);
 
     void nothing(const Place&, const YAML::Node&) {}
@@ -48,6 +47,7 @@ class UwSceneReader {
     void area_light(const Place& place, const YAML::Node& component);
     void camera(const Place& place, const YAML::Node& component);
     void trace_settings(const YAML::Node& trace);
+    void shadow_settings(const YAML::Node& trace);
 
     void add_part(const Place& place, const YAML::Node& component,
                   std::variant<AnyShape, MeshIndex, ObjectIndex> what,
@@ -61,8 +61,6 @@ class UwSceneReader {
     UwAssets assets_;
     std::set<std::string> warned_;
     std::size_t visits_ = 0;
-    bool reflections_ = true;  ///< of the first camera
-    bool refractions_ = true;
 };
 
 }  // namespace alhazen

@@ -54,6 +54,7 @@ void render_pixels(const RenderJob& job, const PixelBox& tile, Film& film, RayCo
     const int height = film.frame_height();
     for (int j = tile.y0; j < tile.y1; ++j) {
         for (int i = tile.x0; i < tile.x1; ++i) {
+            if (job.stop_requested()) return;
             Rgb sum;
             int finite = 0;
             for (int s = 0; s < job.samples_per_pixel; ++s) {

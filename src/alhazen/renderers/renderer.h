@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "alhazen/base/progress.h"
 #include "alhazen/imaging/film.h"
 #include "alhazen/renderers/ray_counters.h"
 #include "alhazen/scene/scene.h"
@@ -21,7 +22,10 @@ struct RenderJob {
     int samples_per_pixel =
         1;  ///< 1: the convention's point of the pixel; more: stratified, jittered
     std::uint64_t seed = 0;
-    bool count_tests = false;  ///< fill RayCounters::tests (rays are always counted)
+    bool count_tests = false;        ///< fill RayCounters::tests (rays are always counted)
+    const StopFlag* stop = nullptr;  ///< looked at before each pixel; may be null
+
+    [[nodiscard]] bool stop_requested() const { return stop != nullptr && stop->requested(); }
 };
 
 class Renderer {

@@ -36,8 +36,9 @@ class Tracer {
         const ShadingPoint point = shading_point(scene_, ray, hit, inside);
         Rgb color = unshadowed_terms(scene_, point) + direct_light(point);
         if (depth < conventions_.max_depth) {
-            color += reflected(point, ray, depth, contribution);
-            color += transmitted(point, ray, depth, contribution);
+            if (conventions_.trace_reflections) color += reflected(point, ray, depth, contribution);
+            if (conventions_.trace_refractions)
+                color += transmitted(point, ray, depth, contribution);
         }
         if (conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
             inside) {
@@ -65,6 +66,7 @@ class Tracer {
 
     /// What is left of a light on its way to the point: A_shadow.
     Rgb light_let_through(const ShadingPoint& point, const LightSample& light) {
+        if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};
         const Ray ray = leaving_ray(point.surface, light.to_light, light.distance);
         RayCount& count = counters_[RayKind::Shadow];
         ++count.cast;

@@ -32,16 +32,27 @@ std::span<const AcceleratorEntry> accelerator_table() {
     return kEntries;
 }
 
-std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,
-                                                PrimitiveTable table) {
+namespace {
+
+const AcceleratorEntry& find_accelerator(const std::string& name) {
     std::string names;
     for (const AcceleratorEntry& entry : accelerator_table()) {
-        if (accelerator_name == entry.name) return entry.make(std::move(table));
+        if (name == entry.name) return entry;
         names += names.empty() ? "" : ", ";
         names += entry.name;
     }
-    throw Error(ErrorKind::Usage,
-                "no accelerator '" + accelerator_name + "'; the valid names are: " + names);
+    throw Error(ErrorKind::Usage, "no accelerator '" + name + "'; the valid names are: " + names);
+}
+
+}  // namespace
+
+void check_accelerator_name(const std::string& name) {
+    (void)find_accelerator(name);
+}
+
+std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,
+                                                PrimitiveTable table) {
+    return find_accelerator(accelerator_name).make(std::move(table));
 }
 
 }  // namespace alhazen

@@ -21,6 +21,9 @@ struct AcceleratorEntry {
 
 inline constexpr const char* kDefaultAccelerator = "wide_bvh";
 
+/// Throws Error (Usage) with the valid names for an unknown one.
+void check_accelerator_name(const std::string& name);
+
 /// Builds the accelerator over a finished table. Throws Error(Usage) with the valid names for an
 /// unknown one.
 [[nodiscard]] std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,

@@ -15,8 +15,8 @@ bool hit_less(const Hit& a, const Hit& b) {
     // One path ended: its next id is the primitive itself.
     const PrimitiveId pa = i > 0 ? a.path[i - 1] : a.primitive;
     const PrimitiveId pb = j > 0 ? b.path[j - 1] : b.primitive;
-    if (pa != pb) return pa < pb;
-    return a.part < b.part;
+    // Crossings of one primitive at one t stay in the order in which the primitive reports them.
+    return pa < pb;
 }
 
 }  // namespace alhazen

@@ -41,7 +41,9 @@ class Aggregate {
                                         TraversalStats* stats) const = 0;
 };
 
-/// The order of hits: by t, then by the ids from the outermost aggregate inward, then by part.
+/// The order of hits: by t, then by the ids from the outermost aggregate inward. Sorts must be
+/// stable: crossings of one primitive at one t keep the order in which it reports them, so that the
+/// first of all hits is the closest hit.
 [[nodiscard]] bool hit_less(const Hit& a, const Hit& b);
 
 }  // namespace alhazen

@@ -74,6 +74,9 @@ struct MaterialDescription {
     FileLocation location;
 };
 
+/// Largest side of a picture, pixels.
+inline constexpr int kMaxPictureSide = 65536;
+
 /// What the file says about the picture; the command line overrides it.
 struct PictureSettings {
     std::optional<int> width, height;  ///< pixels

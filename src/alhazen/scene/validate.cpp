@@ -250,9 +250,9 @@ class Validator {
 
     void check_picture() {
         const auto side = [&](const std::optional<int>& pixels, const char* what) {
-            if (pixels && (*pixels < 1 || *pixels > 65536)) {
-                error({},
-                      fmt::format("picture {} must be 1 to 65536 pixels, found {}", what, *pixels));
+            if (pixels && (*pixels < 1 || *pixels > kMaxPictureSide)) {
+                error({}, fmt::format("picture {} must be 1 to {} pixels, found {}", what,
+                                      kMaxPictureSide, *pixels));
             }
         };
         side(d_.picture.width, "width");

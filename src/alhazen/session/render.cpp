@@ -15,7 +15,6 @@ namespace alhazen {
 
 namespace {
 
-constexpr int kMaxSide = 65536;
 constexpr int kDefaultHeight = 512;
 constexpr int kSpdRays = 513;
 /// Rays are traced by recursion: deeper trees would need more stack than a thread has for sure.
@@ -24,6 +23,14 @@ constexpr int kMaxDepth = 1000;
 struct FrameSize {
     int width, height;
 };
+
+/// A protocol fixes what it counts: options that would change it are refused.
+void check_protocol(const RenderOptions& options) {
+    if (options.protocol == Protocol::None) return;
+    if (options.width || options.height || options.crop || options.samples_per_pixel != 1) {
+        throw Error(ErrorKind::Usage, "the protocol fixes size, crop and samples per pixel");
+    }
+}
 
 FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options, double aspect) {
     if (options.protocol == Protocol::Spd) return {kSpdRays, kSpdRays};
@@ -36,11 +43,11 @@ FrameSize frame_size(const PictureSettings& picture, const RenderOptions& option
     if (!width && !height) height = kDefaultHeight;
     if (!width) width = std::max(1, static_cast<int>(std::lround(*height * aspect)));
     if (!height) height = std::max(1, static_cast<int>(std::lround(*width / aspect)));
-    if (*width < 1 || *height < 1 || *width > kMaxSide || *height > kMaxSide) {
+    if (*width < 1 || *height < 1 || *width > kMaxPictureSide || *height > kMaxPictureSide) {
         throw Error(ErrorKind::Usage,
                     fmt::format("picture size {}x{} is out of range; each side must be "
                                 "1 to {} pixels",
-                                *width, *height, kMaxSide));
+                                *width, *height, kMaxPictureSide));
     }
     return {*width, *height};
 }
@@ -97,6 +104,7 @@ class TileReport {
 RenderResult render(const Scene& original, const PictureSettings& picture,
                     const RenderOptions& options) {
     check(options);
+    check_protocol(options);
     const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
     const Scene scene = adjusted(original, options);
     const CameraDescription& camera = find_camera(scene, options.camera);
@@ -106,7 +114,8 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
                         .camera = with_aspect(camera.camera, camera.aspect, aspect),
                         .samples_per_pixel = options.samples_per_pixel,
                         .seed = options.seed,
-                        .count_tests = options.count_tests};
+                        .count_tests = options.count_tests,
+                        .stop = options.stop};
     RenderResult result(Film(frame.width, frame.height,
                              options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
 
@@ -118,8 +127,10 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
     threads.run([&] {
         parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                if (options.stop != nullptr && options.stop->requested()) return;
+                if (job.stop_requested()) return;
                 renderer->render_tile(job, tiles[i], result.film, counters[i]);
+                // A tile that was abandoned keeps the pixels it has, but is not done.
+                if (job.stop_requested()) return;
                 report.tile_done();
             }
         });

@@ -23,7 +23,7 @@ struct ScalarInput {
 };
 
 /// Coefficients are 0..1 by custom, not by force. Importers fill in what their format leaves out
-/// (kt = 1 - ks, kr = ks) so that renderers need no rules of formats.
+/// (kr = ks, say) so that renderers need no rules of formats.
 struct Material {
     std::string name;
     ColorInput emission;                   ///< ke

@@ -20,6 +20,7 @@ struct ShadingConventions {
         PerCrossing,  ///< times kt at every crossing, entering and leaving both
         PerDistance,  ///< times kt^(distance travelled inside) (Beer)
         Opaque,       ///< any surface blocks all light
+        None,         ///< nothing casts a shadow
     };
     ShadowTint shadow_tint = ShadowTint::PerCrossing;
 
@@ -49,6 +50,10 @@ struct ShadingConventions {
     /// A reflected ray that an interpolated normal sends into the surface, or a refracted one that
     /// it sends back out, is made anew with the geometric normal.
     bool correct_interpolated_normals = true;
+
+    /// False where a file switches the rays of a kind off.
+    bool trace_reflections = true;
+    bool trace_refractions = true;
 
     double air_index = 1.0003;
 

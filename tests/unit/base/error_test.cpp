@@ -66,5 +66,17 @@ TEST(Diagnostics, AnErrorAfterAFloodOfWarningsIsStillAnError) {
     EXPECT_THROW(diagnostics.throw_if_errors(), Error);
 }
 
+TEST(Diagnostics, AFloodOfWarningsDoesNotHideAnError) {
+    Diagnostics diagnostics;
+    for (std::size_t i = 0; i < 2 * Diagnostics::kMaxKept; ++i) diagnostics.warning({}, "odd");
+    diagnostics.error({"a", 7, 0}, "bad");
+    try {
+        diagnostics.throw_if_errors();
+        FAIL() << "did not throw";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "a:7: error: bad");
+    }
+}
+
 }  // namespace
 }  // namespace alhazen

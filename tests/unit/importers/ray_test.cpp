@@ -64,6 +64,24 @@ TEST(RayImporter, LooksDownMinusZWithUnitHeightByDefault) {
     expect_near(c.up, {0, 1, 0});
 }
 
+TEST(RayImporter, AFileWithoutACameraHasTheProgramsOwn) {
+    const Imported i = import("sphere { }");
+    ASSERT_EQ(i.scene.cameras.size(), 1u);
+    const auto& camera = std::get<PerspectiveCamera>(i.scene.cameras[0].camera);
+    EXPECT_EQ(camera.eye, (Vec3{0, 0, 0}));
+    EXPECT_EQ(camera.look, (Vec3{0, 0, -1}));
+    EXPECT_EQ(camera.up, (Vec3{0, 1, 0}));
+}
+
+TEST(RayImporter, SmallShininessDecidesNothingWhereTheTokenFamilySpellsItself) {
+    const std::string material = "sphere { material = { shininess = 0.2; } }\n";
+    using ShadowTint = ShadingConventions::ShadowTint;
+    EXPECT_EQ(import(material).scene.conventions.shadow_tint, ShadowTint::PerCrossing);
+    const std::string mesh =
+        "polymesh { points = ((0,0,0),(1,0,0),(0,1,0)); faces = ((0,1,2)); gennormals; }\n";
+    EXPECT_EQ(import(material + mesh).scene.conventions.shadow_tint, ShadowTint::PerDistance);
+}
+
 TEST(RayImporter, KeepsTheShearAndLengthOfTheCamera) {
     const Imported i = import(
         "camera { position = (15,0,5); viewdir = (-1,0,-.3); updir = (0,0,2);"
