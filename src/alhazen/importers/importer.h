@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "alhazen/base/diagnostics.h"
+#include "alhazen/imaging/image_io.h"
 #include "alhazen/scene/scene_description.h"
 
 namespace alhazen {
@@ -18,6 +19,9 @@ struct ImportOptions {
     int max_include_depth = 16;
     std::uint64_t max_included_bytes = std::uint64_t{1} << 32;
     std::uint64_t max_elements = 400'000'000;  ///< vertices, triangles or primitives in one file
+    ImageLimits image_limits;                  ///< of each texture
+    std::optional<double> time;  ///< seconds: animations of the file are applied at this time; none: as at rest
+    std::string animation;       ///< name or position of the only animation to apply; empty: all
 };
 
 /// What an importer is given: the file's bytes (already read) and where they came from.

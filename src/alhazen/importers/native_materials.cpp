@@ -131,7 +131,8 @@ void read_native_texture(const NativeBlock& block, NativeContext& context,
     const bool has_file = reader.read("file", file);
     reader.read_word("wrap_u", kWraps, settings.wrap_u);
     reader.read_word("wrap_v", kWraps, settings.wrap_v);
-    reader.read("bilinear", settings.bilinear);
+    bool bilinear = true;
+    if (reader.read("bilinear", bilinear) && !bilinear) settings.filter = TextureFilter::Nearest;
     reader.read("corner_texels", settings.corner_texels);
     const bool has_srgb = reader.read("srgb", srgb);
     reader.finish();

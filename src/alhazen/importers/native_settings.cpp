@@ -23,7 +23,8 @@ void read_picture(const NativeBlock& block, NativeContext& context) {
     PictureSettings& picture = context.scene.picture;
     read_pixels(reader, "width", picture.width);
     read_pixels(reader, "height", picture.height);
-    reader.read("background", picture.background);
+    Rgb background;
+    if (reader.read("background", background)) picture.background = background;
     reader.finish();
 }
 

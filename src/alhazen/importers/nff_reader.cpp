@@ -120,7 +120,7 @@ bool NffReader::resolution() {
     return true;
 }
 bool NffReader::background() {
-    return color(scene_.picture.background);
+    return color(scene_.picture.background.emplace());
 }
 
 bool NffReader::light() {

@@ -131,7 +131,8 @@ std::optional<TextureId> UwAssets::texture(const std::string& name, const YAML::
     std::optional<TextureId> id;
     if (const auto found = textures_.find(name); found != textures_.end()) {
         Texture settings;
-        settings.bilinear = values_.flag(found->second, "Bilinear", true);
+        settings.filter = values_.flag(found->second, "Bilinear", true) ? TextureFilter::Bilinear
+                                                                        : TextureFilter::Nearest;
         id = texture_files_.load(values_.text(found->second, "Path"), root_, settings, name,
                                  values_.location(found->second));
     } else {

@@ -86,7 +86,7 @@ class Compiler {
         }
         scene.cameras = d_.cameras;
         scene.conventions = d_.conventions;
-        scene.background = d_.picture.background;
+        scene.background = d_.picture.background.value_or(Rgb{});
     }
 
     /// How many parts use each object and mesh; one user is flattened, several share an instance.

@@ -285,7 +285,8 @@ std::size_t PrimitiveTable::memory_bytes() const {
     for (const PlacedMesh& placed : meshes) {
         const TriangleMesh& mesh = *placed.mesh;
         total += bytes(mesh.positions) + bytes(mesh.triangles) + bytes(mesh.normals) +
-                 bytes(mesh.uvs) + bytes(mesh.vertex_materials);
+                 bytes(mesh.uvs) + bytes(mesh.uvs2) + bytes(mesh.colors) +
+                 bytes(mesh.tangents) + bytes(mesh.vertex_materials);
     }
     return total;
 }

@@ -80,8 +80,11 @@ inline constexpr int kMaxPictureSide = 65536;
 /// What the file says about the picture; the command line overrides it.
 struct PictureSettings {
     std::optional<int> width, height;  ///< pixels
-    Rgb background;
+    std::optional<Rgb> background;     ///< black when the file has none
 };
+
+/// Which way is up where a file has no camera.
+enum class UpAxis { Y, Z };
 
 struct SceneDescription {
     std::string format;  ///< name of the importer
@@ -94,6 +97,7 @@ struct SceneDescription {
     std::vector<ObjectDescription> objects;      ///< indexed by ObjectIndex
     ObjectIndex root{0};
     PictureSettings picture;
+    UpAxis up_axis = UpAxis::Y;
     ShadingConventions conventions;
 };
 

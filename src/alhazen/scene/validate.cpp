@@ -257,7 +257,9 @@ class Validator {
         };
         side(d_.picture.width, "width");
         side(d_.picture.height, "height");
-        if (!finite(d_.picture.background)) error({}, "the background colour must be finite");
+        if (!finite(d_.picture.background.value_or(Rgb{}))) {
+            error({}, "the background colour must be finite");
+        }
     }
 
     const SceneDescription& d_;

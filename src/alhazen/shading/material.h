@@ -1,7 +1,14 @@
 #pragma once
-/// The Whitted material: what a point of a surface does with light, constant or read from textures.
+/// What a point of a surface does with light, constant or read from textures: Whitted's
+/// coefficients, or the metallic-roughness parameters from which they are derived where they are
+/// used.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and appendix B; the extensions
+/// KHR_materials_{ior, transmission, volume, specular, emissive_strength, unlit}.
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,10 +23,41 @@ struct ColorInput {
     Rgb color;
     TextureId texture = kNoTexture;
 };
-/// A number, or the mean of a texture's channels times that number.
+/// Which number of a texel a scalar input reads; Mean is that of red, green and blue.
+enum class Channel { Mean, Red, Green, Blue, Alpha };
+/// A number, or a channel of a texture times that number.
 struct ScalarInput {
     double value = 0;
     TextureId texture = kNoTexture;
+    Channel channel = Channel::Mean;
+};
+
+/// What alpha means: nothing; a threshold that cuts the surface out; how much of it is there.
+enum class AlphaMode { Opaque, Mask, Blend };
+
+/// A picture of directions in the tangent frame that bends the shading normal: x to the right (+u),
+/// y up (+v), z along the normal, each stored as (c + 1) / 2.
+struct NormalMap {
+    TextureId texture = kNoTexture;
+    double scale = 1;  ///< of x and y
+};
+
+/// The metallic-roughness parameters, kept as the file gives them. Emission and index of refraction
+/// are those of the Material.
+struct MetallicRoughness {
+    ColorInput base_color{{1, 1, 1}, kNoTexture};
+    ScalarInput metallic{1, kNoTexture, Channel::Blue};
+    ScalarInput roughness{1, kNoTexture, Channel::Green};
+    /// 1 where no texture; a texture is blended in by `value`: 1 + value (texel - 1).
+    ScalarInput occlusion{1, kNoTexture, Channel::Red};
+    ScalarInput specular{1, kNoTexture, Channel::Alpha};  ///< strength of the dielectric reflection
+    ColorInput specular_color{{1, 1, 1}, kNoTexture};     ///< of it at normal incidence
+    ScalarInput transmission{0, kNoTexture, Channel::Red};
+    /// 0: a thin sheet that does not bend light; else the surface bounds a volume.
+    ScalarInput thickness{0, kNoTexture, Channel::Green};
+    double attenuation_distance = std::numeric_limits<double>::infinity();  ///< scene units
+    Rgb attenuation_color{1, 1, 1};  ///< what is left of white light after that distance
+    bool unlit = false;              ///< shows its base colour whatever the light
 };
 
 /// Coefficients are 0..1 by custom, not by force. Importers fill in what their format leaves out
@@ -35,8 +73,23 @@ struct Material {
     ScalarInput shininess{0, kNoTexture};  ///< ns, exponent of the highlight
     ScalarInput index{1, kNoTexture};      ///< index of refraction inside the surface's normal
 
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    ScalarInput alpha{1, kNoTexture, Channel::Alpha};  ///< times the alpha of the vertex colour
+    double alpha_cutoff = 0.5;                         ///< Mask: below it nothing is there
+    bool double_sided = true;                          ///< else the back cannot be seen
+    NormalMap normal_map;
+    /// Given: the Whitted coefficients above (emission and index apart) are not used; `evaluate`
+    /// derives them.
+    std::optional<MetallicRoughness> metallic_roughness;
+
+    /// True when no light passes anywhere.
     [[nodiscard]] bool is_opaque() const {
-        return transmissive.texture == kNoTexture ? transmissive.color.is_black() : false;
+        const auto is_black = [](const ColorInput& c) {
+            return c.texture == kNoTexture && c.color.is_black();
+        };
+        if (alpha_mode != AlphaMode::Opaque) return false;
+        return metallic_roughness ? metallic_roughness->transmission.value == 0.0
+                                  : is_black(transmissive);
     }
 };
 

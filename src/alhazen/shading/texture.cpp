@@ -53,7 +53,7 @@ Rgb evaluate(const Texture& texture, const Vec2& uv) {
         x = u * image.width - 0.5;
         y = v * image.height - 0.5;
     }
-    if (!texture.bilinear) {
+    if (texture.filter == TextureFilter::Nearest) {
         return texel(texture, static_cast<long long>(std::floor(x + 0.5)),
                      static_cast<long long>(std::floor(y + 0.5)));
     }

@@ -21,6 +21,9 @@ void TriangleMesh::validate(const FileLocation& where, Diagnostics& diagnostics)
     FieldChecks checks("mesh", where, diagnostics);
     check_length(checks, "normals", normals.size(), positions.size());
     check_length(checks, "uvs", uvs.size(), positions.size());
+    check_length(checks, "uvs2", uvs2.size(), positions.size());
+    check_length(checks, "colors", colors.size(), positions.size());
+    check_length(checks, "tangents", tangents.size(), positions.size());
     check_length(checks, "vertex_materials", vertex_materials.size(), positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
         if (is_finite(positions[i]) && max_component(abs(positions[i])) <= kMaxCoordinate) continue;
@@ -34,6 +37,25 @@ void TriangleMesh::validate(const FileLocation& where, Diagnostics& diagnostics)
     for (std::size_t i = 0; i < uvs.size(); ++i) {
         if (!std::isfinite(uvs[i].x) || !std::isfinite(uvs[i].y)) {
             checks.fail("uv " + std::to_string(i) + " must be two finite numbers");
+        }
+    }
+    for (std::size_t i = 0; i < uvs2.size(); ++i) {
+        if (!std::isfinite(uvs2[i].x) || !std::isfinite(uvs2[i].y)) {
+            checks.fail("uv " + std::to_string(i) +
+                        " of the second set must be two finite numbers");
+        }
+    }
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const VertexColor& c = colors[i];
+        if (!std::isfinite(c.r) || !std::isfinite(c.g) || !std::isfinite(c.b) ||
+            !std::isfinite(c.a)) {
+            checks.fail("color " + std::to_string(i) + " must be four finite numbers");
+        }
+    }
+    for (std::size_t i = 0; i < tangents.size(); ++i) {
+        const VertexTangent& t = tangents[i];
+        if (!std::isfinite(t.x) || !std::isfinite(t.y) || !std::isfinite(t.z)) {
+            checks.fail("tangent " + std::to_string(i) + " must be three finite numbers");
         }
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -107,6 +129,10 @@ void TriangleMesh::transform(const Affine& to_from) {
     for (Vec3& position : positions) position = to_from.point(position);
     const Mat3 from_to = inverse(to_from.linear);
     for (Vec3& normal : normals) normal = unit_or(transpose_times(from_to, normal), {});
+    for (VertexTangent& tangent : tangents) {
+        const Vec3 t = unit_or(to_from.linear * Vec3{tangent.x, tangent.y, tangent.z}, {1, 0, 0});
+        tangent = {float(t.x), float(t.y), float(t.z), tangent.sign};
+    }
 }
 
 }  // namespace alhazen

@@ -12,11 +12,26 @@
 
 namespace alhazen {
 
+/// Linear, with alpha; 1 by default.
+struct VertexColor {
+    float r = 1, g = 1, b = 1, a = 1;
+    friend bool operator==(const VertexColor&, const VertexColor&) = default;
+};
+/// A unit direction along +u in the surface, and the handedness of the frame: (normal x tangent)
+/// times `sign` runs along +v.
+struct VertexTangent {
+    float x = 1, y = 0, z = 0, sign = 1;
+    friend bool operator==(const VertexTangent&, const VertexTangent&) = default;
+};
+
 struct TriangleMesh {
     std::vector<Vec3> positions;                          ///< [vertex]
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [triangle] vertex indices
     std::vector<Vec3> normals;                            ///< [vertex] unit, or empty
     std::vector<Vec2> uvs;                                ///< [vertex], or empty
+    std::vector<Vec2> uvs2;                               ///< [vertex] second set, or empty
+    std::vector<VertexColor> colors;                      ///< [vertex], or empty
+    std::vector<VertexTangent> tangents;                  ///< [vertex], or empty
     /// [vertex] index into the list of materials that the owner keeps, or empty.
     std::vector<std::uint32_t> vertex_materials;
 

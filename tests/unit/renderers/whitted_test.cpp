@@ -174,7 +174,7 @@ TEST(Whitted, APaneOfGlassLetsTheBackgroundThroughTimesKtTwice) {
     SceneMaker maker;
     maker.add(BoxShape{.lo = {-9, -9, 0}, .hi = {9, 9, 1}},
               maker.material(glass({0.5, 1, 0.2}, 1.5)));
-    maker.description().picture.background = {1, 1, 1};
+    maker.description().picture.background = Rgb{1, 1, 1};
     RayCounters counters;
     expect_near(center(maker.compile(), counters), {0.25, 1, 0.04});
     EXPECT_EQ(counters[RayKind::Refraction].cast, 2u);
@@ -215,7 +215,7 @@ TEST(Whitted, GlassThatAbsorbsByDistanceTintsWhatIsSeenThroughIt) {
     SceneMaker maker;
     maker.add(BoxShape{.lo = {-9, -9, 0}, .hi = {9, 9, 2}},
               maker.material(glass({0.5, 1, 0.2}, 1.5)));
-    maker.description().picture.background = {1, 1, 1};
+    maker.description().picture.background = Rgb{1, 1, 1};
     maker.description().conventions.refraction_tint =
         ShadingConventions::RefractionTint::PerDistance;
     expect_near(center(maker.compile()), {0.25, 1, 0.04});
@@ -229,7 +229,7 @@ TEST(Whitted, TotalInternalReflectionIsCountedAndCarriesNoLight) {
     prism.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
                        {2, 0, 3}, {2, 3, 5}, {0, 2, 1}, {3, 4, 5}};
     maker.add(maker.mesh(prism), maker.material(glass({1, 1, 1}, 1.52)));
-    maker.description().picture.background = {1, 1, 1};
+    maker.description().picture.background = Rgb{1, 1, 1};
     RayCounters counters;
     expect_near(center(maker.compile(), counters), {0, 0, 0});
     EXPECT_EQ(counters.total_internal, 1u);

@@ -18,7 +18,7 @@ Texture small_texture() {
 
 TEST(Texture, VRunsFromTheBottomRowUpward) {
     Texture t = small_texture();
-    t.bilinear = false;
+    t.filter = TextureFilter::Nearest;
     EXPECT_EQ(evaluate(t, {0.25, 0.25}).r, 2.0);
     EXPECT_EQ(evaluate(t, {0.75, 0.25}).r, 3.0);
     EXPECT_EQ(evaluate(t, {0.25, 0.75}).r, 0.0);
@@ -34,7 +34,7 @@ TEST(Texture, BilinearIsExactAtTexelCentresAndMeansBetween) {
 
 TEST(Texture, WrapModesDifferBeyondTheEdge) {
     Texture t = small_texture();
-    t.bilinear = false;
+    t.filter = TextureFilter::Nearest;
     t.wrap_u = Wrap::Repeat;
     EXPECT_EQ(evaluate(t, {1.25, 0.25}).r, 2.0);
     EXPECT_EQ(evaluate(t, {-0.25, 0.25}).r, 3.0);
