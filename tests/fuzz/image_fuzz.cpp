@@ -1,4 +1,5 @@
-/// Any bytes as a picture: an Error or a picture whose samples fit its sizes, nothing else.
+/// Any bytes as a picture of one format: an Error or a picture whose samples fit its sizes, nothing
+/// else.
 
 #include <cstddef>
 #include <cstdint>
@@ -6,13 +7,18 @@
 #include <string_view>
 
 #include "alhazen/base/error.h"
-#include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/bmp.h"
+#include "alhazen/imaging/exr.h"
+#include "alhazen/imaging/hdr.h"
+#include "alhazen/imaging/jpeg.h"
+#include "alhazen/imaging/pfm.h"
+#include "alhazen/imaging/png.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     try {
         const alhazen::Image image =
-            alhazen::decode_image(bytes, "fuzz", {.max_side = 2048, .max_pixels = 1 << 18});
+            alhazen::ALHAZEN_FUZZ_DECODER(bytes, "fuzz", {.max_side = 2048, .max_pixels = 1 << 18});
         const std::size_t expected =
             std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
         if (expected == 0 || image.samples.size() != expected) std::abort();

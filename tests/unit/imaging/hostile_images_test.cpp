@@ -137,15 +137,19 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
 
 TEST(HostileImages, TheCorpusIsReadButForTheBadFilesThatOnceDidHarm) {
     int files = 0;
-    for (const auto& entry : fs::directory_iterator(ALHAZEN_SOURCE_DIR "/tests/corpus/image")) {
-        const std::string name = entry.path().filename().string();
-        const auto kind = error_of([&] { (void)read_image(entry.path()); });
-        if (name.starts_with("bad_")) {
-            EXPECT_TRUE(is_bad_data(kind)) << name;
-        } else {
-            EXPECT_EQ(kind, std::nullopt) << name;
+    for (const char* format : {"png", "jpeg", "bmp", "exr", "hdr", "pfm", "tga"}) {
+        const fs::path folder = fs::path(ALHAZEN_SOURCE_DIR "/tests/corpus") / format;
+        if (!fs::exists(folder)) continue;
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            const std::string name = entry.path().filename().string();
+            const auto kind = error_of([&] { (void)read_image(entry.path()); });
+            if (name.starts_with("bad_")) {
+                EXPECT_TRUE(is_bad_data(kind)) << name;
+            } else {
+                EXPECT_EQ(kind, std::nullopt) << name;
+            }
+            ++files;
         }
-        ++files;
     }
     EXPECT_GT(files, 20);
 }
