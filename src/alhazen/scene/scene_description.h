@@ -83,6 +83,12 @@ struct PictureSettings {
     std::optional<Rgb> background;     ///< black when the file has none
 };
 
+/// An animation of the file; the scene shows one moment of it (ImportOptions::time).
+struct AnimationInfo {
+    std::string name;
+    double begin = 0, end = 0;  ///< seconds, of its first and last key
+};
+
 /// Which way is up where a file has no camera.
 enum class UpAxis { Y, Z };
 
@@ -96,6 +102,7 @@ struct SceneDescription {
     std::vector<MeshDescription> meshes;         ///< indexed by MeshIndex
     std::vector<ObjectDescription> objects;      ///< indexed by ObjectIndex
     ObjectIndex root{0};
+    std::vector<AnimationInfo> animations;
     PictureSettings picture;
     UpAxis up_axis = UpAxis::Y;
     ShadingConventions conventions;
