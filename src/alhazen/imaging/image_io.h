@@ -22,7 +22,7 @@ namespace alhazen {
 
 struct ImageLimits {
     int max_side = 32768;
-    std::uint64_t max_pixels = std::uint64_t{1} << 28;
+    std::uint64_t max_pixels = std::uint64_t{1} << 26;  ///< changed by --max-image-pixels
 };
 
 /// Reads a picture. Throws Error: File when it cannot be read, Scene when it is malformed or of an

@@ -21,18 +21,38 @@ std::optional<TextureId> TextureTable::load(const std::string& file,
                                             const std::filesystem::path& folder,
                                             const Texture& settings, std::string name,
                                             const FileLocation& where) {
-    std::shared_ptr<const Image> image;
+    Picture picture;
     try {
         const std::filesystem::path path = resolve_inside(root_, folder, file);
-        const auto [entry, fresh] = images_.try_emplace(path);
-        if (fresh) entry->second = std::make_shared<const Image>(read_image(path));
-        image = entry->second;
+        const auto [entry, fresh] = files_.try_emplace(path);
+        if (fresh) entry->second = std::make_shared<const Image>(read_image(path, limits_));
+        picture = entry->second;
     } catch (const Error& error) {
         diagnostics_.error(where, std::string("texture: ") + error.what());
     }
-    if (!image) return std::nullopt;
+    return use(picture, settings, std::move(name), where);
+}
+
+std::optional<TextureId> TextureTable::add(std::string_view encoded, const std::string& key,
+                                           const Texture& settings, std::string name,
+                                           const FileLocation& where) {
+    const auto [entry, fresh] = embedded_.try_emplace(key);
+    try {
+        if (fresh) {
+            entry->second = std::make_shared<const Image>(
+                decode_image(encoded, name.empty() ? key : name, limits_));
+        }
+    } catch (const Error& error) {
+        diagnostics_.error(where, std::string("texture: ") + error.what());
+    }
+    return use(entry->second, settings, std::move(name), where);
+}
+
+std::optional<TextureId> TextureTable::use(const Picture& picture, const Texture& settings,
+                                           std::string name, const FileLocation& where) {
+    if (!picture) return std::nullopt;
     Texture texture = settings;
-    texture.image = std::move(image);
+    texture.image = picture;
     scene_.textures.push_back({std::move(name), std::move(texture), where});
     return static_cast<TextureId>(scene_.textures.size() - 1);
 }

@@ -104,11 +104,12 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
         return usage.ru_maxrss;
     };
     const long before = peak_kib();
+    const ImageLimits limits{.max_pixels = std::uint64_t{1} << 28};  // the sizes pass, the data end
     const std::string size = "-Y 16384 +X 16384\n";
     const std::string hdr = "#?RADIANCE\n\n" + size + std::string(100, 'x');
     const std::string pfm = "PF\n16384 16384\n-1\n" + std::string(100, 'x');
-    EXPECT_EQ(error_of([&] { (void)decode_image(hdr, "lie.hdr"); }), ErrorKind::Scene);
-    EXPECT_EQ(error_of([&] { (void)decode_image(pfm, "lie.pfm"); }), ErrorKind::Scene);
+    EXPECT_EQ(error_of([&] { (void)decode_image(hdr, "lie.hdr", limits); }), ErrorKind::Scene);
+    EXPECT_EQ(error_of([&] { (void)decode_image(pfm, "lie.pfm", limits); }), ErrorKind::Scene);
     for (Sample sample : samples()) {
         // Sides of 41 and 19, or the corners 40 and 18 of a window, become 16384 (0x4000) or a
         // little less.
@@ -126,7 +127,7 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
         } else {
             continue;
         }
-        EXPECT_EQ(error_of([&] { (void)decode_image(sample.bytes, sample.name); }),
+        EXPECT_EQ(error_of([&] { (void)decode_image(sample.bytes, sample.name, limits); }),
                   ErrorKind::Scene)
             << sample.name;
     }
