@@ -33,9 +33,12 @@ struct Built {
 
 class Compiler {
   public:
-    Compiler(const SceneDescription& description, const CompileOptions& options)
+    /// `spare_meshes`: meshes of the description that may be moved into the scene; null: none.
+    Compiler(const SceneDescription& description, const CompileOptions& options,
+             std::vector<MeshDescription>* spare_meshes)
         : d_(description),
           options_(options),
+          spare_meshes_(spare_meshes),
           built_objects_(description.objects.size()),
           object_uses_(description.objects.size(), 0),
           mesh_uses_(description.meshes.size(), 0) {}
@@ -47,6 +50,7 @@ class Compiler {
         scene.all_opaque =
             std::all_of(opaque_.begin(), opaque_.end(), [](auto o) { return o != 0; });
         count_uses();
+        number_parts();
         const Built root = build_object(static_cast<std::size_t>(d_.root));
         scene.aggregate = root.aggregate;
         census_.effective_primitives = root.effective_primitives;
@@ -102,6 +106,15 @@ class Compiler {
         }
     }
 
+    /// Parts are numbered through all objects, so that a number names a place in the description.
+    void number_parts() {
+        std::uint32_t next = 0;
+        for (const ObjectDescription& object : d_.objects) {
+            first_part_.push_back(next);
+            next += static_cast<std::uint32_t>(object.parts.size());
+        }
+    }
+
     struct Draft {
         PrimitiveTable table;
         Built built;
@@ -134,70 +147,90 @@ class Compiler {
         return built;
     }
 
+    struct PlacedPart {
+        const Part& part;
+        Affine outer_from_part;
+        std::uint32_t number;
+    };
+
     void add_parts(std::size_t object, const Affine& outer_from_object, Draft& draft) {
+        std::uint32_t number = first_part_[object];
         for (const Part& part : d_.objects[object].parts) {
-            const Affine outer_from_part = outer_from_object * part.object_from_part;
+            const PlacedPart placed{part, outer_from_object * part.object_from_part, number++};
             if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
-                add_shape(*shape, part, outer_from_part, draft.table);
+                add_shape(*shape, placed, draft.table);
             } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
-                add_mesh(*mesh, part, outer_from_part, draft);
+                add_mesh(*mesh, placed, draft);
             } else {
                 const std::size_t child =
                     static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
                 if (object_uses_[child] == 1) {
-                    add_parts(child, outer_from_part, draft);
+                    add_parts(child, placed.outer_from_part, draft);
                 } else {
-                    add_instance(build_object(child), outer_from_part, draft);
+                    add_instance(build_object(child), placed, draft);
                 }
             }
         }
     }
 
-    static void add_shape(const AnyShape& shape, const Part& part, const Affine& outer_from_part,
-                          PrimitiveTable& table) {
+    static void add_shape(const AnyShape& shape, const PlacedPart& placed, PrimitiveTable& table) {
         std::uint32_t placement = kNoPlacement;
-        if (outer_from_part != Affine{}) {
+        if (placed.outer_from_part != Affine{}) {
             placement = static_cast<std::uint32_t>(table.placements.size());
-            table.placements.push_back({outer_from_part, inverse(outer_from_part)});
+            table.placements.push_back({placed.outer_from_part, inverse(placed.outer_from_part)});
         }
         std::visit(
             [&]<class S>(const S& s) {
                 auto& column = std::get<ShapeColumn<S>>(table.columns);
                 column.shapes.push_back(s);
                 column.placements.push_back(placement);
-                column.materials.push_back(part.material);
+                column.materials.push_back(placed.part.material);
+                column.parts.push_back(placed.number);
             },
             shape);
     }
 
-    void add_mesh(MeshIndex index, const Part& part, const Affine& outer_from_part, Draft& draft) {
-        const auto& mesh = d_.meshes[static_cast<std::size_t>(index)].mesh;
+    void add_mesh(MeshIndex index, const PlacedPart& placed, Draft& draft) {
+        const std::size_t i = static_cast<std::size_t>(index);
+        const std::shared_ptr<TriangleMesh>& mesh = d_.meshes[i].mesh;
+        const MaterialId material = placed.part.material;
         if (mesh->triangles.empty()) return;
-        if (mesh_uses_[static_cast<std::size_t>(index)] > 1 &&
-            mesh->triangles.size() > kInstancedMeshTriangles) {
-            const std::pair key{static_cast<std::size_t>(index), part.material};
-            auto found = built_meshes_.find(key);
+        if (mesh_uses_[i] > 1 && mesh->triangles.size() > kInstancedMeshTriangles) {
+            auto found = built_meshes_.find({i, material});
             if (found == built_meshes_.end()) {
                 Draft shared;
-                shared.table.meshes.push_back({mesh, part.material, 0, false});
-                found = built_meshes_.emplace(key, seal(std::move(shared))).first;
+                shared.table.meshes.push_back({mesh, material, 0, false});
+                found =
+                    built_meshes_.emplace(std::pair{i, material}, seal(std::move(shared))).first;
             }
-            add_instance(found->second, outer_from_part, draft);
+            add_instance(found->second, placed, draft);
+            draft.table.instances.back().of_shared_mesh = true;
             return;
         }
-        if (outer_from_part == Affine{}) {
-            draft.table.meshes.push_back({mesh, part.material, 0, false});
+        if (placed.outer_from_part == Affine{}) {
+            draft.table.meshes.push_back({mesh, material, 0, false, placed.number});
             return;
         }
-        auto placed = std::make_shared<TriangleMesh>(*mesh);
-        placed->transform(outer_from_part);
-        const bool mirrored = determinant(outer_from_part.linear) < 0.0;
-        draft.table.meshes.push_back({std::move(placed), part.material, 0, mirrored});
+        const std::shared_ptr<TriangleMesh> moved = own_copy(i);
+        moved->transform(placed.outer_from_part);
+        const bool mirrored = determinant(placed.outer_from_part.linear) < 0.0;
+        draft.table.meshes.push_back({moved, material, 0, mirrored, placed.number});
     }
 
-    static void add_instance(const Built& child, const Affine& outer_from_inner, Draft& draft) {
+    /// A mesh to transform: the description's own where that may be taken, so that a large mesh is
+    /// not in memory twice.
+    [[nodiscard]] std::shared_ptr<TriangleMesh> own_copy(std::size_t mesh) const {
+        if (spare_meshes_ != nullptr && mesh_uses_[mesh] == 1 &&
+            (*spare_meshes_)[mesh].mesh.use_count() == 1) {
+            return std::move((*spare_meshes_)[mesh].mesh);
+        }
+        return std::make_shared<TriangleMesh>(*d_.meshes[mesh].mesh);
+    }
+
+    static void add_instance(const Built& child, const PlacedPart& placed, Draft& draft) {
+        const Affine& outer_from_inner = placed.outer_from_part;
         draft.table.instances.push_back(
-            {child.aggregate, {outer_from_inner, inverse(outer_from_inner)}});
+            {child.aggregate, {outer_from_inner, inverse(outer_from_inner)}, placed.number, false});
         draft.built.effective_primitives =
             saturating_add(draft.built.effective_primitives, child.effective_primitives);
         draft.built.instance_depth = std::max(draft.built.instance_depth, child.instance_depth + 1);
@@ -205,7 +238,9 @@ class Compiler {
 
     const SceneDescription& d_;
     const CompileOptions& options_;
+    std::vector<MeshDescription>* spare_meshes_;
     std::vector<std::uint8_t> opaque_;
+    std::vector<std::uint32_t> first_part_;  ///< [object]
     std::vector<Built> built_objects_;
     std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;
     std::vector<std::uint32_t> object_uses_;
@@ -216,7 +251,11 @@ class Compiler {
 }  // namespace
 
 Scene compile(const SceneDescription& description, const CompileOptions& options) {
-    return Compiler(description, options).run();
+    return Compiler(description, options, nullptr).run();
+}
+
+Scene compile_taking_meshes(SceneDescription& description, const CompileOptions& options) {
+    return Compiler(description, options, &description.meshes).run();
 }
 
 const CameraDescription& find_camera(const Scene& scene, const std::string& name) {

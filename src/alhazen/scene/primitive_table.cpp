@@ -279,14 +279,15 @@ std::size_t PrimitiveTable::memory_bytes() const {
         bytes(meshes) + bytes(instances) + bytes(placements) + bytes(material_is_opaque);
     std::apply(
         [&](const auto&... c) {
-            ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials)), ...);
+            ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials) + bytes(c.parts)),
+             ...);
         },
         columns);
     for (const PlacedMesh& placed : meshes) {
         const TriangleMesh& mesh = *placed.mesh;
         total += bytes(mesh.positions) + bytes(mesh.triangles) + bytes(mesh.normals) +
-                 bytes(mesh.uvs) + bytes(mesh.uvs2) + bytes(mesh.colors) +
-                 bytes(mesh.tangents) + bytes(mesh.vertex_materials);
+                 bytes(mesh.uvs) + bytes(mesh.uvs2) + bytes(mesh.colors) + bytes(mesh.tangents) +
+                 bytes(mesh.vertex_materials);
     }
     return total;
 }

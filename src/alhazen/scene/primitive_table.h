@@ -32,6 +32,7 @@ struct ShapeColumn {
     std::vector<std::uint32_t>
         placements;  ///< [shape] index into PrimitiveTable::placements or kNoPlacement
     std::vector<MaterialId> materials;  ///< [shape]
+    std::vector<std::uint32_t> parts;   ///< [shape] number of its part, or empty: all 0
 };
 
 /// A mesh in the frame of the aggregate.
@@ -39,12 +40,16 @@ struct PlacedMesh {
     std::shared_ptr<const TriangleMesh> mesh;
     MaterialId material{0};
     std::uint32_t first_triangle = 0;  ///< number of triangles in the meshes before this one
-    bool mirrored = false;  ///< its transform turned the winding over: normals are flipped back
+    bool mirrored = false;   ///< its transform turned the winding over: normals are flipped back
+    std::uint32_t part = 0;  ///< number of its part; see Surface
 };
 
 struct Instance {
     std::shared_ptr<const Aggregate> aggregate;
     Placement placement;
+    std::uint32_t part = 0;  ///< number of the part that placed it
+    /// What is placed is one mesh that several parts share: `part` is the mesh's own part.
+    bool of_shared_mesh = false;
 };
 
 /// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two

@@ -44,6 +44,11 @@ struct CompileOptions {
 [[nodiscard]] Scene compile(const SceneDescription& description,
                             const CompileOptions& options = {});
 
+/// The same for callers that need the meshes of `description` no longer: those that are placed
+/// once, by a transform, are moved instead of copied and are null afterwards.
+[[nodiscard]] Scene compile_taking_meshes(SceneDescription& description,
+                                          const CompileOptions& options = {});
+
 /// The camera called `name`, or the one at that position when `name` is a number, or the first for
 /// an empty name. Throws Error (Usage) listing the cameras.
 [[nodiscard]] const CameraDescription& find_camera(const Scene& scene, const std::string& name);

@@ -110,7 +110,7 @@ struct SceneDescription {
 
 /// Adds every finding about `description` to `diagnostics`: values that are not finite, singular
 /// transforms, bad shapes and meshes, ids out of range, objects that contain themselves, nesting
-/// deeper than kMaxInstanceDepth, no camera (warning), nothing to see (warning).
+/// deeper than kMaxInstanceDepth, nothing to see (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace alhazen

@@ -29,6 +29,10 @@ void carry_outward(const Placement& placement, Surface& surface) {
     surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
                     4 * kEpsilon * rounded_terms;
     surface.point = outer_point;
+    for (Vec3* v : {&surface.dpdu, &surface.dpdv, &surface.dpdu2, &surface.dpdv2, &surface.tangent,
+                    &surface.bitangent}) {
+        *v = outer.linear * *v;
+    }
     surface.normal = normalize(transpose_times(inner.linear, surface.normal));
     surface.shading_normal = normalize(transpose_times(inner.linear, surface.shading_normal));
 }
@@ -38,7 +42,9 @@ Surface from_shape(const ShapeSurface& s) {
     surface.point = s.point;
     surface.normal = s.normal;
     surface.shading_normal = s.shading_normal;
-    surface.uv = s.uv;
+    surface.uv = surface.uv2 = s.uv;
+    surface.dpdu = surface.dpdu2 = s.dpdu;
+    surface.dpdv = surface.dpdv2 = s.dpdv;
     surface.error = s.error;
     return surface;
 }
@@ -79,9 +85,42 @@ Surface analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::u
             carry_outward(p, surface);
         }
         surface.materials[0] = column.materials[index];
+        if (!column.parts.empty()) surface.part = column.parts[index];
     };
     std::apply([&](const auto&... column) { (look_up(column), ...); }, table.columns);
     return surface;
+}
+
+/// What meshes may carry beyond positions, normals and one set of texture coordinates.
+void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, const Hit& hit,
+                           Surface& surface) {
+    const auto& corners = mesh.triangles[triangle];
+    const std::array<double, 3> weights{1.0 - hit.u - hit.v, hit.u, hit.v};
+    if (!mesh.uvs2.empty()) {
+        surface.uv2 = {};
+        for (std::size_t i = 0; i < 3; ++i) {
+            surface.uv2 = surface.uv2 + weights[i] * mesh.uvs2[corners[i]];
+        }
+        const UvDerivatives derivatives = mesh.uv_derivatives(triangle, mesh.uvs2);
+        surface.dpdu2 = derivatives.dpdu;
+        surface.dpdv2 = derivatives.dpdv;
+    }
+    if (!mesh.colors.empty()) {
+        surface.color = {0, 0, 0, 0};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const VertexColor& c = mesh.colors[corners[i]];
+            surface.color += weights[i] * Rgba{c.r, c.g, c.b, c.a};
+        }
+    }
+    if (!mesh.tangents.empty()) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const VertexTangent& t = mesh.tangents[corners[i]];
+            surface.tangent += weights[i] * Vec3{t.x, t.y, t.z};
+        }
+        // Handedness does not vary within a triangle of a well-made mesh.
+        surface.bitangent = double(mesh.tangents[corners[0]].sign) *
+                            cross(surface.shading_normal, surface.tangent);
+    }
 }
 
 Surface triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hit& hit) {
@@ -99,7 +138,9 @@ Surface triangle_surface(const PrimitiveTable& table, std::uint32_t index, const
         surface.normal = -surface.normal;
         if (mesh.normals.empty()) surface.shading_normal = surface.normal;
     }
+    add_vertex_attributes(mesh, triangle, hit, surface);
     surface.materials[0] = placed.material;
+    surface.part = placed.part;
     if (!mesh.vertex_materials.empty()) {
         for (std::size_t i = 0; i < 3; ++i) {
             surface.materials[i] = MaterialId{mesh.vertex_materials[corners[i]]};
@@ -120,12 +161,16 @@ Surface surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hi
             surface_inside(*instance.aggregate,
                            transformed(instance.placement.inner_from_outer, ray), hit, depth - 1);
         carry_outward(instance.placement, surface);
+        surface.instance = instance.part;
+        if (instance.of_shared_mesh) surface.part = instance.part;
         return surface;
     }
     const std::uint32_t kind = table.kind(hit.primitive);
     const std::uint32_t index = table.index(hit.primitive);
-    return kind == kTriangleKind ? triangle_surface(table, index, hit)
-                                 : analytic_surface(table, kind, index, ray, hit);
+    Surface surface = kind == kTriangleKind ? triangle_surface(table, index, hit)
+                                            : analytic_surface(table, kind, index, ray, hit);
+    surface.instance = surface.part;
+    return surface;
 }
 
 }  // namespace

@@ -15,12 +15,23 @@ struct Surface {
     Vec3 point;
     Vec3 normal;
     Vec3 shading_normal;
-    Vec2 uv;
+    Vec2 uv, uv2;  ///< both sets of texture coordinates; the second is the first where there is none
+    Vec3 dpdu, dpdv;    ///< change of the point by uv; zero where unknown
+    Vec3 dpdu2, dpdv2;  ///< the same by uv2
+    /// Interpolated from tangents at the vertices, unit before they are interpolated and placed;
+    /// both zero for surfaces without.
+    Vec3 tangent, bitangent;
+    Rgba color{1, 1, 1, 1};  ///< of the vertices; white without
     Vec3 error;  ///< bound of the distance of `point` from the true surface, component by component
     /// One material, or those of a triangle's vertices with their weights.
     std::array<MaterialId, 3> materials{};
     std::array<double, 3> weights{1, 0, 0};
     int material_count = 1;
+    /// Number of the part that was hit: parts are counted through the objects of the description,
+    /// in their order.
+    std::uint32_t part = 0;
+    /// Number of the part that placed it in the scene: the outermost instance, or `part` itself.
+    std::uint32_t instance = 0;
 };
 
 /// `ray` is the world-space ray that found `hit` in `aggregate`.

@@ -40,7 +40,6 @@ class Validator {
     [[nodiscard]] FileLocation file() const { return {d_.path.string(), 0, 0}; }
 
     void check_cameras() {
-        if (d_.cameras.empty()) warning({}, "the scene has no camera");
         for (const CameraDescription& camera : d_.cameras) {
             const bool ok = std::visit(
                 [](const auto& c) {
