@@ -1,5 +1,6 @@
 #include "alhazen/shading/light.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace alhazen {
@@ -20,13 +21,18 @@ struct Approach {
     double attenuation;
 };
 
-Approach approach(const Vec3& position, const Attenuation& a, const Vec3& point, bool clamp) {
-    const Vec3 offset = position - point;
+Approach approach(const auto& light, const Vec3& point, bool clamp) {
+    const Attenuation& a = light.attenuation;
+    const Vec3 offset = light.position - point;
     const double d = length(offset);
     double factor = 1.0 / (a.constant + a.linear * d + a.quadratic * (d * d));
     // A light with no falloff given (all zero) divides by zero: clamping makes it 1, as the course
     // does.
     if (clamp && !(factor < 1.0)) factor = 1.0;
+    if (light.range != kNoRange) {
+        const double x = d / light.range;
+        factor *= std::max(1.0 - (x * x) * (x * x), 0.0);
+    }
     return {offset / d, d, factor};
 }
 
@@ -53,11 +59,11 @@ LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation
                 return LightSample{l.to_light, std::numeric_limits<double>::infinity(), l.color};
             },
             [&](const PointLight& l) {
-                const Approach a = approach(l.position, l.attenuation, point, clamp_attenuation);
+                const Approach a = approach(l, point, clamp_attenuation);
                 return LightSample{a.to_light, a.distance, a.attenuation * l.color};
             },
             [&](const SpotLight& l) {
-                const Approach a = approach(l.position, l.attenuation, point, clamp_attenuation);
+                const Approach a = approach(l, point, clamp_attenuation);
                 return LightSample{a.to_light, a.distance,
                                    a.attenuation * spot_falloff(l, a.to_light) * l.color};
             }},

@@ -5,6 +5,7 @@
 /// Conventions: every light may carry an ambient term, added at every point whatever is in between
 /// (the course's I_La); an `AmbientLight` is nothing else.
 
+#include <limits>
 #include <variant>
 
 #include "alhazen/imaging/rgb.h"
@@ -27,11 +28,16 @@ struct Attenuation {
     double constant = 1, linear = 0, quadratic = 0;
 };
 
+/// Where a light ends: its attenuation is multiplied by clamp(1 - (d / range)^4, 0, 1).
+/// Source: Khronos, KHR_lights_punctual, "Range Property".
+inline constexpr double kNoRange = std::numeric_limits<double>::infinity();
+
 struct PointLight {
     Vec3 position;
     Rgb color{1, 1, 1};
     Attenuation attenuation;
     Rgb ambient;
+    double range = kNoRange;
 };
 
 /// A point light that shines into a cone: full within `inner_angle` of the axis, none beyond
@@ -43,6 +49,7 @@ struct SpotLight {
     Rgb color{1, 1, 1};
     Attenuation attenuation;
     Rgb ambient;
+    double range = kNoRange;
 };
 
 using Light = std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight>;
