@@ -51,6 +51,12 @@ class TextCursor {
         while (next_ != end_ && !is_newline(*next_)) ++next_;
         step_over_newline();
     }
+    /// The characters up to the end of this line, which is then before the cursor.
+    std::string_view rest_of_line() {
+        const char* const begin = next_;
+        while (next_ != end_ && !is_newline(*next_)) ++next_;
+        return {begin, std::size_t(next_ - begin)};
+    }
     /// Moves to the next word, over lines and over comments, which run from one of `comment_marks`
     /// to the end of their line; false at the end of the text.
     bool skip_to_word(std::string_view comment_marks = {}) {
