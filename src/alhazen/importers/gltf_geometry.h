@@ -1,0 +1,54 @@
+#pragma once
+/// The triangles of a glTF primitive, with morph targets applied, and the joints of its vertices.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.7.2.
+/// Differs: triangles without area stay; vertices that no triangle uses go.
+/// Conventions: texture coordinates are turned so that v runs upward; without normals in the file
+/// the mesh has none, which is flat shading, as the specification asks.
+
+#include <span>
+
+#include "alhazen/importers/gltf_document.h"
+#include "alhazen/shapes/triangle_mesh.h"
+
+namespace alhazen::gltf {
+
+/// Which joints move a vertex, and how much: `per_vertex` of each.
+struct VertexJoints {
+    std::size_t per_vertex = 0;         ///< 0: the vertices have none
+    std::vector<std::uint32_t> joints;  ///< [vertex][per_vertex]
+    std::vector<double> weights;        ///< [vertex][per_vertex]
+};
+
+struct PrimitiveGeometry {
+    TriangleMesh mesh;
+    VertexJoints joints;
+};
+
+/// What is read from one file together, against `max_elements` of the options: a small file may
+/// name the same accessor many times.
+class ElementBudget {
+  public:
+    explicit ElementBudget(std::uint64_t limit) : limit_(limit) {}
+    /// Throws Error (Resource) when the limit is exceeded.
+    void take(std::uint64_t count);
+
+  private:
+    std::uint64_t limit_;
+    std::uint64_t taken_ = 0;
+};
+
+/// True for the modes that make triangles.
+[[nodiscard]] bool makes_surface(PrimitiveMode mode);
+
+/// The vertex numbers of a strip, a fan or a list of triangles that runs through `order`.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
+    PrimitiveMode mode, std::span<const std::uint32_t> order);
+
+/// Empty when the primitive makes no surface or has no positions. `weights`: of the morph targets,
+/// missing ones are zero. `with_joints`: also reads JOINTS_n and WEIGHTS_n.
+[[nodiscard]] PrimitiveGeometry read_primitive(const Document& document, const Primitive& primitive,
+                                               std::span<const double> weights, bool with_joints,
+                                               ElementBudget& budget);
+
+}  // namespace alhazen::gltf
