@@ -15,6 +15,7 @@
 #include <ImfStringAttribute.h>
 
 #include "alhazen/imaging/exr_header.h"
+#include "alhazen/imaging/exr_memory.h"
 #include "alhazen/imaging/image_size.h"
 
 namespace alhazen {
@@ -49,25 +50,6 @@ class MemoryInput final : public Imf::IStream {
   private:
     const std::string& header_;
     std::string_view bytes_;
-    std::size_t position_ = 0;
-};
-
-class MemoryOutput final : public Imf::OStream {
-  public:
-    MemoryOutput() : Imf::OStream("memory") {}
-
-    void write(const char source[], int count) override {
-        const std::size_t end = position_ + std::size_t(count);
-        if (bytes_.size() < end) bytes_.resize(end);
-        std::memcpy(bytes_.data() + position_, source, std::size_t(count));
-        position_ = end;
-    }
-    std::uint64_t tellp() override { return position_; }
-    void seekp(std::uint64_t position) override { position_ = std::size_t(position); }
-    std::vector<std::byte> take() { return std::move(bytes_); }
-
-  private:
-    std::vector<std::byte> bytes_;
     std::size_t position_ = 0;
 };
 
@@ -170,7 +152,7 @@ Imf::Header header_of(const Image& image, const ImageWriteOptions& options) {
 }
 
 template <class Sample>
-void write_exr(MemoryOutput& stream, const Image& image, Imf::Header header) {
+void write_exr(ExrMemoryOutput& stream, const Image& image, Imf::Header header) {
     constexpr auto kType = std::is_same_v<Sample, float> ? Imf::FLOAT : Imf::HALF;
     static const std::array<std::vector<const char*>, 5> kNames{
         {{}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
@@ -207,7 +189,7 @@ Image decode_exr(std::string_view bytes, const std::string& name, const ImageLim
 }
 
 std::vector<std::byte> encode_exr(const Image& image, const ImageWriteOptions& options) {
-    MemoryOutput stream;
+    ExrMemoryOutput stream;
     try {
         const Imf::Header header = header_of(image, options);
         if (options.full_float) {

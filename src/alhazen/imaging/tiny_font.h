@@ -1,0 +1,24 @@
+#pragma once
+/// Letters of 5 x 7 pixels for the scales of false-colour pictures.
+///
+/// Source: own drawing. Differs: digits, lower-case letters and . - + _ only; anything else is a
+/// blank.
+
+#include <cstdint>
+#include <string_view>
+
+namespace alhazen {
+
+inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
+/// From one letter to the next.
+inline constexpr int kGlyphAdvance = 6;
+
+/// True where the letter is inked; x in [0, 5), y in [0, 7) from the top.
+[[nodiscard]] bool glyph_pixel(char letter, int x, int y);
+
+/// Width of a line of text, pixels.
+[[nodiscard]] inline int text_width(std::string_view text) {
+    return text.empty() ? 0 : static_cast<int>(text.size()) * kGlyphAdvance - 1;
+}
+
+}  // namespace alhazen

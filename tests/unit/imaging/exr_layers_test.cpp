@@ -1,0 +1,148 @@
+#include "alhazen/imaging/exr_layers.h"
+
+#include <gtest/gtest.h>
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfIO.h>
+#include <ImfStringAttribute.h>
+
+#include <cstring>
+#include <limits>
+
+#include "alhazen/base/error.h"
+
+namespace alhazen {
+namespace {
+
+/// Gives the OpenEXR library bytes to read; nothing of ours is in between.
+class Bytes final : public Imf::IStream {
+  public:
+    explicit Bytes(const std::vector<std::byte>& bytes) : Imf::IStream("test"), bytes_(bytes) {}
+    bool read(char target[], int count) override {
+        std::memcpy(target, bytes_.data() + at_, static_cast<std::size_t>(count));
+        at_ += static_cast<std::size_t>(count);
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = position; }
+
+  private:
+    const std::vector<std::byte>& bytes_;
+    std::size_t at_ = 0;
+};
+
+template <class Sample>
+std::vector<Sample> read_channel(Imf::InputFile& file, const char* name, Imf::PixelType type) {
+    const Imath::Box2i window = file.header().dataWindow();
+    const std::size_t width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
+    const std::size_t height = static_cast<std::size_t>(window.max.y - window.min.y + 1);
+    std::vector<Sample> samples(width * height);
+    Imf::FrameBuffer frame;
+    frame.insert(name, Imf::Slice::Make(type, samples.data(), window, sizeof(Sample),
+                                        sizeof(Sample) * width));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    return samples;
+}
+
+/// A crop of 5 x 4 pixels at (3, 2) of a frame of 10 x 8.
+struct Picture {
+    Film film{10, 8, {3, 2, 8, 6}};
+    FilmLayers layers{PixelBox{3, 2, 8, 6}};
+    std::size_t depth = layers.add("depth.Z", SampleType::Float);
+    std::size_t albedo = layers.add("albedo.R", SampleType::Half);
+    std::size_t id = layers.add("id.object", SampleType::Uint);
+
+    Picture() {
+        for (int y = 2; y < 6; ++y) {
+            for (int x = 3; x < 8; ++x) {
+                film.set(x, y, {0.1 * x, 0.25 * y, -1.0});
+                layers.set(depth, x, y, 1e30 + x);
+                layers.set(albedo, x, y, 0.3 + 0.01 * y);
+                layers.set_whole(id, x, y, 4'000'000'000u + static_cast<std::uint32_t>(10 * y + x));
+            }
+        }
+        layers.set(depth, 3, 2, std::numeric_limits<double>::infinity());
+    }
+};
+
+TEST(ExrLayers, TheLibraryReadsBackEveryChannelWithItsTypeAndPlace) {
+    const Picture picture;
+    const std::vector<std::byte> bytes =
+        encode_exr_layers(picture.film, picture.layers,
+                          {.full_float = false, .metadata = {{"note", "gr\xc3\xbc\xc3\x9f"}}});
+    Bytes stream(bytes);
+    Imf::InputFile file(stream, 0);
+    const Imf::Header& header = file.header();
+    EXPECT_EQ(header.dataWindow(), Imath::Box2i({3, 2}, {7, 5}));
+    EXPECT_EQ(header.displayWindow(), Imath::Box2i({0, 0}, {9, 7}));
+    EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
+    EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("note").value(), "gr\xc3\xbc\xc3\x9f");
+    const auto type = [&](const char* name) { return header.channels()[name].type; };
+    EXPECT_EQ(type("R"), Imf::HALF);
+    EXPECT_EQ(type("depth.Z"), Imf::FLOAT);
+    EXPECT_EQ(type("albedo.R"), Imf::HALF);
+    EXPECT_EQ(type("id.object"), Imf::UINT);
+
+    const auto green = read_channel<float>(file, "G", Imf::FLOAT);
+    const auto depth = read_channel<float>(file, "depth.Z", Imf::FLOAT);
+    const auto albedo = read_channel<float>(file, "albedo.R", Imf::FLOAT);
+    const auto id = read_channel<std::uint32_t>(file, "id.object", Imf::UINT);
+    for (int y = 2; y < 6; ++y) {
+        for (int x = 3; x < 8; ++x) {
+            const auto i = static_cast<std::size_t>(5 * (y - 2) + (x - 3));
+            EXPECT_EQ(green[i], 0.25f * static_cast<float>(y));
+            EXPECT_EQ(id[i], 4'000'000'000u + static_cast<std::uint32_t>(10 * y + x));
+            EXPECT_NEAR(albedo[i], 0.3 + 0.01 * y, 2e-4);
+            EXPECT_EQ(depth[i], i == 0 ? std::numeric_limits<float>::infinity()
+                                       : static_cast<float>(1e30 + x));
+        }
+    }
+}
+
+TEST(ExrLayers, FullFloatIsOnlyAboutTheBeauty) {
+    const Picture picture;
+    const std::vector<std::byte> bytes =
+        encode_exr_layers(picture.film, picture.layers, {.full_float = true});
+    Bytes stream(bytes);
+    Imf::InputFile file(stream, 0);
+    EXPECT_EQ(file.header().channels()["R"].type, Imf::FLOAT);
+    EXPECT_EQ(file.header().channels()["albedo.R"].type, Imf::HALF);
+    EXPECT_EQ(read_channel<float>(file, "R", Imf::FLOAT)[1], static_cast<float>(0.1 * 4));
+}
+
+TEST(ExrLayers, OurOwnReaderFindsTheBeautyAmongTheLayers) {
+    const Picture picture;
+    const auto bytes = encode_exr_layers(picture.film, picture.layers, {.full_float = true});
+    const Image image =
+        decode_image({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "layers.exr");
+    EXPECT_EQ(image.channels, 3);
+    EXPECT_EQ(image.samples, picture.film.to_image().samples);
+}
+
+TEST(ExrLayers, TheBeautyIsThatOfAPictureWithoutLayers) {
+    const Picture picture;
+    const auto with_layers = encode_exr_layers(picture.film, picture.layers, {});
+    const auto alone = encode_image("exr", picture.film.to_image());
+    const auto decode = [](const std::vector<std::byte>& bytes) {
+        return decode_image({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "a.exr");
+    };
+    EXPECT_EQ(decode(with_layers).samples, decode(alone).samples);
+}
+
+TEST(ExrLayers, ChannelsOfOneNameAndLayersOfAnotherCropAreRefused) {
+    Picture picture;
+    picture.layers.add("depth.Z", SampleType::Float);
+    EXPECT_THROW((void)encode_exr_layers(picture.film, picture.layers, {}), Error);
+    FilmLayers other(PixelBox{0, 0, 5, 4});
+    other.add("depth.Z", SampleType::Float);
+    EXPECT_THROW((void)encode_exr_layers(picture.film, other, {}), Error);
+    EXPECT_THROW((void)encode_exr_layers(picture.film, FilmLayers{}, {.metadata = {{"", "x"}}}),
+                 Error);
+}
+
+}  // namespace
+}  // namespace alhazen
