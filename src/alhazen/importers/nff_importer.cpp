@@ -22,6 +22,7 @@ ShadingConventions nff_conventions() {
     c.transmitting_surfaces_reflect = true;
     c.air_index = 1.0;
     // The eye ray counts as the first of five generations.
+    c.headlight = false;
     c.max_depth = 4;
     return c;
 }

@@ -80,6 +80,7 @@ ShadingConventions conventions_of(bool dictionary) {
     c.clamp_attenuation = true;
     c.air_index = 1.0;
     c.pixel_sample = ShadingConventions::PixelSample::LowerLeftCorner;
+    c.headlight = false;
     c.linear_output = true;
     // The programs of the courses start with 0 and leave the rest to a slider; reflection and glass
     // need more.

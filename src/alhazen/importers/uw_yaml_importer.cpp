@@ -19,6 +19,7 @@ ShadingConventions uw_conventions() {
     c.transmitting_surfaces_reflect = false;
     c.air_index = 1.0003;
     c.pixel_sample = ShadingConventions::PixelSample::Center;
+    c.headlight = false;
     c.linear_output = true;
     return c;
 }

@@ -55,6 +55,10 @@ struct ShadingConventions {
     bool trace_reflections = true;
     bool trace_refractions = true;
 
+    /// A file without lights is given one at the eye. False where a scene without lights is meant
+    /// to be dark.
+    bool headlight = true;
+
     double air_index = 1.0003;
 
     /// Where in a pixel its ray goes when there is one sample per pixel.
