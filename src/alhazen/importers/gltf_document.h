@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,7 +25,9 @@ namespace alhazen::gltf {
 using Index = std::uint32_t;
 
 struct Buffer {
-    std::string bytes;  ///< whole; exactly byteLength of them
+    std::shared_ptr<const std::string>
+        owned;               ///< null for the chunk of a GLB, which the source holds
+    std::string_view bytes;  ///< byteLength of them; empty for a buffer that nothing refers to
 };
 struct BufferView {
     Index buffer = 0;
@@ -58,6 +61,7 @@ struct Accessor {
     ElementType type = ElementType::Scalar;
     bool normalized = false;
     std::optional<SparseAccessor> sparse;
+    std::vector<double> min, max;  ///< as declared, of the stored values; empty: not declared
 };
 
 struct Image {
@@ -65,6 +69,7 @@ struct Image {
     std::string uri;            ///< decoded name of a file, relative to the document; or empty
     std::optional<Index> view;  ///< the encoded picture
     std::string data;           ///< the encoded picture of a data: URI
+    std::string mime_type;      ///< as declared; empty: not
 };
 enum class Filter { Unset, Nearest, Linear, NearestMipmap, LinearMipmap };  ///< Mipmap: any of them
 struct Sampler {
@@ -133,6 +138,7 @@ struct Skin {
     std::string name;
     std::optional<Index> inverse_bind_matrices;
     std::vector<Index> joints;
+    std::optional<Index> skeleton;
 };
 struct Node {
     std::string name;
@@ -208,6 +214,8 @@ struct Document {
 /// `diagnostics`, each beginning with the JSON pointer of its place ("#/meshes/0/primitives/1:
 /// ..."); after an error the document must not be used. A required extension that is not supported
 /// is an error that names it; one that is only used, a warning. Throws Error (Resource) for limits.
+/// The document refers to `source.bytes` (the chunk of a GLB is not copied) and must not outlive
+/// it.
 [[nodiscard]] Document read_gltf_document(const ImportSource& source, Diagnostics& diagnostics);
 
 /// Numbers in an element of this type: 1, 2, 3, 4, 4, 9, 16.
