@@ -39,4 +39,24 @@ inline Rgb& operator+=(Rgb& a, const Rgb& b) {
     return a = a + b;
 }
 
+/// A colour and how much of it is there.
+struct Rgba {
+    double r = 0, g = 0, b = 0, a = 1;
+
+    friend bool operator==(const Rgba&, const Rgba&) = default;
+
+    [[nodiscard]] Rgb rgb() const { return {r, g, b}; }
+    [[nodiscard]] bool is_finite() const { return rgb().is_finite() && std::isfinite(a); }
+};
+
+inline Rgba operator+(const Rgba& x, const Rgba& y) {
+    return {x.r + y.r, x.g + y.g, x.b + y.b, x.a + y.a};
+}
+inline Rgba operator*(double s, const Rgba& x) {
+    return {s * x.r, s * x.g, s * x.b, s * x.a};
+}
+inline Rgba& operator+=(Rgba& x, const Rgba& y) {
+    return x = x + y;
+}
+
 }  // namespace alhazen

@@ -25,7 +25,8 @@ std::optional<TextureId> TextureTable::load(const std::string& file,
     try {
         const std::filesystem::path path = resolve_inside(root_, folder, file);
         const auto [entry, fresh] = files_.try_emplace(path);
-        if (fresh) entry->second = std::make_shared<const Image>(read_image(path, limits_));
+        if (fresh)
+            entry->second = std::make_shared<const StoredImage>(stored(read_image(path, limits_)));
         picture = entry->second;
     } catch (const Error& error) {
         diagnostics_.error(where, std::string("texture: ") + error.what());
@@ -39,8 +40,8 @@ std::optional<TextureId> TextureTable::add(std::string_view encoded, const std::
     const auto [entry, fresh] = embedded_.try_emplace(key);
     try {
         if (fresh) {
-            entry->second = std::make_shared<const Image>(
-                decode_image(encoded, name.empty() ? key : name, limits_));
+            entry->second = std::make_shared<const StoredImage>(
+                stored(decode_image(encoded, name.empty() ? key : name, limits_)));
         }
     } catch (const Error& error) {
         diagnostics_.error(where, std::string("texture: ") + error.what());

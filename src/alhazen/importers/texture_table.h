@@ -40,7 +40,7 @@ class TextureTable {
                                  const FileLocation& where);
 
   private:
-    using Picture = std::shared_ptr<const Image>;
+    using Picture = std::shared_ptr<const StoredImage>;
 
     std::optional<TextureId> use(const Picture& picture, const Texture& settings, std::string name,
                                  const FileLocation& where);

@@ -2,31 +2,135 @@
 
 #include <cmath>
 
+#include "alhazen/shading/normal_map.h"
+#include "alhazen/shading/texture_inputs.h"
+
 namespace alhazen {
 
-MaterialSample material_at(const Scene& scene, const Surface& surface) {
+namespace {
+
+/// `v`, a vector in the plane of `dpdu` and `dpdv`, in texture coordinates (least squares); zero
+/// where they do not span a plane.
+Vec2 in_coordinates(const Vec3& v, const Vec3& dpdu, const Vec3& dpdv) {
+    const double uu = length_squared(dpdu);
+    const double vv = length_squared(dpdv);
+    const double uv = dot(dpdu, dpdv);
+    const double determinant = uu * vv - uv * uv;
+    if (!(determinant > 1e-12 * uu * vv)) return {};
+    const double u = dot(dpdu, v), w = dot(dpdv, v);
+    return {(vv * u - uv * w) / determinant, (uu * w - uv * u) / determinant};
+}
+
+/// The interpolated normal, bent by the material's normal map.
+Vec3 mapped_normal(const Scene& scene, const Surface& surface,
+                   const std::array<UvFootprint, 2>& footprint) {
+    const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
+    const NormalMap& map = material.normal_map;
+    const Texture& texture = scene.textures[static_cast<std::size_t>(map.texture)];
+    const bool second = texture.uv_set == 1;
+    const Vec3& n = surface.shading_normal;
+    TangentFrame frame;
+    if (surface.tangent != Vec3{}) {
+        frame = frame_from_tangents(n, surface.tangent, surface.bitangent);
+    } else {
+        Vec3 dpdu = second ? surface.dpdu2 : surface.dpdu;
+        Vec3 dpdv = second ? surface.dpdv2 : surface.dpdv;
+        apply_uv_transform(texture.uv_transform, dpdu, dpdv);
+        frame = frame_from_derivatives(n, dpdu, dpdv);
+    }
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, {1, 1, 1, 1}};
+    return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
+}
+
+/// `n`, or the nearest direction that does not turn away from the viewer: a bent normal may.
+Vec3 turned_to_view(const Vec3& n, const Vec3& view) {
+    constexpr double kLeastCosine = 1e-3;
+    const double cosine = dot(n, view);
+    if (cosine >= kLeastCosine) return n;
+    const Vec3 turned = n + (kLeastCosine - cosine) * view;
+    return length_squared(turned) > 0.0 ? normalize(turned) : view;
+}
+
+}  // namespace
+
+MaterialSample material_at(const Scene& scene, const Surface& surface,
+                           const std::array<UvFootprint, 2>& footprint) {
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, surface.color};
     const auto sample = [&](std::size_t i) {
         return evaluate(scene.materials[static_cast<std::size_t>(surface.materials[i])],
-                        scene.textures, surface.uv);
+                        scene.textures, lookup);
     };
     if (surface.material_count == 1) return sample(0);
     return weighted_sum(surface.weights[0], sample(0), surface.weights[1], sample(1),
                         surface.weights[2], sample(2));
 }
 
-ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside) {
+std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
+                                        double width) {
+    // The circle across the ray, projected along it onto the plane: its radius stays across the
+    // plane of incidence and grows by 1 / cosine along it.
+    const Vec3& n = surface.normal;
+    const double cosine = std::fmax(std::abs(dot(direction, n)), 1e-6);
+    const Vec3 in_plane = direction - dot(direction, n) * n;
+    const double sine = length(in_plane);
+    const Vec3 along = sine > 1e-9 ? in_plane / sine : perpendicular(n);
+    const Vec3 a = (width / cosine) * along;
+    const Vec3 b = width * cross(n, along);
+    const auto in_set = [&](const Vec3& dpdu, const Vec3& dpdv) {
+        return UvFootprint{in_coordinates(a, dpdu, dpdv), in_coordinates(b, dpdu, dpdv)};
+    };
+    return {in_set(surface.dpdu, surface.dpdv), in_set(surface.dpdu2, surface.dpdv2)};
+}
+
+ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
+                           double width) {
     ShadingPoint point;
     point.inside = inside;
     point.surface = surface_at(*scene.aggregate, ray, hit);
-    point.material = material_at(scene, point.surface);
+    std::array<UvFootprint, 2> footprint;
+    if (scene.has_mipmaps && width > 0.0) {
+        footprint = footprint_at(point.surface, ray.direction, width);
+    }
+    point.material = material_at(scene, point.surface, footprint);
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
     // The interpolated normal is turned by its own sign: near silhouettes, and in meshes wound
     // against their normals, it may face the ray although the geometric one does not.
     const Vec3& shading = point.surface.shading_normal;
-    point.normal = dot(ray.direction, shading) > 0.0 ? -shading : shading;
+    const bool turned = dot(ray.direction, shading) > 0.0;
+    const Material& material =
+        scene.materials[static_cast<std::size_t>(point.surface.materials[0])];
+    if (material.normal_map.texture != kNoTexture) {
+        const Vec3 bent = mapped_normal(scene, point.surface, footprint);
+        point.normal = turned_to_view(turned ? -bent : bent, point.view);
+    } else {
+        point.normal = turned ? -shading : shading;
+    }
+    MaterialSample& m = point.material;
+    if (!point.entering && is_unseen_from_behind(m)) m.coverage = 0.0;
+    if (m.physical) {
+        const bool from_inside = inside && !point.entering && !m.transmissive.is_black();
+        turn_to_view(m, dot(point.view, point.normal), from_inside);
+    }
     return point;
+}
+
+bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,
+                       TraversalStats* stats, VisibleHit& found, double least_coverage) {
+    Ray rest = ray;
+    double passed = 0.0;
+    for (int i = 0; i <= kMaxPassedSurfaces; ++i) {
+        found.hit = Hit();
+        if (!scene.aggregate->closest(rest, found.hit, stats)) return false;
+        found.t = passed + found.hit.t;
+        found.point = shading_point(scene, rest, found.hit, inside, cone.width_at(found.t));
+        const double coverage = found.point.material.coverage;
+        if (coverage > 0.0 && coverage >= least_coverage) return true;
+        passed = found.t;
+        rest = leaving_ray(found.point.surface, ray.direction, ray.t_max - passed);
+    }
+    return false;
 }
 
 Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
@@ -57,7 +161,8 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
     // 0^0 would light every point of a material without shininess from behind: only the lit side
     // counts.
     if (highlight_cosine > 0.0 && !m.specular.is_black()) {
-        fraction += std::pow(highlight_cosine, m.shininess) * m.specular;
+        const double falloff = m.physical ? cosine : 1.0;
+        fraction += (falloff * std::pow(highlight_cosine, m.shininess)) * m.specular;
     }
     return fraction;
 }

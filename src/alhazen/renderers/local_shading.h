@@ -22,12 +22,39 @@ struct ShadingPoint {
     Vec3 view;             ///< unit, towards the ray's origin
 };
 
-[[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface);
+/// `footprint`: what the ray's cone cuts out of both sets of texture coordinates.
+[[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
+                                         const std::array<UvFootprint, 2>& footprint = {});
+
+/// What a cone of diameter `width` around `direction` cuts out of the surface, in both sets of
+/// texture coordinates.
+[[nodiscard]] std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
+                                                      double width);
 
 /// `ray.direction` must be unit. Whether the ray came through the inside is known from its history,
-/// not from the normal: an open surface has a back but no inside.
+/// not from the normal: an open surface has a back but no inside. `width` is that of the ray's cone
+/// at the hit. The material is as the ray sees it: textures filtered, Fresnel's share for its
+/// angle, coverage 0 where a single-sided surface turns its back.
 [[nodiscard]] ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit,
-                                         bool inside);
+                                         bool inside, double width = 0);
+
+/// A surface that a ray sees.
+struct VisibleHit {
+    Hit hit;
+    ShadingPoint point;
+    double t = 0;  ///< from the origin of the ray asked for; `hit.t` counts from the last surface
+                   ///< passed through
+};
+
+/// The first surface along a ray of which something is there: a coverage above 0 and at least
+/// `least_coverage`. Others are passed straight through, at most kMaxPassedSurfaces of them.
+[[nodiscard]] bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone,
+                                     bool inside, TraversalStats* stats, VisibleHit& found,
+                                     double least_coverage = 0.0);
+inline constexpr int kMaxPassedSurfaces = 4096;
+
+/// Less of a ray than this is not followed any further through surfaces that are partly there.
+inline constexpr double kLeastTransmittance = 1.0 / 4096;
 
 /// Emission and the ambient terms of all lights.
 [[nodiscard]] Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point);

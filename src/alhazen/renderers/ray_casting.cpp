@@ -26,13 +26,27 @@ Rgb shade(const Scene& scene, const ShadingPoint& point) {
 void RayCasting::render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
                              RayCounters& counters) const {
     TraversalStats* stats = job.count_tests ? &counters.tests : nullptr;
-    render_pixels(job, tile, film, counters, [&](const Ray& ray) {
+    render_pixels(job, tile, film, counters, [&](const Ray& eye) {
         RayCount& count = counters[RayKind::Eye];
         ++count.cast;
-        Hit hit;
-        if (!job.scene.aggregate->closest(ray, hit, stats)) return job.scene.background;
-        ++count.hit;
-        return shade(job.scene, shading_point(job.scene, ray, hit, false));
+        Ray ray = eye;
+        RayCone cone = job.cone;
+        VisibleHit found;
+        Rgb sum;
+        double left = 1.0;
+        int met = 0;
+        while (met < kMaxPassedSurfaces &&
+               first_visible_hit(job.scene, ray, cone, false, stats, found)) {
+            ++met;
+            const double coverage = found.point.material.coverage;
+            sum += (left * coverage) * shade(job.scene, found.point);
+            left *= 1.0 - coverage;
+            if (!(left >= kLeastTransmittance)) break;
+            ray = leaving_ray(found.point.surface, ray.direction);
+            cone = cone.from(found.t);
+        }
+        count.hit += met > 0;
+        return left >= kLeastTransmittance ? sum + left * job.scene.background : sum;
     });
 }
 

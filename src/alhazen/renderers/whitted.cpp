@@ -24,30 +24,69 @@ class Tracer {
           counters_(counters),
           stats_(job.count_tests ? &counters.tests : nullptr) {}
 
-    /// Radiance along a ray of unit direction. `depth` is 0 for eye rays; `contribution` is the
-    /// product of the coefficients on the way; `inside` says that the ray starts inside something
-    /// transparent.
-    Rgb trace(const Ray& ray, RayKind kind, int depth, const Rgb& contribution, bool inside) {
-        RayCount& count = counters_[kind];
+    /// What a ray has behind it.
+    struct Path {
+        RayKind kind = RayKind::Eye;
+        int depth = 0;              ///< 0 for eye rays
+        Rgb contribution{1, 1, 1};  ///< product of the coefficients on the way
+        bool inside = false;        ///< it starts inside something transparent
+        Rgb absorption;             ///< of what it starts inside of
+        RayCone cone;
+    };
+
+    /// Radiance along a ray of unit direction. Where a surface is only partly there, the ray goes
+    /// straight on behind it as the same ray.
+    Rgb trace(const Ray& whole, const Path& path) {
+        RayCount& count = counters_[path.kind];
         ++count.cast;
-        Hit hit;
-        if (!scene_.aggregate->closest(ray, hit, stats_)) return scene_.background;
-        ++count.hit;
-        const ShadingPoint point = shading_point(scene_, ray, hit, inside);
+        Ray ray = whole;
+        Path rest = path;
+        Rgb sum;
+        Rgb left{1, 1, 1};
+        VisibleHit found;
+        for (int met = 0; met < kMaxPassedSurfaces; ++met) {
+            if (!first_visible_hit(scene_, ray, rest.cone, rest.inside, stats_, found)) {
+                return sum + left * scene_.background;
+            }
+            if (met == 0) ++count.hit;
+            if (!rest.absorption.is_black()) left = left * transmittance(rest.absorption, found.t);
+            const double coverage = found.point.material.coverage;
+            const Rgb share = coverage * left;
+            sum += share * shade(found, ray, rest, path.contribution * share);
+            left = (1.0 - coverage) * left;
+            if (!(left.max() >= kLeastTransmittance)) break;
+            ray = leaving_ray(found.point.surface, ray.direction);
+            rest.cone = rest.cone.from(found.t);
+        }
+        return sum;
+    }
+
+  private:
+    static Rgb transmittance(const Rgb& absorption, double distance) {
+        return {std::exp(-absorption.r * distance), std::exp(-absorption.g * distance),
+                std::exp(-absorption.b * distance)};
+    }
+
+    /// The light that leaves a point towards the origin of the ray that met it.
+    Rgb shade(const VisibleHit& found, const Ray& ray, const Path& path, const Rgb& contribution) {
+        const ShadingPoint& point = found.point;
+        if (point.material.unlit) return point.material.emission;
         Rgb color = unshadowed_terms(scene_, point) + direct_light(point);
-        if (depth < conventions_.max_depth) {
-            if (conventions_.trace_reflections) color += reflected(point, ray, depth, contribution);
-            if (conventions_.trace_refractions)
-                color += transmitted(point, ray, depth, contribution);
+        if (path.depth < conventions_.max_depth) {
+            Path onward = path;
+            onward.depth = path.depth + 1;
+            onward.contribution = contribution;
+            onward.cone = path.cone.from(found.t);
+            if (conventions_.trace_reflections) color += reflected(point, ray, onward);
+            if (conventions_.trace_refractions) color += transmitted(point, ray, onward);
         }
         if (conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-            inside) {
-            color = color * power(point.material.transmissive, hit.t);
+            path.inside && !point.material.physical) {
+            color = color * power(point.material.transmissive, found.t);
         }
         return color;
     }
 
-  private:
     Rgb direct_light(const ShadingPoint& point) {
         Rgb sum;
         for (const Light& light : scene_.lights) {
@@ -90,55 +129,84 @@ class Tracer {
         double inside_since = 0.0;
         for (const Hit& crossing : crossings_) {
             const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
-            const Rgb kt = material_at(scene_, surface).transmissive;
-            if (conventions_.shadow_tint == ShadingConventions::ShadowTint::PerCrossing) {
-                tint = tint * kt;
-            } else if (kt.is_black()) {
-                return {0, 0, 0};
-            } else if (dot(ray.direction, surface.normal) >= 0.0) {
-                tint = tint * power(kt, crossing.t - inside_since);
+            const MaterialSample material = material_at(scene_, surface);
+            if (material.coverage == 0.0) continue;
+            const bool leaving = dot(ray.direction, surface.normal) >= 0.0;
+            const double inside = leaving ? crossing.t - inside_since : 0.0;
+            Rgb through = light_through(material, inside, leaving);
+            if (material.coverage < 1.0) {
+                const double open = 1.0 - material.coverage;
+                through = Rgb{open, open, open} + material.coverage * through;
             }
+            if (through.is_black()) return {0, 0, 0};
+            tint = tint * through;
             inside_since = crossing.t;
         }
         return tint;
     }
 
-    Rgb reflected(const ShadingPoint& point, const Ray& ray, int depth, const Rgb& contribution) {
+    /// What a whole surface lets through of light that has come `inside` far through the material.
+    [[nodiscard]] Rgb light_through(const MaterialSample& material, double inside,
+                                    bool leaving) const {
+        const Rgb& kt = material.transmissive;
+        if (material.physical) {
+            if (leaving && !kt.is_black() && material.thin && material.single_sided) {
+                return {1, 1, 1};  // the back of a sheet that has only a front
+            }
+            return material.absorption.is_black() ? kt
+                                                  : kt * transmittance(material.absorption, inside);
+        }
+        if (conventions_.shadow_tint == ShadingConventions::ShadowTint::PerCrossing) return kt;
+        if (kt.is_black()) return kt;
+        return leaving ? power(kt, inside) : Rgb{1, 1, 1};
+    }
+
+    /// `onward`: the path of the new ray, but for its kind and for what this surface does to it.
+    Rgb reflected(const ShadingPoint& point, const Ray& ray, Path onward) {
         const Rgb& kr = point.material.reflective;
         const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
                                              !point.material.transmissive.is_black());
-        const Rgb onward = contribution * kr;
-        if (!cast || onward.max() < conventions_.min_contribution) return {};
+        onward.kind = RayKind::Reflection;
+        onward.contribution = onward.contribution * kr;
+        if (!cast || onward.contribution.max() < conventions_.min_contribution) return {};
         Vec3 direction = mirror(ray.direction, point.normal);
         // An interpolated normal may send the ray into the surface: then the true one decides.
         if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) < 0.0) {
             direction = mirror(ray.direction, point.geometric);
         }
         const Ray next = leaving_ray(point.surface, direction);
-        return kr * trace(next, RayKind::Reflection, depth + 1, onward, point.inside);
+        return kr * trace(next, onward);
     }
 
-    Rgb transmitted(const ShadingPoint& point, const Ray& ray, int depth, const Rgb& contribution) {
+    Rgb transmitted(const ShadingPoint& point, const Ray& ray, Path onward) {
         const Rgb& kt = point.material.transmissive;
-        const Rgb onward = contribution * kt;
-        if (kt.is_black() || onward.max() < conventions_.min_contribution) return {};
-        const double air = conventions_.air_index;
-        const double eta = point.entering ? air / point.material.index : point.material.index / air;
-        Vec3 direction;
-        if (!refract(ray.direction, point.normal, eta, direction)) {
-            ++counters_.total_internal;
-            return {};
-        }
-        if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) > 0.0 &&
-            !refract(ray.direction, point.geometric, eta, direction)) {
-            ++counters_.total_internal;
-            return {};
+        onward.kind = RayKind::Refraction;
+        onward.contribution = onward.contribution * kt;
+        if (kt.is_black() || onward.contribution.max() < conventions_.min_contribution) return {};
+        Vec3 direction = ray.direction;
+        if (!point.material.thin) {
+            if (!refracted(point, ray, direction)) {
+                ++counters_.total_internal;
+                return {};
+            }
+            onward.inside = point.entering;
+            onward.absorption = point.entering ? point.material.absorption : Rgb{};
         }
         const Ray next = leaving_ray(point.surface, direction);
-        const Rgb beyond = trace(next, RayKind::Refraction, depth + 1, onward, point.entering);
-        return conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent
+        const Rgb beyond = trace(next, onward);
+        return point.material.physical ||
+                       conventions_.refraction_tint == ShadingConventions::RefractionTint::PerEvent
                    ? kt * beyond
                    : beyond;
+    }
+
+    [[nodiscard]] bool refracted(const ShadingPoint& point, const Ray& ray, Vec3& direction) const {
+        const double air = conventions_.air_index;
+        const double eta = point.entering ? air / point.material.index : point.material.index / air;
+        if (!refract(ray.direction, point.normal, eta, direction)) return false;
+        return !conventions_.correct_interpolated_normals ||
+               !(dot(direction, point.geometric) > 0.0) ||
+               refract(ray.direction, point.geometric, eta, direction);
     }
 
     const Scene& scene_;
@@ -153,9 +221,10 @@ class Tracer {
 void Whitted::render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
                           RayCounters& counters) const {
     Tracer tracer(job, counters);
-    render_pixels(job, tile, film, counters, [&](const Ray& ray) {
-        return tracer.trace(ray, RayKind::Eye, 0, {1, 1, 1}, false);
-    });
+    Tracer::Path eye;
+    eye.cone = job.cone;
+    render_pixels(job, tile, film, counters,
+                  [&](const Ray& ray) { return tracer.trace(ray, eye); });
 }
 
 }  // namespace alhazen

@@ -23,6 +23,14 @@ Ray eye_ray(const Camera& camera, double x, double y) {
     return {o.origin + (x - 0.5) * o.right + (y - 0.5) * o.up, normalize(o.direction)};
 }
 
+RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel) {
+    const double across = frame_height * std::sqrt(static_cast<double>(samples_per_pixel));
+    if (const auto* p = std::get_if<PerspectiveCamera>(&camera)) {
+        return {0.0, length(p->up) / (length(p->look) * across)};
+    }
+    return {length(std::get<OrthographicCamera>(camera).up) / across, 0.0};
+}
+
 PerspectiveCamera look_along(const Vec3& eye, const Vec3& look, const Vec3& up, double fov_y,
                              double aspect) {
     const Vec3 forward = normalize(look);

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/ray_cone.h"
 
 namespace alhazen {
 
@@ -31,6 +32,10 @@ struct OrthographicCamera {
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 
 [[nodiscard]] Ray eye_ray(const Camera& camera, double x, double y);
+
+/// The cone of an eye ray that stands for one of `samples_per_pixel` samples of a pixel of a
+/// picture `frame_height` pixels high.
+[[nodiscard]] RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel);
 
 /// An orthonormal perspective camera. `fov_y` is the full vertical angle in radians, in (0, pi);
 /// `up` need not be perpendicular to `look`.

@@ -55,9 +55,7 @@ class Compiler {
         scene.aggregate = root.aggregate;
         census_.effective_primitives = root.effective_primitives;
         census_.instance_depth = root.instance_depth;
-        for (const Texture& texture : scene.textures) {
-            census_.scene_bytes += texture.image->samples.size() * sizeof(float);
-        }
+        census_.scene_bytes += texture_bytes(scene.textures);
         scene.census = census_;
         scene.accelerator = options_.accelerator;
         return scene;
@@ -78,7 +76,7 @@ class Compiler {
             }
             scene.materials.push_back(std::move(m));
         }
-        for (const TextureDescription& t : d_.textures) scene.textures.push_back(t.texture);
+        compile_textures(scene);
         for (const LightDescription& l : d_.lights) {
             Light light = l.light;
             if (auto* directional = std::get_if<DirectionalLight>(&light)) {
@@ -91,6 +89,33 @@ class Compiler {
         scene.cameras = d_.cameras;
         scene.conventions = d_.conventions;
         scene.background = d_.picture.background.value_or(Rgb{});
+    }
+
+    /// Textures that show one picture in different ways share its pyramid.
+    void compile_textures(Scene& scene) const {
+        std::map<std::pair<const StoredImage*, bool>, std::shared_ptr<const MipPyramid>> pyramids;
+        for (const TextureDescription& t : d_.textures) {
+            Texture& texture = scene.textures.emplace_back(t.texture);
+            if (texture.filter != TextureFilter::Mipmapped) continue;
+            auto& pyramid = pyramids[{texture.image.get(), texture.decode_srgb}];
+            if (!pyramid) {
+                pyramid = std::make_shared<const MipPyramid>(texture.image, texture.decode_srgb);
+            }
+            texture.pyramid = pyramid;
+            scene.has_mipmaps = true;
+        }
+    }
+
+    /// Each picture once, however many textures show it.
+    static std::uint64_t texture_bytes(const std::vector<Texture>& textures) {
+        std::map<const void*, std::uint64_t> bytes;
+        for (const Texture& t : textures) {
+            bytes[t.image.get()] = t.image->memory_bytes();
+            if (t.pyramid) bytes[t.pyramid.get()] = t.pyramid->memory_bytes();
+        }
+        std::uint64_t sum = 0;
+        for (const auto& [what, count] : bytes) sum += count;
+        return sum;
     }
 
     /// How many parts use each object and mesh; one user is flattened, several share an instance.

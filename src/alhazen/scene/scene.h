@@ -30,7 +30,8 @@ struct Scene {
     std::vector<CameraDescription> cameras;
     ShadingConventions conventions;
     Rgb background;
-    bool all_opaque = false;  ///< no material lets light through
+    bool all_opaque = false;   ///< no material lets light through
+    bool has_mipmaps = false;  ///< some texture is filtered by what the ray's cone sees
     std::string accelerator;
     SceneCensus census;
 };

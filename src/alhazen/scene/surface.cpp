@@ -10,8 +10,8 @@ namespace alhazen {
 namespace {
 
 constexpr double kEpsilon = 0x1p-53;
-/// The first t of a ray that leaves a surface: not zero, and far enough from the subnormal numbers that no
-/// arithmetic on it becomes slow.
+/// The first t of a ray that leaves a surface: not zero, and far enough from the subnormal numbers
+/// that no arithmetic on it becomes slow.
 constexpr double kBeyondZero = 0x1p-500;
 
 Vec3 times_abs(const Mat3& m, const Vec3& v) {
@@ -118,8 +118,8 @@ void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, con
             surface.tangent += weights[i] * Vec3{t.x, t.y, t.z};
         }
         // Handedness does not vary within a triangle of a well-made mesh.
-        surface.bitangent = double(mesh.tangents[corners[0]].sign) *
-                            cross(surface.shading_normal, surface.tangent);
+        surface.bitangent =
+            double(mesh.tangents[corners[0]].sign) * cross(surface.shading_normal, surface.tangent);
     }
 }
 

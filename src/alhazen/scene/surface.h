@@ -15,7 +15,8 @@ struct Surface {
     Vec3 point;
     Vec3 normal;
     Vec3 shading_normal;
-    Vec2 uv, uv2;  ///< both sets of texture coordinates; the second is the first where there is none
+    Vec2 uv;
+    Vec2 uv2;           ///< second set of texture coordinates; `uv` where there is none
     Vec3 dpdu, dpdv;    ///< change of the point by uv; zero where unknown
     Vec3 dpdu2, dpdv2;  ///< the same by uv2
     /// Interpolated from tangents at the vertices, unit before they are interpolated and placed;

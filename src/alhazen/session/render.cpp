@@ -114,6 +114,8 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
                         .camera = with_aspect(camera.camera, camera.aspect, aspect),
                         .samples_per_pixel = options.samples_per_pixel,
                         .seed = options.seed,
+                        .cone =
+                            eye_cone(camera.camera, frame.height, options.samples_per_pixel),
                         .count_tests = options.count_tests,
                         .stop = options.stop};
     RenderResult result(Film(frame.width, frame.height,

@@ -1,47 +1,93 @@
 #include "alhazen/shading/material.h"
 
+#include <algorithm>
+
+#include "alhazen/shading/texture_inputs.h"
+
 namespace alhazen {
 
-namespace {
+Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLookup& lookup) {
+    const Texture& texture = textures[static_cast<std::uint32_t>(id)];
+    const std::size_t set = texture.uv_set == 1 ? 1 : 0;
+    const UvTransform& transform = texture.uv_transform;
+    if (transform == UvTransform{}) {
+        return evaluate(texture, lookup.uv[set], lookup.footprint[set]);
+    }
+    return evaluate(
+        texture, transform.apply(lookup.uv[set]),
+        {transform.linear(lookup.footprint[set].a), transform.linear(lookup.footprint[set].b)});
+}
 
-Rgb color_at(const ColorInput& input, std::span<const Texture> textures, const Vec2& uv) {
+double channel_of(const Rgba& texel, Channel channel) {
+    switch (channel) {
+        case Channel::Red:
+            return texel.r;
+        case Channel::Green:
+            return texel.g;
+        case Channel::Blue:
+            return texel.b;
+        case Channel::Alpha:
+            return texel.a;
+        case Channel::Mean:
+            break;
+    }
+    return (texel.r + texel.g + texel.b) / 3.0;
+}
+
+Rgb color_at(const ColorInput& input, std::span<const Texture> textures,
+             const SurfaceLookup& lookup) {
     if (input.texture == kNoTexture) return input.color;
-    return input.color * evaluate(textures[static_cast<std::uint32_t>(input.texture)], uv);
+    return input.color * texel_at(input.texture, textures, lookup).rgb();
 }
 
-double value_at(const ScalarInput& input, std::span<const Texture> textures, const Vec2& uv) {
+double value_at(const ScalarInput& input, std::span<const Texture> textures,
+                const SurfaceLookup& lookup) {
     if (input.texture == kNoTexture) return input.value;
-    const Rgb c = evaluate(textures[static_cast<std::uint32_t>(input.texture)], uv);
-    return input.value * ((c.r + c.g + c.b) / 3.0);
+    return input.value * channel_of(texel_at(input.texture, textures, lookup), input.channel);
 }
 
-}  // namespace
+double coverage_of(const Material& material, std::span<const Texture> textures,
+                   const SurfaceLookup& lookup) {
+    if (material.alpha_mode == AlphaMode::Opaque) return 1.0;
+    const double alpha = lookup.color.a * value_at(material.alpha, textures, lookup);
+    if (material.alpha_mode == AlphaMode::Mask) return alpha < material.alpha_cutoff ? 0.0 : 1.0;
+    return alpha > 0.0 ? std::min(alpha, 1.0) : 0.0;
+}
 
 MaterialSample evaluate(const Material& material, std::span<const Texture> textures,
-                        const Vec2& uv) {
-    return {.emission = color_at(material.emission, textures, uv),
-            .ambient = color_at(material.ambient, textures, uv),
-            .diffuse = color_at(material.diffuse, textures, uv),
-            .specular = color_at(material.specular, textures, uv),
-            .reflective = color_at(material.reflective, textures, uv),
-            .transmissive = color_at(material.transmissive, textures, uv),
-            .shininess = value_at(material.shininess, textures, uv),
-            .index = value_at(material.index, textures, uv)};
+                        const SurfaceLookup& lookup) {
+    MaterialSample sample;
+    if (material.metallic_roughness) {
+        sample =
+            evaluate_metallic_roughness(material, *material.metallic_roughness, textures, lookup);
+    } else {
+        const Rgb vertex = lookup.color.rgb();
+        sample.emission = color_at(material.emission, textures, lookup);
+        sample.ambient = vertex * color_at(material.ambient, textures, lookup);
+        sample.diffuse = vertex * color_at(material.diffuse, textures, lookup);
+        sample.specular = color_at(material.specular, textures, lookup);
+        sample.reflective = color_at(material.reflective, textures, lookup);
+        sample.transmissive = color_at(material.transmissive, textures, lookup);
+        sample.shininess = value_at(material.shininess, textures, lookup);
+        sample.index = value_at(material.index, textures, lookup);
+        sample.albedo = sample.diffuse;
+    }
+    sample.coverage = coverage_of(material, textures, lookup);
+    sample.single_sided = !material.double_sided;
+    return sample;
 }
 
 MaterialSample weighted_sum(double wa, const MaterialSample& a, double wb, const MaterialSample& b,
                             double wc, const MaterialSample& c) {
-    const auto mix = [&](auto MaterialSample::*field) {
-        return wa * (a.*field) + wb * (b.*field) + wc * (c.*field);
+    MaterialSample sum = a;
+    const auto mix = [&](auto... field) {
+        ((sum.*field = wa * (a.*field) + wb * (b.*field) + wc * (c.*field)), ...);
     };
-    return {.emission = mix(&MaterialSample::emission),
-            .ambient = mix(&MaterialSample::ambient),
-            .diffuse = mix(&MaterialSample::diffuse),
-            .specular = mix(&MaterialSample::specular),
-            .reflective = mix(&MaterialSample::reflective),
-            .transmissive = mix(&MaterialSample::transmissive),
-            .shininess = mix(&MaterialSample::shininess),
-            .index = mix(&MaterialSample::index)};
+    using S = MaterialSample;
+    mix(&S::emission, &S::ambient, &S::diffuse, &S::specular, &S::reflective, &S::transmissive,
+        &S::albedo, &S::absorption, &S::grazing);
+    mix(&S::shininess, &S::index, &S::coverage, &S::occlusion);
+    return sum;
 }
 
 }  // namespace alhazen

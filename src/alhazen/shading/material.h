@@ -6,6 +6,7 @@
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and appendix B; the extensions
 /// KHR_materials_{ior, transmission, volume, specular, emissive_strength, unlit}.
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -93,16 +94,53 @@ struct Material {
     }
 };
 
-/// A material evaluated at one point.
+/// What a material may look at where a ray meets it.
+struct SurfaceLookup {
+    std::array<Vec2, 2> uv{};  ///< both sets of texture coordinates
+    std::array<UvFootprint, 2> footprint{};
+    Rgba color{1, 1, 1, 1};  ///< of the vertices
+};
+
+/// A material evaluated at one point, as the terms of Whitted's equation and what it leaves out.
+/// Colours are those at normal incidence until `turn_to_view`.
 struct MaterialSample {
     Rgb emission, ambient, diffuse, specular, reflective, transmissive;
     double shininess = 0, index = 1;
+
+    double coverage = 1;   ///< share of the point that is there; a ray goes straight on by the rest
+    Rgb albedo;            ///< colour of the surface itself, whatever it does with it
+    Rgb absorption;        ///< inside: light falls by exp(-absorption * length)
+    double occlusion = 1;  ///< already in `ambient`
+    bool unlit = false;    ///< the colour is in `emission`; all else is black
+    bool thin = false;     ///< transmitted light goes straight on, and inside is outside
+    bool physical = false;      ///< metallic-roughness: the highlight is times N.L, Fresnel applies
+    Rgb grazing;                ///< `reflective` at grazing incidence, where physical
+    bool single_sided = false;  ///< cannot be seen from behind
 };
 
 [[nodiscard]] MaterialSample evaluate(const Material& material, std::span<const Texture> textures,
-                                      const Vec2& uv);
+                                      const SurfaceLookup& lookup);
+[[nodiscard]] inline MaterialSample evaluate(const Material& material,
+                                             std::span<const Texture> textures, const Vec2& uv) {
+    return evaluate(material, textures, SurfaceLookup{{uv, uv}, {}, {1, 1, 1, 1}});
+}
 
-/// Weighted sum of two samples: vertex materials are interpolated field by field.
+/// A volume is seen from inside whatever its sides; a thin sheet is not.
+[[nodiscard]] inline bool is_unseen_from_behind(const MaterialSample& sample) {
+    return sample.single_sided && (sample.thin || sample.transmissive.is_black());
+}
+
+/// What part of the point is there, without the rest of the material.
+[[nodiscard]] double coverage_of(const Material& material, std::span<const Texture> textures,
+                                 const SurfaceLookup& lookup);
+
+/// Makes a physical sample that of a ray that meets the surface with `cosine` to its normal (0..1),
+/// from inside the volume or not: Schlick's Fresnel term, total reflection included, shared out
+/// between reflection and the rest. Does nothing to others.
+void turn_to_view(MaterialSample& sample, double cosine, bool from_inside);
+
+/// Weighted sum of two samples: vertex materials are interpolated field by field, what is only true
+/// or false is the first one's.
 [[nodiscard]] MaterialSample weighted_sum(double wa, const MaterialSample& a, double wb,
                                           const MaterialSample& b, double wc,
                                           const MaterialSample& c);

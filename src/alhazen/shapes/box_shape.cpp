@@ -66,6 +66,8 @@ ShapeSurface BoxShape::surface(const Ray& ray, const ShapeHit& hit) const {
     const int v = axis == 2 ? 1 : 2;
     const double along = high ? surface.point[u] - lo[u] : hi[u] - surface.point[u];
     surface.uv = {along / (hi[u] - lo[u]), (surface.point[v] - lo[v]) / (hi[v] - lo[v])};
+    surface.dpdu[u] = high ? hi[u] - lo[u] : lo[u] - hi[u];
+    surface.dpdv[v] = hi[v] - lo[v];
     // The point is on the face exactly; the bound is one of the box's own last digits, so that
     // whoever steps off the face by it does leave the face.
     surface.error = gamma_bound(2) * Vec3{std::fmax(std::abs(lo.x), std::abs(hi.x)),

@@ -40,6 +40,8 @@ ShapeSurface Disc::surface(const Ray& ray, const ShapeHit& hit) const {
     const double v = (length(offset) - inner_radius) / (radius - inner_radius);
     surface.uv = {turn_fraction(dot(offset, u_axis), dot(offset, cross(unit_normal, u_axis))),
                   std::fmin(1.0, std::fmax(0.0, v))};
+    surface.dpdu = (2.0 * kPi) * cross(unit_normal, offset);
+    surface.dpdv = (radius - inner_radius) * unit_or(offset, u_axis);
     return surface;
 }
 

@@ -194,6 +194,8 @@ ShapeSurface Frustum::side_surface(const Vec3& from_center) const {
     surface.normal = unit_or(outward - slope * axis, outward);
     surface.shading_normal = surface.normal;
     surface.uv = {turn(outward), (height + half_height) / (2.0 * half_height)};
+    surface.dpdu = (2.0 * kPi * radius) * cross(axis, outward);
+    surface.dpdv = (2.0 * half_height) * (axis + slope * outward);
     const double wider = std::max(base_radius, top_radius);
     surface.error = gamma_bound(4) * abs(center) +
                     gamma_bound(16) * ((half_height + wider) * abs(axis) + wider * abs(outward));
@@ -212,6 +214,8 @@ ShapeSurface Frustum::cap_surface(const Vec3& p, bool at_top) const {
     surface.point = middle + offset;
     surface.normal = surface.shading_normal = at_top ? axis : -axis;
     surface.uv = {turn(offset), std::min(1.0, distance / radius)};
+    surface.dpdu = (2.0 * kPi) * cross(axis, offset);
+    surface.dpdv = radius * unit_or(offset, x_axis);
     const double off_plane = gamma_bound(12) * dot(abs(axis), abs(p - middle) + abs(offset));
     surface.error = gamma_bound(4) * (abs(middle) + abs(offset)) + off_plane * abs(axis);
     return surface;

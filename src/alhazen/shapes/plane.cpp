@@ -39,7 +39,9 @@ int Plane::intersect(const Ray& ray, ShapeHit* hits) const {
 ShapeSurface Plane::surface(const Ray& ray, const ShapeHit& hit) const {
     ShapeSurface surface = surface_on_plane(ray.at(hit.t), point, unit_normal);
     const Vec3 offset = surface.point - point;
-    surface.uv = {dot(offset, u_axis), dot(offset, cross(unit_normal, u_axis))};
+    surface.dpdu = u_axis;
+    surface.dpdv = cross(unit_normal, u_axis);
+    surface.uv = {dot(offset, u_axis), dot(offset, surface.dpdv)};
     return surface;
 }
 

@@ -173,7 +173,9 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
 ShapeSurface Polygon::surface(const Ray& ray, const ShapeHit& hit) const {
     ShapeSurface surface = surface_on_plane(ray.at(hit.t), point, normal);
     const Vec3 offset = surface.point - vertices.front();
-    surface.uv = {dot(offset, u_axis), dot(offset, cross(normal, u_axis))};
+    surface.dpdu = u_axis;
+    surface.dpdv = cross(normal, u_axis);
+    surface.uv = {dot(offset, u_axis), dot(offset, surface.dpdv)};
     return surface;
 }
 

@@ -49,6 +49,8 @@ int Rectangle::intersect(const Ray& ray, ShapeHit* hits) const {
 ShapeSurface Rectangle::surface(const Ray& ray, const ShapeHit& hit) const {
     ShapeSurface surface = surface_on_plane(ray.at(hit.t), corner, unit_normal);
     surface.uv = {hit.u, hit.v};
+    surface.dpdu = edge_u;
+    surface.dpdv = edge_v;
     return surface;
 }
 

@@ -28,6 +28,7 @@ struct ShapeSurface {
     Vec3 normal;          ///< unit geometric normal; outward for a closed shape
     Vec3 shading_normal;  ///< unit; equal to `normal` unless the shape interpolates normals
     Vec2 uv;              ///< texture coordinates
+    Vec3 dpdu, dpdv;      ///< change of the point by u and by v; zero where there is none
     Vec3 error;           ///< bound of |point - true point on the surface|, component by component
 };
 

@@ -34,7 +34,12 @@ ShapeSurface Sphere::surface(const Ray& ray, const ShapeHit& hit) const {
     ShapeSurface surface;
     surface.point = center + from_center;
     surface.normal = surface.shading_normal = n;
-    surface.uv = {turn_fraction(n.x, n.y), 0.5 + std::atan2(n.z, std::hypot(n.x, n.y)) / kPi};
+    const double across = std::hypot(n.x, n.y);
+    surface.uv = {turn_fraction(n.x, n.y), 0.5 + std::atan2(n.z, across) / kPi};
+    surface.dpdu = (2.0 * kPi * radius) * Vec3{-n.y, n.x, 0.0};
+    // At a pole every u is the same point: the direction of u = 0 will do.
+    const Vec3 outward = across > 0.0 ? Vec3{n.x / across, n.y / across, 0.0} : Vec3{1, 0, 0};
+    surface.dpdv = (kPi * radius) * Vec3{-n.z * outward.x, -n.z * outward.y, across};
     // |n| is 1 to four roundings, its product with the radius one more, the sum one.
     surface.error = gamma_bound(6) * abs(from_center) + gamma_bound(2) * abs(surface.point);
     return surface;

@@ -111,7 +111,24 @@ ShapeSurface TriangleMesh::surface(std::size_t triangle, const ShapeHit& hit) co
             unit_or(w * normals[i0] + hit.u * normals[i1] + hit.v * normals[i2], surface.normal);
     }
     surface.uv = uvs.empty() ? Vec2{hit.u, hit.v} : w * uvs[i0] + hit.u * uvs[i1] + hit.v * uvs[i2];
+    const UvDerivatives derivatives = uv_derivatives(triangle, uvs);
+    surface.dpdu = derivatives.dpdu;
+    surface.dpdv = derivatives.dpdv;
     return surface;
+}
+
+UvDerivatives TriangleMesh::uv_derivatives(std::size_t triangle,
+                                           const std::vector<Vec2>& coordinates) const {
+    const auto& [i0, i1, i2] = triangles[triangle];
+    const Vec3 e1 = positions[i1] - positions[i0];
+    const Vec3 e2 = positions[i2] - positions[i0];
+    if (coordinates.empty()) return {e1, e2};
+    const Vec2 a = coordinates[i1] - coordinates[i0];
+    const Vec2 b = coordinates[i2] - coordinates[i0];
+    const double area = difference_of_products(a.x, b.y, a.y, b.x);
+    const UvDerivatives result{(b.y * e1 - a.y * e2) / area, (a.x * e2 - b.x * e1) / area};
+    // Coordinates in one line or point say nothing about one of the directions.
+    return is_finite(result.dpdu) && is_finite(result.dpdv) ? result : UvDerivatives{};
 }
 
 void TriangleMesh::generate_normals() {
@@ -129,9 +146,11 @@ void TriangleMesh::transform(const Affine& to_from) {
     for (Vec3& position : positions) position = to_from.point(position);
     const Mat3 from_to = inverse(to_from.linear);
     for (Vec3& normal : normals) normal = unit_or(transpose_times(from_to, normal), {});
+    // A mirrored frame runs the other way around.
+    const float turn = determinant(to_from.linear) < 0.0 ? -1.0f : 1.0f;
     for (VertexTangent& tangent : tangents) {
         const Vec3 t = unit_or(to_from.linear * Vec3{tangent.x, tangent.y, tangent.z}, {1, 0, 0});
-        tangent = {float(t.x), float(t.y), float(t.z), tangent.sign};
+        tangent = {float(t.x), float(t.y), float(t.z), turn * tangent.sign};
     }
 }
 

@@ -24,6 +24,11 @@ struct VertexTangent {
     friend bool operator==(const VertexTangent&, const VertexTangent&) = default;
 };
 
+/// Change of the point by each of two texture coordinates; zero where they do not tell.
+struct UvDerivatives {
+    Vec3 dpdu, dpdv;
+};
+
 struct TriangleMesh {
     std::vector<Vec3> positions;                          ///< [vertex]
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [triangle] vertex indices
@@ -42,6 +47,9 @@ struct TriangleMesh {
     [[nodiscard]] Interval triangle_extent(std::size_t triangle, const Vec3& axis) const;
     /// The surface at a hit whose u, v are the weights of the second and third vertex.
     [[nodiscard]] ShapeSurface surface(std::size_t triangle, const ShapeHit& hit) const;
+    /// `coordinates` is one of the sets of texture coordinates; empty: barycentrics.
+    [[nodiscard]] UvDerivatives uv_derivatives(std::size_t triangle,
+                                               const std::vector<Vec2>& coordinates) const;
     /// True when each edge is shared by exactly two triangles, after vertices of equal position are
     /// merged: every line then crosses the mesh an even number of times.
     [[nodiscard]] bool closed() const;
@@ -49,7 +57,7 @@ struct TriangleMesh {
     /// Sets `normals` to the normalised sum over each vertex's triangles of their area-weighted
     /// normals.
     void generate_normals();
-    /// Applies a transform to positions and (by the inverse transpose) to normals.
+    /// Applies a transform to positions, tangents and (by the inverse transpose) to normals.
     void transform(const Affine& to_from);
 };
 

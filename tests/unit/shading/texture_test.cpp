@@ -12,7 +12,7 @@ Texture small_texture() {
     auto image = std::make_shared<Image>(2, 2, 1);
     for (int i = 0; i < 4; ++i) image->samples[static_cast<std::size_t>(i)] = static_cast<float>(i);
     Texture texture;
-    texture.image = image;
+    texture.image = std::make_shared<const StoredImage>(stored(*image));
     return texture;
 }
 
