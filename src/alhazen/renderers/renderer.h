@@ -22,9 +22,9 @@ struct RenderJob {
     int samples_per_pixel =
         1;  ///< 1: the convention's point of the pixel; more: stratified, jittered
     std::uint64_t seed = 0;
-    RayCone cone{};  ///< of each eye ray; zero: textures are not filtered by distance
     bool count_tests = false;        ///< fill RayCounters::tests (rays are always counted)
     const StopFlag* stop = nullptr;  ///< looked at before each pixel; may be null
+    RayCone cone{};  ///< of each eye ray; zero: textures are not filtered by distance
 
     [[nodiscard]] bool stop_requested() const { return stop != nullptr && stop->requested(); }
 };

@@ -114,10 +114,9 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
                         .camera = with_aspect(camera.camera, camera.aspect, aspect),
                         .samples_per_pixel = options.samples_per_pixel,
                         .seed = options.seed,
-                        .cone =
-                            eye_cone(camera.camera, frame.height, options.samples_per_pixel),
                         .count_tests = options.count_tests,
-                        .stop = options.stop};
+                        .stop = options.stop,
+                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel)};
     RenderResult result(Film(frame.width, frame.height,
                              options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
 
