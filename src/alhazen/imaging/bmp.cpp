@@ -23,7 +23,8 @@ struct Header {
     std::uint32_t pixels_at = 0;
 };
 
-using Palette = std::vector<std::array<float, 3>>;
+using Palette = std::vector<std::array<std::uint8_t, 3>>;
+using Codes = std::vector<std::uint8_t>;
 
 void read_masks(ByteReader& reader, Header& header, std::uint32_t header_bytes) {
     if (header.compression == kUncompressed) {
@@ -124,23 +125,23 @@ Palette read_palette(ByteReader& reader, const Header& header) {
     for (auto& colour : palette) {
         const std::string_view bytes = reader.take(header.palette_entry_bytes);
         for (std::size_t i = 0; i < 3; ++i) {
-            colour[i] = float(std::uint8_t(bytes[2 - i])) / 255.0f;
+            colour[i] = std::uint8_t(bytes[2 - i]);
         }
     }
     return palette;
 }
 
-void append_palette_row(Image& image, std::string_view row, const Header& header,
+void append_palette_row(Codes& codes, std::string_view row, const Header& header,
                         const Palette& palette, const std::string& name) {
     const unsigned per_byte = 8 / header.bits, mask = (1u << header.bits) - 1;
-    for (unsigned x = 0; x < unsigned(image.width); ++x) {
+    for (unsigned x = 0; x < unsigned(header.width); ++x) {
         const unsigned shift = 8 - header.bits * (x % per_byte + 1);
         const unsigned index = (unsigned(std::uint8_t(row[x / per_byte])) >> shift) & mask;
         if (index >= palette.size()) {
             bad_image(name, "damaged BMP: palette index " + std::to_string(index) + " of " +
                                 std::to_string(palette.size()) + " entries");
         }
-        image.samples.insert(image.samples.end(), palette[index].begin(), palette[index].end());
+        codes.insert(codes.end(), palette[index].begin(), palette[index].end());
     }
 }
 
@@ -161,37 +162,44 @@ void append_masked_row(Image& image, std::string_view row, const Header& header)
     }
 }
 
-void append_bgr_row(Image& image, std::string_view row) {
-    for (std::size_t x = 0; x < std::size_t(image.width); ++x) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            image.samples.push_back(float(std::uint8_t(row[3 * x + 2 - i])) / 255.0f);
-        }
+void append_bgr_row(Codes& codes, std::string_view row, std::int64_t width) {
+    for (std::size_t x = 0; x < std::size_t(width); ++x) {
+        for (std::size_t i = 0; i < 3; ++i) codes.push_back(std::uint8_t(row[3 * x + 2 - i]));
     }
 }
 
 }  // namespace
 
-Image decode_bmp(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+StoredImage decode_bmp(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
     ByteReader reader(bytes, name);
     const Header header = read_header(reader, limits);
     const Palette palette = read_palette(reader, header);
     const std::uint64_t row_bytes = (std::uint64_t(header.width) * header.bits + 31) / 32 * 4;
     reader.seek(header.pixels_at);
     const std::string_view rows = reader.take(row_bytes * std::uint64_t(header.height));
+    const bool masked = header.bits == 16 || header.bits == 32;
     const int channels = header.masks[3] != 0 ? 4 : 3;
-    Image image = reserved_image(int(header.width), int(header.height), channels, false);
+    // Masked channels may have any number of bits: only they need floats.
+    Image floats;
+    Codes codes;
+    if (masked) {
+        floats = reserved_image(int(header.width), int(header.height), channels, false);
+    } else {
+        codes.reserve(std::size_t(header.width) * std::size_t(header.height) * 3);
+    }
     for (std::int64_t y = 0; y < header.height; ++y) {
-        const std::int64_t stored = header.top_down ? y : header.height - 1 - y;
-        const std::string_view row = rows.substr(std::size_t(stored) * row_bytes, row_bytes);
-        if (header.bits <= 8) {
-            append_palette_row(image, row, header, palette, name);
+        const std::int64_t in_file = header.top_down ? y : header.height - 1 - y;
+        const std::string_view row = rows.substr(std::size_t(in_file) * row_bytes, row_bytes);
+        if (masked) {
+            append_masked_row(floats, row, header);
         } else if (header.bits == 24) {
-            append_bgr_row(image, row);
+            append_bgr_row(codes, row, header.width);
         } else {
-            append_masked_row(image, row, header);
+            append_palette_row(codes, row, header, palette, name);
         }
     }
-    return image;
+    if (masked) return stored(std::move(floats));
+    return {int(header.width), int(header.height), 3, false, std::move(codes)};
 }
 
 }  // namespace alhazen

@@ -11,11 +11,12 @@
 #include <string_view>
 
 #include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/stored_image.h"
 
 namespace alhazen {
 
 /// Throws Error: Scene when malformed or not supported, Resource beyond the limits.
-[[nodiscard]] Image decode_bmp(std::string_view bytes, const std::string& name,
-                               const ImageLimits& limits);
+[[nodiscard]] StoredImage decode_bmp(std::string_view bytes, const std::string& name,
+                                     const ImageLimits& limits);
 
 }  // namespace alhazen

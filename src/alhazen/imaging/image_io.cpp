@@ -13,12 +13,20 @@
 #include "alhazen/imaging/jpeg.h"
 #include "alhazen/imaging/pfm.h"
 #include "alhazen/imaging/png.h"
+#include "alhazen/imaging/tga.h"
 
 namespace alhazen {
 
 namespace {
 
-using Decoder = Image (*)(std::string_view, const std::string&, const ImageLimits&);
+using Decoder = StoredImage (*)(std::string_view, const std::string&, const ImageLimits&);
+
+/// For the kinds whose samples are floats.
+template <Image (*decode)(std::string_view, const std::string&, const ImageLimits&)>
+StoredImage decode_floats(std::string_view bytes, const std::string& name,
+                          const ImageLimits& limits) {
+    return stored(decode(bytes, name, limits));
+}
 
 /// A kind of picture by its first bytes. ADD A KIND THAT IS READ HERE.
 struct Signature {
@@ -29,10 +37,10 @@ struct Signature {
 constexpr Signature kSignatures[] = {
     {"\x89PNG\r\n\x1a\n", decode_png},
     {"\xff\xd8\xff", decode_jpeg},
-    {"\x76\x2f\x31\x01", decode_exr},
-    {"#?", decode_hdr},
-    {"PF", decode_pfm},
-    {"Pf", decode_pfm},
+    {"\x76\x2f\x31\x01", decode_floats<decode_exr>},
+    {"#?", decode_floats<decode_hdr>},
+    {"PF", decode_floats<decode_pfm>},
+    {"Pf", decode_floats<decode_pfm>},
     {"BM", decode_bmp},
 };
 
@@ -78,15 +86,32 @@ Image linear_image(Image image) {
 
 }  // namespace
 
-Image decode_image(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
+                                const ImageLimits& limits) {
     try {
         for (const Signature& signature : kSignatures) {
             if (bytes.starts_with(signature.start)) return signature.decode(bytes, name, limits);
         }
+        // Without a signature, the last to be asked.
+        if (suffix_of(name) == "tga" || is_plausible_tga(bytes)) {
+            return decode_tga(bytes, name, limits);
+        }
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::Resource, "not enough memory for the picture", {name, 0, 0});
     }
-    bad_image(name, "not a picture of a known kind; expected PNG, JPEG, BMP, EXR, HDR or PFM");
+    bad_image(name, "not a picture of a known kind; expected PNG, JPEG, BMP, TGA, EXR, HDR or PFM");
+}
+
+Image decode_image(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+    try {
+        return expanded(decode_stored_image(bytes, name, limits));
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::Resource, "not enough memory for the picture", {name, 0, 0});
+    }
+}
+
+StoredImage read_stored_image(const std::filesystem::path& path, const ImageLimits& limits) {
+    return decode_stored_image(read_file(path), path.string(), limits);
 }
 
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits) {

@@ -1,8 +1,8 @@
 #pragma once
 /// Picture files in and out, chosen by name, recognised by content.
 ///
-/// In: PNG (all colour types, 1 to 16 bit), JPEG, BMP (1, 4 and 8-bit palette, 16, 24, 32 bit, not
-/// RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Out: PNG, JPG, EXR, HDR, PFM.
+/// In: PNG (all colour types, 1 to 16 bit), JPEG, TGA, BMP (1, 4 and 8-bit palette, 16, 24, 32 bit,
+/// not RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Out: PNG, JPG, EXR, HDR, PFM.
 /// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes, and
 /// memory grows with what is decoded, not with what the header claims. An EXR is read as its data
 /// window.
@@ -17,6 +17,7 @@
 
 #include "alhazen/imaging/encoding.h"
 #include "alhazen/imaging/image.h"
+#include "alhazen/imaging/stored_image.h"
 
 namespace alhazen {
 
@@ -31,6 +32,12 @@ struct ImageLimits {
 /// The same from bytes; `name` is used in messages.
 [[nodiscard]] Image decode_image(std::string_view bytes, const std::string& name,
                                  const ImageLimits& limits = {});
+
+/// The same as the file's own codes, where it holds codes: a quarter of the memory.
+[[nodiscard]] StoredImage read_stored_image(const std::filesystem::path& path,
+                                            const ImageLimits& limits = {});
+[[nodiscard]] StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
+                                              const ImageLimits& limits = {});
 
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 

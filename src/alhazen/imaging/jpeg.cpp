@@ -3,6 +3,7 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 
 #include <jpeglib.h>
 
@@ -200,11 +201,15 @@ class Writer {
 };
 
 /// Adobe's files store 255 - ink.
-void append_cmyk_row(Image& image, const JSAMPLE* row, bool inverted) {
-    for (int x = 0; x < image.width; ++x) {
-        const JSAMPLE* p = row + 4 * x;
-        const auto light = [&](int i) { return float(inverted ? p[i] : 255 - p[i]) / 255.0f; };
-        for (int i = 0; i < 3; ++i) image.samples.push_back(light(i) * light(3));
+void append_cmyk_row(std::vector<std::uint8_t>& codes, std::span<const JSAMPLE> row,
+                     bool inverted) {
+    for (std::size_t x = 0; x + 3 < row.size(); x += 4) {
+        const auto light = [&](std::size_t i) {
+            return unsigned(inverted ? row[x + i] : 255 - row[x + i]);
+        };
+        for (std::size_t i = 0; i < 3; ++i) {
+            codes.push_back(std::uint8_t((light(i) * light(3) + 127) / 255));
+        }
     }
 }
 
@@ -227,7 +232,8 @@ void check_codes(const EncodedImage& image, int quality) {
 
 }  // namespace
 
-Image decode_jpeg(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+StoredImage decode_jpeg(std::string_view bytes, const std::string& name,
+                        const ImageLimits& limits) {
     Reader reader(bytes, name);
     reader.check(read_header);
     Decompression& state = reader.state();
@@ -240,18 +246,21 @@ Image decode_jpeg(std::string_view bytes, const std::string& name, const ImageLi
     }
     reader.check(start_reading);
     const int channels = state.cinfo.out_color_components;
-    Image image = reserved_image(int(width), int(height), channels == 1 ? 1 : 3, false);
+    StoredImage image{int(width), int(height), channels == 1 ? 1 : 3, false, {}};
+    std::vector<std::uint8_t> codes;
+    codes.reserve(std::size_t(width) * std::size_t(height) * std::size_t(image.channels));
     std::vector<JSAMPLE> row(std::size_t(width) * std::size_t(channels));
     state.row = row.data();
     for (std::int64_t y = 0; y < height; ++y) {
         reader.check(read_row);
         if (channels == 4) {
-            append_cmyk_row(image, row.data(), state.cinfo.saw_Adobe_marker != 0);
+            append_cmyk_row(codes, row, state.cinfo.saw_Adobe_marker != 0);
         } else {
-            for (const JSAMPLE code : row) image.samples.push_back(float(code) / 255.0f);
+            codes.insert(codes.end(), row.begin(), row.end());
         }
     }
     reader.check(finish_reading);
+    image.samples = std::move(codes);
     return image;
 }
 

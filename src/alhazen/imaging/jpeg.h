@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/stored_image.h"
 
 namespace alhazen {
 
 /// Throws Error: Scene when malformed, Resource beyond the limits.
-[[nodiscard]] Image decode_jpeg(std::string_view bytes, const std::string& name,
-                                const ImageLimits& limits);
+[[nodiscard]] StoredImage decode_jpeg(std::string_view bytes, const std::string& name,
+                                      const ImageLimits& limits);
 
 /// Without chroma subsampling; alpha is dropped. Throws Error (Usage) when sizes, bits (8) or
 /// quality (1 to 100) do not fit.

@@ -1,6 +1,7 @@
 #include "alhazen/imaging/png.h"
 
 #include <algorithm>
+#include <bit>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -79,6 +80,7 @@ void read_header(PngState& state) {
     state.width = png_get_image_width(state.png, state.info);
     state.height = png_get_image_height(state.png, state.info);
     png_set_expand(state.png);
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(state.png);
     state.passes = png_set_interlace_handling(state.png);
     png_read_update_info(state.png, state.info);
     state.row_bytes = png_get_rowbytes(state.png, state.info);
@@ -133,37 +135,40 @@ void check_first_chunk(std::string_view bytes, const std::string& name, const Im
     check_image_size(number(kWidthAt), number(kWidthAt + 4), limits, name);
 }
 
-void append_row(Image& image, const png_byte* row, int depth) {
-    const auto count = std::size_t(image.width) * std::size_t(image.channels);
-    for (std::size_t i = 0; i < count; ++i) {
-        image.samples.push_back(depth == 16 ? float(row[2 * i] * 256 + row[2 * i + 1]) / 65535.0f
-                                            : float(row[i]) / 255.0f);
-    }
-}
-
-void read_rows(Reader& reader, Image& image) {
+/// Rows one after another: memory grows with what is decoded.
+template <class Code>
+std::vector<Code> read_rows(Reader& reader) {
     PngState& state = reader.state();
-    std::vector<png_byte> row(state.row_bytes);
-    state.row = row.data();
-    for (int y = 0; y < image.height; ++y) {
+    const std::size_t row_codes = state.row_bytes / sizeof(Code);
+    std::vector<Code> codes;
+    codes.reserve(row_codes * state.height);
+    std::vector<Code> row(row_codes);
+    state.row = reinterpret_cast<png_bytep>(row.data());
+    for (std::size_t y = 0; y < state.height; ++y) {
         reader.check(read_row);
-        append_row(image, row.data(), state.depth);
+        codes.insert(codes.end(), row.begin(), row.end());
     }
+    return codes;
 }
 
 /// Interlaced pictures fill in all over the place, so all codes are in memory first.
-void read_interlaced(Reader& reader, Image& image) {
+template <class Code>
+std::vector<Code> read_interlaced(Reader& reader) {
     PngState& state = reader.state();
-    std::vector<png_byte> rows(state.row_bytes * state.height);
+    std::vector<Code> codes(state.row_bytes / sizeof(Code) * state.height);
+    auto* const bytes = reinterpret_cast<png_bytep>(codes.data());
     for (int pass = 0; pass < state.passes; ++pass) {
         for (std::size_t y = 0; y < state.height; ++y) {
-            state.row = rows.data() + y * state.row_bytes;
+            state.row = bytes + y * state.row_bytes;
             reader.check(read_row);
         }
     }
-    for (std::size_t y = 0; y < state.height; ++y) {
-        append_row(image, rows.data() + y * state.row_bytes, state.depth);
-    }
+    return codes;
+}
+
+template <class Code>
+std::vector<Code> read_codes(Reader& reader) {
+    return reader.state().passes > 1 ? read_interlaced<Code>(reader) : read_rows<Code>(reader);
 }
 
 // ---- writing
@@ -276,7 +281,7 @@ std::vector<png_text> text_chunks(const ImageMetadata& metadata) {
 
 }  // namespace
 
-Image decode_png(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+StoredImage decode_png(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
     check_first_chunk(bytes, name, limits);
     Reader reader(bytes, name, limits);
     reader.check(read_header);
@@ -287,11 +292,11 @@ Image decode_png(std::string_view bytes, const std::string& name, const ImageLim
     if (state.row_bytes * state.height / 32 > bytes.size() * 1032 + 4096) {
         bad_image(name, "damaged PNG: the data end too early");
     }
-    Image image = reserved_image(int(state.width), int(state.height), state.channels, false);
-    if (state.passes > 1) {
-        read_interlaced(reader, image);
+    StoredImage image{int(state.width), int(state.height), state.channels, false, {}};
+    if (state.depth == 16) {
+        image.samples = read_codes<std::uint16_t>(reader);
     } else {
-        read_rows(reader, image);
+        image.samples = read_codes<std::uint8_t>(reader);
     }
     reader.check(read_end);
     return image;

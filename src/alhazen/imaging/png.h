@@ -13,12 +13,13 @@
 #include <vector>
 
 #include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/stored_image.h"
 
 namespace alhazen {
 
 /// Throws Error: Scene when malformed, Resource beyond the limits.
-[[nodiscard]] Image decode_png(std::string_view bytes, const std::string& name,
-                               const ImageLimits& limits);
+[[nodiscard]] StoredImage decode_png(std::string_view bytes, const std::string& name,
+                                     const ImageLimits& limits);
 
 /// The file that holds exactly the codes of `image`. Throws Error (Usage) when the sizes or the
 /// codes do not fit or a key of `metadata` is not 1 to 79 printable ASCII characters.

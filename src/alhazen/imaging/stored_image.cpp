@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/imaging/encoding.h"
 
@@ -90,7 +91,7 @@ bool StoredImage::is_opaque() const {
         samples);
 }
 
-StoredImage stored(const Image& image) {
+StoredImage stored(Image image) {
     StoredImage result{image.width, image.height, image.channels, image.linear, {}};
     if (!image.linear) {
         if (std::vector<std::uint8_t> bytes; to_codes(image.samples, bytes)) {
@@ -102,18 +103,24 @@ StoredImage stored(const Image& image) {
             return result;
         }
     }
-    result.samples = image.samples;
+    result.samples = std::move(image.samples);
     return result;
 }
 
-Image expanded(const StoredImage& image) {
-    Image result(image.width, image.height, image.channels);
+Image expanded(StoredImage image) {
+    Image result;
+    result.width = image.width;
+    result.height = image.height;
+    result.channels = image.channels;
     result.linear = image.linear;
+    if (auto* floats = std::get_if<std::vector<float>>(&image.samples)) {
+        result.samples = std::move(*floats);
+        return result;
+    }
     std::visit(
         [&](const auto& samples) {
-            for (std::size_t i = 0; i < samples.size(); ++i) {
-                result.samples[i] = value_of(samples[i]);
-            }
+            result.samples.reserve(samples.size());
+            for (const auto sample : samples) result.samples.push_back(value_of(sample));
         },
         image.samples);
     return result;

@@ -31,7 +31,7 @@ struct StoredImage {
 
 /// Bytes when every sample of a picture that is not linear is a code of 8 bits, shorts when of 16,
 /// floats else.
-[[nodiscard]] StoredImage stored(const Image& image);
-[[nodiscard]] Image expanded(const StoredImage& image);
+[[nodiscard]] StoredImage stored(Image image);
+[[nodiscard]] Image expanded(StoredImage image);
 
 }  // namespace alhazen

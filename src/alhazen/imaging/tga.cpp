@@ -66,7 +66,8 @@ const char* fault_of(const Header& h) {
         return nullptr;
     }
     if (h.map_kind == 1 && !is_color_size(h.map_bits)) return "a palette of unknown depth";
-    if (h.model() == 2 && !is_color_size(h.bits)) return "a depth that is not 15, 16, 24 or 32 bits";
+    if (h.model() == 2 && !is_color_size(h.bits))
+        return "a depth that is not 15, 16, 24 or 32 bits";
     if (h.model() == 3 && h.bits != 8 && h.bits != 16) return "a depth that is not 8 or 16 bits";
     return nullptr;
 }
@@ -185,7 +186,8 @@ StoredImage decode_tga(std::string_view bytes, const std::string& name, const Im
     }
     if (least_pixel_bytes(h) > reader.left()) reader.ends_early();
 
-    StoredImage image{int(h.width), int(h.height), channels_of(h, alpha_is_meant(bytes)), false, {}};
+    StoredImage image{
+        int(h.width), int(h.height), channels_of(h, alpha_is_meant(bytes)), false, {}};
     const auto channels = std::size_t(image.channels);
     const auto width = std::size_t(h.width), height = std::size_t(h.height);
     std::vector<std::uint8_t> samples(width * height * channels);

@@ -26,7 +26,7 @@ std::optional<TextureId> TextureTable::load(const std::string& file,
         const std::filesystem::path path = resolve_inside(root_, folder, file);
         const auto [entry, fresh] = files_.try_emplace(path);
         if (fresh)
-            entry->second = std::make_shared<const StoredImage>(stored(read_image(path, limits_)));
+            entry->second = std::make_shared<const StoredImage>(read_stored_image(path, limits_));
         picture = entry->second;
     } catch (const Error& error) {
         diagnostics_.error(where, std::string("texture: ") + error.what());
@@ -41,7 +41,7 @@ std::optional<TextureId> TextureTable::add(std::string_view encoded, const std::
     try {
         if (fresh) {
             entry->second = std::make_shared<const StoredImage>(
-                stored(decode_image(encoded, name.empty() ? key : name, limits_)));
+                decode_stored_image(encoded, name.empty() ? key : name, limits_));
         }
     } catch (const Error& error) {
         diagnostics_.error(where, std::string("texture: ") + error.what());
