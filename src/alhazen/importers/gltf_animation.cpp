@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "alhazen/importers/gltf_budget.h"
+
 namespace alhazen::gltf {
 
 namespace {
@@ -86,7 +88,11 @@ class Animator {
   public:
     Animator(const Document& document, const ImportSource& source, Pose& pose,
              Diagnostics& diagnostics)
-        : document_(document), source_(source), pose_(pose), diagnostics_(diagnostics) {}
+        : document_(document),
+          source_(source),
+          pose_(pose),
+          diagnostics_(diagnostics),
+          budget_(source.options.max_elements) {}
 
     void apply(Index animation, double time) {
         const Animation& a = document_.animations[animation];
@@ -97,8 +103,8 @@ class Animator {
             Keys keys;
             keys.width = width_of(document_, channel);
             keys.interpolation = sampler.interpolation;
-            keys.times = numbers(sampler.input);
-            keys.values = numbers(sampler.output);
+            keys.times = times(sampler.input);
+            keys.values = read(sampler.output);
             const std::size_t per_key =
                 keys.width * (keys.interpolation == Interpolation::CubicSpline ? 3 : 1);
             if (keys.times.empty() || per_key == 0 ||
@@ -137,10 +143,15 @@ class Animator {
             fmt::format("#/animations/{}/channels/{}: the channel {}", animation, channel, what));
     }
 
+    std::vector<double> read(Index accessor) {
+        budget_.take(document_.accessors[accessor].count);
+        return read_numbers(document_, accessor);
+    }
+
     /// Channels share their times, often all of them: read once.
-    const std::vector<double>& numbers(Index accessor) {
-        const auto [entry, fresh] = numbers_.try_emplace(accessor);
-        if (fresh) entry->second = read_numbers(document_, accessor);
+    const std::vector<double>& times(Index accessor) {
+        const auto [entry, fresh] = times_.try_emplace(accessor);
+        if (fresh) entry->second = read(accessor);
         return entry->second;
     }
 
@@ -148,7 +159,8 @@ class Animator {
     const ImportSource& source_;
     Pose& pose_;
     Diagnostics& diagnostics_;
-    std::map<Index, std::vector<double>> numbers_;
+    ElementBudget budget_;
+    std::map<Index, std::vector<double>> times_;
 };
 
 std::string list_of(const std::vector<Animation>& animations) {

@@ -183,14 +183,6 @@ class PrimitiveReader {
 
 }  // namespace
 
-void ElementBudget::take(std::uint64_t count) {
-    if (count > limit_ - taken_) {
-        throw Error(ErrorKind::Resource,
-                    fmt::format("the meshes of the file have more than {} elements", limit_));
-    }
-    taken_ += count;
-}
-
 bool makes_surface(PrimitiveMode mode) {
     return mode == PrimitiveMode::Triangles || mode == PrimitiveMode::TriangleStrip ||
            mode == PrimitiveMode::TriangleFan;

@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "alhazen/importers/gltf_budget.h"
 #include "alhazen/importers/gltf_document.h"
 #include "alhazen/shapes/triangle_mesh.h"
 
@@ -23,19 +24,6 @@ struct VertexJoints {
 struct PrimitiveGeometry {
     TriangleMesh mesh;
     VertexJoints joints;
-};
-
-/// What is read from one file together, against `max_elements` of the options: a small file may
-/// name the same accessor many times.
-class ElementBudget {
-  public:
-    explicit ElementBudget(std::uint64_t limit) : limit_(limit) {}
-    /// Throws Error (Resource) when the limit is exceeded.
-    void take(std::uint64_t count);
-
-  private:
-    std::uint64_t limit_;
-    std::uint64_t taken_ = 0;
 };
 
 /// True for the modes that make triangles.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <map>
 
 #include "alhazen/importers/gltf_animation.h"
+#include "alhazen/importers/gltf_budget.h"
 #include "alhazen/importers/gltf_document.h"
 #include "alhazen/importers/gltf_materials.h"
 #include "alhazen/importers/gltf_nodes.h"
@@ -49,18 +52,25 @@ std::vector<gltf::Index> shown_nodes(const gltf::Document& document, const Impor
     return gltf::root_nodes(document);
 }
 
-void name_animations(const gltf::Document& document, SceneDescription& scene) {
+void name_animations(const gltf::Document& document, const ImportOptions& options,
+                     SceneDescription& scene) {
+    gltf::ElementBudget budget(options.max_elements);
+    std::map<gltf::Index, Interval> times;  // samplers share them
     for (const gltf::Animation& animation : document.animations) {
-        AnimationInfo info{animation.name, 0, 0};
-        bool first = true;
+        Interval all;
         for (const gltf::AnimationSampler& sampler : animation.samplers) {
-            const std::vector<double> times = gltf::read_numbers(document, sampler.input);
-            if (times.empty()) continue;
-            info.begin = first ? times.front() : std::min(info.begin, times.front());
-            info.end = first ? times.back() : std::max(info.end, times.back());
-            first = false;
+            const auto [entry, fresh] = times.try_emplace(sampler.input);
+            if (fresh) {
+                budget.take(document.accessors[sampler.input].count);
+                for (const double time : gltf::read_numbers(document, sampler.input)) {
+                    entry->second.include(time);
+                }
+            }
+            all.include(entry->second.lo);
+            all.include(entry->second.hi);
         }
-        scene.animations.push_back(std::move(info));
+        const bool timed = all.lo <= all.hi && std::isfinite(all.lo) && std::isfinite(all.hi);
+        scene.animations.push_back({animation.name, timed ? all.lo : 0.0, timed ? all.hi : 0.0});
     }
 }
 
@@ -86,7 +96,7 @@ SceneDescription GltfImporter::import(const ImportSource& source, Diagnostics& d
     const gltf::Document document = gltf::read_gltf_document(source, diagnostics);
     if (diagnostics.error_count() > 0) return scene;
 
-    name_animations(document, scene);
+    name_animations(document, source.options, scene);
     gltf::Pose pose = gltf::rest_pose(document);
     gltf::apply_animations(document, source, pose, diagnostics);
     const std::vector<Affine> world_from_node = gltf::world_transforms(document, pose);

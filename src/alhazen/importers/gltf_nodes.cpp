@@ -72,6 +72,7 @@ void NodeBuilder::add(std::span<const Index> nodes, const std::vector<Affine>& w
         const std::vector<double>& own = pose_[index].weights;
         const auto& weights = own.empty() ? document_.meshes[*node.mesh].weights : own;
         if (node.skin) {
+            budget_.take(document_.skins[*node.skin].joints.size());
             const std::vector<Affine> joints =
                 joint_matrices(document_, document_.skins[*node.skin], world_from_node);
             bool skinned = true;

@@ -84,6 +84,9 @@ class Validator {
                                 std::isfinite(a.constant + a.linear + a.quadratic),
                             "the light's attenuation coefficients must be finite and not negative");
                     }
+                    if constexpr (requires { l.range; }) {
+                        need(l.range > 0, "the light's range must be positive");
+                    }
                     if constexpr (requires { l.to_light; }) {
                         need(is_finite(l.to_light) && l.to_light != Vec3{},
                              "the light's direction must be finite and not zero");
