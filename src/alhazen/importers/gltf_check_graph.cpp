@@ -42,7 +42,8 @@ bool has_attribute(const Mesh& mesh, const char* name) {
     return false;
 }
 
-void check_node(const Loading& loading, const Node& node, const std::string& place) {
+void check_node(const Loading& loading, const std::vector<bool>& skinned_meshes, const Node& node,
+                const std::string& place) {
     if (!node.mesh) return;
     const Mesh& mesh = loading.document.meshes[*node.mesh];
     const std::size_t targets = mesh.primitives.front().targets.size();
@@ -50,7 +51,7 @@ void check_node(const Loading& loading, const Node& node, const std::string& pla
         loading.error(place + "/weights", std::to_string(node.weights.size()) + " weights for " +
                                               std::to_string(targets) + " morph targets");
     }
-    const bool skinned = has_attribute(mesh, "JOINTS_0");
+    const bool skinned = skinned_meshes[*node.mesh];
     if (node.skin && !skinned) loading.error(place, "there is a skin, but the mesh has no joints");
     if (!node.skin && skinned) {
         loading.warning(place, "the mesh has joints, but there is no skin");
@@ -145,12 +146,17 @@ void check_graph(const Loading& loading) {
     const std::vector<Node>& nodes = loading.document.nodes;
     check_parents(loading);
     const NodeTree tree(nodes);
+    // Once for each mesh, as many nodes can use one of many primitives.
+    std::vector<bool> skinned;
+    for (const Mesh& mesh : loading.document.meshes) {
+        skinned.push_back(has_attribute(mesh, "JOINTS_0"));
+    }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::string place = pointer_to("nodes", i);
         if (tree.is_in_loop(static_cast<Index>(i))) {
             loading.error(place, "the node is in a loop or below one");
         }
-        check_node(loading, nodes[i], place);
+        check_node(loading, skinned, nodes[i], place);
         check_instances(loading, nodes[i], place + "/extensions/EXT_mesh_gpu_instancing");
     }
     check_scenes(loading, tree);

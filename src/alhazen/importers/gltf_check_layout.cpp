@@ -37,6 +37,7 @@ class LayoutChecker {
         const Accessor& accessor = document_.accessors[position];
         const std::string place = pointer_to("accessors", position);
         const ElementLayout layout = layout_of(accessor.component, accessor.type);
+        limit_numbers(accessor, place);
         if (!accessor.view) {
             limit_zeros(accessor, place);
         } else {
@@ -68,9 +69,23 @@ class LayoutChecker {
         }
     }
 
+    /// Accessors may overlap, so that a small file could speak of endless work.
+    void limit_numbers(const Accessor& accessor, const std::string& place) {
+        const std::uint64_t most = loading_.source.options.max_elements * kNumbersPerElement;
+        const std::uint64_t n = component_count(accessor.type);
+        if (accessor.count <= most / n && numbers_ + accessor.count * n <= most) {
+            numbers_ += accessor.count * n;
+            return;
+        }
+        throw Error(ErrorKind::Resource,
+                    place + ": more than " + std::to_string(most) +
+                        " numbers in all accessors together (a multiple of the limit of elements)",
+                    {loading_.file, 0, 0});
+    }
+
     /// Zeros cost nothing in the file, so the file does not bound them.
     void limit_zeros(const Accessor& accessor, const std::string& place) {
-        const std::uint64_t most = loading_.source.options.max_elements / kZerosPerElement;
+        const std::uint64_t most = loading_.source.options.max_elements / kElementsPerZero;
         const std::uint64_t n = component_count(accessor.type);
         if (accessor.count <= most / n && zeros_ + accessor.count * n <= most) {
             zeros_ += accessor.count * n;
@@ -132,11 +147,13 @@ class LayoutChecker {
         }
     }
 
-    static constexpr std::uint64_t kZerosPerElement = 16;
+    // What the limit of elements means here: by default 1.6 * 10^9 numbers, 25 million of them
+    // zeros.
+    static constexpr std::uint64_t kNumbersPerElement = 4, kElementsPerZero = 16;
 
     const Loading& loading_;
     const Document& document_;
-    std::uint64_t zeros_ = 0;
+    std::uint64_t numbers_ = 0, zeros_ = 0;
 };
 
 }  // namespace

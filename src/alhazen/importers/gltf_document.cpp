@@ -11,18 +11,6 @@ namespace alhazen::gltf {
 
 namespace {
 
-constexpr std::string_view kSupported[] = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_unlit",     "KHR_materials_volume",   "KHR_mesh_quantization",
-    "KHR_texture_transform",
-};
-
-bool is_supported(std::string_view extension) {
-    return std::find(std::begin(kSupported), std::end(kSupported), extension) !=
-           std::end(kSupported);
-}
-
 struct Named {
     const char* name;
     Collection collection;

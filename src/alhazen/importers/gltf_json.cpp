@@ -14,6 +14,13 @@ constexpr const char* kCollectionNames[kCollectionCount] = {
     "accessor", "buffer", "bufferView", "camera", "image", "light",  "material",
     "mesh",     "node",   "sampler",    "scene",  "skin",  "texture"};
 
+constexpr std::string_view kSupported[] = {
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_unlit",     "KHR_materials_volume",   "KHR_mesh_quantization",
+    "KHR_texture_transform",
+};
+
 std::string in_quotes(std::string_view text) {
     return '"' + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...\"" : "\"");
 }
@@ -22,11 +29,17 @@ std::string type_of(const json& value) {
     return value.is_array() ? "an array" : value.is_object() ? "an object" : value.type_name();
 }
 
+}  // namespace
+
 std::string written(double x) {
-    return json(x).dump();
+    const std::string text = json(x).dump();
+    return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
 }
 
-}  // namespace
+bool is_supported(std::string_view extension) {
+    return std::find(std::begin(kSupported), std::end(kSupported), extension) !=
+           std::end(kSupported);
+}
 
 std::string Place::pointer() const {
     std::vector<const Place*> path;
@@ -66,9 +79,11 @@ JsonObject::JsonObject(json& value, const Place& place, const JsonContext& conte
     const Place where(place_, "extensions");
     if (!is_object(*extensions, where)) return;
     for (const auto& [name, unused] : extensions->items()) {
-        if (context_.extensions_used.count(name) == 0) {
-            context_.error(Place(where, name), "the extension is not listed in extensionsUsed");
-        }
+        if (context_.extensions_used.count(name) != 0) continue;
+        // What is known can be read all the same; what is not may be anything.
+        const char* message = "the extension is not listed in extensionsUsed";
+        const Place at(where, name);
+        is_supported(name) ? context_.warning(at, message) : context_.error(at, message);
     }
 }
 
@@ -221,9 +236,9 @@ std::optional<Index> JsonObject::index_at(const json& value, const Place& place,
     if (!n) return std::nullopt;
     const std::size_t size = context_.size_of(collection);
     if (*n < size) return static_cast<Index>(*n);
-    context_.error(place, std::string("there is no ") +
-                              kCollectionNames[static_cast<std::size_t>(collection)] + " " +
-                              std::to_string(*n) + ", only " + std::to_string(size));
+    const char* name = kCollectionNames[static_cast<std::size_t>(collection)];
+    context_.error(place, std::string("there is no ") + name + " " + std::to_string(*n) +
+                              " (the file has " + std::to_string(size) + ")");
     return std::nullopt;
 }
 

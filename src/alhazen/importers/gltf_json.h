@@ -24,6 +24,12 @@
 
 namespace alhazen::gltf {
 
+/// Whether an extension is read.
+[[nodiscard]] bool is_supported(std::string_view extension);
+
+/// A number in as few digits as tell it from all others, for messages.
+[[nodiscard]] std::string written(double x);
+
 /// A place in the JSON tree: a link to the place around it and its own key or position. Lives on
 /// the stack of the reader, so that a pointer costs nothing until it is written.
 class Place {
@@ -89,7 +95,8 @@ inline constexpr Range kPositive{.lo = 0, .above_lo = true};
 /// One JSON object that is being read.
 class JsonObject {
   public:
-    /// Reports extensions on the object that the file does not declare.
+    /// Reports extensions on the object that the file does not declare: an error when they are not
+    /// known, else a warning.
     JsonObject(nlohmann::json& value, const Place& place, const JsonContext& context);
 
     [[nodiscard]] const Place& place() const { return place_; }

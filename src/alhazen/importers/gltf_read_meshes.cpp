@@ -20,7 +20,7 @@ Primitive read_primitive(const JsonObject& object) {
     object.require("attributes");
     object.with_object("attributes", [&](const JsonObject& attributes) {
         primitive.attributes = read_attributes(attributes);
-        if (primitive.attributes.empty()) attributes.error({}, "there is no attribute");
+        if (attributes.keys().empty()) attributes.error({}, "there is no attribute");
     });
     primitive.indices = object.index("indices", Collection::Accessors);
     primitive.material = object.index("material", Collection::Materials);

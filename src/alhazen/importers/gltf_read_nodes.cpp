@@ -15,7 +15,9 @@ void read_matrix(const JsonObject& object, Node& node) {
     for (const char* other : {"translation", "rotation", "scale"}) {
         if (object.has(other)) object.error(other, "a node with a matrix must not have it");
     }
-    if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1) {
+    constexpr double kRounding = 1e-5;
+    if (std::abs(matrix[3]) > kRounding || std::abs(matrix[7]) > kRounding ||
+        std::abs(matrix[11]) > kRounding || std::abs(matrix[15] - 1) > kRounding) {
         object.error("matrix", "the last row must be 0, 0, 0, 1");
     }
 }
@@ -44,7 +46,7 @@ void read_instances(const JsonObject& object, Node& node) {
                 const auto accessor = attributes.index(name, Collection::Accessors);
                 if (accessor) node.instances[name] = *accessor;
             }
-            if (node.instances.empty()) attributes.error({}, "there is no attribute");
+            if (attributes.keys().empty()) attributes.error({}, "there is no attribute");
         });
         if (!object.has("mesh")) object.error({}, "there are instances but no mesh");
     });
