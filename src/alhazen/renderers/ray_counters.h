@@ -22,6 +22,7 @@ struct RayCounters {
     std::array<RayCount, 4> rays;
     std::uint64_t total_internal = 0;  ///< refractions that were total internal reflections
     std::uint64_t non_finite = 0;      ///< samples whose radiance was not finite
+    std::uint64_t aov_rays = 0;        ///< eye rays cast again for AOVs; counted nowhere else
     TraversalStats tests;
 
     [[nodiscard]] RayCount& operator[](RayKind kind) {
@@ -42,6 +43,7 @@ struct RayCounters {
         }
         total_internal += other.total_internal;
         non_finite += other.non_finite;
+        aov_rays += other.aov_rays;
         tests += other.tests;
         return *this;
     }

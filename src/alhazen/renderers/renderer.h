@@ -10,6 +10,7 @@
 
 #include "alhazen/base/progress.h"
 #include "alhazen/imaging/film.h"
+#include "alhazen/renderers/aov.h"
 #include "alhazen/renderers/ray_counters.h"
 #include "alhazen/scene/scene.h"
 
@@ -24,7 +25,8 @@ struct RenderJob {
     std::uint64_t seed = 0;
     bool count_tests = false;        ///< fill RayCounters::tests (rays are always counted)
     const StopFlag* stop = nullptr;  ///< looked at before each pixel; may be null
-    RayCone cone{};  ///< of each eye ray; zero: textures are not filtered by distance
+    RayCone cone{};           ///< of each eye ray; zero: textures are not filtered by distance
+    AovFilm* aovs = nullptr;  ///< filled besides the film; may be null
 
     [[nodiscard]] bool stop_requested() const { return stop != nullptr && stop->requested(); }
 };
