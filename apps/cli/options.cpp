@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
@@ -63,6 +64,18 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         .add_option("--allow-path", allow_path,
                     "Folder that files named by the scene may lie in, when not its own")
         ->type_name("DIR");
+    command
+        .add_option("--time", time,
+                    "Moment of the file's animations; default: the pose without them")
+        ->type_name("SECONDS");
+    command.add_option("--animation", animation, "Apply only this animation")
+        ->type_name("NAME|INDEX");
+    command
+        .add_option("--max-image-pixels", max_image_pixels,
+                    "Larger textures are refused before they are decoded")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 1e15));
     command.add_option("-t,--threads", threads, "Threads; 0 = all cores")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
@@ -72,6 +85,12 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
     options.import.allowed_root = allow_path;
+    options.import.animation = animation;
+    options.import.image_limits.max_pixels = max_image_pixels;
+    if (time) {
+        if (!std::isfinite(*time)) throw Error(ErrorKind::Usage, "--time must be a finite number");
+        options.import.time = time;
+    }
     options.compile.accelerator = accelerator;
     options.threads = threads;
     return options;

@@ -2,6 +2,7 @@
 /// Options that several commands share, and the small parsers behind them.
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "alhazen/imaging/film.h"
@@ -23,6 +24,9 @@ struct SceneArguments {
     std::string scene;
     std::string accelerator;
     std::string allow_path;
+    std::optional<double> time;
+    std::string animation;
+    std::uint64_t max_image_pixels = ImageLimits{}.max_pixels;
     int threads = 0;
 
     void add_to(CLI::App& command, const std::string& default_accelerator);

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/renderers/renderer.h"
 #include "alhazen/scene/accelerator_table.h"
+#include "alhazen/session/aov_pictures.h"
+#include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"
 #include "alhazen/session/render.h"
 #include "alhazen/session/statistics.h"
@@ -22,10 +25,10 @@ namespace {
 struct RenderArguments {
     SceneArguments scene;
     std::string output;
-    std::string size, crop, encoding, protocol, stats;
+    std::string size, crop, encoding, protocol, stats, aovs, view;
     int depth = -1;
     int bits = 8;
-    bool full_float = false, quiet = false, strict = false;
+    bool full_float = false, aov_png = false, quiet = false, strict = false;
     RenderOptions render;
 };
 
@@ -46,12 +49,49 @@ RenderOptions render_options(const RenderArguments& args) {
     }
     if (!args.crop.empty()) options.crop = parse_crop(args.crop);
     if (args.depth >= 0) options.max_depth = args.depth;
+    if (!args.aovs.empty()) options.aovs = parse_aovs(args.aovs);
+    if (!args.view.empty() && !options.camera.empty()) {
+        throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
+    }
     if (args.protocol == "spd") {
         options.protocol = Protocol::Spd;
     } else if (!args.protocol.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("--protocol '{}': expected spd", args.protocol));
     }
     return options;
+}
+
+/// AOVs go into the EXR, and into pictures of their own where there is no EXR or it is asked for.
+bool writes_aov_pictures(const RenderArguments& args) {
+    return args.aov_png || !holds_layers(args.output);
+}
+
+/// Every file that will be written can be, and no two are one.
+void check_outputs(const RenderArguments& args, const RenderOptions& options) {
+    check_image_suffix(args.output);
+    std::vector<std::filesystem::path> outputs{args.output};
+    if (writes_aov_pictures(args)) {
+        for (auto& path : aov_picture_paths(args.output, options.aovs)) {
+            outputs.push_back(std::move(path));
+        }
+    }
+    for (const auto& path : outputs) check_writable(path);
+    if (args.stats.empty() || args.stats == "-") return;
+    if (std::find(outputs.begin(), outputs.end(), args.stats) != outputs.end()) {
+        throw Error(ErrorKind::Usage, "--stats and a picture name the same file");
+    }
+    check_writable(args.stats);
+}
+
+/// Camera and light where the file has none; what was done is told.
+void complete(const RenderArguments& args, const RenderOptions& options, LoadedScene& loaded) {
+    FramingOptions framing;
+    if (!args.view.empty()) framing.view = parse_view(args.view);
+    framing.camera = options.camera;
+    framing.aspect = free_aspect(loaded.description.picture, options);
+    for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {
+        if (!args.quiet) fmt::print(stderr, "{}\n", note);
+    }
 }
 
 PictureOptions picture_options(const RenderArguments& args, const RenderResult& result) {
@@ -66,41 +106,53 @@ PictureOptions picture_options(const RenderArguments& args, const RenderResult& 
     return options;
 }
 
+void write_pictures(const RenderArguments& args, const RenderOptions& options,
+                    const LoadedScene& loaded, const RenderResult& result) {
+    PictureOptions picture = picture_options(args, result);
+    const ImageMetadata common = picture.metadata;
+    if (!options.aovs.empty() && holds_layers(args.output)) {
+        picture.layers = &result.layers;
+        const ImageMetadata names = id_names(loaded.description, options.aovs);
+        picture.metadata.insert(picture.metadata.end(), names.begin(), names.end());
+    }
+    write_picture(args.output, result.film, loaded.scene.conventions, picture);
+    if (options.aovs.empty() || !writes_aov_pictures(args)) return;
+    for (const std::string& line :
+         write_aov_pictures(args.output, options.aovs, result.layers, common)) {
+        if (!args.quiet) fmt::print(stderr, "{}\n", line);
+    }
+}
+
 int run(const RenderArguments& args) {
     // Mistakes in the options are told before any work is done.
-    check_image_suffix(args.output);
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
     (void)make_renderer(options.renderer);
     check_accelerator_name(args.scene.accelerator);
-    check_writable(args.output);
-    if (!args.stats.empty() && args.stats != "-") {
-        if (args.stats == args.output) {
-            throw Error(ErrorKind::Usage, "--stats and --output name the same file");
-        }
-        check_writable(args.stats);
-    }
+    if (!args.view.empty()) (void)parse_view(args.view);
+    check_outputs(args, options);
     ProgressDisplay progress(args.quiet);
     LoadOptions load_options = args.scene.load_options();
     load_options.progress = &progress;
-    const LoadedScene loaded = load(args.scene.scene, load_options);
+    load_options.keep_meshes = false;
+    LoadedScene loaded = load(args.scene.scene, load_options);
     progress.finish();
     if (!args.quiet) print_warnings(loaded.diagnostics);
+    complete(args, options, loaded);
 
     options.progress = &progress;
     options.stop = &stop_on_signals();
     const RenderResult result = render(loaded.scene, loaded.description.picture, options);
     progress.finish();
     const Stopwatch write_time;
-    write_picture(args.output, result.film, loaded.scene.conventions,
-                  picture_options(args, result));
+    write_pictures(args, options, loaded, result);
     const double write_seconds = write_time.seconds();
     if (!args.stats.empty()) {
         write_report(
             args.stats,
             statistics(args.scene.scene, loaded, options, result, write_seconds).dump(2) + "\n");
     }
-    if (result.counters.non_finite > 0) {
+    if (result.counters.non_finite > 0 && !args.quiet) {
         fmt::print(stderr, "warning: {} samples were not finite and were left out\n",
                    result.counters.non_finite);
     }
@@ -143,7 +195,12 @@ void add_render(CLI::App& app, int& exit_status) {
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's")
         ->check(CLI::Range(0, 1000));
-    command->add_option("--camera", args->render.camera, "Camera by name or position");
+    command->add_option("--camera", args->render.camera, "Camera by name or position")
+        ->type_name("NAME|INDEX");
+    command
+        ->add_option("--view", args->view,
+                     "Frame the whole scene from this side instead, degrees; 0,0 is the front")
+        ->type_name("AZIMUTH,ELEVATION");
     // CLI11 reads "-1" into an unsigned number as a huge one.
     command->add_option("--seed", args->render.seed, "Seed of the sample positions")
         ->capture_default_str();
@@ -159,6 +216,17 @@ void add_render(CLI::App& app, int& exit_status) {
         ->capture_default_str()
         ->check(CLI::IsMember({8, 16}));
     command->add_flag("--full-float", args->full_float, "EXR in float instead of half");
+    std::string aovs;
+    for (const AovEntry& entry : aov_table()) {
+        aovs += fmt::format("\n  {:<22} {}", entry.name, entry.description);
+    }
+    command
+        ->add_option("--aov", args->aovs,
+                     "Layers to write besides the picture, separated by commas, or all: into the "
+                     ".exr, or each to OUT.NAME.png:" +
+                         aovs)
+        ->type_name("LIST");
+    command->add_flag("--aov-png", args->aov_png, "OUT.NAME.png of each layer beside an .exr, too");
     command->add_option("--protocol", args->protocol,
                         "Count as published: spd = 513x513 corner rays, depth 5");
     command->add_option("--stats", args->stats, "Write statistics as JSON; - for stdout")

@@ -2,6 +2,7 @@
 
 #include "alhazen/importers/importer_list.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/session/statistics.h"
 #include "alhazen/session/stopwatch.h"
 
 namespace alhazen {
@@ -20,13 +21,17 @@ LoadedScene load(const std::filesystem::path& path, const LoadOptions& options) 
     const Stopwatch load_time;
     loaded.description = load_description(path, options, loaded.diagnostics);
     loaded.load_seconds = load_time.seconds();
+    loaded.load_peak_bytes = peak_rss_bytes();
     report("load", 1);
     report("build", 0);
     const Stopwatch build_time;
     ThreadLimit(options.threads).run([&] {
-        loaded.scene = compile(loaded.description, options.compile);
+        loaded.scene = options.keep_meshes
+                           ? compile(loaded.description, options.compile)
+                           : compile_taking_meshes(loaded.description, options.compile);
     });
     loaded.build_seconds = build_time.seconds();
+    loaded.build_peak_bytes = peak_rss_bytes();
     report("build", 1);
     return loaded;
 }

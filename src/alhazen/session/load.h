@@ -14,13 +14,18 @@ struct LoadOptions {
     ImportOptions import;
     CompileOptions compile;
     int threads = 0;  ///< for the build; 0 = all available cores
+    /// False: meshes that are placed once may be moved into the scene and are then null in the
+    /// description.
+    bool keep_meshes = true;
     ProgressSink* progress = nullptr;
 };
 
 struct LoadedScene {
     SceneDescription description;
     Scene scene;
-    Diagnostics diagnostics;  ///< warnings
+    Diagnostics diagnostics;             ///< warnings
+    std::uint64_t load_peak_bytes = 0;   ///< largest resident set of the process after reading
+    std::uint64_t build_peak_bytes = 0;  ///< and after building
     double load_seconds = 0;
     double build_seconds = 0;
 };

@@ -3,22 +3,40 @@
 #include <algorithm>
 #include <cctype>
 
+#include "alhazen/imaging/exr_layers.h"
+
 namespace alhazen {
+
+namespace {
+
+std::string lower_suffix(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
+}
+
+}  // namespace
+
+bool holds_layers(const std::filesystem::path& path) {
+    return lower_suffix(path) == ".exr";
+}
 
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const ShadingConventions& conventions, const PictureOptions& options) {
     check_image_suffix(path);
     const Encoding encoding = options.encoding.value_or(
         conventions.linear_output ? Encoding::LinearTruncated : Encoding::Srgb);
-    std::string suffix = path.extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string suffix = lower_suffix(path);
     const PixelBox& crop = film.crop();
     if (suffix == ".png") {
         write_png(path, encode(film.data(), crop.width(), crop.height(), encoding, options.bits),
                   options.metadata);
     } else if (suffix == ".jpg" || suffix == ".jpeg") {
         write_jpeg(path, encode(film.data(), crop.width(), crop.height(), encoding, 8));
+    } else if (options.layers != nullptr && holds_layers(path)) {
+        write_exr_layers(path, film, *options.layers,
+                         {.full_float = options.full_float, .metadata = options.metadata});
     } else {
         ImageWriteOptions write;
         write.full_float = options.full_float;

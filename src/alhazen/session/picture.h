@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "alhazen/imaging/film.h"
+#include "alhazen/imaging/film_layers.h"
 #include "alhazen/imaging/image_io.h"
 #include "alhazen/scene/scene.h"
 
@@ -15,7 +16,11 @@ struct PictureOptions {
     int bits = 8;
     bool full_float = false;
     ImageMetadata metadata;
+    const FilmLayers* layers = nullptr;  ///< written beside the colours where the suffix is .exr
 };
+
+/// True for the one format that holds layers.
+[[nodiscard]] bool holds_layers(const std::filesystem::path& path);
 
 /// Integer formats are encoded from the film's doubles, so that truncation is exact. Throws Error.
 void write_picture(const std::filesystem::path& path, const Film& film,

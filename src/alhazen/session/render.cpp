@@ -101,6 +101,15 @@ class TileReport {
 
 }  // namespace
 
+double free_aspect(const PictureSettings& picture, const RenderOptions& options) {
+    constexpr double kAspect = 4.0 / 3.0;
+    check_protocol(options);
+    const FrameSize frame = frame_size(picture, options, kAspect);
+    const bool both = (options.width && options.height) || options.protocol != Protocol::None ||
+                      (!options.width && !options.height && picture.width && picture.height);
+    return both ? static_cast<double>(frame.width) / frame.height : kAspect;
+}
+
 RenderResult render(const Scene& original, const PictureSettings& picture,
                     const RenderOptions& options) {
     check(options);
@@ -110,15 +119,17 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
     const double aspect = static_cast<double>(frame.width) / frame.height;
+    RenderResult result(Film(frame.width, frame.height,
+                             options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
+    AovFilm aovs(options.aovs, result.film.crop());
     const RenderJob job{.scene = scene,
                         .camera = with_aspect(camera.camera, camera.aspect, aspect),
                         .samples_per_pixel = options.samples_per_pixel,
                         .seed = options.seed,
-                        .count_tests = options.count_tests,
+                        .count_tests = options.count_tests || options.aovs.has_tests(),
                         .stop = options.stop,
-                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel)};
-    RenderResult result(Film(frame.width, frame.height,
-                             options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
+                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel),
+                        .aovs = options.aovs.empty() ? nullptr : &aovs};
 
     const std::vector<PixelBox> tiles = tiles_of(result.film.crop(), options.tile_size);
     std::vector<RayCounters> counters(tiles.size());
@@ -142,6 +153,7 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
     result.tiles_done = report.done();
     result.complete = result.tiles_done == result.tiles;
     for (const RayCounters& c : counters) result.counters += c;
+    result.layers = std::move(aovs.layers());
     return result;
 }
 

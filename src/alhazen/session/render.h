@@ -6,6 +6,7 @@
 
 #include "alhazen/base/progress.h"
 #include "alhazen/imaging/film.h"
+#include "alhazen/renderers/aov.h"
 #include "alhazen/renderers/ray_counters.h"
 #include "alhazen/scene/scene.h"
 
@@ -32,6 +33,7 @@ struct RenderOptions {
     std::uint64_t seed = 0;
     Protocol protocol = Protocol::None;
     bool count_tests = false;
+    AovSet aovs;  ///< layers to make besides the picture
     ProgressSink* progress = nullptr;
     const StopFlag* stop = nullptr;
 };
@@ -40,12 +42,17 @@ struct RenderResult {
     explicit RenderResult(Film film_) : film(std::move(film_)) {}
 
     Film film;
+    FilmLayers layers;
     RayCounters counters;
     double seconds = 0;
     int threads = 0;
     bool complete = true;  ///< false when it was stopped; tiles not done are black
     std::size_t tiles_done = 0, tiles = 0;
 };
+
+/// Width / height of a picture that is not told its camera's: that of the options, of the file, or
+/// 4 / 3.
+[[nodiscard]] double free_aspect(const PictureSettings& picture, const RenderOptions& options);
 
 /// Throws Error (Usage) for options that make no picture.
 [[nodiscard]] RenderResult render(const Scene& scene, const PictureSettings& picture,

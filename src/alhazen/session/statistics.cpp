@@ -46,6 +46,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
           {"primitive_hit", tests.primitive_hits},
           {"mailbox_saved", tests.mailbox_saved},
           {"node_visits", tests.node_visits}}},
+        {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
         {"memory",
          {{"accelerator_bytes", census.accelerator_bytes},

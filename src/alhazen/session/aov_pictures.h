@@ -1,0 +1,29 @@
+#pragma once
+/// The layers of a picture as PNG files for looking, one each, and the names behind their ids
+/// (docs/aovs.md).
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "alhazen/imaging/image_io.h"
+#include "alhazen/renderers/aov.h"
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen {
+
+/// OUT.NAME.png beside OUT.anything, in the order of the table.
+[[nodiscard]] std::vector<std::filesystem::path> aov_picture_paths(
+    const std::filesystem::path& output, const AovSet& wanted);
+
+/// Writes them, each with its scale in the text of the PNG, and returns a line about each. Throws
+/// Error (File).
+std::vector<std::string> write_aov_pictures(const std::filesystem::path& output,
+                                            const AovSet& wanted, const FilmLayers& layers,
+                                            const ImageMetadata& metadata);
+
+/// A JSON object from id to name for each wanted kind of id, under "alhazen.id.object" and so on;
+/// each ends after at most 64 KiB.
+[[nodiscard]] ImageMetadata id_names(const SceneDescription& description, const AovSet& wanted);
+
+}  // namespace alhazen
