@@ -1,0 +1,291 @@
+// Surfaces that are partly there, seen from one side, thin, absorbing or not lit.
+
+#include <gtest/gtest.h>
+
+#include "alhazen/renderers/local_shading.h"
+#include "alhazen/renderers/ray_casting.h"
+#include "alhazen/renderers/whitted.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+/// Colour of the middle of the picture; the camera looks along -z from (0, 0, 5).
+Rgb center(const Scene& scene, RayCounters& counters, const Renderer& renderer = Whitted{}) {
+    Film film(1, 1, {0, 0, 1, 1});
+    const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
+    renderer.render_tile(job, {0, 0, 1, 1}, film, counters);
+    return film.at(0, 0);
+}
+Rgb center(const Scene& scene, const Renderer& renderer = Whitted{}) {
+    RayCounters counters;
+    return center(scene, counters, renderer);
+}
+void expect_near(const Rgb& a, const Rgb& b, double tolerance = 1e-12) {
+    EXPECT_NEAR(a.r, b.r, tolerance);
+    EXPECT_NEAR(a.g, b.g, tolerance);
+    EXPECT_NEAR(a.b, b.b, tolerance);
+}
+Material glowing(const Rgb& color) {
+    Material m;
+    m.emission.color = color;
+    return m;
+}
+Material see_through(const Rgb& color, AlphaMode mode, double alpha) {
+    Material m = glowing(color);
+    m.alpha_mode = mode;
+    m.alpha.value = alpha;
+    return m;
+}
+Rectangle wall(double z) {
+    return {.corner = {-2, -2, z}, .edge_u = {4, 0, 0}, .edge_v = {0, 4, 0}};
+}
+/// Faces away from the camera.
+Rectangle turned_wall(double z) {
+    return {.corner = {-2, -2, z}, .edge_u = {0, 4, 0}, .edge_v = {4, 0, 0}};
+}
+
+TEST(Alpha, BlendedSurfacesCoverWhatIsBehindInTheirOrder) {
+    SceneMaker maker;
+    maker.add(wall(0), maker.material(see_through({1, 0, 0}, AlphaMode::Blend, 0.5)));
+    maker.add(wall(-1), maker.material(see_through({0, 1, 0}, AlphaMode::Blend, 0.25)));
+    maker.add(wall(-2), maker.material(glowing({0, 0, 1})));
+    const Scene scene = maker.compile();
+    RayCounters counters;
+    expect_near(center(scene, counters), {0.5, 0.125, 0.375});
+    EXPECT_EQ(counters[RayKind::Eye].cast, 1u);
+    EXPECT_EQ(counters[RayKind::Eye].hit, 1u);
+    expect_near(center(scene, RayCasting{}), {0.5, 0.125, 0.375});
+}
+
+TEST(Alpha, WhatIsMaskedOutIsNotThere) {
+    SceneMaker maker;
+    maker.description().picture.background = Rgb{0.25, 0.5, 0.75};
+    maker.add(wall(0), maker.material(see_through({1, 0, 0}, AlphaMode::Mask, 0.25)));
+    const Scene scene = maker.compile();
+    RayCounters counters;
+    expect_near(center(scene, counters), {0.25, 0.5, 0.75});
+    EXPECT_EQ(counters[RayKind::Eye].hit, 0u);
+    VisibleHit found;
+    EXPECT_FALSE(first_visible_hit(scene, eye_ray(scene.cameras[0].camera, 0.5, 0.5), {}, false,
+                                   nullptr, found));
+}
+
+TEST(Alpha, TheFirstVisibleHitKnowsItsDistanceFromTheEye) {
+    SceneMaker maker;
+    maker.add(wall(1), maker.material(see_through({1, 0, 0}, AlphaMode::Mask, 0)));
+    maker.add(wall(0), maker.material(see_through({1, 0, 0}, AlphaMode::Blend, 0.25)));
+    maker.add(wall(-2), maker.material(glowing({0, 0, 1})));
+    const Scene scene = maker.compile();
+    const Ray ray = eye_ray(scene.cameras[0].camera, 0.5, 0.5);
+    VisibleHit found;
+    ASSERT_TRUE(first_visible_hit(scene, ray, {}, false, nullptr, found));
+    EXPECT_NEAR(found.t, 5, 1e-9);
+    ASSERT_TRUE(first_visible_hit(scene, ray, {}, false, nullptr, found, 0.5));
+    EXPECT_NEAR(found.t, 7, 1e-9);
+    EXPECT_EQ(found.point.material.emission, (Rgb{0, 0, 1}));
+}
+
+TEST(Alpha, ManyInvisibleSurfacesEndSomewhere) {
+    SceneMaker maker;
+    const MaterialId nothing = maker.material(see_through({1, 0, 0}, AlphaMode::Blend, 0.0));
+    for (int i = 0; i < 100; ++i) maker.add(wall(-i), nothing);
+    maker.add(wall(-200), maker.material(glowing({0, 0, 1})));
+    expect_near(center(maker.compile()), {0, 0, 1});
+}
+
+/// A white floor lit from straight above, something between them, as the camera sees it.
+Rgb lit_behind(const Rectangle& between, const Material& m,
+               void (*change)(SceneDescription&) = nullptr) {
+    SceneMaker maker;
+    Material white;
+    white.diffuse.color = {1, 1, 1};
+    maker.add(wall(0), maker.material(white));
+    Rectangle aside = between;  // over the light's path, not over the camera's
+    aside.corner = aside.corner + Vec3{4, 0, 0};
+    maker.add(aside, maker.material(m));
+    maker.light(DirectionalLight{.to_light = normalize(Vec3{4, 0, 1})});
+    if (change != nullptr) change(maker.description());
+    const double cosine = 1 / std::sqrt(17.0);
+    return 1 / cosine * center(maker.compile());
+}
+
+TEST(Alpha, ShadowsAreAsThickAsTheSurface) {
+    expect_near(lit_behind(wall(1), glowing({0, 0, 0})), {0, 0, 0});
+    expect_near(lit_behind(wall(1), see_through({0, 0, 0}, AlphaMode::Blend, 0.25)),
+                {0.75, 0.75, 0.75});
+    expect_near(lit_behind(wall(1), see_through({0, 0, 0}, AlphaMode::Mask, 0.25)), {1, 1, 1});
+    expect_near(lit_behind(wall(1), see_through({0, 0, 0}, AlphaMode::Mask, 0.75)), {0, 0, 0});
+    Material tinted = see_through({0, 0, 0}, AlphaMode::Blend, 0.5);
+    tinted.transmissive.color = {1, 0.5, 0};
+    expect_near(lit_behind(wall(1), tinted), {1, 0.75, 0.5});
+}
+
+TEST(SingleSided, TheBackIsNotSeenButBlocksLight) {
+    Material front_only = glowing({1, 0, 0});
+    front_only.double_sided = false;
+    for (const bool turned : {false, true}) {
+        SceneMaker maker;
+        maker.add(turned ? turned_wall(0) : wall(0), maker.material(front_only));
+        maker.add(wall(-1), maker.material(glowing({0, 0, 1})));
+        const Rgb expected = turned ? Rgb{0, 0, 1} : Rgb{1, 0, 0};
+        expect_near(center(maker.compile()), expected);
+        expect_near(center(maker.compile(), RayCasting{}), expected);
+    }
+    expect_near(lit_behind(turned_wall(1), front_only), {0, 0, 0});
+    expect_near(lit_behind(wall(1), front_only), {0, 0, 0});
+}
+
+Material physical(double transmission, double thickness) {
+    Material m;
+    m.index.value = 1.5;
+    MetallicRoughness p;
+    p.metallic.value = 0;
+    p.roughness.value = 0;
+    p.transmission.value = transmission;
+    p.thickness.value = thickness;
+    m.metallic_roughness = p;
+    return m;
+}
+
+TEST(Unlit, ShowsItsColourWithoutLights) {
+    Material m = physical(0, 0);
+    m.metallic_roughness->unlit = true;
+    m.metallic_roughness->base_color.color = {0.25, 0.5, 2};
+    SceneMaker maker;
+    maker.add(wall(0), maker.material(m));
+    maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {9, 9, 9}});
+    const Scene scene = maker.compile();
+    RayCounters counters;
+    expect_near(center(scene, counters), {0.25, 0.5, 2});
+    EXPECT_EQ(counters[RayKind::Shadow].cast, 0u);
+    expect_near(center(scene, RayCasting{}), {0.25, 0.5, 2});
+    expect_near(lit_behind(wall(1), m), {0, 0, 0});
+}
+
+TEST(Transmission, AThinSheetLetsTheRayGoStraightOn) {
+    SceneMaker maker;
+    Material m = physical(1, 0);
+    m.metallic_roughness->base_color.color = {1, 0.5, 0.25};
+    maker.add(wall(0), maker.material(m), Affine::rotate({0, 1, 0}, 0.7));
+    maker.add(Sphere{.center = {0, 0, -3}, .radius = 0.05}, maker.material(glowing({1, 1, 1})));
+    // Fresnel by Schlick at 0.7 radians.
+    const double f = 0.04 + 0.96 * std::pow(1 - std::cos(0.7), 5);
+    expect_near(center(maker.compile()), {1 - f, 0.5 * (1 - f), 0.25 * (1 - f)}, 1e-9);
+}
+
+TEST(Transmission, LightFallsByTheLengthInsideAVolume) {
+    SceneMaker maker;
+    Material m = physical(1, 1);
+    m.double_sided = false;
+    m.metallic_roughness->attenuation_color = {0.5, 0.25, 1};
+    m.metallic_roughness->attenuation_distance = 2;
+    maker.add(BoxShape{{-1, -1, -2}, {1, 1, 2}}, maker.material(m));
+    maker.add(wall(-3), maker.material(glowing({1, 1, 1})));
+    maker.description().conventions.max_depth = 2;
+    // Four units inside: twice the distance; two surfaces pass 96 % each. One reflection inside is
+    // seen too: 0.96 of it leaves again towards nothing.
+    const double two = 0.96 * 0.96;
+    expect_near(center(maker.compile()), {two * 0.25, two * 0.0625, two}, 1e-9);
+}
+
+TEST(Transmission, ShadowsAreTintedAndAbsorbedOnce) {
+    // Light comes straight down through a slab of two units; the camera looks under it, aslant.
+    SceneMaker maker;
+    Material white;
+    white.diffuse.color = {1, 1, 1};
+    maker.add(wall(0), maker.material(white));
+    Material m = physical(1, 1);
+    m.metallic_roughness->attenuation_color = {0.5, 0.25, 1};
+    m.metallic_roughness->attenuation_distance = 2;
+    m.double_sided = false;
+    maker.add(BoxShape{{2, -2, 0.5}, {4, 2, 1.5}}, maker.material(m));
+    maker.light(DirectionalLight{.to_light = normalize(Vec3{3, 0, 1})});
+    // From (0,0,0): enters at x = 2 (z = 2/3), leaves at x = 4 (z = 4/3).
+    const double inside = 2 * std::sqrt(10.0) / 3;
+    const double cosine = 1 / std::sqrt(10.0);
+    const Rgb c = center(maker.compile());
+    EXPECT_NEAR(c.r, cosine * std::pow(0.5, inside / 2), 1e-9);
+    EXPECT_NEAR(c.g, cosine * std::pow(0.25, inside / 2), 1e-9);
+    EXPECT_NEAR(c.b, cosine, 1e-9);
+}
+
+TEST(VertexColors, MultiplyTheDiffuseAndTheAlpha) {
+    TriangleMesh mesh;
+    mesh.positions = {{-2, -2, 0}, {4, -2, 0}, {-2, 4, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.colors.assign(3, {0.5f, 0.25f, 1, 0.5f});
+    Material m;
+    m.diffuse.color = {1, 1, 0.5};
+    m.alpha_mode = AlphaMode::Blend;
+    SceneMaker maker;
+    maker.add(maker.mesh(mesh), maker.material(m));
+    maker.light(DirectionalLight{.to_light = {0, 0, 1}});
+    expect_near(center(maker.compile()), {0.25, 0.125, 0.25});
+}
+
+TEST(NormalMaps, BendTheLightAsTheSurfaceWouldLookTilted) {
+    // A texel that tilts by 45 degrees towards +v (green up), on a wall whose v runs along +y.
+    Image image(1, 1, 3);
+    const float half = float(0.5 + 0.5 * std::sqrt(0.5));
+    image.samples = {0.5f, half, half};
+    SceneMaker maker;
+    Texture texture;
+    texture.image = std::make_shared<const StoredImage>(stored(std::move(image)));
+    maker.description().textures.push_back({"", texture, {}});
+    Material m;
+    m.diffuse.color = {1, 1, 1};
+    m.normal_map.texture = TextureId{0};
+    maker.add(wall(0), maker.material(m));
+    maker.light(DirectionalLight{.to_light = normalize(Vec3{0, 1, 1})});
+    EXPECT_NEAR(center(maker.compile()).r, 1.0, 1e-6);
+    // Seen from behind, the same material bends the other way around: the normal is reversed.
+    SceneMaker behind;
+    behind.description().textures.push_back({"", texture, {}});
+    behind.add(Rectangle{.corner = {2, -2, 0}, .edge_u = {-4, 0, 0}, .edge_v = {0, 4, 0}},
+               behind.material(m));
+    behind.light(DirectionalLight{.to_light = normalize(Vec3{0, -1, 1})});
+    EXPECT_NEAR(center(behind.compile()).r, 1.0, 1e-6);
+}
+
+TEST(NormalMaps, AreTheSameOnAMirroredInstanceOfAMesh) {
+    // Tangents and coordinates must agree however the mesh is placed.
+    Image image(1, 1, 3);
+    image.samples = {0.9f, 0.7f, 0.8f};
+    Texture texture;
+    texture.image = std::make_shared<const StoredImage>(stored(std::move(image)));
+    for (const Vec3 scale : {Vec3{1, 1, 1}, {-1, 1, 1}, {1, -2, 1}, {1, 1, -1}}) {
+        for (const bool shared : {false, true}) {
+            Rgb seen[2];
+            for (const bool tangents : {false, true}) {
+                TriangleMesh mesh;
+                mesh.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
+                mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+                mesh.normals.assign(4, {0, 0, 1});
+                mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+                if (tangents) mesh.tangents.assign(4, {1, 0, 0, 1});
+                SceneMaker maker;
+                maker.description().textures.push_back({"", texture, {}});
+                Material m;
+                m.diffuse.color = {1, 1, 1};
+                m.normal_map.texture = TextureId{0};
+                const MaterialId id = maker.material(m);
+                const ObjectIndex owner = shared ? maker.object("o") : ObjectIndex{0};
+                maker.add(maker.mesh(mesh), id, shared ? Affine{} : Affine::scale(scale), owner);
+                if (shared) {
+                    maker.add(owner, id, Affine::scale(scale));
+                    maker.add(owner, id, Affine::translate({100, 0, 0}));
+                }
+                maker.light(DirectionalLight{.to_light = normalize(Vec3{0.3, 0.5, 1})});
+                seen[tangents] = center(maker.compile());
+            }
+            EXPECT_GT(seen[0].r, 0.1);
+            expect_near(seen[0], seen[1], 1e-6);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

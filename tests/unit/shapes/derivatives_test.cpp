@@ -1,0 +1,115 @@
+// dpdu and dpdv of every shape against differences of neighbouring points.
+
+#include <gtest/gtest.h>
+
+#include "alhazen/shapes/triangle_mesh.h"
+#include "support/random_shapes.h"
+
+namespace alhazen {
+namespace {
+
+using testing::line;
+using testing::Random;
+using testing::random_shape;
+using testing::ShapeSource;
+
+constexpr int kRoom = 8;  // for more hits than any shape may write
+
+template <class>
+struct AsTestTypes;
+template <Shape... S>
+struct AsTestTypes<ShapeTypes<S...>> {
+    using Type = ::testing::Types<S...>;
+};
+
+template <class S>
+class ShapeDerivatives : public ::testing::Test {};
+TYPED_TEST_SUITE(ShapeDerivatives, AsTestTypes<AnalyticShapes>::Type);
+
+/// u may jump by a turn.
+double shorter_turn(double difference) {
+    return difference - std::round(difference);
+}
+
+template <class S>
+Vec3 target_on(const S& shape, Random& random) {
+    const Box3 box = shape.box();
+    Vec3 p = random.in_cube(30);
+    for (int k = 0; k < 3; ++k) {
+        if (std::isfinite(box.lo[k])) p[k] = random.uniform(box.lo[k], box.hi[k]);
+    }
+    return p;
+}
+
+TYPED_TEST(ShapeDerivatives, PredictTheNextPoint) {
+    constexpr bool kPeriodic =
+        !std::is_same_v<TypeParam, Plane> && !std::is_same_v<TypeParam, Polygon>;
+    Random random(11);
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const TypeParam shape = random_shape<TypeParam>(ShapeSource{random, i % 4 == 3});
+        const Vec3 direction = random.unit_vector();
+        const Vec3 origin = target_on(shape, random) - 40.0 * direction;
+        ShapeHit hits[kRoom], next_hits[kRoom];
+        const Ray ray = line(origin, direction);
+        if (shape.intersect(ray, hits) == 0) continue;
+        const ShapeSurface a = shape.surface(ray, hits[0]);
+        // At grazing rays and close to a pole the next point is not close by.
+        if (std::abs(dot(a.normal, direction)) < 0.3) continue;
+        if (length(a.dpdu) < 0.02 * length(a.dpdv)) continue;
+        const double step = 1e-5 * std::fmin(length(a.dpdu), length(a.dpdv));
+        const Ray next = line(origin + step * random.unit_vector(), direction);
+        if (shape.intersect(next, next_hits) == 0 || next_hits[0].part != hits[0].part) continue;
+        const ShapeSurface b = shape.surface(next, next_hits[0]);
+        if (dot(a.normal, b.normal) < 0.99) continue;
+        const Vec3 moved = b.point - a.point;
+        if (length(moved) < 0.1 * step || length(moved) > 10 * step) continue;
+        const double du = kPeriodic ? shorter_turn(b.uv.x - a.uv.x) : b.uv.x - a.uv.x;
+        const Vec3 predicted = du * a.dpdu + (b.uv.y - a.uv.y) * a.dpdv;
+        ASSERT_LT(length(moved - predicted), 2e-3 * length(moved) + 1e-12 * length(a.point))
+            << "case " << i;
+        ++compared;
+    }
+    EXPECT_GT(compared, 300);
+}
+
+TEST(TriangleDerivatives, FollowTheTextureCoordinatesOfTheVertices) {
+    Random random(12);
+    TriangleMesh mesh;
+    mesh.triangles = {{0, 1, 2}};
+    for (int i = 0; i < 200; ++i) {
+        mesh.positions.clear();
+        mesh.uvs.clear();
+        for (int k = 0; k < 3; ++k) {
+            mesh.positions.push_back(random.in_cube(5));
+            mesh.uvs.push_back({random.uniform(-2, 2), random.uniform(-2, 2)});
+        }
+        const ShapeSurface a = mesh.surface(0, {1.0, 0.2, 0.3, 0});
+        const ShapeSurface b = mesh.surface(0, {1.0, 0.5, 0.1, 0});
+        const Vec3 predicted = (b.uv.x - a.uv.x) * a.dpdu + (b.uv.y - a.uv.y) * a.dpdv;
+        const double size = length(a.dpdu) + length(a.dpdv);
+        EXPECT_LT(length(b.point - a.point - predicted), 1e-11 * (1 + size)) << i;
+    }
+}
+
+TEST(TriangleDerivatives, AreZeroWhereTheCoordinatesDoNotTell) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.uvs = {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}};
+    const ShapeSurface s = mesh.surface(0, {1.0, 0.2, 0.3, 0});
+    EXPECT_EQ(s.dpdu, Vec3{});
+    EXPECT_EQ(s.dpdv, Vec3{});
+}
+
+TEST(TriangleDerivatives, WithoutCoordinatesAreThoseOfTheBarycentrics) {
+    TriangleMesh mesh;
+    mesh.positions = {{1, 1, 1}, {3, 1, 1}, {1, 4, 1}};
+    mesh.triangles = {{0, 1, 2}};
+    const ShapeSurface s = mesh.surface(0, {1.0, 0.2, 0.3, 0});
+    EXPECT_EQ(s.dpdu, (Vec3{2, 0, 0}));
+    EXPECT_EQ(s.dpdv, (Vec3{0, 3, 0}));
+}
+
+}  // namespace
+}  // namespace alhazen
