@@ -3,9 +3,13 @@
 #include <array>
 
 #include "alhazen/base/file.h"
+#include "alhazen/importers/gltf_importer.h"
 #include "alhazen/importers/native_importer.h"
 #include "alhazen/importers/nff_importer.h"
+#include "alhazen/importers/obj_importer.h"
+#include "alhazen/importers/ply_importer.h"
 #include "alhazen/importers/ray_importer.h"
+#include "alhazen/importers/stl_importer.h"
 #include "alhazen/importers/uw_yaml_importer.h"
 
 namespace alhazen {
@@ -15,7 +19,12 @@ std::span<const Importer* const> importers() {
     static const RayImporter ray;
     static const UwYamlImporter uw_yaml;
     static const NffImporter nff;
-    static const std::array<const Importer*, 4> table{&native, &ray, &uw_yaml, &nff};
+    static const GltfImporter gltf;
+    static const ObjImporter obj;
+    static const PlyImporter ply;
+    static const StlImporter stl;
+    static const std::array<const Importer*, 8> table{&native, &ray, &uw_yaml, &nff,
+                                                      &gltf,   &obj, &ply,     &stl};
     return table;
 }
 

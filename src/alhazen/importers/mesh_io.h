@@ -1,5 +1,5 @@
 #pragma once
-/// Mesh files that scenes refer to: PLY and OBJ as one TriangleMesh.
+/// Mesh files that scenes refer to: PLY, OBJ and STL as one TriangleMesh.
 
 #include <filesystem>
 
@@ -7,10 +7,11 @@
 
 namespace alhazen {
 
-/// Reads a PLY (ascii, both binary orders, any property order, polygons of any size) or OBJ file (geometry only,
-/// materials ignored) recognised by content. Findings go to `diagnostics` with file:line; the mesh is empty
-/// when it could not be read. Throws Error (File, Resource).
-[[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path, const ImportOptions& options,
-                                     Diagnostics& diagnostics);
+/// Reads a PLY (ascii, both binary orders, any property order, polygons of any size), OBJ (geometry
+/// only, materials ignored) or STL file (all solids as one), recognised by content. Findings go to
+/// `diagnostics` with file:line; the mesh is empty when it could not be read. Throws Error (File,
+/// Resource).
+[[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path,
+                                     const ImportOptions& options, Diagnostics& diagnostics);
 
 }  // namespace alhazen

@@ -203,7 +203,6 @@ TriangleMesh read_obj(std::string_view bytes, const std::string& file, const Imp
     std::vector<ObjPart> parts = PartMaker(statements, file, diagnostics).make(true);
     if (diagnostics.error_count() != errors_before) return {};
     if (parts.empty()) {
-        diagnostics.warning({file, 0, 0}, "the mesh has no faces");
         TriangleMesh points;
         points.positions = std::move(statements.positions);
         points.colors = std::move(statements.colors);

@@ -76,7 +76,11 @@ class HeaderReader {
             read_element(at);
         } else if (statement == "property") {
             read_property();
-        } else if (!statement.empty() && statement != "comment" && statement != "obj_info") {
+        } else if (statement == "comment") {
+            TextCursor comment = cursor_;
+            comment.skip_blanks();
+            header_.exact = header_.exact || comment.rest_of_line() == kPlyExact;
+        } else if (!statement.empty() && statement != "obj_info") {
             diagnostics_.warning(at, "the header line is no PLY statement and is ignored");
         }
     }

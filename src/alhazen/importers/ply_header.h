@@ -15,6 +15,9 @@
 
 namespace alhazen {
 
+/// A comment by which our own files say that their arrays are to be taken as they are.
+inline constexpr std::string_view kPlyExact = "alhazen exact";
+
 enum class PlyFormat { Ascii, LittleEndian, BigEndian };
 enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 
@@ -40,6 +43,7 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::Ascii;
     std::vector<PlyElement> elements;
+    bool exact = false;           ///< has the comment kPlyExact
     std::size_t body_offset = 0;  ///< bytes before the first item
     std::int64_t body_line = 1;   ///< its line
 };

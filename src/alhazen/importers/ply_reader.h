@@ -3,9 +3,10 @@
 ///
 /// Source: Turk, "The PLY Polygon File Format", Stanford, 1994.
 /// Differs: vertices and faces are read wherever they stand; other elements and properties are
-/// skipped. Conventions: x y z, nx ny nz and one of (u, v), (s, t), (texture_u, texture_v) of
-/// `vertex`; the list `vertex_indices` or `vertex_index` of `face`. Polygons are cut into triangles
-/// (triangulate.h).
+/// skipped.
+/// Conventions: the properties of `vertex` in ply_vertices.h; the list `vertex_indices` or
+/// `vertex_index` of `face` and of `tristrips`. Polygons are cut into triangles (triangulate.h). A
+/// file without faces gives a mesh without triangles.
 
 #include <string>
 #include <string_view>

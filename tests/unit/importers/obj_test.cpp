@@ -59,6 +59,69 @@ TEST(Obj, ACornerWithoutNormalAmongOthersGetsThatOfItsTriangles) {
     EXPECT_EQ(mesh.normals[mesh.triangles[1][0]], (Vec3{0, 0, 1}));
 }
 
+TEST(Obj, MissingNormalsAreSmoothedWithinAGroupAndFlatWithoutOne) {
+    // A roof: two squares that meet in the edge from vertex 2 to 3.
+    const std::string roof = "v 0 0 0\nv 1 0 1\nv 1 1 1\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
+    const auto normal_at_ridge = [&](const std::string& faces) {
+        Diagnostics found;
+        const TriangleMesh mesh = mesh_of(roof + faces, "a.obj", found);
+        EXPECT_EQ(text_of(found), "") << faces;
+        if (mesh.normals.empty()) return Vec3{};
+        return mesh.normals[mesh.triangles[0][1]];
+    };
+    const std::string left = "f 1 2 3 4\n", right = "f 2 5 6 3\n";
+    EXPECT_EQ(normal_at_ridge(left + right), (Vec3{}));
+    EXPECT_EQ(normal_at_ridge("s off\n" + left + right), (Vec3{}));
+    EXPECT_EQ(normal_at_ridge("s 1\n" + left + right), (Vec3{0, 0, 1}));
+    EXPECT_EQ(normal_at_ridge("s 7\n" + left + "g other\nusemtl m\n" + right), (Vec3{0, 0, 1}));
+    const double h = std::sqrt(0.5);
+    for (const char* between : {"s 2\n", "s off\n", "s 0\n"}) {
+        const Vec3 n = normal_at_ridge("s 1\n" + left + between + right);
+        EXPECT_LT(length(n - Vec3{-h, 0, h}), 1e-15) << between;
+    }
+}
+
+TEST(Obj, AFaceCountsByItsAreaWhereNormalsAreSmoothed) {
+    Diagnostics found;
+    // A flat quadrilateral of area 4 and an upright one of area 1 share the edge from 1 to 2.
+    const TriangleMesh mesh = mesh_of(
+        "v 0 0 0\nv 0 1 0\nv -4 1 0\nv -4 0 0\nv 0 1 1\nv 0 0 1\ns 1\nf 1 2 3 4\nf 2 1 6 5\n",
+        "a.obj", found);
+    ASSERT_FALSE(mesh.normals.empty()) << text_of(found);
+    const Vec3 n = mesh.normals[mesh.triangles[0][0]];
+    EXPECT_NEAR(std::abs(n.z / n.x), 4.0, 1e-12);
+}
+
+TEST(Obj, FlatAndSmoothFacesOfOneMeshKeepTheirOwnNormals) {
+    Diagnostics found;
+    const TriangleMesh mesh = mesh_of(
+        "v 0 0 0\nv 1 0 1\nv 1 1 1\nv 0 1 0\nv 2 0 0\nv 2 1 0\ns 1\nf 1 2 3 4\ns off\nf 2 5 6 3\n",
+        "a.obj", found);
+    EXPECT_EQ(mesh.positions.size(), 8u) << text_of(found);
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 flat = normalize(
+            cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+        EXPECT_LT(length(mesh.normals[a] - flat), 1e-15);
+    }
+}
+
+TEST(Obj, ColoursOfVerticesAreDecodedFromTheirDisplayValues) {
+    Diagnostics found;
+    const auto colors = [&](const std::string& v) {
+        return mesh_of(v + "v 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj", found).colors;
+    };
+    EXPECT_TRUE(colors("v 0 0 0\n").empty());
+    EXPECT_TRUE(colors("v 0 0 0 1\n").empty());
+    const auto half = colors("v 0 0 0 0.5 1 0\n");
+    ASSERT_EQ(half.size(), 3u) << text_of(found);
+    EXPECT_NEAR(half[0].r, 0.21404114, 1e-7);
+    EXPECT_EQ(half[0].g, 1.0f);
+    EXPECT_EQ(half[1], (VertexColor{1, 1, 1, 1}));
+    const auto bytes = colors("v 0 0 0 255 0 127.5\n");
+    EXPECT_EQ(bytes[0].r, 1.0f);
+    EXPECT_NEAR(bytes[0].b, 0.21404114, 1e-7);
+}
+
 TEST(Obj, FindingsNameLineAndColumn) {
     const auto finding = [](const std::string& text) {
         Diagnostics found;
@@ -214,8 +277,15 @@ TEST(MeshIo, FilesAreRecognisedByContentAndOthersRefused) {
               0u);
     EXPECT_EQ(good.error_count(), 0u) << text_of(good);
     Diagnostics bad;
+    triangles("a.off", "OFF\n3 1 0\n", bad);
+    EXPECT_TRUE(mentions(bad, "expected PLY, OBJ or STL")) << text_of(bad);
     triangles("a.stl", "solid stl\nfacet normal", bad);
-    EXPECT_TRUE(mentions(bad, "expected PLY or OBJ")) << text_of(bad);
+    EXPECT_TRUE(mentions(bad, "a.stl:2:13: error: facet 0: expected")) << text_of(bad);
+    for (const char* rubbish : {"", " \n\t", "MZ\x90\0\3", "hello world\nthis is a letter\n"}) {
+        Diagnostics found;
+        EXPECT_EQ(triangles("c.obj", rubbish, found), 0u);
+        EXPECT_GT(found.error_count(), 0u) << rubbish;
+    }
     triangles("b.obj", "\xFF\xFEv\0", bad);
     EXPECT_TRUE(mentions(bad, "UTF-16")) << text_of(bad);
     try {

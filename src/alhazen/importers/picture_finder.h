@@ -1,0 +1,33 @@
+#pragma once
+/// Finds files by names that were written on another machine: with backslashes, with other
+/// capitals, in folders that are not here.
+///
+/// Conventions: tried are, in this order, the name as it is (backslashes as slashes), the same
+/// whatever its capitals, and its last part beside the scene file, also whatever its capitals.
+/// Nothing outside `root` is looked at.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace alhazen {
+
+class PictureFinder {
+  public:
+    PictureFinder(std::filesystem::path root, std::filesystem::path folder)
+        : root_(std::move(root)), folder_(std::move(folder)) {}
+
+    /// A name relative to the folder under which the file exists, or nothing.
+    [[nodiscard]] std::optional<std::string> find(const std::string& name);
+
+  private:
+    std::optional<std::string> exact(const std::string& name) const;
+    std::optional<std::string> with_other_capitals(const std::string& name);
+
+    std::filesystem::path root_, folder_;
+    /// Lower-case name -> name of the files in a folder; folders that were looked at.
+    std::map<std::filesystem::path, std::map<std::string, std::string>> listings_;
+};
+
+}  // namespace alhazen
