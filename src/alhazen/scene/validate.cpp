@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "alhazen/scene/scene_description.h"
+#include "alhazen/scene/validate_materials.h"
 
 namespace alhazen {
 
@@ -20,8 +21,7 @@ class Validator {
     void run() {
         check_cameras();
         check_lights();
-        check_materials();
-        check_textures();
+        validate_materials(d_, out_);
         for (const MeshDescription& mesh : d_.meshes) check_mesh(mesh);
         for (const ObjectDescription& object : d_.objects) {
             for (const Part& part : object.parts) check_part(part);
@@ -100,55 +100,6 @@ class Validator {
                     }
                 },
                 light.light);
-        }
-    }
-
-    void check_materials() {
-        for (const MaterialDescription& description : d_.materials) {
-            const Material& m = description.material;
-            const auto color = [&](const ColorInput& input, const char* what) {
-                check_texture_id(input.texture, description.location, what);
-                if (!finite(input.color)) {
-                    error(description.location,
-                          fmt::format("{} of material '{}' must be finite", what, m.name));
-                }
-            };
-            color(m.emission, "emission");
-            color(m.ambient, "ambient");
-            color(m.diffuse, "diffuse");
-            color(m.specular, "specular");
-            color(m.reflective, "reflective");
-            color(m.transmissive, "transmissive");
-            check_texture_id(m.shininess.texture, description.location, "shininess");
-            check_texture_id(m.index.texture, description.location, "index");
-            if (!std::isfinite(m.shininess.value) || m.shininess.value < 0) {
-                error(description.location,
-                      fmt::format(
-                          "shininess of material '{}' must be finite and not negative, found {}",
-                          m.name, m.shininess.value));
-            }
-            if (!std::isfinite(m.index.value) || m.index.value < 0) {
-                error(description.location,
-                      fmt::format("index of refraction of material '{}' must be finite and not "
-                                  "negative, found {}",
-                                  m.name, m.index.value));
-            }
-        }
-    }
-
-    void check_texture_id(TextureId id, const FileLocation& where, const char* what) {
-        if (id != kNoTexture && static_cast<std::uint32_t>(id) >= d_.textures.size()) {
-            error(where, fmt::format("{} refers to texture {} of {}", what,
-                                     static_cast<std::uint32_t>(id), d_.textures.size()));
-        }
-    }
-
-    void check_textures() {
-        for (const TextureDescription& texture : d_.textures) {
-            const auto& image = texture.texture.image;
-            if (!image || image->width <= 0 || image->height <= 0) {
-                error(texture.location, fmt::format("texture '{}' has no image", texture.name));
-            }
         }
     }
 

@@ -91,5 +91,34 @@ TEST(Validate, CamerasThatCannotMakeAPictureAreErrors) {
     EXPECT_EQ(errors_in(maker.description()), 1u);
 }
 
+TEST(Validate, EveryPartOfAMaterialAndATextureIsLookedAt) {
+    const double inf = std::numeric_limits<double>::infinity();
+    const TextureId missing{7};
+    const auto errors_with = [](auto change) {
+        SceneMaker maker = good_scene();
+        Material& m = maker.description().materials[0].material;
+        m.metallic_roughness = MetallicRoughness{};
+        change(m, *m.metallic_roughness);
+        return errors_in(maker.description());
+    };
+    EXPECT_EQ(errors_with([](auto&, auto&) {}), 0u);
+    EXPECT_EQ(errors_with([&](auto& m, auto&) { m.alpha.texture = missing; }), 1u);
+    EXPECT_EQ(errors_with([&](auto& m, auto&) { m.normal_map = {missing, kNan}; }), 2u);
+    EXPECT_EQ(errors_with([&](auto& m, auto&) { m.alpha_cutoff = kNan; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.base_color.texture = missing; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.roughness.value = -1; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.thickness = {inf, missing, {}}; }), 2u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = 0; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = inf; }), 0u);
+
+    SceneMaker maker = good_scene();
+    Texture texture;
+    texture.image = std::make_shared<const StoredImage>(stored(Image(1, 1, 1)));
+    texture.uv_set = 2;
+    texture.uv_transform.uu = kNan;
+    maker.description().textures.push_back({"t", texture, {}});
+    EXPECT_EQ(errors_in(maker.description()), 2u);
+}
+
 }  // namespace
 }  // namespace alhazen
