@@ -1,5 +1,8 @@
 // Images: what their bytes say they are.
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <set>
 
 #include "alhazen/base/file.h"
 #include "alhazen/importers/gltf_readers.h"
@@ -24,10 +27,14 @@ std::string media_type_of(std::string_view bytes) {
     return "";
 }
 
+/// Of a larger picture only so much is looked at; where that does not tell, decoding it will.
+constexpr std::size_t kHeadBytes = std::size_t{1} << 20;
+
 /// Walks the segments up to the one with the picture's size: why that fails, or nothing.
 std::string jpeg_refusal(std::string_view bytes) {
+    constexpr int kMaxSegments = 10'000;
     std::size_t position = 2;
-    while (true) {
+    for (int segment = 0; segment < kMaxSegments; ++segment) {
         if (bytes.size() - position < 4) return "the JPEG data ends within its header";
         if (byte_at(bytes, position) != 0xFF) return "malformed JPEG data";
         const unsigned marker = byte_at(bytes, position + 1);
@@ -45,6 +52,7 @@ std::string jpeg_refusal(std::string_view bytes) {
         if (marker == 0xD9 || marker == 0xDA) return "the JPEG data has no frame";
         position += 2 + length;
     }
+    return "";
 }
 
 std::string png_refusal(std::string_view bytes) {
@@ -65,38 +73,57 @@ void check_bytes(const Loading& loading, const Image& image, const std::string& 
         loading.error(place, "the image is " + type + ", declared is " + image.mime_type);
         return;
     }
-    const std::string refusal = type == "image/png"    ? png_refusal(bytes)
-                                : type == "image/jpeg" ? jpeg_refusal(bytes)
-                                                       : "";
+    const std::string refusal = bytes.size() == kHeadBytes ? ""
+                                : type == "image/png"      ? png_refusal(bytes)
+                                : type == "image/jpeg"     ? jpeg_refusal(bytes)
+                                                           : "";
     if (!refusal.empty()) loading.error(place, refusal);
+}
+
+/// The beginning of a regular file.
+std::string head_of(const std::filesystem::path& path) {
+    // Nothing that opening would wait for, as a FIFO.
+    if (!std::filesystem::is_regular_file(path)) {
+        throw Error(ErrorKind::File, path.string() + ": there is no such file");
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes(kHeadBytes, '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return bytes;
+}
+
+void check_file(const Loading& loading, const Image& image, const std::string& place) {
+    try {
+        const auto path = resolve_inside(loading.root, loading.folder, image.uri);
+        check_bytes(loading, image, place, head_of(path));
+    } catch (const Error& error) {
+        loading.error(place + "/uri", error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+        loading.error(place + "/uri", error.what());
+    }
 }
 
 }  // namespace
 
 void check_images(const Loading& loading) {
     const Document& document = loading.document;
+    std::set<std::string> checked;  // a file that many images name need not be read for each
     for (std::size_t i = 0; i < document.images.size(); ++i) {
         const Image& image = document.images[i];
         const std::string place = pointer_to("images", i);
         if (!image.data.empty()) {
-            check_bytes(loading, image, place, image.data);
+            check_bytes(loading, image, place, std::string_view(image.data).substr(0, kHeadBytes));
         } else if (image.view) {
             const BufferView& view = document.views[*image.view];
             const std::size_t size = document.buffers[view.buffer].bytes.size();
             // A view that leaves its buffer was reported already.
             if (view.offset <= size && view.length <= size - view.offset) {
-                check_bytes(loading, image, place, bytes_of(document, view));
+                check_bytes(loading, image, place, bytes_of(document, view).substr(0, kHeadBytes));
             }
             if (view.stride != 0) loading.error(place, "the buffer view must not have a stride");
-        } else {
-            try {
-                const auto path = resolve_inside(loading.root, loading.folder, image.uri);
-                check_bytes(loading, image, place,
-                            read_file(path, loading.source.options.max_included_bytes));
-            } catch (const Error& error) {
-                if (error.kind() == ErrorKind::Resource) throw;
-                loading.error(place + "/uri", error.what());
-            }
+        } else if (checked.insert(image.uri).second) {
+            check_file(loading, image, place);
         }
     }
 }

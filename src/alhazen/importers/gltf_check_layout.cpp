@@ -1,4 +1,6 @@
 // Views lie in their buffers, accessors in their views, sparse indices ascend.
+#include <algorithm>
+
 #include "alhazen/importers/gltf_accessors.h"
 #include "alhazen/importers/gltf_readers.h"
 
@@ -37,17 +39,17 @@ class LayoutChecker {
         const Accessor& accessor = document_.accessors[position];
         const std::string place = pointer_to("accessors", position);
         const ElementLayout layout = layout_of(accessor.component, accessor.type);
-        limit_numbers(accessor, place);
         if (!accessor.view) {
             limit_zeros(accessor, place);
-        } else {
-            range(accessor, layout, place);
+        } else if (range(accessor, layout, place)) {
+            limit_numbers(accessor, place);
         }
         if (accessor.sparse) sparse(accessor, layout, place + "/sparse");
     }
 
   private:
-    void range(const Accessor& accessor, const ElementLayout& layout,
+    /// Whether the elements lie in the view.
+    bool range(const Accessor& accessor, const ElementLayout& layout,
                const std::string& place) const {
         const BufferView& view = document_.views[*accessor.view];
         const std::uint64_t stride = view.stride != 0 ? view.stride : layout.packed;
@@ -60,18 +62,20 @@ class LayoutChecker {
                                       std::to_string(accessor.offset) +
                                       " do not fit into the buffer view of " +
                                       std::to_string(view.length) + " bytes");
-            return;
+            return false;
         }
         const std::size_t unit = layout.columns > 1 ? 4 : layout.component;
         if ((view.offset + accessor.offset) % layout.component != 0 ||
             accessor.offset % unit != 0 || stride % layout.component != 0) {
             loading_.error(place, "byteOffset must be a multiple of " + std::to_string(unit));
         }
+        return true;
     }
 
     /// Accessors may overlap, so that a small file could speak of endless work.
     void limit_numbers(const Accessor& accessor, const std::string& place) {
-        const std::uint64_t most = loading_.source.options.max_elements * kNumbersPerElement;
+        const std::uint64_t most =
+            kNumbersPerElement * std::min(loading_.source.options.max_elements, kMostElements);
         const std::uint64_t n = component_count(accessor.type);
         if (accessor.count <= most / n && numbers_ + accessor.count * n <= most) {
             numbers_ += accessor.count * n;
@@ -150,6 +154,8 @@ class LayoutChecker {
     // What the limit of elements means here: by default 1.6 * 10^9 numbers, 25 million of them
     // zeros.
     static constexpr std::uint64_t kNumbersPerElement = 4, kElementsPerZero = 16;
+
+    static constexpr std::uint64_t kMostElements = std::uint64_t{1} << 60;  // so that 4 fit
 
     const Loading& loading_;
     const Document& document_;
