@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace alhazen {
 
@@ -28,6 +29,16 @@ bool continues_word(char c) {
 }
 bool continues_number(char c) {
     return is_letter(c) || starts_number(c);
+}
+bool ends_string(char c) {
+    return c == '"' || c == '\n' || c == '\r';
+}
+/// 0 to 15, or -1.
+int hex_digit(char c) {
+    if (is_digit(c)) return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
 }
 bool starts_token(char c) {
     return is_letter(c) || starts_number(c) || c == '"' || c == '/' ||
@@ -88,6 +99,32 @@ std::string printable(std::string_view text) {
         }
     }
     if (text.size() > kLongest) out += "...";
+    return out;
+}
+
+std::optional<std::string> unescaped(std::string_view text) {
+    static constexpr std::pair<char, char> kEscapes[] = {
+        {'"', '"'}, {'\\', '\\'}, {'n', '\n'}, {'r', '\r'}, {'t', '\t'}};
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '\\') {
+            out += text[i];
+            continue;
+        }
+        if (++i == text.size()) return std::nullopt;
+        const auto* const simple =
+            std::find_if(std::begin(kEscapes), std::end(kEscapes),
+                         [&](const auto& escape) { return escape.first == text[i]; });
+        if (simple != std::end(kEscapes)) {
+            out += simple->second;
+            continue;
+        }
+        if (text[i] != 'x' || i + 2 >= text.size()) return std::nullopt;
+        const int high = hex_digit(text[i + 1]), low = hex_digit(text[i + 2]);
+        if (high < 0 || low < 0) return std::nullopt;
+        out += static_cast<char>(high * 16 + low);
+        i += 2;
+    }
     return out;
 }
 
@@ -154,7 +191,12 @@ Token Lexer::word() {
 
 Token Lexer::string() {
     const std::size_t first = at_++;
-    const std::size_t end = std::min(text_.find_first_of("\"\n\r", at_), text_.size());
+    std::size_t end = at_;
+    while (end < text_.size() && !ends_string(text_[end])) {
+        const bool escape = string_escapes_ && text_[end] == '\\' && end + 1 < text_.size() &&
+                            text_[end + 1] != '\n' && text_[end + 1] != '\r';
+        end += escape ? 2 : 1;
+    }
     Token token{.kind = TokenKind::String,
                 .offset = static_cast<std::uint32_t>(first),
                 .text = text_.substr(at_, end - at_)};

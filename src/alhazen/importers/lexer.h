@@ -8,6 +8,7 @@
 /// that a parser need not report them again.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,7 +38,7 @@ enum class TokenKind { Word, String, Number, Punctuation, End };
 struct Token {
     TokenKind kind = TokenKind::End;
     std::uint32_t offset = 0;
-    std::string_view text;  ///< of a string, without its quotes
+    std::string_view text;  ///< of a string, without its quotes; escapes as they are written
     double number = 0;      ///< always finite
     bool damaged = false;   ///< already reported; the value is a stand-in
 
@@ -51,10 +52,19 @@ struct Token {
 /// `text` with unprintable bytes as \xNN, cut to a length that fits a message.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// The bytes that a string with escapes means: \" \\ \n \r \t and \xHH, one byte by its two hex
+/// digits. Nothing when there is another escape.
+[[nodiscard]] std::optional<std::string> unescaped(std::string_view text);
+
 class Lexer {
   public:
-    Lexer(const SourceText& source, Diagnostics& diagnostics)
-        : source_(source), text_(source.bytes()), diagnostics_(diagnostics) {}
+    /// With `string_escapes` a backslash in a string takes the next character with it; the old
+    /// formats have none.
+    Lexer(const SourceText& source, Diagnostics& diagnostics, bool string_escapes = false)
+        : source_(source),
+          text_(source.bytes()),
+          diagnostics_(diagnostics),
+          string_escapes_(string_escapes) {}
 
     /// The next token; End for ever after the last one.
     [[nodiscard]] Token next();
@@ -71,6 +81,7 @@ class Lexer {
     const SourceText& source_;
     std::string_view text_;
     Diagnostics& diagnostics_;
+    bool string_escapes_;
     std::size_t at_ = 0;
 };
 

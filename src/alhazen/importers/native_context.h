@@ -26,7 +26,10 @@ struct NativeContext {
     // Names defined so far; a name must be defined before it is used.
     std::map<std::string, MaterialId, std::less<>> material_names;
     std::map<std::string, TextureId, std::less<>> texture_names;
+    std::map<std::string, MeshIndex, std::less<>> geometry_names;
     std::map<std::string, ObjectIndex, std::less<>> object_names;
+    /// Objects that have a number and no definition yet, and where they are listed.
+    std::map<std::string, FileLocation, std::less<>> listed_objects;
     std::optional<MaterialId> built_in_material;
 
     std::vector<std::size_t> cameras_without_aspect;  ///< they take that of the picture
@@ -52,6 +55,11 @@ struct NativeScope {
     int nesting = 0;                     ///< objects and groups around, through all included files
 
     [[nodiscard]] bool top_level() const { return nesting == 0; }
+    /// Where a transform that is written here leads. One that stands alone is kept bit for bit:
+    /// multiplication by the identity turns -0 into 0.
+    [[nodiscard]] Affine placed(const Affine& here_from_part) const {
+        return object_from_here == Affine{} ? here_from_part : object_from_here * here_from_part;
+    }
 };
 
 /// `type "name" { ... }`, taken apart.

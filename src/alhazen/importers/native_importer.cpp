@@ -1,6 +1,7 @@
 #include "alhazen/importers/native_importer.h"
 
 #include "alhazen/importers/native_include.h"
+#include "alhazen/importers/native_objects.h"
 #include "alhazen/importers/native_parts.h"
 #include "alhazen/importers/native_settings.h"
 #include "alhazen/importers/native_view.h"
@@ -33,16 +34,19 @@ SceneDescription NativeImporter::import(const ImportSource& source,
     scene.conventions = native_conventions();
     scene.objects.push_back({"scene", {}, {source.path.string(), 1, 1}});
     const SourceText text(source.bytes, source.path.string());
-    const TextTree tree(
-        text, {.max_nesting = source.options.max_nesting, .max_nodes = source.options.max_elements},
-        diagnostics);
+    const TextTree tree(text,
+                        {.max_nesting = source.options.max_nesting,
+                         .max_nodes = source.options.max_elements,
+                         .string_escapes = true},
+                        diagnostics);
     if (!check_native_header(tree.root(), text.location(0), diagnostics)) return scene;
     NativeContext context(scene, diagnostics, source.options);
     context.open_files.push_back(file_identity(std::filesystem::absolute(source.path)));
     std::vector<Part> parts;
     NativeScope scope{parts, {}, std::nullopt, folder_of(source.path)};
     read_native_items(tree.root(), context, scope, 1);
-    scene.objects.front().parts = std::move(parts);
+    scene.objects[static_cast<std::size_t>(scene.root)].parts = std::move(parts);
+    check_listed_objects(context);
     complete_cameras(context);
     return scene;
 }

@@ -80,10 +80,11 @@ void read_native_include(TextNode entry, NativeContext& context, NativeScope& sc
     const std::optional<std::string> bytes = read_bytes(entry.first(), context, scope, path);
     if (!bytes) return;
     const SourceText text(*bytes, path.string());
-    const TextTree tree(
-        text,
-        {.max_nesting = context.options.max_nesting, .max_nodes = context.options.max_elements},
-        context.diagnostics);
+    const TextTree tree(text,
+                        {.max_nesting = context.options.max_nesting,
+                         .max_nodes = context.options.max_elements,
+                         .string_escapes = true},
+                        context.diagnostics);
     if (!check_native_header(tree.root(), text.location(0), context.diagnostics)) return;
     context.open_files.push_back(file_identity(path));
     NativeScope inner = scope;

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "alhazen/base/file.h"
-#include "alhazen/importers/mesh_io.h"
-#include "alhazen/importers/mesh_lists.h"
 #include "alhazen/importers/native_include.h"
 #include "alhazen/importers/native_materials.h"
+#include "alhazen/importers/native_meshes.h"
+#include "alhazen/importers/native_objects.h"
 #include "alhazen/importers/native_settings.h"
 #include "alhazen/importers/native_shapes.h"
 #include "alhazen/importers/native_transform.h"
@@ -21,7 +20,7 @@ Part placed_part(BlockReader& reader, const NativeBlock& block, const NativeScop
     Part part;
     part.name = block.name;
     part.location = block.location;
-    part.object_from_part = scope.object_from_here * read_native_transform(reader);
+    part.object_from_part = scope.placed(read_native_transform(reader));
     return part;
 }
 
@@ -35,62 +34,15 @@ void read_shape(const NativeBlock& block, NativeContext& context, NativeScope& s
     scope.parts.push_back(std::move(part));
 }
 
-// Meshes.
-
-void read_inline_mesh(BlockReader& reader, TriangleMesh& mesh) {
-    reader.require("points");
-    reader.require("faces");
-    const auto points = reader.find("points"), faces = reader.find("faces");
-    const auto normals = reader.find("normals"), uvs = reader.find("uvs");
-    if (!points || !read_points(*points, "points", reader.values(), mesh)) return;
-    if (faces) read_faces(*faces, "faces", reader.values(), mesh);
-    if (normals) read_normals(*normals, "normals", reader.values(), mesh);
-    if (uvs) read_uvs(*uvs, "uvs", reader.values(), mesh);
-}
-
-void read_mesh_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
-                    TriangleMesh& mesh) {
-    std::string file;
-    if (!reader.read("file", file)) return;
-    try {
-        mesh = read_mesh(resolve_inside(context.root, scope.folder, file), context.options,
-                         context.diagnostics);
-    } catch (const Error& error) {
-        if (error.kind() == ErrorKind::Resource) throw;
-        reader.error(*reader.find("file"), error.what());
-    }
-}
-
-void read_vertex_materials(BlockReader& reader, NativeContext& context, TriangleMesh& mesh) {
-    const auto list = reader.find("vertex_materials");
-    if (!list || !reader.values().is_list(*list, "vertex_materials")) return;
-    if (!has_one_per_vertex(*list, "vertex_materials", mesh.positions.size(), reader.values())) {
-        return;
-    }
-    for (const TextNode value : *list) {
-        const MaterialId id = read_material_value(value, context).value_or(MaterialId{0});
-        mesh.vertex_materials.push_back(static_cast<std::uint32_t>(id));
-    }
-}
-
-void read_mesh_block(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+void read_mesh_part(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
     BlockReader reader = context.reader(*block.block, block.type);
-    auto mesh = std::make_shared<TriangleMesh>();
-    bool smooth = false;
     Part part = placed_part(reader, block, scope);
-    reader.ignore("file");
-    if (reader.has("file")) {
-        read_mesh_file(reader, context, scope, *mesh);
-    } else {
-        read_inline_mesh(reader, *mesh);
-    }
-    read_vertex_materials(reader, context, *mesh);
-    if (reader.read("smooth", smooth) && smooth) mesh->generate_normals();
+    const std::optional<MeshIndex> mesh = read_native_mesh(reader, block, context, scope);
     part.material = read_part_material(reader, context, scope);
     reader.finish();
-    context.count_elements(mesh->positions.size() + mesh->triangles.size() + 1, block.location);
-    context.scene.meshes.push_back({block.name, std::move(mesh), block.location});
-    part.what = static_cast<MeshIndex>(context.scene.meshes.size() - 1);
+    if (!mesh) return;
+    context.count_elements(1, block.location);
+    part.what = *mesh;
     scope.parts.push_back(std::move(part));
 }
 
@@ -98,58 +50,13 @@ void read_mesh_block(const NativeBlock& block, NativeContext& context, NativeSco
 
 void read_group(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
     BlockReader reader = context.reader(*block.block, block.type);
-    NativeScope inner{scope.parts, scope.object_from_here * read_native_transform(reader),
-                      scope.material, scope.folder, scope.nesting + 1};
+    NativeScope inner{scope.parts, scope.placed(read_native_transform(reader)), scope.material,
+                      scope.folder, scope.nesting + 1};
     if (const auto value = reader.find("material")) {
         if (const auto id = read_material_value(*value, context)) inner.material = id;
     }
     reader.finish(true);
     read_native_items(*block.block, context, inner);
-}
-
-void read_object(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
-    if (block.name.empty()) {
-        context.diagnostics.error(block.location,
-                                  "object: expected a name, as in object \"chair\" { }");
-    }
-    BlockReader reader = context.reader(*block.block, block.type);
-    ObjectDescription object{block.name, {}, block.location};
-    NativeScope inner{object.parts, {}, scope.material, scope.folder, scope.nesting + 1};
-    if (const auto value = reader.find("material")) {
-        if (const auto id = read_material_value(*value, context)) inner.material = id;
-    }
-    reader.finish(true);
-    read_native_items(*block.block, context, inner);
-    context.scene.objects.push_back(std::move(object));
-    const auto index = static_cast<ObjectIndex>(context.scene.objects.size() - 1);
-    if (!block.name.empty()) {
-        define_name(block.name, index, "object", block.location, context.object_names,
-                    context.diagnostics);
-    }
-}
-
-/// `instance "object" { transform = ... }` or `instance "object";`
-void read_instance(TextNode entry, NativeContext& context, NativeScope& scope) {
-    if (entry.empty() || !entry.first().is(NodeKind::String)) {
-        context.diagnostics.error(entry.location(),
-                                  "instance: expected the name of an object, as in instance "
-                                  "\"chair\" { }");
-        return;
-    }
-    const auto object = look_up(entry.first(), "object", context.object_names, context.diagnostics);
-    Part part;
-    part.object_from_part = scope.object_from_here;
-    part.location = entry.location();
-    if (entry.size() == 2) {
-        BlockReader reader = context.reader(*++entry.begin(), "instance");
-        part.object_from_part = scope.object_from_here * read_native_transform(reader);
-        reader.read("name", part.name);
-        reader.finish();
-    }
-    if (!object) return;
-    part.what = *object;
-    context.count_elements(1, part.location);
-    scope.parts.push_back(std::move(part));
 }
 
 void read_defaults(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
@@ -169,6 +76,7 @@ constexpr std::pair<std::string_view, ReadTop> kTopLevelBlocks[] = {
     {"perspective_camera", read_perspective_camera},
     {"sheared_camera", read_sheared_camera},
     {"orthographic_camera", read_orthographic_camera},
+    {"sheared_orthographic_camera", read_sheared_orthographic_camera},
     {"ambient_light", read_ambient_light},
     {"directional_light", read_directional_light},
     {"point_light", read_point_light},
@@ -177,9 +85,11 @@ constexpr std::pair<std::string_view, ReadTop> kTopLevelBlocks[] = {
 
 using ReadPart = void (*)(const NativeBlock&, NativeContext&, NativeScope&);
 constexpr std::pair<std::string_view, ReadPart> kPartBlocks[] = {
-    {"mesh", read_mesh_block},
+    {"geometry", read_native_geometry},
+    {"mesh", read_mesh_part},
     {"group", read_group},
-    {"object", read_object},
+    {"objects", read_native_object_list},
+    {"object", read_native_object},
     {"defaults", read_defaults},
 };
 
@@ -210,7 +120,7 @@ bool read_top_level_block(const NativeBlock& block, NativeContext& context,
 
 void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
     if (entry.text() == "include") return read_native_include(entry, context, scope);
-    if (entry.text() == "instance") return read_instance(entry, context, scope);
+    if (entry.text() == "instance") return read_native_instance(entry, context, scope);
     const NativeBlock block = take_apart(entry, context.diagnostics);
     if (block.block && block.block->broken()) return;
     if (read_top_level_block(block, context, scope)) return;

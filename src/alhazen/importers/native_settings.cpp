@@ -1,5 +1,8 @@
 #include "alhazen/importers/native_settings.h"
 
+#include "alhazen/importers/native_materials.h"
+#include "alhazen/importers/native_words.h"
+
 namespace alhazen {
 
 namespace {
@@ -24,7 +27,11 @@ void read_picture(const NativeBlock& block, NativeContext& context) {
     read_pixels(reader, "width", picture.width);
     read_pixels(reader, "height", picture.height);
     Rgb background;
-    if (reader.read("background", background)) picture.background = background;
+    const auto color = reader.find("background");
+    if (color && read_native_color(*color, "background", reader.values(), background)) {
+        picture.background = background;
+    }
+    reader.read_word("up_axis", native_words<UpAxis>(), context.scene.up_axis);
     reader.finish();
 }
 
@@ -39,29 +46,13 @@ ShadingConventions native_conventions() {
 
 void read_conventions(const NativeBlock& block, NativeContext& context) {
     using C = ShadingConventions;
-    static const Vocabulary<C::Highlight> kHighlights{{"phong", C::Highlight::Phong},
-                                                      {"blinn_phong", C::Highlight::BlinnPhong}};
-    static const Vocabulary<C::ShadowTint> kShadowTints{
-        {"per_crossing", C::ShadowTint::PerCrossing},
-        {"per_distance", C::ShadowTint::PerDistance},
-        {"opaque", C::ShadowTint::Opaque},
-        {"none", C::ShadowTint::None}};
-    static const Vocabulary<C::RefractionTint> kRefractionTints{
-        {"per_event", C::RefractionTint::PerEvent},
-        {"per_distance", C::RefractionTint::PerDistance}};
-    static const Vocabulary<C::AmbientFactor> kAmbientFactors{
-        {"ambient", C::AmbientFactor::Ambient}, {"diffuse", C::AmbientFactor::Diffuse}};
-    static const Vocabulary<C::PixelSample> kPixelSamples{
-        {"center", C::PixelSample::Center},
-        {"lower_left_corner", C::PixelSample::LowerLeftCorner},
-        {"frame_corners", C::PixelSample::FrameCorners}};
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);
     C& c = context.scene.conventions;
-    reader.read_word("highlight", kHighlights, c.highlight);
-    reader.read_word("shadow_tint", kShadowTints, c.shadow_tint);
-    reader.read_word("refraction_tint", kRefractionTints, c.refraction_tint);
-    reader.read_word("ambient_factor", kAmbientFactors, c.ambient_factor);
+    reader.read_word("highlight", native_words<C::Highlight>(), c.highlight);
+    reader.read_word("shadow_tint", native_words<C::ShadowTint>(), c.shadow_tint);
+    reader.read_word("refraction_tint", native_words<C::RefractionTint>(), c.refraction_tint);
+    reader.read_word("ambient_factor", native_words<C::AmbientFactor>(), c.ambient_factor);
     reader.read("ambient_inside_times_kt", c.ambient_inside_times_kt);
     reader.read("clamp_attenuation", c.clamp_attenuation);
     reader.read("truncate_material_colors", c.truncate_material_colors);
@@ -69,10 +60,11 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     reader.read("trace_reflections", c.trace_reflections);
     reader.read("trace_refractions", c.trace_refractions);
     reader.read("correct_interpolated_normals", c.correct_interpolated_normals);
+    reader.read("headlight", c.headlight);
     if (reader.read("air_index", c.air_index) && !(c.air_index > 0)) {
         reader.error(*reader.find("air_index"), "'air_index' must be greater than 0");
     }
-    reader.read_word("pixel_sample", kPixelSamples, c.pixel_sample);
+    reader.read_word("pixel_sample", native_words<C::PixelSample>(), c.pixel_sample);
     reader.read("linear_output", c.linear_output);
     if (reader.read("max_depth", c.max_depth) && (c.max_depth < 0 || c.max_depth > 1000)) {
         reader.error(*reader.find("max_depth"), "'max_depth' must be from 0 to 1000");

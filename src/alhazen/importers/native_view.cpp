@@ -1,6 +1,9 @@
 #include "alhazen/importers/native_view.h"
 
 #include <numbers>
+#include <utility>
+
+#include "alhazen/importers/native_materials.h"
 
 namespace alhazen {
 
@@ -76,21 +79,49 @@ void add_camera(const NativeBlock& block, NativeContext& context, const Camera& 
 }
 
 void read_emission(BlockReader& reader, Rgb& color, Rgb& ambient) {
-    reader.read("color", color);
-    reader.read("ambient", ambient);
+    for (const auto& [key, out] : {std::pair{"color", &color}, std::pair{"ambient", &ambient}}) {
+        if (const auto value = reader.find(key)) {
+            read_native_color(*value, key, reader.values(), *out);
+        }
+    }
 }
 
 void read_attenuation(BlockReader& reader, Attenuation& attenuation) {
     double v[3];
     const auto value = reader.find("attenuation");
     if (!value || !reader.values().read_numbers(*value, "attenuation", 3, v)) return;
-    if (v[0] < 0 || v[1] < 0 || v[2] < 0 || v[0] + v[1] + v[2] == 0) {
-        reader.error(*value,
-                     "attenuation: expected (constant, linear, quadratic), none negative "
-                     "and not all zero");
+    if (v[0] < 0 || v[1] < 0 || v[2] < 0) {
+        reader.error(*value, "attenuation: expected (constant, linear, quadratic), none negative");
         return;
     }
     attenuation = {v[0], v[1], v[2]};
+}
+
+/// An angle in degrees or, to give it exactly, in radians; true when it is written.
+bool read_angle(BlockReader& reader, std::string_view degrees_key, std::string_view radians_key,
+                double& radians) {
+    double degrees = 0;
+    if (reader.has(degrees_key) && reader.has(radians_key)) {
+        reader.error(reader.block(), "'" + std::string(degrees_key) + "' and '" +
+                                         std::string(radians_key) +
+                                         "' say the same; expected one of them");
+    }
+    if (reader.read(degrees_key, degrees)) radians = degrees * kRadiansPerDegree;
+    reader.read(radians_key, radians);
+    return reader.has(degrees_key) || reader.has(radians_key);
+}
+
+void read_cone(BlockReader& reader, SpotLight& light) {
+    const bool has_inner =
+        read_angle(reader, "inner_angle_deg", "inner_angle_rad", light.inner_angle);
+    const bool has_outer =
+        read_angle(reader, "outer_angle_deg", "outer_angle_rad", light.outer_angle);
+    if (has_outer && !has_inner) light.inner_angle = light.outer_angle;
+    constexpr double kHalfTurn = 3.1415926535897936;  // as `validate`: one rounding beyond pi
+    if (!(light.inner_angle >= 0 && light.inner_angle <= light.outer_angle &&
+          light.outer_angle <= kHalfTurn)) {
+        reader.error(reader.block(), "expected 0 <= inner angle <= outer angle <= 180 degrees");
+    }
 }
 
 void add_light(const NativeBlock& block, NativeContext& context, Light light) {
@@ -129,6 +160,21 @@ void read_sheared_camera(const NativeBlock& block, NativeContext& context) {
     add_camera(block, context, camera, aspect);
 }
 
+void read_sheared_orthographic_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    OrthographicCamera camera;
+    double aspect = 1;
+    for (const char* key : {"eye", "direction", "right", "up", "aspect"}) reader.require(key);
+    reader.read("eye", camera.origin);
+    reader.read("direction", camera.direction);
+    reader.read("right", camera.right);
+    reader.read("up", camera.up);
+    read_positive(reader, "aspect", aspect);
+    reader.finish();
+    add_camera(block, context, camera, aspect);
+}
+
 void read_orthographic_camera(const NativeBlock& block, NativeContext& context) {
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);
@@ -146,7 +192,9 @@ void read_ambient_light(const NativeBlock& block, NativeContext& context) {
     BlockReader reader = context.reader(*block.block, block.type);
     AmbientLight light;
     reader.require("color");
-    reader.read("color", light.ambient);
+    if (const auto value = reader.find("color")) {
+        read_native_color(*value, "color", reader.values(), light.ambient);
+    }
     reader.finish();
     add_light(block, context, light);
 }
@@ -161,7 +209,7 @@ void read_directional_light(const NativeBlock& block, NativeContext& context) {
     const std::string_view key = require_one_of(reader, "direction", "to_light");
     if (reader.read(key, vector)) {
         if (length_squared(vector) > 0) {
-            light.to_light = normalize(key == "to_light" ? vector : -vector);
+            light.to_light = key == "to_light" ? vector : -vector;  // `compile` normalises
         } else {
             reader.error(reader.block(), "'" + std::string(key) + "' must not be zero");
         }
@@ -179,6 +227,7 @@ void read_point_light(const NativeBlock& block, NativeContext& context) {
     reader.read("position", light.position);
     read_emission(reader, light.color, light.ambient);
     read_attenuation(reader, light.attenuation);
+    read_positive(reader, "range", light.range);
     reader.finish();
     add_light(block, context, light);
 }
@@ -190,20 +239,12 @@ void read_spot_light(const NativeBlock& block, NativeContext& context) {
     reader.require("position");
     reader.read("position", light.position);
     if (const auto axis = read_direction(reader, light.position, "look_at", "direction")) {
-        light.direction = normalize(*axis);
+        light.direction = *axis;  // `compile` normalises
     }
-    double inner = light.inner_angle / kRadiansPerDegree;
-    double outer = light.outer_angle / kRadiansPerDegree;
-    const bool has_inner = reader.read("inner_angle_deg", inner);
-    const bool has_outer = reader.read("outer_angle_deg", outer);
-    if (has_outer && !has_inner) inner = outer;
-    if (!(inner >= 0 && inner <= outer && outer > 0 && outer <= 180)) {
-        reader.error(reader.block(), "expected 0 <= inner_angle_deg <= outer_angle_deg <= 180");
-    }
-    light.inner_angle = inner * kRadiansPerDegree;
-    light.outer_angle = outer * kRadiansPerDegree;
+    read_cone(reader, light);
     read_emission(reader, light.color, light.ambient);
     read_attenuation(reader, light.attenuation);
+    read_positive(reader, "range", light.range);
     reader.finish();
     add_light(block, context, light);
 }

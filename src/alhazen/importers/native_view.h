@@ -8,6 +8,7 @@ namespace alhazen {
 void read_perspective_camera(const NativeBlock& block, NativeContext& context);
 void read_sheared_camera(const NativeBlock& block, NativeContext& context);
 void read_orthographic_camera(const NativeBlock& block, NativeContext& context);
+void read_sheared_orthographic_camera(const NativeBlock& block, NativeContext& context);
 
 void read_ambient_light(const NativeBlock& block, NativeContext& context);
 void read_directional_light(const NativeBlock& block, NativeContext& context);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace alhazen {
 
@@ -11,9 +13,11 @@ class TextParser {
   public:
     TextParser(TextTree& tree, const TextTree::Limits& limits, Diagnostics& diagnostics)
         : nodes_(tree.nodes_),
+          unescaped_(tree.unescaped_),
           source_(*tree.source_),
           diagnostics_(diagnostics),
-          lexer_(source_, diagnostics),
+          string_escapes_(limits.string_escapes),
+          lexer_(source_, diagnostics, limits.string_escapes),
           max_nesting_(std::min(limits.max_nesting, TextTree::kMaxNesting)),
           max_nodes_(std::min<std::uint64_t>(limits.max_nodes,
                                              std::numeric_limits<std::uint32_t>::max() - 1)),
@@ -41,6 +45,7 @@ class TextParser {
     Token take();
     std::uint32_t add(NodeKind kind, const Token& token);
     void add_leaf(NodeKind kind);
+    void unescape(Token& token);
     void open(NodeKind kind, char closer = 0);
     void open_bracket();
     void close();
@@ -55,8 +60,10 @@ class TextParser {
     void end_of_file();
 
     std::vector<TextTree::Node>& nodes_;
+    std::unordered_map<std::uint32_t, std::string>& unescaped_;
     const SourceText& source_;
     Diagnostics& diagnostics_;
+    bool string_escapes_;
     Lexer lexer_;
     int max_nesting_;
     std::uint64_t max_nodes_;
@@ -96,8 +103,20 @@ std::uint32_t TextParser::add(NodeKind kind, const Token& token) {
     return index;
 }
 
+void TextParser::unescape(Token& token) {
+    if (token.damaged || token.text.find('\\') == std::string_view::npos) return;
+    if (std::optional<std::string> meant = unescaped(token.text)) {
+        unescaped_.emplace(token.offset, std::move(*meant));
+        return;
+    }
+    diagnostics_.error(source_.location(token.offset),
+                       "a string may escape \\\" \\\\ \\n \\r \\t and \\xHH, nothing else");
+    token.damaged = true;
+}
+
 void TextParser::add_leaf(NodeKind kind) {
-    const Token token = take();
+    Token token = take();
+    if (string_escapes_ && kind == NodeKind::String) unescape(token);
     add(kind, token);
     if (token.damaged) mark_broken();
     value_done();
@@ -360,6 +379,10 @@ std::string_view TextNode::text() const {
     const TextTree::Node& n = node();
     if (n.kind == NodeKind::Number || n.kind == NodeKind::List || n.kind == NodeKind::Block)
         return {};
+    if (n.kind == NodeKind::String && !tree_->unescaped_.empty()) {
+        const auto meant = tree_->unescaped_.find(n.offset);
+        if (meant != tree_->unescaped_.end()) return meant->second;
+    }
     const std::size_t quote = n.kind == NodeKind::String ? 1 : 0;
     return tree_->source_->bytes().substr(n.offset + quote, n.length);
 }

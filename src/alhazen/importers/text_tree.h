@@ -19,6 +19,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "alhazen/importers/lexer.h"
@@ -34,6 +35,7 @@ class TextTree {
     struct Limits {
         int max_nesting = 256;  ///< of lists and blocks; capped at kMaxNesting
         std::uint64_t max_nodes = 400'000'000;
+        bool string_escapes = false;  ///< see Lexer
     };
     /// Readers of the tree recurse; this bounds their stack, sanitizers included.
     static constexpr int kMaxNesting = 500;
@@ -63,6 +65,8 @@ class TextTree {
 
     const SourceText* source_;
     std::vector<Node> nodes_;
+    /// What strings with escapes mean, by their offset.
+    std::unordered_map<std::uint32_t, std::string> unescaped_;
 };
 
 /// A place in a tree: cheap to copy, valid as long as the tree.

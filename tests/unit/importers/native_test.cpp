@@ -294,13 +294,107 @@ TEST(NativeImporter, ReadsLights) {
     ASSERT_EQ(i.messages(), "");
     EXPECT_EQ(std::get<AmbientLight>(i.scene.lights.at(0).light).ambient, (Rgb{.1, .2, .3}));
     const auto& sun = std::get<DirectionalLight>(i.scene.lights.at(1).light);
-    expect_near(sun.to_light, {0, 0, 1});
+    expect_near(sun.to_light, {0, 0, 2});  // `compile` makes it unit
     EXPECT_EQ(sun.ambient, (Rgb{.1, .1, .1}));
-    expect_near(std::get<DirectionalLight>(i.scene.lights.at(2).light).to_light, {0, 0, 1});
+    expect_near(std::get<DirectionalLight>(i.scene.lights.at(2).light).to_light, {0, 0, 2});
     EXPECT_EQ(std::get<PointLight>(i.scene.lights.at(3).light).attenuation.quadratic, 3);
     const auto& spot = std::get<SpotLight>(i.scene.lights.at(4).light);
-    expect_near(spot.direction, {0, 0, -1});
+    expect_near(spot.direction, {0, 0, -5});
     EXPECT_NEAR(spot.outer_angle, std::numbers::pi / 9, 1e-15);
+}
+
+TEST(NativeImporter, ReadsRangesGreyColorsAndAnglesInRadians) {
+    const Imported i = import(
+        "picture { background = 0.25; up_axis = z }"
+        "point_light { position = (1,2,3); color = 0.5; range = 7 }"
+        "spot_light { position = (0,0,5); direction = (0,0,-1); inner_angle_rad = 0.1;"
+        " outer_angle_deg = 20; range = 3 }");
+    ASSERT_EQ(i.messages(), "");
+    EXPECT_EQ(i.scene.picture.background, (Rgb{.25, .25, .25}));
+    EXPECT_EQ(i.scene.up_axis, UpAxis::Z);
+    const auto& point = std::get<PointLight>(i.scene.lights.at(0).light);
+    EXPECT_EQ(point.color, (Rgb{.5, .5, .5}));
+    EXPECT_EQ(point.range, 7);
+    const auto& spot = std::get<SpotLight>(i.scene.lights.at(1).light);
+    EXPECT_EQ(spot.inner_angle, 0.1);
+    EXPECT_EQ(spot.range, 3);
+    EXPECT_TRUE(import("point_light { position = (0,0,0); range = 0 }").says("greater than 0"));
+    EXPECT_TRUE(import("spot_light { position = (0,0,0); direction = (0,0,1); inner_angle_rad = 1;"
+                       " inner_angle_deg = 1 }")
+                    .says("say the same"));
+}
+
+TEST(NativeImporter, StringsMayEscapeQuotesAndBytes) {
+    const Imported i = import("sphere \"a \\\"b\\\" \\\\ \\x41\\n\" { }");
+    ASSERT_EQ(i.messages(), "");
+    EXPECT_EQ(i.parts().at(0).name, "a \"b\" \\ A\n");
+    EXPECT_TRUE(import("sphere \"a\\q\" { }").says("a string may escape"));
+    EXPECT_TRUE(import("sphere \"a\\x4\" { }").says("a string may escape"));
+    EXPECT_TRUE(import("sphere \"a\\").says("unterminated string"));
+    EXPECT_TRUE(import("sphere \"a\\\" { }").says("unterminated string"));
+}
+
+TEST(NativeImporter, GeometriesArePlacedByName) {
+    const Imported i = import(
+        "material \"red\" { }"
+        "geometry \"tent\" { points = [(0,0,0), (1,0,0), (0,1,0)]; faces = [(0,1,2)] }"
+        "mesh \"a\" { geometry = \"tent\" }"
+        "mesh { geometry = \"tent\"; transform = scale(2); material = \"red\" }");
+    ASSERT_EQ(i.messages(), "");
+    ASSERT_EQ(i.scene.meshes.size(), 1U);
+    EXPECT_EQ(i.scene.meshes[0].name, "tent");
+    ASSERT_EQ(i.parts().size(), 2U);
+    EXPECT_EQ(std::get<MeshIndex>(i.parts()[1].what), MeshIndex{0});
+    EXPECT_TRUE(import("mesh { geometry = \"tent\" }").says("not defined"));
+    EXPECT_TRUE(import("mesh { geometry = 5 }").says("the name of a geometry"));
+    EXPECT_TRUE(import("geometry { points = []; faces = [] }").says("expected a name"));
+}
+
+TEST(NativeImporter, TheListOfObjectsNumbersThem) {
+    const Imported i = import(
+        "objects { names = [\"car\", \"world\", \"wheel\"]; root = \"world\"; root_name = \"\" }"
+        "object \"car\" { instance \"wheel\" { } }"
+        "instance \"car\";"
+        "object \"wheel\" { name = \"round\"; sphere { } }");
+    ASSERT_EQ(i.messages(), "");
+    EXPECT_EQ(i.scene.root, ObjectIndex{1});
+    ASSERT_EQ(i.scene.objects.size(), 3U);
+    EXPECT_EQ(i.scene.objects[0].name, "car");
+    EXPECT_EQ(i.scene.objects[1].name, "");
+    EXPECT_EQ(i.scene.objects[2].name, "round");
+    EXPECT_EQ(std::get<ObjectIndex>(i.scene.objects[0].parts.at(0).what), ObjectIndex{2});
+    EXPECT_TRUE(import("objects { names = [\"a\", \"b\"]; root = \"a\" }").says("not defined"));
+    EXPECT_TRUE(import("objects { names = [\"a\"]; root = \"b\" }").says("one of the names"));
+    EXPECT_TRUE(import("objects { names = [\"a\", \"a\"]; root = \"a\" }").says("already defined"));
+    EXPECT_TRUE(import("sphere { } objects { names = [\"a\"]; root = \"a\" }").says("before"));
+    EXPECT_TRUE(import("objects { names = [\"a\"]; root = \"a\" } object \"a\" { }")
+                    .says("already defined"));
+}
+
+TEST(NativeImporter, ReadsMetallicRoughnessAndAlpha) {
+    const Imported i = import(
+        "material \"m\" { alpha_mode = mask; alpha = 0.5; alpha_cutoff = 0.25; double_sided = "
+        "false;"
+        " metallic_roughness = { base_color = 0.5; metallic = 0; roughness = 0.25; unlit = true;"
+        " attenuation_distance = 2; attenuation_color = (1, 0.5, 0) } }"
+        "sphere { material = \"m\" }");
+    ASSERT_EQ(i.messages(), "");
+    const Material& m = material_of(i, 0);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::Mask);
+    EXPECT_EQ(m.alpha.value, 0.5);
+    EXPECT_EQ(m.alpha_cutoff, 0.25);
+    EXPECT_FALSE(m.double_sided);
+    ASSERT_TRUE(m.metallic_roughness);
+    EXPECT_EQ(m.metallic_roughness->base_color.color, (Rgb{.5, .5, .5}));
+    EXPECT_EQ(m.metallic_roughness->metallic.value, 0);
+    EXPECT_EQ(m.metallic_roughness->roughness.value, 0.25);
+    EXPECT_EQ(m.metallic_roughness->occlusion.value, 1);
+    EXPECT_EQ(m.metallic_roughness->attenuation_distance, 2);
+    EXPECT_TRUE(m.metallic_roughness->unlit);
+    EXPECT_TRUE(import("material \"m\" { metallic_roughness = 5 }").says("expected a block"));
+    EXPECT_TRUE(import("material \"m\" { normal_map = 5 }").says("texture(\"NAME\")"));
+    EXPECT_TRUE(
+        import("material \"m\" { metallic_roughness = { metal = 5 } }").says("unknown key"));
 }
 
 TEST(NativeImporter, ReadsEveryConvention) {

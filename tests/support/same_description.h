@@ -1,0 +1,314 @@
+#pragma once
+/// Whether two scene descriptions say the same, bit for bit. Every comparison takes its structs
+/// apart into all their members: a new member does not compile until it is compared here (and
+/// written by the native writer).
+///
+/// Not compared: places in files, derived fields of shapes, and what native_writer.h lists.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include "alhazen/imaging/stored_image.h"
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen::testing {
+
+inline bool same(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+inline bool same(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+template <class T>
+requires std::is_integral_v<T> || std::is_enum_v<T>
+bool same(T a, T b) {
+    return a == b;
+}
+inline bool same(const std::string& a, const std::string& b) {
+    return a == b;
+}
+
+/// A list of values of both sides, in turn.
+template <class A, class B, class... Rest>
+bool all_same(const A& a, const B& b, const Rest&... rest);
+inline bool all_same() {
+    return true;
+}
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b);
+template <class T>
+bool same(const std::optional<T>& a, const std::optional<T>& b);
+template <class... T>
+bool same(const std::variant<T...>& a, const std::variant<T...>& b);
+template <class T, std::size_t N>
+bool same(const std::array<T, N>& a, const std::array<T, N>& b) {
+    for (std::size_t i = 0; i < N; ++i) {
+        if (a[i] != b[i]) return false;
+    }
+    return true;
+}
+
+// Members of `a` are a1, a2, ... and those of `b` b1, b2, ...
+
+inline bool same(const Vec2& a, const Vec2& b) {
+    return same(a.x, b.x) && same(a.y, b.y);
+}
+inline bool same(const Vec3& a, const Vec3& b) {
+    return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+}
+inline bool same(const Rgb& a, const Rgb& b) {
+    return same(a.r, b.r) && same(a.g, b.g) && same(a.b, b.b);
+}
+inline bool same(const Affine& a, const Affine& b) {
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1.x_axis, b1.x_axis, a1.y_axis, b1.y_axis, a1.z_axis, b1.z_axis, a2, b2);
+}
+inline bool same(const VertexColor& a, const VertexColor& b) {
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
+}
+inline bool same(const VertexTangent& a, const VertexTangent& b) {
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
+}
+inline bool same(const TriangleMesh& a, const TriangleMesh& b) {
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
+}
+
+// Looks.
+
+inline bool same(const ColorInput& a, const ColorInput& b) {
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1, a2, b2);
+}
+inline bool same(const ScalarInput& a, const ScalarInput& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2) && (a2 == kNoTexture || same(a3, b3));
+}
+inline bool same(const NormalMap& a, const NormalMap& b) {
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return same(a1, b1) && (a1 == kNoTexture || same(a2, b2));
+}
+inline bool same(const MetallicRoughness& a, const MetallicRoughness& b) {
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8, a9, b9, a10,
+                    b10, a11, b11);
+}
+inline bool same(const Material& a, const Material& b) {
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8, a9, b9, a10,
+                    b10, a11, b11, a12, b12, a13, b13, a14, b14, a15, b15);
+}
+inline bool same(const MaterialDescription& a, const MaterialDescription& b) {
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    (void)a2, (void)b2;
+    return same(a1, b1);
+}
+inline bool same(const UvTransform& a, const UvTransform& b) {
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
+}
+inline bool same(const StoredImage& a, const StoredImage& b) {
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
+    const bool samples =
+        a5.index() == b5.index() &&
+        std::visit([&]<class V>(const V& v) { return same(v, std::get<V>(b5)); }, a5);
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4) && samples;
+}
+inline bool same(const Texture& a, const Texture& b) {
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = b;
+    (void)a9, (void)b9;  // the pyramid is made by `compile`
+    return same(*a1, *b1) && all_same(a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
+}
+inline bool same(const TextureDescription& a, const TextureDescription& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    (void)a3, (void)b3;
+    return all_same(a1, b1, a2, b2);
+}
+
+// Cameras and lights.
+
+inline bool same(const PerspectiveCamera& a, const PerspectiveCamera& b) {
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
+}
+inline bool same(const OrthographicCamera& a, const OrthographicCamera& b) {
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
+}
+inline bool same(const Attenuation& a, const Attenuation& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
+inline bool same(const AmbientLight& a, const AmbientLight& b) {
+    const auto& [a1] = a;
+    const auto& [b1] = b;
+    return same(a1, b1);
+}
+inline bool same(const DirectionalLight& a, const DirectionalLight& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
+inline bool same(const PointLight& a, const PointLight& b) {
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
+}
+inline bool same(const SpotLight& a, const SpotLight& b) {
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
+}
+inline bool same(const CameraDescription& a, const CameraDescription& b) {
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    (void)a4, (void)b4;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
+inline bool same(const LightDescription& a, const LightDescription& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    (void)a3, (void)b3;
+    return all_same(a1, b1, a2, b2);
+}
+
+// Parts. Of shapes the fields that files give.
+
+inline bool same(const Sphere& a, const Sphere& b) {
+    return all_same(a.center, b.center, a.radius, b.radius);
+}
+inline bool same(const Plane& a, const Plane& b) {
+    return all_same(a.point, b.point, a.normal, b.normal);
+}
+inline bool same(const Disc& a, const Disc& b) {
+    return all_same(a.center, b.center, a.normal, b.normal, a.radius, b.radius, a.inner_radius,
+                    b.inner_radius);
+}
+inline bool same(const Rectangle& a, const Rectangle& b) {
+    return all_same(a.corner, b.corner, a.edge_u, b.edge_u, a.edge_v, b.edge_v);
+}
+inline bool same(const BoxShape& a, const BoxShape& b) {
+    return all_same(a.lo, b.lo, a.hi, b.hi);
+}
+inline bool same(const Cylinder& a, const Cylinder& b) {
+    return all_same(a.base, b.base, a.top, b.top, a.radius, b.radius, a.capped, b.capped);
+}
+inline bool same(const Cone& a, const Cone& b) {
+    return all_same(a.base, b.base, a.top, b.top, a.base_radius, b.base_radius, a.top_radius,
+                    b.top_radius, a.capped, b.capped);
+}
+inline bool same(const Polygon& a, const Polygon& b) {
+    // No loops mean one of all vertices.
+    const auto loops = [](const Polygon& p) {
+        return p.loop_ends.empty()
+                   ? std::vector<std::uint32_t>{static_cast<std::uint32_t>(p.vertices.size())}
+                   : p.loop_ends;
+    };
+    return same(a.vertices, b.vertices) && loops(a) == loops(b);
+}
+inline bool same(const Part& a, const Part& b) {
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
+    (void)a5, (void)b5;
+    const bool object = std::holds_alternative<ObjectIndex>(a1);
+    return all_same(a1, b1, a2, b2, a4, b4) && (object || same(a3, b3));
+}
+inline bool same(const ObjectDescription& a, const ObjectDescription& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    (void)a3, (void)b3;
+    return all_same(a1, b1, a2, b2);
+}
+inline bool same(const MeshDescription& a, const MeshDescription& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    (void)a3, (void)b3;
+    return same(a1, b1) && same(*a2, *b2);
+}
+inline bool same(const PictureSettings& a, const PictureSettings& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
+inline bool same(const ShadingConventions& a, const ShadingConventions& b) {
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8, a9, b9, a10,
+                    b10, a11, b11, a12, b12, a13, b13, a14, b14, a15, b15, a16, b16, a17, b17);
+}
+
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (!same(a[i], b[i])) return false;
+    }
+    return true;
+}
+template <class T>
+bool same(const std::optional<T>& a, const std::optional<T>& b) {
+    return a.has_value() == b.has_value() && (!a || same(*a, *b));
+}
+template <class... T>
+bool same(const std::variant<T...>& a, const std::variant<T...>& b) {
+    return a.index() == b.index() &&
+           std::visit([&]<class V>(const V& v) { return same(v, std::get<V>(b)); }, a);
+}
+template <class A, class B, class... Rest>
+bool all_same(const A& a, const B& b, const Rest&... rest) {
+    return same(a, b) && all_same(rest...);
+}
+
+/// Fails the test for each list that differs, with the place of the first difference.
+template <class T>
+void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const char* what) {
+    EXPECT_EQ(a.size(), b.size()) << what;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        if (same(a[i], b[i])) continue;
+        ADD_FAILURE() << what << " " << i << " differs";
+        return;
+    }
+}
+
+inline void expect_same(const SceneDescription& a, const SceneDescription& b) {
+    const auto& [format_a, path_a, cameras_a, lights_a, materials_a, textures_a, meshes_a,
+                 objects_a, root_a, animations_a, picture_a, up_a, conventions_a] = a;
+    const auto& [format_b, path_b, cameras_b, lights_b, materials_b, textures_b, meshes_b,
+                 objects_b, root_b, animations_b, picture_b, up_b, conventions_b] = b;
+    (void)format_a, (void)format_b, (void)path_a, (void)path_b;
+    (void)animations_a, (void)animations_b;
+    expect_same_list(cameras_a, cameras_b, "camera");
+    expect_same_list(lights_a, lights_b, "light");
+    expect_same_list(materials_a, materials_b, "material");
+    expect_same_list(textures_a, textures_b, "texture");
+    expect_same_list(meshes_a, meshes_b, "mesh");
+    expect_same_list(objects_a, objects_b, "object");
+    EXPECT_EQ(root_a, root_b);
+    EXPECT_TRUE(same(picture_a, picture_b)) << "picture";
+    EXPECT_EQ(up_a, up_b);
+    EXPECT_TRUE(same(conventions_a, conventions_b)) << "conventions";
+}
+
+}  // namespace alhazen::testing
