@@ -12,16 +12,23 @@ namespace alhazen::cli {
 void add_info(CLI::App& app, int& exit_status) {
     struct Arguments {
         SceneArguments scene;
-        bool json = false;
+        bool json = false, all = false;
     };
     CLI::App* command = app.add_subcommand("info", "Say what is in a scene");
     const auto args = std::make_shared<Arguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
     command->add_flag("--json", args->json, "As JSON");
+    command->add_flag("--all", args->all,
+                      "Do not cut lists short; also look whether meshes of more than two million "
+                      "triangles are closed");
     command->callback([args, &exit_status] {
         const LoadedScene loaded = load(args->scene.scene, args->scene.load_options());
-        const nlohmann::ordered_json info = scene_info(args->scene.scene, loaded);
-        fmt::print("{}", args->json ? info.dump(2) + "\n" : info_text(info));
+        using json = nlohmann::ordered_json;
+        const json info = scene_info(args->scene.scene, loaded, {args->all});
+        // Names are as the file has them: what is no UTF-8 is replaced.
+        fmt::print("{}", args->json
+                             ? info.dump(2, ' ', false, json::error_handler_t::replace) + "\n"
+                             : info_text(info, args->all));
         exit_status = kDone;
     });
 }

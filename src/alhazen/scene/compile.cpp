@@ -55,7 +55,8 @@ class Compiler {
         scene.aggregate = root.aggregate;
         census_.effective_primitives = root.effective_primitives;
         census_.instance_depth = root.instance_depth;
-        census_.scene_bytes += texture_bytes(scene.textures);
+        census_.texture_bytes = texture_bytes(scene.textures);
+        census_.scene_bytes += census_.texture_bytes;
         scene.census = census_;
         scene.accelerator = options_.accelerator;
         return scene;

@@ -19,6 +19,7 @@ struct SceneCensus {
     std::uint64_t effective_primitives = 0;  ///< as seen by rays, instances expanded; saturates
     int instance_depth = 0;                  ///< deepest nesting of instances
     std::uint64_t scene_bytes = 0;           ///< shapes, meshes, textures
+    std::uint64_t texture_bytes = 0;         ///< of these, the textures
     std::uint64_t accelerator_bytes = 0;
 };
 

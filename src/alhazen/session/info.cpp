@@ -1,9 +1,12 @@
 #include "alhazen/session/info.h"
 
-#include <fmt/format.h>
-
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "alhazen/session/framing.h"
+#include "alhazen/session/mesh_figures.h"
 
 namespace alhazen {
 
@@ -11,14 +14,19 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+/// Larger meshes are only asked whether they close when everything is wanted.
+constexpr std::size_t kMaxClosedTriangles = 2'000'000;
+
 json vector_json(const Vec3& v) {
     return json::array({v.x, v.y, v.z});
 }
 
-const char* light_kind(const Light& light) {
-    static constexpr const char* kNames[] = {"ambient", "directional", "point", "spot"};
-    static_assert(std::size(kNames) == std::variant_size_v<Light>);
-    return kNames[light.index()];
+/// JSON has no infinities: what is empty or unbounded has no bounds.
+json box_json(const Box3& box) {
+    if (box.empty() || !box.bounded()) return nullptr;
+    return {{"min", vector_json(box.lo)},
+            {"max", vector_json(box.hi)},
+            {"size", vector_json(box.size())}};
 }
 
 /// How many parts of each kind the description has, each object counted once.
@@ -38,80 +46,183 @@ json part_counts(const SceneDescription& description) {
     return counts;
 }
 
-}  // namespace
-
-json scene_info(const std::string& scene_name, const LoadedScene& loaded) {
-    const SceneDescription& d = loaded.description;
-    const SceneCensus& census = loaded.scene.census;
-    json cameras = json::array();
-    for (const CameraDescription& camera : d.cameras) {
-        const bool perspective = std::holds_alternative<PerspectiveCamera>(camera.camera);
-        cameras.push_back({{"name", camera.name},
-                           {"kind", perspective ? "perspective" : "orthographic"},
-                           {"aspect", camera.aspect}});
+json meshes_json(const SceneDescription& d, const std::vector<MeshFigures>& figures) {
+    json meshes = json::array();
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+        const MeshFigures& f = figures[i];
+        meshes.push_back({{"name", d.meshes[i].name},
+                          {"triangles", f.triangles},
+                          {"vertices", f.vertices},
+                          {"unused_vertices", f.unused_vertices},
+                          {"area", f.area},
+                          {"volume", f.volume},
+                          {"closed", f.closed ? json(*f.closed) : json(nullptr)}});
     }
-    std::map<std::string, std::size_t> lights;
-    for (const LightDescription& light : d.lights) ++lights[light_kind(light.light)];
-    json warnings = json::array();
-    for (const Diagnostic& diagnostic : loaded.diagnostics.all()) {
-        warnings.push_back(to_string(diagnostic));
-    }
-    const Box3 box = loaded.scene.aggregate->box();
-    json bounds = nullptr;  // JSON has no infinities: unbounded and empty scenes have no bounds
-    if (!box.empty() && box.bounded())
-        bounds = {{"min", vector_json(box.lo)}, {"max", vector_json(box.hi)}};
-    json result = {
-        {"scene", scene_name},
-        {"format", d.format},
-        {"bounds", bounds},
-        {"bounded", box.empty() || box.bounded()},
-        {"parts", part_counts(d)},
-        {"analytic_shapes", census.analytic_shapes},
-        {"triangles", census.triangles},
-        {"instances", census.instances},
-        {"instance_depth", census.instance_depth},
-        {"effective_primitives", census.effective_primitives},
-        {"cameras", cameras},
-        {"lights", lights},
-        {"materials", d.materials.size()},
-        {"textures", d.textures.size()},
-        {"scene_bytes", census.scene_bytes},
-        {"accelerator", loaded.scene.accelerator},
-        {"accelerator_bytes", census.accelerator_bytes},
-        {"seconds", {{"load", loaded.load_seconds}, {"build", loaded.build_seconds}}},
-        {"warnings", warnings},
-    };
-    if (d.picture.width) result["picture"]["width"] = *d.picture.width;
-    if (d.picture.height) result["picture"]["height"] = *d.picture.height;
-    result["max_depth"] = d.conventions.max_depth;
-    return result;
+    return meshes;
 }
 
-std::string info_text(const json& info) {
-    std::string text;
-    for (const auto& [key, value] : info.items()) {
-        if (value.is_object()) {
-            text += fmt::format("{:<22}", key);
-            const char* separator = "";
-            for (const auto& [name, inner] : value.items()) {
-                text += fmt::format("{}{} {}", separator, name, inner.dump());
-                separator = ", ";
-            }
-            if (value.empty()) text += "none";
-        } else if (value.is_array() && !value.empty()) {
-            text += fmt::format("{:<22}{}", key, value.size());
-            for (const auto& inner : value) {
-                text += "\n    " + (inner.is_string() ? inner.get<std::string>() : inner.dump());
-            }
-        } else if (value.is_array()) {
-            text += fmt::format("{:<22}none", key);
-        } else {
-            text += fmt::format("{:<22}{}", key,
-                                value.is_string() ? value.get<std::string>() : value.dump());
-        }
-        text += '\n';
+/// Null as soon as one of them is not known.
+json all_closed(const std::vector<MeshFigures>& figures) {
+    bool known = !figures.empty();
+    for (const MeshFigures& f : figures) {
+        if (f.closed == false) return false;
+        known = known && f.closed.has_value();
     }
-    return text;
+    return known ? json(true) : json(nullptr);
+}
+
+json materials_json(const SceneDescription& d) {
+    static constexpr const char* kAlpha[] = {"opaque", "mask", "blend"};
+    json materials = json::array();
+    for (const MaterialDescription& description : d.materials) {
+        const Material& m = description.material;
+        const char* kind = !m.metallic_roughness         ? "whitted"
+                           : m.metallic_roughness->unlit ? "unlit"
+                                                         : "metallic-roughness";
+        materials.push_back({{"name", m.name},
+                             {"kind", kind},
+                             {"alpha", kAlpha[static_cast<int>(m.alpha_mode)]},
+                             {"transparent", !m.is_opaque()},
+                             {"double_sided", m.double_sided}});
+    }
+    return materials;
+}
+
+json textures_json(const SceneDescription& d) {
+    static constexpr const char* kFilter[] = {"nearest", "bilinear", "mipmapped"};
+    json textures = json::array();
+    for (const TextureDescription& description : d.textures) {
+        const Texture& t = description.texture;
+        static constexpr int kBits[] = {8, 16, 32};
+        textures.push_back({{"name", description.name},
+                            {"width", t.image->width},
+                            {"height", t.image->height},
+                            {"channels", t.image->channels},
+                            {"bits", kBits[t.image->samples.index()]},
+                            {"filter", kFilter[static_cast<int>(t.filter)]},
+                            {"bytes", t.image->memory_bytes()}});
+    }
+    return textures;
+}
+
+json camera_json(const CameraDescription& description) {
+    constexpr double kDegrees = 180.0 / std::numbers::pi;
+    json camera = {{"name", description.name}};
+    if (const auto* c = std::get_if<PerspectiveCamera>(&description.camera)) {
+        const auto field = [&](const Vec3& side) {
+            return 2.0 * kDegrees * std::atan(0.5 * length(side) / length(c->look));
+        };
+        camera["kind"] = "perspective";
+        camera["fov_x_deg"] = field(c->right);
+        camera["fov_y_deg"] = field(c->up);
+        camera["eye"] = vector_json(c->eye);
+    } else {
+        const auto& o = std::get<OrthographicCamera>(description.camera);
+        camera["kind"] = "orthographic";
+        camera["width"] = length(o.right);
+        camera["height"] = length(o.up);
+        camera["eye"] = vector_json(o.origin);
+    }
+    camera["aspect"] = description.aspect;
+    return camera;
+}
+
+const char* light_kind(const Light& light) {
+    static constexpr const char* kNames[] = {"ambient", "directional", "point", "spot"};
+    static_assert(std::size(kNames) == std::variant_size_v<Light>);
+    return kNames[light.index()];
+}
+
+json memory_json(const LoadedScene& loaded) {
+    const SceneCensus& census = loaded.scene.census;
+    json memory = {{"geometry_bytes", census.scene_bytes - census.texture_bytes},
+                   {"texture_bytes", census.texture_bytes},
+                   {"accelerator_bytes", census.accelerator_bytes},
+                   {"peak_after_load_bytes", loaded.load_peak_bytes},
+                   {"peak_after_build_bytes", loaded.build_peak_bytes}};
+    if (census.triangles > 0) {
+        const auto each = [&](const char* key) {
+            return memory[key].get<double>() / static_cast<double>(census.triangles);
+        };
+        memory["per_triangle"] = {{"geometry", each("geometry_bytes")},
+                                  {"accelerator", each("accelerator_bytes")},
+                                  {"peak_after_load", each("peak_after_load_bytes")},
+                                  {"peak_after_build", each("peak_after_build_bytes")}};
+    }
+    return memory;
+}
+
+void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& options) {
+    const SceneDescription& d = loaded.description;
+    const SceneCensus& census = loaded.scene.census;
+    std::vector<MeshFigures> figures;
+    std::size_t vertices = 0, unused = 0;
+    for (const MeshDescription& mesh : d.meshes) {
+        const bool look = options.all || mesh.mesh->triangles.size() <= kMaxClosedTriangles;
+        figures.push_back(figures_of(*mesh.mesh, look));
+        vertices += figures.back().vertices;
+        unused += figures.back().unused_vertices;
+    }
+    const Box3 box = loaded.scene.aggregate->box();
+    info["bounds"] = box_json(box);
+    info["bounded"] = box.empty() || box.bounded();
+    if (!box.empty() && !box.bounded()) {
+        info["bounded_part"] = box_json(bounded_part(*loaded.scene.aggregate));
+    }
+    info["parts"] = part_counts(d);
+    info["analytic_shapes"] = census.analytic_shapes;
+    info["triangles"] = census.triangles;
+    info["vertices"] = vertices;
+    info["unused_vertices"] = unused;
+    info["instances"] = census.instances;
+    info["instance_depth"] = census.instance_depth;
+    info["effective_primitives"] = census.effective_primitives;
+    const auto placed = placed_figures(d, figures);
+    info["mesh_area"] = placed ? json(placed->area) : json(nullptr);
+    info["mesh_volume"] = placed ? json(placed->volume) : json(nullptr);
+    info["meshes_closed"] = all_closed(figures);
+    info["meshes"] = meshes_json(d, figures);
+}
+
+void add_looks(json& info, const SceneDescription& d) {
+    info["materials"] = materials_json(d);
+    info["textures"] = textures_json(d);
+    info["cameras"] = json::array();
+    for (const CameraDescription& camera : d.cameras) {
+        info["cameras"].push_back(camera_json(camera));
+    }
+    info["lights"] = json::array();
+    for (const LightDescription& light : d.lights) {
+        info["lights"].push_back({{"name", light.name}, {"kind", light_kind(light.light)}});
+    }
+    info["animations"] = json::array();
+    for (const AnimationInfo& animation : d.animations) {
+        info["animations"].push_back(
+            {{"name", animation.name}, {"begin", animation.begin}, {"end", animation.end}});
+    }
+    if (d.picture.width) info["picture"]["width"] = *d.picture.width;
+    if (d.picture.height) info["picture"]["height"] = *d.picture.height;
+    info["max_depth"] = d.conventions.max_depth;
+}
+
+}  // namespace
+
+json scene_info(const std::string& scene_name, const LoadedScene& loaded,
+                const InfoOptions& options) {
+    json info = {{"scene", scene_name}, {"format", loaded.description.format}};
+    std::error_code failed;
+    const std::uintmax_t bytes = std::filesystem::file_size(scene_name, failed);
+    info["file_bytes"] = failed ? json(nullptr) : json(bytes);
+    add_geometry(info, loaded, options);
+    add_looks(info, loaded.description);
+    info["accelerator"] = loaded.scene.accelerator;
+    info["memory"] = memory_json(loaded);
+    info["seconds"] = {{"load", loaded.load_seconds}, {"build", loaded.build_seconds}};
+    info["warnings"] = json::array();
+    for (const Diagnostic& diagnostic : loaded.diagnostics.all()) {
+        info["warnings"].push_back(to_string(diagnostic));
+    }
+    return info;
 }
 
 }  // namespace alhazen

@@ -8,11 +8,19 @@
 
 namespace alhazen {
 
-/// Format, bounds, counts by type, cameras, lights, materials, warnings.
-[[nodiscard]] nlohmann::ordered_json scene_info(const std::string& scene_name,
-                                                const LoadedScene& loaded);
+struct InfoOptions {
+    /// Whether meshes of more than two million triangles are closed, too: a sort of all their
+    /// edges.
+    bool all = false;
+};
 
-/// The same for reading, one fact a line.
-[[nodiscard]] std::string info_text(const nlohmann::ordered_json& info);
+/// Format, bounds, counts by type, meshes with area and volume, materials, textures, cameras,
+/// lights, animations, memory, times, warnings. The description must have its meshes.
+[[nodiscard]] nlohmann::ordered_json scene_info(const std::string& scene_name,
+                                                const LoadedScene& loaded,
+                                                const InfoOptions& options = {});
+
+/// The same for reading. `all`: lists are not cut short.
+[[nodiscard]] std::string info_text(const nlohmann::ordered_json& info, bool all = false);
 
 }  // namespace alhazen
