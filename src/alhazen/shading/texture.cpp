@@ -9,6 +9,7 @@ namespace {
 
 /// Index of the texel that stands at `i` after wrapping; `n` > 0.
 int wrapped(long long i, int n, Wrap wrap) {
+    if (i >= 0 && i < n) return static_cast<int>(i);
     switch (wrap) {
         case Wrap::Clamp:
             return static_cast<int>(std::clamp<long long>(i, 0, n - 1));
@@ -23,12 +24,11 @@ int wrapped(long long i, int n, Wrap wrap) {
     return static_cast<int>(((i % n) + n) % n);
 }
 
-Rgba texel(const Texture& texture, long long x, long long y) {
+/// A texel of the picture itself, inside it.
+Rgba texel(const Texture& texture, int x, int y) {
     const StoredImage& image = *texture.image;
-    const int column = wrapped(x, image.width, texture.wrap_u);
-    const int row = wrapped(y, image.height, texture.wrap_v);
-    return image.pixel(static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                           static_cast<std::size_t>(column),
+    return image.pixel(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                           static_cast<std::size_t>(x),
                        texture.decode_srgb);
 }
 
@@ -38,17 +38,23 @@ double bounded(double x) {
     return x > -1e9 && x < 1e9 ? x : 0.0;
 }
 
-/// Interpolates `texel_at(ix, iy)` at (x, y), where texel i stands at i.
+/// Interpolates `texel_at(x, y)` at (x, y) of a grid of `width` x `height` texels, where texel i
+/// stands at i.
 template <class TexelAt>
-Rgba bilinear(double x, double y, TexelAt&& texel_at) {
+Rgba bilinear(const Texture& texture, double x, double y, int width, int height,
+              TexelAt&& texel_at) {
     const double x0 = std::floor(x);
     const double y0 = std::floor(y);
     const double fx = x - x0;
     const double fy = y - y0;
     const long long ix = static_cast<long long>(x0);
     const long long iy = static_cast<long long>(y0);
-    const Rgba top = (1 - fx) * texel_at(ix, iy) + fx * texel_at(ix + 1, iy);
-    const Rgba bottom = (1 - fx) * texel_at(ix, iy + 1) + fx * texel_at(ix + 1, iy + 1);
+    const int left = wrapped(ix, width, texture.wrap_u);
+    const int right = wrapped(ix + 1, width, texture.wrap_u);
+    const int above = wrapped(iy, height, texture.wrap_v);
+    const int below = wrapped(iy + 1, height, texture.wrap_v);
+    const Rgba top = (1 - fx) * texel_at(left, above) + fx * texel_at(right, above);
+    const Rgba bottom = (1 - fx) * texel_at(left, below) + fx * texel_at(right, below);
     return (1 - fy) * top + fy * bottom;
 }
 
@@ -60,10 +66,8 @@ Rgba trilinear(const Texture& texture, double x, double y, double level) {
         const int height = pyramid.height(l);
         const double lx = (x + 0.5) * width / pyramid.width(0) - 0.5;
         const double ly = (y + 0.5) * height / pyramid.height(0) - 0.5;
-        return bilinear(lx, ly, [&](long long ix, long long iy) {
-            return pyramid.texel(l, wrapped(ix, width, texture.wrap_u),
-                                 wrapped(iy, height, texture.wrap_v));
-        });
+        return bilinear(texture, lx, ly, width, height,
+                        [&](int i, int j) { return pyramid.texel(l, i, j); });
     };
     const int last = pyramid.levels() - 1;
     if (!(level > 0.0)) return at_level(0);
@@ -106,6 +110,9 @@ Rgba filtered(const Texture& texture, double x, double y, const UvFootprint& foo
     const double minor = std::max({axes.minor, axes.major / kMaxProbes, 1.0});
     const double level = std::log2(minor);
     const int probes = std::clamp(static_cast<int>(std::ceil(axes.major / minor)), 1, kMaxProbes);
+    // The smallest copy is one texel, the same for every probe.
+    if (level >= texture.pyramid->levels() - 1)
+        return texture.pyramid->texel(texture.pyramid->levels() - 1, 0, 0);
     if (probes == 1) return trilinear(texture, x, y, level);
     Rgba sum{0, 0, 0, 0};
     for (int i = 0; i < probes; ++i) {
@@ -130,13 +137,17 @@ Rgba evaluate(const Texture& texture, const Vec2& uv, const UvFootprint& footpri
         y = v * image.height - 0.5;
     }
     if (texture.filter == TextureFilter::Nearest) {
-        return texel(texture, static_cast<long long>(std::floor(x + 0.5)),
-                     static_cast<long long>(std::floor(y + 0.5)));
+        const auto nearest = [](double at, int n, Wrap wrap) {
+            return wrapped(static_cast<long long>(std::floor(at + 0.5)), n, wrap);
+        };
+        return texel(texture, nearest(x, image.width, texture.wrap_u),
+                     nearest(y, image.height, texture.wrap_v));
     }
     if (texture.filter == TextureFilter::Mipmapped && texture.pyramid) {
         return filtered(texture, x, y, footprint);
     }
-    return bilinear(x, y, [&](long long ix, long long iy) { return texel(texture, ix, iy); });
+    return bilinear(texture, x, y, image.width, image.height,
+                    [&](int i, int j) { return texel(texture, i, j); });
 }
 
 }  // namespace alhazen
