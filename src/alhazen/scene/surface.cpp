@@ -130,10 +130,13 @@ Surface triangle_surface(const PrimitiveTable& table, std::uint32_t index, const
     Surface surface = from_shape(mesh.surface(triangle, hit));
     const auto& corners = mesh.triangles[triangle];
     // The test of the next ray rounds relative to the size of the triangle, not to where the point
-    // lies.
+    // lies, and along any axis: in the plane z = 0 it does not find a distance of 0.
+    double reach = 0.0;
     for (const std::uint32_t corner : corners) {
-        surface.error += 4 * kEpsilon * abs(mesh.positions[corner] - surface.point);
+        reach = std::fmax(reach, max_component(abs(mesh.positions[corner] - surface.point)));
     }
+    const double rounding = 12 * kEpsilon * reach;
+    surface.error += Vec3{rounding, rounding, rounding};
     if (placed.mirrored) {
         surface.normal = -surface.normal;
         if (mesh.normals.empty()) surface.shading_normal = surface.normal;

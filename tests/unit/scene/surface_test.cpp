@@ -128,6 +128,33 @@ TEST(Surface, RaysThatLeaveAConvexMeshDoNotMeetItAgain) {
     }
 }
 
+/// The test of a ray that starts in the plane z = 0 and runs mostly along x rounds to distances a
+/// little beyond 0, although the plane itself is exact.
+TEST(Surface, RaysThatLeaveAFlatMeshThroughTheOriginDoNotMeetItAgain) {
+    RandomStream random(47);
+    for (const double height : {0.0, 1e-3, 1.0}) {
+        TriangleMesh mesh;
+        mesh.positions = {
+            {-0.5, -0.5, height}, {0.5, -0.5, height}, {0.5, 0.5, height}, {-0.5, 0.5, height}};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+        SceneMaker maker;
+        maker.material({});
+        maker.add(maker.mesh(mesh));
+        const Scene scene = maker.compile();
+        for (int i = 0; i < 20000; ++i) {
+            Vec3 down = random_direction(random), away = random_direction(random);
+            down.z = -std::abs(down.z);
+            const Vec3 origin{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), height + 0.5};
+            Hit hit;
+            const Ray ray{origin, down};
+            if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
+            const Ray next = leaving_ray(surface_at(*scene.aggregate, ray, hit), away);
+            ASSERT_FALSE(scene.aggregate->occluded(next, nullptr))
+                << "height " << height << " ray " << i;
+        }
+    }
+}
+
 TEST(Surface, VertexMaterialsCarryTheBarycentricWeights) {
     TriangleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
