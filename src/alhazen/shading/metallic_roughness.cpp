@@ -102,7 +102,8 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
     s.diffuse = body + 0.5 * rough_metal;
     s.ambient = s.occlusion * (body + rough_metal);
     s.transmissive = (1.0 - metallic) * transmission * base;
-    s.thin = !(value_at(p.thickness, textures, lookup) > 0.0) || s.index == 0.0;
+    // The texture of the thickness is for renderers that cannot see how thick the volume is.
+    s.thin = !(p.thickness.value > 0.0) || s.index == 0.0;
     if (!s.thin) s.absorption = absorption_of(p.attenuation_color, p.attenuation_distance);
     return s;
 }

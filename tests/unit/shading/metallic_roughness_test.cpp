@@ -162,6 +162,14 @@ TEST(MetallicRoughness, ChannelsOfTexturesGoWhereTheyBelong) {
     EXPECT_EQ(s.coverage, 0.125);
 }
 
+TEST(MetallicRoughness, AVolumeStaysOneWhereTheTextureOfItsThicknessIsBlack) {
+    const Texture black = one_texel({0, 0, 0});
+    MetallicRoughness p = parameters(0, 0);
+    p.transmission.value = 1;
+    p.thickness = {1, TextureId{0}, Channel::Green};
+    EXPECT_FALSE(evaluate(with(p), std::span(&black, 1), SurfaceLookup{}).thin);
+}
+
 TEST(MetallicRoughness, TheSecondSetAndTheTransformOfCoordinatesAreUsed) {
     Image image(2, 1, 1);
     image.samples = {0.25f, 0.75f};
