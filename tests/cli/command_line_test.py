@@ -69,6 +69,13 @@ class CommandLine(unittest.TestCase):
                           ["render", self.scene, "-o", picture, "--encoding", "gamma"],
                           ["render", self.scene, "-o", picture, "--protocol", "spd", "--spp", "4"],
                           ["render", self.scene, "-o", picture, "--stats", picture],
+                          ["render", self.scene, "-o", picture, "--aov", "depth", "--stats", self.path("out.depth.png")],
+                          ["render", self.scene, "-o", picture, "--aov", "depht"],
+                          ["render", self.scene, "-o", picture, "--view", "30"],
+                          ["render", self.scene, "-o", picture, "--view", "30,91"],
+                          ["render", self.scene, "-o", picture, "--view", "30,20", "--camera", "top"],
+                          ["render", self.scene, "-o", picture, "--time", "inf"],
+                          ["render", self.scene, "-o", picture, "--max-image-pixels", "0"],
                           ["verify", self.scene, "--rays", "-1"],
                           ["diff", self.scene], ["list", "colours"]):
             result = run(*arguments)
@@ -81,6 +88,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("wide_bvh", self.render("--accelerator", "octopus").stderr)
         self.assertIn("whitted", self.render("--renderer", "magic").stderr)
         self.assertIn("'top'", self.render("--camera", "nobody").stderr)
+        self.assertIn("id.material", self.render("--aov", "depht").stderr)
 
     def test_a_bad_scene_exits_3_with_every_place(self):
         bad = self.write("bad.alhazen", "alhazen 1\nsphere { radius = -1 }\nsphere { radius = nan }\nbanana { }\n")
@@ -182,6 +190,90 @@ class CommandLine(unittest.TestCase):
         result = run("verify", self.scene, "--rays", "500", "--json", "-", "-q")
         self.assertEqual(result.returncode, 0)
         self.assertTrue(all(report["holds"] for report in json.loads(result.stdout)))
+
+    def test_layers_go_into_the_exr_and_do_not_change_the_picture(self):
+        result = self.render("--aov", "all", output="layers.exr")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        header = self.read("layers.exr")[:8192]
+        for channel in ("R", "A", "depth.Z", "N.X", "Ng.Y", "P.Z", "uv.U", "albedo.G", "id.object", "id.material",
+                        "id.instance", "count.rays", "count.node_visits", "count.primitive_tests", "time.seconds"):
+            self.assertIn(b"\0" + channel.encode() + b"\0", header, channel)
+        self.assertIn(b'"1":"mirror"', header)
+        self.assertEqual(os.listdir(self.folder.name).count("layers.depth.png"), 0)
+        self.render("--aov", "depth,N,id,count", output="few.exr")
+        self.render(output="plain.exr")
+        self.assertEqual(run("diff", self.path("plain.exr"), self.path("few.exr")).returncode, 0)
+
+    def test_layers_have_the_same_bits_for_any_threads_and_tiles(self):
+        wanted = ["--aov", "alpha,depth,N,Ng,P,uv,albedo,id,count", "--spp", "4", "--crop", "5,6,50,40"]
+        self.render("-t", "1", "--tile-size", "64", *wanted, output="a.exr")
+        self.render("-t", "7", "--tile-size", "5", *wanted, output="b.exr")
+        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
+
+    def test_layers_of_other_pictures_are_pictures_beside_them(self):
+        result = self.render("--aov", "depth,id.object,count.rays")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        names = ["out.count.rays.png", "out.depth.png", "out.id.object.png", "out.png"]
+        self.assertEqual(sorted(n for n in os.listdir(self.folder.name) if n.startswith("out")), names)
+        for name in names:
+            self.assertTrue(self.read(name).startswith(b"\x89PNG"), name)
+        self.assertIn(b"alhazen.aov.high", self.read("out.depth.png"))
+        self.assertIn("out.depth.png: depth, ", result.stderr)
+        self.assertEqual(self.render("--aov", "depth", "--aov-png", output="both.exr").returncode, 0)
+        self.assertTrue(os.path.exists(self.path("both.depth.png")))
+        os.mkdir(self.path("folder.depth.png"))
+        self.assertEqual(self.render("--aov", "depth", output="folder.png").returncode, 4)
+        self.assertFalse(os.path.exists(self.path("folder.png")))
+
+    def test_a_scene_without_camera_and_lights_is_framed_and_lit_and_told(self):
+        bare = self.write("bare.alhazen", "alhazen 1\nsphere { center = (5, 0, 0) }\n")
+        result = run("render", bare, "-o", self.path("bare.png"), "--size", "40x30", "--strict")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("no camera in the file: framed from azimuth 30, elevation 20\n", result.stderr)
+        self.assertIn("no lights in the file: a headlight was added\n", result.stderr)
+        quiet = run("render", bare, "-o", self.path("quiet.png"), "--size", "40x30", "-q")
+        self.assertEqual(quiet.stderr, "")
+        self.assertEqual(self.read("bare.png"), self.read("quiet.png"))
+        self.assertNotIn("framed", run("render", self.scene, "-o", self.path("a.png"), "--size", "8x8").stderr)
+
+    def test_a_view_replaces_the_camera_of_the_file(self):
+        self.render(output="front.png")
+        for view in ("0,90", "-120.5,10"):
+            result = self.render("--view", view, output="view.png")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertNotEqual(self.read("front.png"), self.read("view.png"))
+
+    def test_scenes_with_nothing_to_frame_exit_3(self):
+        for text in ("", "plane { }\n"):
+            scene = self.write("nothing.alhazen", "alhazen 1\n" + text)
+            result = run("render", scene, "-o", self.path("nothing.png"))
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn("camera", result.stderr)
+
+    def test_a_file_that_means_darkness_stays_dark(self):
+        dark = self.write("dark.nff", "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 8 8\n"
+                                      "f 1 1 1 1 0 0 0 1\ns 0 0 0 1\n")
+        result = run("render", dark, "-o", self.path("dark.png"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("headlight", result.stderr)
+
+    def test_info_tells_areas_volumes_and_cameras(self):
+        mesh = self.write("cube.obj", "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) +
+                          "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+        info = json.loads(run("info", mesh, "--json").stdout)
+        self.assertEqual(info["triangles"], 12)
+        self.assertAlmostEqual(info["mesh_area"], 6)
+        self.assertAlmostEqual(abs(info["mesh_volume"]), 1)
+        self.assertIs(info["meshes_closed"], True)
+        for side in info["bounds"]["max"]:
+            self.assertAlmostEqual(side, 1)
+        self.assertGreater(info["memory"]["per_triangle"]["accelerator"], 0)
+        text = run("info", mesh).stdout
+        for words in ("area 6", "closed", "cameras       none", "bytes per triangle"):
+            self.assertIn(words, text)
+        cameras = json.loads(run("info", self.scene, "--json").stdout)["cameras"]
+        self.assertEqual([c["name"] for c in cameras], ["front", "top"])
+        self.assertAlmostEqual(cameras[0]["fov_y_deg"], 40)
 
     def test_interrupted_rendering_writes_what_is_done_and_exits_75(self):
         process = subprocess.Popen([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "--size", "2000x2000",
