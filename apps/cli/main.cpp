@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
         "75 stopped by a signal, what was done is written.");
     int exit_status = kDone;
     add_render(app, exit_status);
+    add_convert(app, exit_status);
     add_info(app, exit_status);
     add_verify(app, exit_status);
     add_diff(app, exit_status);

@@ -17,7 +17,7 @@ class ScratchFolder {
         const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
         path_ = std::filesystem::temp_directory_path() /
                 ("alhazen_" + std::string(test.test_suite_name()) + "_" + test.name() + "_" +
-                 std::to_string(::getpid()));
+                 std::to_string(::getpid()) + "_" + std::to_string(made_++));
         std::filesystem::remove_all(path_);
         std::filesystem::create_directories(path_);
     }
@@ -41,6 +41,7 @@ class ScratchFolder {
     }
 
   private:
+    inline static int made_ = 0;  // a test may have several
     std::filesystem::path path_;
 };
 

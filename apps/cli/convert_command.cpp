@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include "alhazen/base/error.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/session/convert.h"
+#include "commands.h"
+#include "options.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+struct ConvertArguments {
+    SceneArguments scene;
+    std::string output;
+    bool quiet = false;
+    ConvertOptions convert;
+};
+
+int run(const ConvertArguments& args) {
+    // Mistakes in the names are told before any work is done.
+    check_convert_target(args.scene.scene, args.output);
+    Diagnostics diagnostics;
+    const SceneDescription description =
+        load_description(args.scene.scene, args.scene.load_options(), diagnostics);
+    if (!args.quiet) print_warnings(diagnostics);
+    const ConvertReport report = convert(description, args.output, args.convert);
+    if (args.quiet) return kDone;
+    if (!report.left_out.empty()) {
+        fmt::print(stderr, "warning: left out, as they are not meshes: {}\n", report.left_out);
+    }
+    const std::size_t beside = report.files.size() - 1;
+    fmt::print(stderr, "{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,
+               1e-6 * static_cast<double>(report.bytes),
+               beside == 0   ? ""
+               : beside == 1 ? ", one file beside it"
+                             : fmt::format(", {} files beside it", beside));
+    return kDone;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, int& exit_status) {
+    CLI::App* command = app.add_subcommand(
+        "convert", "Write a scene in the native format, or its meshes as PLY, OBJ or STL");
+    const auto args = std::make_shared<ConvertArguments>();
+    args->scene.add_to(*command, kDefaultAccelerator);
+    command
+        ->add_option("output", args->output,
+                     "File to write: .alhazen for the whole scene, .ply .obj .stl for its meshes")
+        ->required()
+        ->type_name("OUT");
+    command->add_flag("--meshes-only", args->convert.meshes_only,
+                      "Leave out shapes that are not meshes where the format holds only those");
+    command->add_flag("-q,--quiet", args->quiet, "No warnings, no summary");
+    command->callback([args, &exit_status] { exit_status = run(*args); });
+}
+
+}  // namespace alhazen::cli

@@ -1,0 +1,43 @@
+#pragma once
+/// A loaded scene as files of another format: all of it as native text, or its meshes as PLY, OBJ
+/// or STL.
+///
+/// Conventions: OUT.alhazen names its meshes (binary PLY) and pictures (PNG, EXR) in OUT_files/
+/// beside it, OUT.obj its materials in OUT.mtl and its pictures likewise, all relative: file and
+/// folder can be moved together. The named files are written first, each in one step, OUT itself
+/// last; files of these names are replaced, others left alone. Mesh files hold every placed mesh in
+/// the frame of the scene, in the order of the description.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen {
+
+struct ConvertOptions {
+    /// Mesh formats: leave out what is not a mesh instead of refusing the scene.
+    bool meshes_only = false;
+    std::uint64_t max_triangles = 400'000'000;  ///< of a mesh file, instances multiplied out
+};
+
+struct ConvertReport {
+    std::vector<std::filesystem::path> files;  ///< in the order they were written; the last is OUT
+    std::uint64_t bytes = 0;                   ///< of all of them
+    std::uint64_t triangles = 0;  ///< written: of each mesh once, or of all placed ones
+    std::string left_out;         ///< "2 spheres, 1 plane": what meshes_only dropped
+};
+
+/// Throws Error (Usage) that lists the known suffixes when `path` has none of them, or when it is
+/// the file `scene` itself: for callers that want to know before they load.
+void check_convert_target(const std::filesystem::path& scene, const std::filesystem::path& path);
+
+/// Writes `description`, which must be valid, as the format that the suffix of `path` names. Throws
+/// Error: Usage as above and for what the format cannot hold, Scene when there is nothing to write,
+/// Resource beyond the limits, File.
+ConvertReport convert(const SceneDescription& description, const std::filesystem::path& path,
+                      const ConvertOptions& options = {});
+
+}  // namespace alhazen
