@@ -21,7 +21,7 @@ constexpr double kMargin = 0.05;
 constexpr double kFlat = 0.25;
 constexpr Rgb kHeadlight{0.75, 0.75, 0.75};
 constexpr Rgb kHeadlightAmbient{0.25, 0.25, 0.25};
-constexpr Rgb kHeadlightBackground{0.5, 0.5, 0.5};
+constexpr Rgb kHeadlightBackground{0.3, 0.3, 0.3};
 
 struct Turn {
     double cosine, sine;

@@ -119,7 +119,7 @@ TEST(Framing, AFileWithoutCameraAndLightsGetsBothAndSaysSo) {
     ASSERT_EQ(scene.lights.size(), 1u);
     const auto& eye = std::get<PerspectiveCamera>(scene.cameras[0].camera).eye;
     EXPECT_EQ(std::get<PointLight>(scene.lights[0]).position, eye);
-    EXPECT_EQ(scene.background, (Rgb{0.5, 0.5, 0.5}));
+    EXPECT_EQ(scene.background, (Rgb{0.3, 0.3, 0.3}));
     EXPECT_TRUE(complete_view(maker.description(), scene, {}).empty()) << "nothing is left to add";
 }
 
