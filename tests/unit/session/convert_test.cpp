@@ -1,0 +1,193 @@
+#include "alhazen/session/convert.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+#include "alhazen/session/load.h"
+#include "alhazen/session/placed_meshes.h"
+#include "support/scene_maker.h"
+#include "support/scratch_folder.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+using testing::ScratchFolder;
+
+/// Two tetrahedra, one mirrored, by an object that is placed twice.
+SceneDescription two_tetrahedra() {
+    SceneMaker maker;
+    (void)maker.material({.name = "red paint"});
+    const MeshIndex mesh = maker.mesh(testing::tetrahedron());
+    const ObjectIndex object = maker.object("pair");
+    maker.add(mesh, MaterialId{0}, Affine::translate({0, 5, 0}), object);
+    maker.add(object, {}, Affine::translate({10, 0, 0}));
+    maker.add(object, {}, Affine::scale({-2, 2, 2}));
+    return maker.description();
+}
+
+TriangleMesh read_back(const std::filesystem::path& path) {
+    Diagnostics diagnostics;
+    const SceneDescription scene = load_description(path, {}, diagnostics);
+    TriangleMesh all;
+    for (const MeshDescription& m : scene.meshes) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), m.mesh->positions.begin(),
+                             m.mesh->positions.end());
+        for (const auto& t : m.mesh->triangles) {
+            all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
+    }
+    return all;
+}
+
+std::string message_of(const SceneDescription& scene, const std::filesystem::path& path,
+                       ErrorKind kind, const ConvertOptions& options = {}) {
+    try {
+        (void)convert(scene, path, options);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), kind) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "expected an error";
+    return {};
+}
+
+TEST(ConvertMeshes, InstancesAreMultipliedOutAndStayTurnedOutward) {
+    const ScratchFolder folder;
+    const SceneDescription scene = two_tetrahedra();
+    const double volume = signed_volume(testing::tetrahedron());
+    for (const char* suffix : {".ply", ".obj", ".stl", ".STL"}) {
+        const auto path = folder.path() / (std::string("out") + suffix);
+        const ConvertReport report = convert(scene, path);
+        EXPECT_EQ(report.triangles, 8U);
+        EXPECT_EQ(report.files.back(), path);
+        const TriangleMesh mesh = read_back(path);
+        EXPECT_EQ(mesh.triangles.size(), 8U) << suffix;
+        EXPECT_NEAR(signed_volume(mesh), volume * (1 + 8), 1e-9) << suffix;
+        EXPECT_EQ(mesh.box().hi.y, 12) << suffix;
+    }
+}
+
+TEST(ConvertMeshes, ObjNamesItsMaterials) {
+    const ScratchFolder folder;
+    const ConvertReport report = convert(two_tetrahedra(), folder.path() / "a b.obj");
+    ASSERT_EQ(report.files.size(), 2U);
+    EXPECT_EQ(report.files[0].filename(), "a b.mtl");
+    const std::string text = read_file(report.files[1]);
+    EXPECT_NE(text.find("mtllib a b.mtl\n"), std::string::npos);
+    EXPECT_NE(text.find("usemtl red_paint\n"), std::string::npos);
+    EXPECT_NE(read_file(report.files[0]).find("newmtl red_paint\n"), std::string::npos);
+}
+
+TEST(ConvertMeshes, ShapesAreRefusedByKindOrLeftOut) {
+    const ScratchFolder folder;
+    SceneMaker maker;
+    maker.description() = two_tetrahedra();
+    maker.add(Sphere{}, MaterialId{0}, {}, ObjectIndex{1});
+    maker.add(BoxShape{}, MaterialId{0}, {}, ObjectIndex{1});
+    maker.add(Plane{}, MaterialId{0});
+    const auto path = folder.path() / "out.stl";
+    const std::string message = message_of(maker.description(), path, ErrorKind::Usage);
+    EXPECT_NE(message.find("2 spheres, 1 plane, 2 boxes"), std::string::npos) << message;
+    EXPECT_NE(message.find("--meshes-only"), std::string::npos) << message;
+    EXPECT_FALSE(std::filesystem::exists(path));
+    const ConvertReport report = convert(maker.description(), path, {.meshes_only = true});
+    EXPECT_EQ(report.left_out, "2 spheres, 1 plane, 2 boxes");
+    EXPECT_EQ(read_back(path).triangles.size(), 8U);
+}
+
+TEST(ConvertMeshes, ASceneWithoutTrianglesIsAnError) {
+    const ScratchFolder folder;
+    SceneMaker maker;
+    (void)maker.material({});
+    maker.add(Sphere{}, MaterialId{0});
+    const ConvertOptions options{.meshes_only = true};
+    EXPECT_NE(message_of(maker.description(), folder.path() / "a.ply", ErrorKind::Scene, options)
+                  .find("no triangles"),
+              std::string::npos);
+}
+
+/// Each object places the one before twice: 2^30 of the first.
+SceneDescription doubling_scene(bool with_mesh) {
+    SceneMaker maker;
+    (void)maker.material({});
+    ObjectIndex below = maker.object("0");
+    if (with_mesh) maker.add(maker.mesh(testing::tetrahedron()), MaterialId{0}, {}, below);
+    maker.add(Sphere{}, MaterialId{0}, {}, below);
+    for (int i = 1; i <= 30; ++i) {
+        const ObjectIndex object = maker.object(std::to_string(i));
+        maker.add(below, {}, {}, object);
+        maker.add(below, {}, {}, object);
+        below = object;
+    }
+    maker.add(below);
+    return maker.description();
+}
+
+TEST(ConvertMeshes, InstancesThatMultiplyBeyondMemoryAreRefused) {
+    const ScratchFolder folder;
+    const auto path = folder.path() / "out.ply";
+    const ConvertOptions options{.meshes_only = true};
+    EXPECT_EQ(count_placed(doubling_scene(true)).triangles, std::uint64_t{4} << 30);
+    EXPECT_NE(message_of(doubling_scene(true), path, ErrorKind::Resource, options)
+                  .find("4294967296 triangles"),
+              std::string::npos);
+    // Without meshes there is nothing to walk through.
+    SceneMaker maker;
+    maker.description() = doubling_scene(false);
+    maker.add(maker.mesh(testing::tetrahedron()), MaterialId{0});
+    EXPECT_EQ(convert(maker.description(), path, options).triangles, 4U);
+}
+
+TEST(ConvertNative, TheFolderCanBeMovedWithTheScene) {
+    const ScratchFolder folder;
+    std::filesystem::create_directories(folder.path() / "a");
+    SceneDescription scene = two_tetrahedra();
+    scene.meshes[0].mesh->generate_normals();
+    const ConvertReport report = convert(scene, folder.path() / "a" / "my \"scene\".alhazen");
+    ASSERT_EQ(report.files.size(), 2U);
+    EXPECT_EQ(report.files[0], folder.path() / "a" / "my \"scene\"_files" / "mesh_0.ply");
+    std::filesystem::rename(folder.path() / "a", folder.path() / "b");
+    Diagnostics diagnostics;
+    const SceneDescription moved =
+        load_description(folder.path() / "b" / "my \"scene\".alhazen", {}, diagnostics);
+    EXPECT_EQ(moved.meshes.at(0).mesh->triangles.size(), 4U);
+}
+
+TEST(ConvertNative, TheSceneItselfIsNeverOverwritten) {
+    const ScratchFolder folder;
+    SceneDescription scene = two_tetrahedra();
+    scene.meshes[0].mesh->generate_normals();
+    scene.path = folder.write("out_files/mesh_0.ply", std::string("precious"));
+    EXPECT_NE(message_of(scene, folder.path() / "out.alhazen", ErrorKind::Usage)
+                  .find("would be overwritten"),
+              std::string::npos);
+    EXPECT_EQ(read_file(scene.path), "precious");
+    scene.path = folder.write("in.alhazen", std::string("precious"));
+    std::filesystem::create_symlink(scene.path, folder.path() / "link.alhazen");
+    for (const char* name : {"in.alhazen", "./in.alhazen", "link.alhazen"}) {
+        EXPECT_NE(message_of(scene, folder.path() / name, ErrorKind::Usage).find("scene itself"),
+                  std::string::npos);
+    }
+    EXPECT_EQ(read_file(scene.path), "precious");
+}
+
+TEST(ConvertNative, WhatCannotBeWrittenIsToldAndLeavesNoScene) {
+    const ScratchFolder folder;
+    SceneDescription scene = two_tetrahedra();
+    scene.meshes[0].mesh->generate_normals();
+    (void)folder.write("out_files", std::string("a file, not a folder"));
+    EXPECT_NE(message_of(scene, folder.path() / "out.alhazen", ErrorKind::File).find("out_files"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.alhazen"));
+    (void)message_of(scene, folder.path() / "missing" / "out.alhazen", ErrorKind::File);
+    EXPECT_NE(message_of(scene, folder.path() / "out.gltf", ErrorKind::Usage).find(".alhazen"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace alhazen
