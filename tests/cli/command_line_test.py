@@ -275,6 +275,49 @@ class CommandLine(unittest.TestCase):
         self.assertEqual([c["name"] for c in cameras], ["front", "top"])
         self.assertAlmostEqual(cameras[0]["fov_y_deg"], 40)
 
+    def test_a_converted_scene_renders_to_the_same_bits(self):
+        scene = os.path.join(SOURCE, "scenes", "showcase.alhazen")
+        os.mkdir(self.path("new"))
+        result = run("convert", scene, self.path("new/copy.alhazen"))
+        self.assertEqual((result.returncode, result.stdout), (0, ""))
+        self.assertIn("copy.alhazen: 12 triangles", result.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("new"))), ["copy.alhazen", "copy_files"])
+        os.rename(self.path("new"), self.path("moved"))
+        pictures = []
+        for path in scene, self.path("moved/copy.alhazen"):
+            self.assertEqual(run("render", path, "-q", "-o", self.path("out.pfm"), "--size", "48x27").returncode, 0)
+            pictures.append(self.read("out.pfm"))
+        self.assertEqual(pictures[0], pictures[1])
+
+    def test_meshes_are_converted_and_shapes_only_dropped_when_asked(self):
+        for suffix in "ply", "obj", "stl":
+            out = self.path("out." + suffix)
+            scene = os.path.join(SOURCE, "scenes", "showcase.alhazen")
+            result = run("convert", scene, out)
+            self.assertEqual(result.returncode, 2)
+            self.assertRegex(result.stderr, "also has 8 spheres, 1 plane, .*: --meshes-only")
+            self.assertFalse(os.path.exists(out))
+            result = run("convert", scene, out, "--meshes-only")
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("warning: left out, as they are not meshes: 8 spheres", result.stderr)
+            self.assertEqual(run("convert", scene, out, "--meshes-only", "-q").stderr, "")
+            info = json.loads(run("info", out, "--json").stdout)
+            self.assertEqual(info["triangles"], 12)
+
+    def test_convert_refuses_what_it_cannot_write(self):
+        for arguments, status, message in (
+            ([self.scene, self.path("out.gltf")], 2, ".alhazen (the whole scene), .ply .obj .stl"),
+            ([self.scene, self.path("out")], 2, ".alhazen (the whole scene), .ply .obj .stl"),
+            ([self.scene, self.scene], 2, "is the scene itself"),
+            ([self.path("missing.obj"), self.path("out.ply")], 4, "missing.obj"),
+            ([self.scene, self.path("no folder/out.alhazen")], 4, "no folder"),
+            ([self.scene, self.path("out.ply"), "--meshes-only"], 3, "no triangles"),
+        ):
+            result = run("convert", *arguments)
+            self.assertEqual(result.returncode, status, arguments)
+            self.assertIn(message, result.stderr)
+        self.assertEqual(self.read("scene with space.alhazen").decode(), SPHERES)
+
     def test_interrupted_rendering_writes_what_is_done_and_exits_75(self):
         process = subprocess.Popen([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "--size", "2000x2000",
                                     "--spp", "400"], stderr=subprocess.PIPE, text=True)
