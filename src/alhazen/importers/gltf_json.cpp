@@ -279,47 +279,53 @@ struct Refused {
     std::string message;
 };
 
-/// What is watched while the text is parsed.
-class Watch {
+/// Counts what is in a text before it is parsed. A pass of its own: the parser can be watched too,
+/// but then takes quadratic time for long arrays of objects.
+class Watch final : public nlohmann::json_sax<json> {
   public:
-    bool operator()(int depth, json::parse_event_t event, const json& parsed) {
-        switch (event) {
-            case json::parse_event_t::object_start:
-                keys_.emplace_back();
-                [[fallthrough]];
-            case json::parse_event_t::array_start:
-                if (depth >= kMaxDepth) {
-                    throw Refused{"the JSON text is nested deeper than " +
-                                  std::to_string(kMaxDepth)};
-                }
-                count();
-                break;
-            case json::parse_event_t::key:
-                if (!keys_.back().insert(parsed.get_ref<const std::string&>()).second) {
-                    throw Refused{"the key " + in_quotes(parsed.get_ref<const std::string&>()) +
-                                  " occurs twice in one object"};
-                }
-                break;
-            case json::parse_event_t::object_end:
-                keys_.pop_back();
-                break;
-            case json::parse_event_t::value:
-                count();
-                break;
-            case json::parse_event_t::array_end:
-                break;
-        }
-        return true;
+    bool null() override { return count(); }
+    bool boolean(bool) override { return count(); }
+    bool number_integer(number_integer_t) override { return count(); }
+    bool number_unsigned(number_unsigned_t) override { return count(); }
+    bool number_float(number_float_t, const string_t&) override { return count(); }
+    bool string(string_t&) override { return count(); }
+    bool binary(binary_t&) override { return count(); }
+    bool start_object(std::size_t) override {
+        keys_.emplace_back();
+        return open();
+    }
+    bool key(string_t& name) override {
+        if (keys_.back().insert(name).second) return true;
+        throw Refused{"the key " + in_quotes(name) + " occurs twice in one object"};
+    }
+    bool end_object() override {
+        keys_.pop_back();
+        return close();
+    }
+    bool start_array(std::size_t) override { return open(); }
+    bool end_array() override { return close(); }
+    /// The parser will find the same.
+    bool parse_error(std::size_t, const std::string&, const json::exception&) override {
+        return false;
     }
 
   private:
-    void count() {
-        if (++values_ <= kMaxValues) return;
+    bool open() {
+        if (depth_++ < kMaxDepth) return count();
+        throw Refused{"the JSON text is nested deeper than " + std::to_string(kMaxDepth)};
+    }
+    bool close() {
+        --depth_;
+        return true;
+    }
+    bool count() {
+        if (++values_ <= kMaxValues) return true;
         throw Error(ErrorKind::Resource,
                     "the JSON text has more than " + std::to_string(kMaxValues) + " values");
     }
 
     std::vector<std::set<std::string>> keys_;  ///< of the objects that are open
+    int depth_ = 0;
     std::size_t values_ = 0;
 };
 
@@ -344,7 +350,8 @@ std::optional<json> parse_json(std::string_view text, const std::string& file,
                                Diagnostics& diagnostics) {
     try {
         Watch watch;
-        json root = json::parse(text.begin(), text.end(), std::ref(watch));
+        static_cast<void>(json::sax_parse(text.begin(), text.end(), &watch));
+        json root = json::parse(text.begin(), text.end());
         if (root.is_object()) return root;
         diagnostics.error({file, 0, 0}, "#: expected an object, found " + type_of(root));
     } catch (const Refused& refused) {
