@@ -4,7 +4,12 @@
 
 #include <numbers>
 
+#include "alhazen/importers/importer_list.h"
+#include "alhazen/importers/mesh_export.h"
 #include "alhazen/importers/mesh_io.h"
+#include "alhazen/importers/obj_reader.h"
+#include "alhazen/importers/ply_reader.h"
+#include "alhazen/importers/stl_reader.h"
 #include "alhazen/math/random.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/primitive_table.h"
@@ -87,9 +92,39 @@ std::shared_ptr<const Aggregate> aggregate_of(TriangleMesh mesh) {
     mesh.uvs.clear();
     table.meshes.push_back(
         {std::make_shared<TriangleMesh>(std::move(mesh)), MaterialId{0}, 0, false});
-    table.material_is_opaque = {1};
+    table.material_opacity = {Opacity::Opaque};
     table.finish();
     return make_aggregate("wide_bvh", std::move(table));
+}
+
+TEST(MeshMeasures, EveryFormatGivesTheExactSums) {
+    ALHAZEN_NEEDS_DATA("meshes/alecjacobson");
+    struct Known {
+        const char* file;
+        double area, volume;
+    };
+    for (const Known& known :
+         {Known{"cow", 108.845364, 53.5674458}, Known{"fandisk", 60.6691092, 20.2433749},
+          Known{"spot", 5.70951879, 0.718258788}, Known{"cheburashka", 1.21240317, 0.0543816195}}) {
+        SCOPED_TRACE(known.file);
+        const std::string file = std::string(known.file) + ".obj";
+        Diagnostics found;
+        const SceneDescription scene =
+            import_scene(testing::test_data() / "meshes/alecjacobson/data" / file, {}, found);
+        std::vector<NamedMesh> meshes;
+        for (const MeshDescription& m : scene.meshes) {
+            meshes.push_back({m.name, m.mesh.get(), {}, ""});
+        }
+        const auto expect = [&](const TriangleMesh& mesh, double relative) {
+            EXPECT_NEAR(area(mesh), known.area, relative * known.area);
+            EXPECT_NEAR(signed_volume(mesh), known.volume, relative * known.volume);
+        };
+        expect(read_ply(ply_bytes(meshes), "a.ply", {}, found), 2e-8);
+        expect(read_obj(obj_text(meshes), "a.obj", {}, found), 2e-8);
+        // Positions as floats.
+        expect(read_stl(stl_bytes(meshes), "a.stl", {}, found).at(0).mesh, 2e-6);
+        EXPECT_EQ(found.error_count(), 0u);
+    }
 }
 
 TEST(MeshMeasures, AreaAndVolumeByRaysAreTheExactOnes) {

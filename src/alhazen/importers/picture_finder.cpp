@@ -60,6 +60,13 @@ std::optional<std::string> PictureFinder::with_other_capitals(const std::string&
 }
 
 std::optional<std::string> PictureFinder::find(const std::string& written) {
+    const auto known = found_.find(written);
+    if (known != found_.end()) return known->second;
+    if (found_.size() == kMaxNames) return std::nullopt;
+    return found_[written] = search(written);
+}
+
+std::optional<std::string> PictureFinder::search(const std::string& written) {
     std::string name = written;
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::string last = name.substr(name.rfind('/') + 1);

@@ -81,6 +81,13 @@ class StlReader {
                                      " facets have a normal against their winding; the winding "
                                      "counts");
         }
+        welder_.reset();
+        for (StlSolid& solid : solids_) {
+            std::vector<Vec3>& positions = solid.mesh.positions;
+            if (positions.capacity() > positions.size() + positions.size() / 4) {
+                positions.shrink_to_fit();
+            }
+        }
         return std::move(solids_);
     }
 
@@ -105,8 +112,8 @@ class StlReader {
 
     void read_binary(std::uint32_t count) {
         check_count(count);
-        // A closed surface has half as many vertices as triangles.
-        begin_solid(header_name(), 0, count / 2);
+        // A closed surface without holes has two vertices more than half its triangles.
+        begin_solid(header_name(), 0, count / 2 + 2);
         StlSolid& solid = solids_.back();
         solid.mesh.triangles.reserve(count);
         const char* at = bytes_.data() + kHeaderBytes;

@@ -257,6 +257,19 @@ TEST(ObjScene, FilesOutsideOfTheScenesFolderAreNotRead) {
     EXPECT_EQ(scene.materials.at(0).material.diffuse.color, (Rgb{.7, .7, .7}));
 }
 
+TEST(ObjScene, ManyNamesThatAreNotThereTakeNoTime) {
+    std::string names = "mtllib";
+    for (int i = 0; i < 300'000; ++i) names += " gone" + std::to_string(i) + ".mtl";
+    Diagnostics found;
+    const auto start = std::chrono::steady_clock::now();
+    const TemporaryFolder folder;
+    (void)scene_of(names + "\n" + kSquare + "f 1 2 3\n", found, folder.path());
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_LT(seconds, 10.0);
+    EXPECT_TRUE(mentions(found, "gone7.mtl"));
+}
+
 TEST(ObjScene, RandomDamageToALibraryNeverDoesMoreThanWarnings) {
     testing::Random random(11);
     const std::string good =
