@@ -57,7 +57,7 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
     const ImportSource source{bytes, path, options};
     SceneDescription description = find_importer(source).import(source, diagnostics);
     // A file with mistakes is validated too, so that all of them are told at once; but what
-    // validation says of the whole (nothing to see, no camera) may only be a consequence.
+    // validation says of the whole (nothing to see) may only be a consequence.
     const bool complete = diagnostics.error_count() == 0;
     Diagnostics findings;
     validate(description, findings);

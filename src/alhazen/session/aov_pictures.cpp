@@ -102,24 +102,32 @@ LayerPicture normal_picture(const PixelBox& crop, const Channels& c) {
     });
 }
 
+/// All three numbers of a pixel are 0: nothing is there.
+bool is_empty(const Channels& c, std::size_t i) {
+    return std::all_of(c.begin(), c.end(), [&](const auto* k) { return k->values[i] == 0.0f; });
+}
+
 LayerPicture position_picture(const PixelBox& crop, const Channels& c) {
-    std::array<double, 3> lo{}, range{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto [least, most] = std::minmax_element(c[k]->values.begin(), c[k]->values.end());
-        lo[k] = *least;
-        range[k] = double{*most} - double{*least};
+    Box3 box;
+    for (std::size_t i = 0; i < crop.area(); ++i) {
+        if (!is_empty(c, i)) box.include(Vec3{c[0]->values[i], c[1]->values[i], c[2]->values[i]});
     }
-    auto picture = direct_picture(
-        crop,
-        fmt::format("x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g}", lo[0],
-                    lo[0] + range[0], lo[1], lo[1] + range[1], lo[2], lo[2] + range[2]),
-        [&](std::size_t i) {
-            std::array<double, 3> p{};
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (range[k] > 0.0) p[k] = (double{c[k]->values[i]} - lo[k]) / range[k];
-            }
-            return p;
-        });
+    if (box.empty()) box.include(Vec3{});
+    const Vec3 lo = box.lo, range = box.size();
+    auto picture =
+        direct_picture(crop,
+                       fmt::format("x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g}",
+                                   lo.x, box.hi.x, lo.y, box.hi.y, lo.z, box.hi.z),
+                       [&](std::size_t i) {
+                           std::array<double, 3> p{};
+                           if (is_empty(c, i)) return p;
+                           for (int k = 0; k < 3; ++k) {
+                               const auto at = static_cast<std::size_t>(k);
+                               if (range[k] > 0.0)
+                                   p[at] = (double{c[at]->values[i]} - lo[k]) / range[k];
+                           }
+                           return p;
+                       });
     picture.scale = {{"alhazen.aov.range", picture.meaning}};
     return picture;
 }
