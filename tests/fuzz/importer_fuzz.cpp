@@ -26,6 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.max_include_depth = 4;
     options.max_included_bytes = 1 << 20;
     options.max_elements = 10'000;
+    options.image_limits = {.max_side = 2048, .max_pixels = 1 << 18};
+    options.time = 0.5;  // animations, skins and morph targets too
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     // A folder that does not exist, so that files named by the input are looked for, and not found.
     const alhazen::ImportSource source{bytes, "/nonexistent/fuzz", options};
