@@ -82,9 +82,11 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
     return {in_set(surface.dpdu, surface.dpdv), in_set(surface.dpdu2, surface.dpdv2)};
 }
 
-ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
-                           double width) {
-    ShadingPoint point;
+namespace {
+
+/// Fills in all of `point`: it is large, and not copied.
+void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
+                       double width, ShadingPoint& point) {
     point.inside = inside;
     point.surface = surface_at(*scene.aggregate, ray, hit);
     std::array<UvFootprint, 2> footprint;
@@ -113,6 +115,14 @@ ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, b
         const bool from_inside = inside && !point.entering && !m.transmissive.is_black();
         turn_to_view(m, dot(point.view, point.normal), from_inside);
     }
+}
+
+}  // namespace
+
+ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
+                           double width) {
+    ShadingPoint point;
+    set_shading_point(scene, ray, hit, inside, width, point);
     return point;
 }
 
@@ -124,7 +134,7 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
         found.hit = Hit();
         if (!scene.aggregate->closest(rest, found.hit, stats)) return false;
         found.t = passed + found.hit.t;
-        found.point = shading_point(scene, rest, found.hit, inside, cone.width_at(found.t));
+        set_shading_point(scene, rest, found.hit, inside, cone.width_at(found.t), found.point);
         const double coverage = found.point.material.coverage;
         if (coverage > 0.0 && coverage >= least_coverage) return true;
         passed = found.t;

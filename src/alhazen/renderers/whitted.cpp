@@ -1,6 +1,7 @@
 #include "alhazen/renderers/whitted.h"
 
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "alhazen/renderers/local_shading.h"
@@ -43,7 +44,7 @@ class Tracer {
         Path rest = path;
         Rgb sum;
         Rgb left{1, 1, 1};
-        VisibleHit found;
+        VisibleHit& found = found_at(path.depth);
         for (int met = 0; met < kMaxPassedSurfaces; ++met) {
             if (!first_visible_hit(scene_, ray, rest.cone, rest.inside, stats_, found)) {
                 return sum + left * scene_.background;
@@ -62,6 +63,12 @@ class Tracer {
     }
 
   private:
+    /// Room for the hit of one ray at each depth: too large to be made anew for each.
+    VisibleHit& found_at(int depth) {
+        while (found_.size() <= static_cast<std::size_t>(depth)) found_.emplace_back();
+        return found_[static_cast<std::size_t>(depth)];
+    }
+
     static Rgb transmittance(const Rgb& absorption, double distance) {
         return {std::exp(-absorption.r * distance), std::exp(-absorption.g * distance),
                 std::exp(-absorption.b * distance)};
@@ -214,6 +221,7 @@ class Tracer {
     RayCounters& counters_;
     TraversalStats* stats_;
     std::vector<Hit> crossings_;
+    std::deque<VisibleHit> found_;  ///< by depth; references stay valid while it grows
 };
 
 }  // namespace

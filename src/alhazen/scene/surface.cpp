@@ -29,16 +29,22 @@ void carry_outward(const Placement& placement, Surface& surface) {
     surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
                     4 * kEpsilon * rounded_terms;
     surface.point = outer_point;
-    for (Vec3* v : {&surface.dpdu, &surface.dpdv, &surface.dpdu2, &surface.dpdv2, &surface.tangent,
-                    &surface.bitangent}) {
-        *v = outer.linear * *v;
+    surface.dpdu = outer.linear * surface.dpdu;
+    surface.dpdv = outer.linear * surface.dpdv;
+    if (surface.is_of_mesh) {
+        surface.dpdu2 = outer.linear * surface.dpdu2;
+        surface.dpdv2 = outer.linear * surface.dpdv2;
+        surface.tangent = outer.linear * surface.tangent;
+        surface.bitangent = outer.linear * surface.bitangent;
+    } else {
+        surface.dpdu2 = surface.dpdu;
+        surface.dpdv2 = surface.dpdv;
     }
     surface.normal = normalize(transpose_times(inner.linear, surface.normal));
     surface.shading_normal = normalize(transpose_times(inner.linear, surface.shading_normal));
 }
 
-Surface from_shape(const ShapeSurface& s) {
-    Surface surface;
+void take(const ShapeSurface& s, Surface& surface) {
     surface.point = s.point;
     surface.normal = s.normal;
     surface.shading_normal = s.shading_normal;
@@ -46,7 +52,6 @@ Surface from_shape(const ShapeSurface& s) {
     surface.dpdu = surface.dpdu2 = s.dpdu;
     surface.dpdv = surface.dpdv2 = s.dpdv;
     surface.error = s.error;
-    return surface;
 }
 
 /// Farthest coordinate of a shape along each axis; where it is unbounded, that of the point.
@@ -63,32 +68,28 @@ Vec3 reach_of(const Box3& box, const Vec3& point) {
 /// the rounding of the next ray's test, which is relative to the size of the shape, not to where
 /// the point lies.
 template <class S>
-Surface shape_surface(const S& shape, const Ray& ray, const Hit& hit) {
-    Surface surface = from_shape(shape.surface(ray, hit));
+void shape_surface(const S& shape, const Ray& ray, const Hit& hit, Surface& surface) {
+    take(shape.surface(ray, hit), surface);
     surface.error += 4 * kEpsilon * reach_of(shape.box(), surface.point);
-    return surface;
 }
 
-Surface analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
-                         const Ray& ray, const Hit& hit) {
-    Surface surface;
+void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
+                      const Ray& ray, const Hit& hit, Surface& surface) {
     std::uint32_t k = 0;
     const auto look_up = [&](const auto& column) {
         if (k++ != kind) return;
         const std::uint32_t placement = column.placements[index];
         if (placement == kNoPlacement) {
-            surface = shape_surface(column.shapes[index], ray, hit);
+            shape_surface(column.shapes[index], ray, hit, surface);
         } else {
             const Placement& p = table.placements[placement];
-            surface =
-                shape_surface(column.shapes[index], transformed(p.inner_from_outer, ray), hit);
+            shape_surface(column.shapes[index], transformed(p.inner_from_outer, ray), hit, surface);
             carry_outward(p, surface);
         }
         surface.materials[0] = column.materials[index];
         if (!column.parts.empty()) surface.part = column.parts[index];
     };
     std::apply([&](const auto&... column) { (look_up(column), ...); }, table.columns);
-    return surface;
 }
 
 /// What meshes may carry beyond positions, normals and one set of texture coordinates.
@@ -123,11 +124,13 @@ void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, con
     }
 }
 
-Surface triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hit& hit) {
+void triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hit& hit,
+                      Surface& surface) {
     const PlacedMesh& placed = table.mesh_of(index);
     const TriangleMesh& mesh = *placed.mesh;
     const std::uint32_t triangle = index - placed.first_triangle;
-    Surface surface = from_shape(mesh.surface(triangle, hit));
+    take(mesh.surface(triangle, hit), surface);
+    surface.is_of_mesh = true;
     const auto& corners = mesh.triangles[triangle];
     // The test of the next ray rounds relative to the size of the triangle, not to where the point
     // lies, and along any axis: in the plane z = 0 it does not find a distance of 0.
@@ -151,35 +154,37 @@ Surface triangle_surface(const PrimitiveTable& table, std::uint32_t index, const
         surface.weights = {1.0 - hit.u - hit.v, hit.u, hit.v};
         surface.material_count = 3;
     }
-    return surface;
 }
 
 /// Descends the path of instances from level `depth` (outermost = path.size()) inward.
-Surface surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
-                       std::size_t depth) {
+void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, std::size_t depth,
+                    Surface& surface) {
     const PrimitiveTable& table = aggregate.primitives();
     if (depth > 0) {
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
-        Surface surface =
-            surface_inside(*instance.aggregate,
-                           transformed(instance.placement.inner_from_outer, ray), hit, depth - 1);
+        surface_inside(*instance.aggregate, transformed(instance.placement.inner_from_outer, ray),
+                       hit, depth - 1, surface);
         carry_outward(instance.placement, surface);
         surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;
-        return surface;
+        return;
     }
     const std::uint32_t kind = table.kind(hit.primitive);
     const std::uint32_t index = table.index(hit.primitive);
-    Surface surface = kind == kTriangleKind ? triangle_surface(table, index, hit)
-                                            : analytic_surface(table, kind, index, ray, hit);
+    if (kind == kTriangleKind) {
+        triangle_surface(table, index, hit, surface);
+    } else {
+        analytic_surface(table, kind, index, ray, hit, surface);
+    }
     surface.instance = surface.part;
-    return surface;
 }
 
 }  // namespace
 
 Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
-    return surface_inside(aggregate, ray, hit, hit.path.size());
+    Surface surface;
+    surface_inside(aggregate, ray, hit, hit.path.size(), surface);
+    return surface;
 }
 
 Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {

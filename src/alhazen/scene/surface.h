@@ -22,7 +22,8 @@ struct Surface {
     /// Interpolated from tangents at the vertices, unit before they are interpolated and placed;
     /// both zero for surfaces without.
     Vec3 tangent, bitangent;
-    Rgba color{1, 1, 1, 1};  ///< of the vertices; white without
+    Rgba color{1, 1, 1, 1};   ///< of the vertices; white without
+    bool is_of_mesh = false;  ///< else the second set of coordinates is the first
     Vec3 error;  ///< bound of the distance of `point` from the true surface, component by component
     /// One material, or those of a triangle's vertices with their weights.
     std::array<MaterialId, 3> materials{};
