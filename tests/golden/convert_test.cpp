@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "alhazen/base/error.h"
@@ -132,6 +133,19 @@ TEST(Convert, MeshFilesToTheSameBits) {
         (void)convert(load_description(small.front(), {}, ignored), out);
         expect_converts(out);
     }
+}
+
+TEST(Convert, OddScenesToTheSameBits) {
+    const fs::path corpus = fs::path(ALHAZEN_SOURCE_DIR) / "tests" / "corpus";
+    std::vector<fs::path> files;
+    for (const char* folder : {"native", "ray", "nff", "uw_yaml", "gltf"}) {
+        if (!fs::exists(corpus / folder)) continue;
+        for (const auto& entry : fs::directory_iterator(corpus / folder)) {
+            files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    expect_all_convert(files, 6);
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ inline bool same(const StoredImage& a, const StoredImage& b) {
     const auto& [b1, b2, b3, b4, b5] = b;
     const bool samples =
         a5.index() == b5.index() &&
-        std::visit([&]<class V>(const V& v) { return same(v, std::get<V>(b5)); }, a5);
+        std::visit([&]<class V>(const V& v) { return same(v, std::get<V>(b.samples)); }, a5);
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4) && samples;
 }
 inline bool same(const Texture& a, const Texture& b) {

@@ -54,15 +54,17 @@ void read_native_object_list(const NativeBlock& block, NativeContext& context, N
         objects.push_back({name, {}, value.location()});
         context.listed_objects.emplace(name, value.location());
     }
+    if (objects.empty()) return reader.error(*names, "'names' is empty");
     const auto found = context.object_names.find(root);
     if (found == context.object_names.end()) {
         reader.error(*reader.find("root"), "'root' must be one of the names");
-        return;
+    } else {
+        context.scene.root = found->second;
+        objects[static_cast<std::size_t>(found->second)].name = root_name;
+        context.listed_objects.erase(root);
     }
-    context.listed_objects.erase(root);
-    context.scene.root = found->second;
+    // Even after an error: the names have their numbers now.
     context.scene.objects = std::move(objects);
-    context.scene.objects[static_cast<std::size_t>(found->second)].name = root_name;
 }
 
 void read_native_object(const NativeBlock& block, NativeContext& context, NativeScope& scope) {

@@ -364,7 +364,10 @@ TEST(NativeImporter, TheListOfObjectsNumbersThem) {
     EXPECT_EQ(i.scene.objects[2].name, "round");
     EXPECT_EQ(std::get<ObjectIndex>(i.scene.objects[0].parts.at(0).what), ObjectIndex{2});
     EXPECT_TRUE(import("objects { names = [\"a\", \"b\"]; root = \"a\" }").says("not defined"));
-    EXPECT_TRUE(import("objects { names = [\"a\"]; root = \"b\" }").says("one of the names"));
+    EXPECT_TRUE(
+        import("objects { names = [\"a\", \"c\"]; root = \"b\" } object \"c\" { } sphere { }")
+            .says("one of the names"));
+    EXPECT_TRUE(import("objects { names = []; root = \"b\" } object \"b\" { }").says("is empty"));
     EXPECT_TRUE(import("objects { names = [\"a\", \"a\"]; root = \"a\" }").says("already defined"));
     EXPECT_TRUE(import("sphere { } objects { names = [\"a\"]; root = \"a\" }").says("before"));
     EXPECT_TRUE(import("objects { names = [\"a\"]; root = \"a\" } object \"a\" { }")
