@@ -206,5 +206,27 @@ TEST(HostileImages, TheGoodPngFilesOfTheSuiteAreReadAndTheCorruptAreNot) {
     EXPECT_GT(corrupt.refused, 0);
 }
 
+TEST(HostileImages, ThePngFilesOfTheSuiteShowWhatTheirReferencesShow) {
+    ALHAZEN_NEEDS_DATA("hostile/png/pngsuite/primary_check");
+    const fs::path suite = testing::test_data() / "hostile/png/pngsuite";
+    int compared = 0;
+    for (const auto& entry : fs::directory_iterator(suite / "primary")) {
+        const fs::path name = entry.path().filename();
+        const StoredImage read = read_stored_image(entry.path());
+        const StoredImage reference = read_stored_image(suite / "primary_check" / name);
+        ASSERT_EQ(read.width, reference.width) << name;
+        ASSERT_EQ(read.height, reference.height) << name;
+        // Compared as colours: a reference need not be of the same colour type.
+        const std::size_t pixels = std::size_t(read.width) * std::size_t(read.height);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            wrong += !(read.pixel(i, false) == reference.pixel(i, false));
+        }
+        EXPECT_EQ(wrong, 0u) << name << " of " << pixels;
+        ++compared;
+    }
+    EXPECT_GT(compared, 30);
+}
+
 }  // namespace
 }  // namespace alhazen
