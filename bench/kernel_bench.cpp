@@ -34,7 +34,7 @@ struct Arguments {
 std::shared_ptr<const Aggregate> build(const KernelScene& scene) {
     PrimitiveTable table;
     table.meshes.push_back({std::make_shared<TriangleMesh>(scene.mesh), MaterialId{0}, 0, false});
-    table.material_is_opaque = {1};
+    table.material_opacity = {Opacity::Opaque};
     table.finish();
     return make_aggregate("wide_bvh", std::move(table));
 }

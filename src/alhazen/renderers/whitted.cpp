@@ -139,6 +139,8 @@ class Tracer {
             const MaterialSample material = material_at(scene_, surface);
             if (material.coverage == 0.0) continue;
             const bool leaving = dot(ray.direction, surface.normal) >= 0.0;
+            // Light that comes to the back of a single-sided surface passes: it is not there.
+            if (!leaving && material.single_sided && material.transmissive.is_black()) continue;
             const double inside = leaving ? crossing.t - inside_since : 0.0;
             Rgb through = light_through(material, inside, leaving);
             if (material.coverage < 1.0) {

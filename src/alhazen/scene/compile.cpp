@@ -24,6 +24,11 @@ std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
                : a + b;
 }
 
+Opacity opacity_of(const Material& material) {
+    if (!material.is_opaque()) return Opacity::Transparent;
+    return material.double_sided ? Opacity::Opaque : Opacity::OpaqueFromFront;
+}
+
 /// An aggregate with what the census needs to know about it.
 struct Built {
     std::shared_ptr<const Aggregate> aggregate;
@@ -46,9 +51,9 @@ class Compiler {
     Scene run() {
         Scene scene;
         compile_looks(scene);
-        for (const Material& m : scene.materials) opaque_.push_back(m.is_opaque() ? 1 : 0);
-        scene.all_opaque =
-            std::all_of(opaque_.begin(), opaque_.end(), [](auto o) { return o != 0; });
+        for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
+        scene.all_opaque = std::all_of(opacity_.begin(), opacity_.end(),
+                                       [](Opacity o) { return o == Opacity::Opaque; });
         count_uses();
         number_parts();
         const Built root = build_object(static_cast<std::size_t>(d_.root));
@@ -157,7 +162,7 @@ class Compiler {
     }
 
     Built seal(Draft draft) {
-        draft.table.material_is_opaque = opaque_;
+        draft.table.material_opacity = opacity_;
         draft.table.finish();
         const std::uint32_t triangles =
             draft.table.first(kTriangleKind + 1) - draft.table.first(kTriangleKind);
@@ -265,7 +270,7 @@ class Compiler {
     const SceneDescription& d_;
     const CompileOptions& options_;
     std::vector<MeshDescription>* spare_meshes_;
-    std::vector<std::uint8_t> opaque_;
+    std::vector<Opacity> opacity_;
     std::vector<std::uint32_t> first_part_;  ///< [object]
     std::vector<Built> built_objects_;
     std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;

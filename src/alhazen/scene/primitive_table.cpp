@@ -106,7 +106,7 @@ bool PrimitiveTable::is_opaque(PrimitiveId id) const {
     const std::uint32_t k = kind(id);
     const std::uint32_t i = static_cast<std::uint32_t>(id) - first_[k];
     const auto opaque = [&](MaterialId m) {
-        return material_is_opaque[static_cast<std::uint32_t>(m)] != 0;
+        return material_opacity[static_cast<std::uint32_t>(m)] == Opacity::Opaque;
     };
     if (k == kInstanceKind) return false;
     if (k != kTriangleKind) {
@@ -119,6 +119,21 @@ bool PrimitiveTable::is_opaque(PrimitiveId id) const {
     return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
         return opaque(MaterialId{mesh.vertex_materials[v]});
     });
+}
+
+bool PrimitiveTable::is_opaque_from_front(PrimitiveId id) const {
+    if (kind(id) != kTriangleKind) return false;
+    const PlacedMesh& placed = mesh_of(index(id));
+    return placed.mesh->vertex_materials.empty() &&
+           material_opacity[static_cast<std::uint32_t>(placed.material)] ==
+               Opacity::OpaqueFromFront;
+}
+
+bool PrimitiveTable::leaves_through_front(PrimitiveId id, const Ray& ray) const {
+    const std::uint32_t triangle = index(id);
+    const auto [a, b, c] = triangle_vertices(triangle);
+    const double side = dot(cross(b - a, c - a), ray.direction);
+    return mesh_of(triangle).mirrored ? side < 0.0 : side > 0.0;
 }
 
 Box3 PrimitiveTable::box(std::size_t i) const {
@@ -246,7 +261,11 @@ bool PrimitiveTable::shadowed(PrimitiveId id, const Ray& ray, const RayShear& sh
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
         const std::size_t before = crossings.size();
         all_hits(id, ray, shear, crossings, stats);
-        return crossings.size() > before && is_opaque(id);
+        if (crossings.size() == before) return false;
+        if (is_opaque(id)) return true;
+        if (!is_opaque_from_front(id)) return false;
+        crossings.resize(before);
+        return leaves_through_front(id, ray);
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     const std::size_t before = crossings.size();
@@ -276,7 +295,7 @@ template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&,
 std::size_t PrimitiveTable::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     std::size_t total =
-        bytes(meshes) + bytes(instances) + bytes(placements) + bytes(material_is_opaque);
+        bytes(meshes) + bytes(instances) + bytes(placements) + bytes(material_opacity);
     std::apply(
         [&](const auto&... c) {
             ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials) + bytes(c.parts)),

@@ -61,6 +61,13 @@ inline constexpr std::uint32_t kKindCount = kInstanceKind + 1;
 /// Room that a list of crossings of one primitive needs.
 inline constexpr int kMaxShapeHits = 8;
 
+/// What a material does to light that comes to its surface.
+enum class Opacity : std::uint8_t {
+    Transparent,  ///< some of it may pass: the renderer finds out
+    Opaque,       ///< none passes
+    OpaqueFromFront,  ///< none passes from the front, all from the back
+};
+
 class PrimitiveTable final : public BoundsSource {
   public:
     // ---- columns; filled by `compile`, then sealed by `finish`
@@ -68,7 +75,7 @@ class PrimitiveTable final : public BoundsSource {
     std::vector<PlacedMesh> meshes;
     std::vector<Instance> instances;
     std::vector<Placement> placements;
-    std::vector<std::uint8_t> material_is_opaque;  ///< [material]
+    std::vector<Opacity> material_opacity;  ///< [material]
 
     /// Prepares the shapes and computes the id ranges. Call once, when the columns are complete.
     void finish();
@@ -84,7 +91,8 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] const PlacedMesh& mesh_of(std::uint32_t triangle) const;
     /// Vertices of the i-th triangle of the table.
     [[nodiscard]] std::array<Vec3, 3> triangle_vertices(std::uint32_t triangle) const;
-    /// True when the primitive lets no light through (an instance never does for sure: false).
+    /// True when the primitive lets no light through from either side (an instance never does for
+    /// sure: false).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;
 
     // ---- bounds
@@ -113,6 +121,10 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
+    [[nodiscard]] bool is_opaque_from_front(PrimitiveId id) const;
+    /// True when a ray through the triangle comes out on its front: towards a light on that side.
+    [[nodiscard]] bool leaves_through_front(PrimitiveId id, const Ray& ray) const;
+
     std::array<std::uint32_t, kKindCount + 1> first_{};
 };
 

@@ -174,7 +174,7 @@ void count_all_crossings(const SceneDescription& description, const VerifyOption
     const std::uint64_t lines = std::max<std::uint64_t>(100, options.rays / closed);
     for (LoneSurface& surface : surfaces) {
         if (!surface.closed) continue;
-        surface.table.material_is_opaque.assign(1, 1);
+        surface.table.material_opacity.assign(1, Opacity::Opaque);
         surface.table.finish();
         const auto aggregate = make_aggregate(options.accelerator, std::move(surface.table));
         VerifyRays rays(aggregate->box(), nullptr, aggregate->primitives(), options.seed + 1);

@@ -59,7 +59,7 @@ struct TableBuilder {
         column.materials.push_back(MaterialId{opaque ? 0u : 1u});
     }
     [[nodiscard]] PrimitiveTable finish() {
-        table.material_is_opaque = {1, 0};
+        table.material_opacity = {Opacity::Opaque, Opacity::Transparent};
         if (!mesh->triangles.empty()) table.meshes.push_back({mesh, MaterialId{0}, 0, false});
         if (!glass->triangles.empty()) table.meshes.push_back({glass, MaterialId{1}, 0, false});
         table.finish();

@@ -123,7 +123,7 @@ TEST(Alpha, ShadowsAreAsThickAsTheSurface) {
     expect_near(lit_behind(wall(1), tinted), {1, 0.75, 0.5});
 }
 
-TEST(SingleSided, TheBackIsNotSeenButBlocksLight) {
+TEST(SingleSided, TheBackIsNotSeenAndLightPassesItFromThere) {
     Material front_only = glowing({1, 0, 0});
     front_only.double_sided = false;
     for (const bool turned : {false, true}) {
@@ -134,8 +134,50 @@ TEST(SingleSided, TheBackIsNotSeenButBlocksLight) {
         expect_near(center(maker.compile()), expected);
         expect_near(center(maker.compile(), RayCasting{}), expected);
     }
-    expect_near(lit_behind(turned_wall(1), front_only), {0, 0, 0});
+    expect_near(lit_behind(turned_wall(1), front_only), {1, 1, 1});
     expect_near(lit_behind(wall(1), front_only), {0, 0, 0});
+}
+
+/// Two triangles in the place of a wall between the light and what the camera sees.
+TriangleMesh wall_mesh(double z) {
+    TriangleMesh mesh;
+    mesh.positions = {{2, -2, z}, {6, -2, z}, {6, 2, z}, {2, 2, z}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+}
+
+TEST(SingleSided, MeshesLetLightPassFromBehindHoweverTheyArePlaced) {
+    Material front_only = glowing({1, 0, 0});
+    front_only.double_sided = false;
+    Affine turned;  // about the line x = 4, z = 1: the light sees the back
+    turned.linear = Mat3{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+    turned.translation = {8, 0, 2};
+    Affine mirrored;  // in x: the front stays the front
+    mirrored.linear = Mat3{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mirrored.translation = {8, 0, 0};
+    for (const char* accelerator : {"list", "wide_bvh"}) {
+        for (const bool instanced : {false, true}) {
+            for (const auto& [placement, passes] :
+                 {std::pair{Affine{}, false}, std::pair{turned, true}, std::pair{mirrored, false},
+                  std::pair{turned * mirrored, true}}) {
+                SceneMaker maker;
+                Material white;
+                white.diffuse.color = {1, 1, 1};
+                maker.add(wall(0), maker.material(white));
+                const ObjectIndex object = maker.object("wall");
+                maker.add(maker.mesh(wall_mesh(1)), maker.material(front_only), {}, object);
+                maker.add(object, MaterialId{0}, placement);
+                if (instanced) {
+                    Affine away;
+                    away.translation = {0, 0, -100};
+                    maker.add(object, MaterialId{0}, away);
+                }
+                maker.light(DirectionalLight{.to_light = normalize(Vec3{4, 0, 1})});
+                const double lit = passes ? 1 / std::sqrt(17.0) : 0.0;
+                expect_near(center(maker.compile(accelerator)), {lit, lit, lit});
+            }
+        }
+    }
 }
 
 Material physical(double transmission, double thickness) {
