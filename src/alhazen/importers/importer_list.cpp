@@ -3,14 +3,14 @@
 #include <array>
 
 #include "alhazen/base/file.h"
-#include "alhazen/importers/gltf_importer.h"
-#include "alhazen/importers/native_importer.h"
-#include "alhazen/importers/nff_importer.h"
-#include "alhazen/importers/obj_importer.h"
-#include "alhazen/importers/ply_importer.h"
-#include "alhazen/importers/ray_importer.h"
-#include "alhazen/importers/stl_importer.h"
-#include "alhazen/importers/uw_yaml_importer.h"
+#include "alhazen/importers/gltf/gltf_importer.h"
+#include "alhazen/importers/native/native_importer.h"
+#include "alhazen/importers/nff/nff_importer.h"
+#include "alhazen/importers/obj/obj_importer.h"
+#include "alhazen/importers/ply/ply_importer.h"
+#include "alhazen/importers/ray/ray_importer.h"
+#include "alhazen/importers/stl/stl_importer.h"
+#include "alhazen/importers/uw_yaml/uw_yaml_importer.h"
 
 namespace alhazen {
 

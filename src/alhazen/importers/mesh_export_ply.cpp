@@ -8,8 +8,8 @@
 
 #include "alhazen/imaging/encoding.h"
 #include "alhazen/importers/mesh_export.h"
-#include "alhazen/importers/ply_header.h"
-#include "alhazen/importers/ply_vertices.h"
+#include "alhazen/importers/ply/ply_header.h"
+#include "alhazen/importers/ply/ply_vertices.h"
 
 namespace alhazen {
 

@@ -4,11 +4,11 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/importers/mesh_scene.h"
-#include "alhazen/importers/obj_importer.h"
-#include "alhazen/importers/obj_reader.h"
-#include "alhazen/importers/ply_importer.h"
-#include "alhazen/importers/ply_reader.h"
-#include "alhazen/importers/stl_reader.h"
+#include "alhazen/importers/obj/obj_importer.h"
+#include "alhazen/importers/obj/obj_reader.h"
+#include "alhazen/importers/ply/ply_importer.h"
+#include "alhazen/importers/ply/ply_reader.h"
+#include "alhazen/importers/stl/stl_reader.h"
 
 namespace alhazen {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "alhazen/importers/native_settings.h"
+#include "alhazen/importers/native/native_settings.h"
 
 namespace alhazen {
 

@@ -9,7 +9,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
-#include "alhazen/importers/native_writer.h"
+#include "alhazen/importers/native/native_writer.h"
 #include "alhazen/importers/picture_export.h"
 #include "alhazen/importers/unique_labels.h"
 #include "alhazen/session/placed_meshes.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "alhazen/importers/gltf_accessors.h"
+#include "alhazen/importers/gltf/gltf_accessors.h"
 #include "unit/importers/gltf_read.h"
 
 namespace alhazen::testing {

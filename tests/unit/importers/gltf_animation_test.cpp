@@ -1,4 +1,4 @@
-#include "alhazen/importers/gltf_animation.h"
+#include "alhazen/importers/gltf/gltf_animation.h"
 
 #include <gtest/gtest.h>
 

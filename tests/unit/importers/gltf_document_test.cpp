@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "alhazen/importers/gltf_uri.h"
+#include "alhazen/importers/gltf/gltf_uri.h"
 #include "unit/importers/gltf_read.h"
 
 namespace alhazen::testing {
@@ -252,8 +252,9 @@ TEST(GltfDocument, NormalsMustBeUnitButMayBeMissing) {
     const auto file = [](double length) {
         GltfText text;
         text.floats("VEC3", {0, 0, 1, 0, length, 0});
-        return read_gltf(text.file(json("'meshes': [{'primitives': [{'mode': 0, 'attributes': {"
-                                        "'NORMAL': 0}}]}]")));
+        return read_gltf(
+            text.file(json("'meshes': [{'primitives': [{'mode': 0, 'attributes': {"
+                           "'NORMAL': 0}}]}]")));
     };
     EXPECT_TRUE(file(1.005).is_good());
     EXPECT_TRUE(file(1.02).says("NORMAL: 1 vectors are not of unit length"));

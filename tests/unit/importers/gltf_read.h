@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "alhazen/importers/gltf_document.h"
+#include "alhazen/importers/gltf/gltf_document.h"
 #include "unit/importers/gltf_text.h"
 
 namespace alhazen::testing {

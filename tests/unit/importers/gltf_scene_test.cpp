@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-#include "alhazen/importers/gltf_geometry.h"
-#include "alhazen/importers/gltf_textures.h"
+#include "alhazen/importers/gltf/gltf_geometry.h"
+#include "alhazen/importers/gltf/gltf_textures.h"
 #include "unit/importers/gltf_text.h"
 
 namespace alhazen::testing {

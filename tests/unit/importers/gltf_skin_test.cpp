@@ -1,4 +1,4 @@
-#include "alhazen/importers/gltf_skin.h"
+#include "alhazen/importers/gltf/gltf_skin.h"
 
 #include <gtest/gtest.h>
 

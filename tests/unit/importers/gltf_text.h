@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/importers/gltf_importer.h"
+#include "alhazen/importers/gltf/gltf_importer.h"
 #include "unit/importers/text_scene.h"
 
 namespace alhazen::testing {

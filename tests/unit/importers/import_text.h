@@ -8,8 +8,8 @@
 
 #include "alhazen/importers/importer_list.h"
 #include "alhazen/importers/mesh_io.h"
-#include "alhazen/importers/obj_reader.h"
-#include "alhazen/importers/ply_reader.h"
+#include "alhazen/importers/obj/obj_reader.h"
+#include "alhazen/importers/ply/ply_reader.h"
 
 namespace alhazen::testing {
 

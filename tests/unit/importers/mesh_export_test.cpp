@@ -6,10 +6,10 @@
 #include <cstring>
 
 #include "alhazen/importers/mesh_export.h"
-#include "alhazen/importers/mtl_reader.h"
-#include "alhazen/importers/obj_reader.h"
-#include "alhazen/importers/ply_reader.h"
-#include "alhazen/importers/stl_reader.h"
+#include "alhazen/importers/obj/mtl_reader.h"
+#include "alhazen/importers/obj/obj_reader.h"
+#include "alhazen/importers/ply/ply_reader.h"
+#include "alhazen/importers/stl/stl_reader.h"
 #include "import_text.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"

@@ -1,4 +1,4 @@
-#include "alhazen/importers/native_importer.h"
+#include "alhazen/importers/native/native_importer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "alhazen/base/file.h"
-#include "alhazen/importers/native_shapes.h"
+#include "alhazen/importers/native/native_shapes.h"
 #include "text_scene.h"
 
 namespace alhazen {

@@ -1,4 +1,4 @@
-#include "alhazen/importers/native_writer.h"
+#include "alhazen/importers/native/native_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/image.h"
-#include "alhazen/importers/native_importer.h"
-#include "alhazen/importers/native_text.h"
+#include "alhazen/importers/native/native_importer.h"
+#include "alhazen/importers/native/native_text.h"
 #include "alhazen/importers/unique_labels.h"
 #include "support/random.h"
 #include "support/same_description.h"

@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "alhazen/imaging/image_io.h"
-#include "alhazen/importers/mtl_reader.h"
+#include "alhazen/importers/obj/mtl_reader.h"
 #include "import_text.h"
 #include "support/random.h"
 #include "support/test_data.h"

@@ -1,4 +1,4 @@
-#include "alhazen/importers/ray_importer.h"
+#include "alhazen/importers/ray/ray_importer.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "alhazen/importers/mesh_export.h"
-#include "alhazen/importers/stl_reader.h"
+#include "alhazen/importers/stl/stl_reader.h"
 #include "import_text.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"

@@ -1,0 +1,53 @@
+#pragma once
+/// The nodes of a glTF scene as parts of one object: transforms are multiplied out along the
+/// hierarchy, meshes are objects that their nodes share.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021, sections 3.5 and 3.7; EXT_mesh_gpu_instancing.
+/// Differs: a node whose transform is singular is not seen (a scale of zero is how files hide
+/// things).
+
+#include "alhazen/importers/gltf/gltf_geometry.h"
+#include "alhazen/importers/gltf/gltf_materials.h"
+#include "alhazen/importers/gltf/gltf_pose.h"
+
+namespace alhazen::gltf {
+
+class NodeBuilder {
+  public:
+    NodeBuilder(const Document& document, const ImportSource& source, const Pose& pose,
+                SceneDescription& scene, Diagnostics& diagnostics);
+
+    /// Adds the meshes of these nodes to the root object (number 0), which must be there.
+    void add(std::span<const Index> nodes, const std::vector<Affine>& world_from_node);
+
+  private:
+    /// Objects are shared by nodes with the same mesh and the same morph weights.
+    using ObjectKey = std::pair<Index, std::vector<double>>;
+
+    [[nodiscard]] ObjectIndex shared_object(const Node& node, const std::vector<double>& weights);
+    [[nodiscard]] ObjectIndex make_object(Index mesh, const std::vector<double>& weights,
+                                          const std::vector<Affine>* world_from_bound,
+                                          bool& all_skinned);
+    void count_left_out(const Primitive& primitive);
+    void add_mesh_part(Index mesh, std::size_t primitive, PrimitiveGeometry geometry,
+                       ObjectDescription& object);
+    void place(ObjectIndex object, const Affine& world_from_part, std::string name);
+    void place_instances(const Node& node, ObjectIndex object, const Affine& world_from_node,
+                         const std::string& name);
+    [[nodiscard]] std::string mesh_name(Index mesh) const;
+    void report_left_out() const;
+
+    const Document& document_;
+    const ImportSource& source_;
+    const Pose& pose_;
+    SceneDescription& scene_;
+    Diagnostics& diagnostics_;
+    ElementBudget budget_;
+    DefaultMaterial default_material_;
+    std::map<ObjectKey, ObjectIndex> objects_;
+    std::vector<char> mesh_seen_;  ///< [mesh] counted in what follows
+    std::size_t points_ = 0, lines_ = 0, without_positions_ = 0;  ///< primitives left out
+    std::map<std::string, std::size_t> other_attributes_;         ///< that are not read
+};
+
+}  // namespace alhazen::gltf
