@@ -69,7 +69,6 @@ struct PixelGeometry {
         albedo += point.material.albedo;
         ++hits;
     }
-
 };
 
 Vec3 unit_or_zero(const Vec3& v) {

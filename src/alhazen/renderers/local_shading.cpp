@@ -127,7 +127,7 @@ ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, b
 }
 
 bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,
-                       TraversalStats* stats, VisibleHit& found, double least_coverage) {
+                       TraversalStats* stats, VisibleHit& found) {
     Ray rest = ray;
     double passed = 0.0;
     for (int i = 0; i <= kMaxPassedSurfaces; ++i) {
@@ -136,7 +136,7 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
         found.t = passed + found.hit.t;
         set_shading_point(scene, rest, found.hit, inside, cone.width_at(found.t), found.point);
         const double coverage = found.point.material.coverage;
-        if (coverage > 0.0 && coverage >= least_coverage) return true;
+        if (coverage > 0.0) return true;
         passed = found.t;
         rest = leaving_ray(found.point.surface, ray.direction, ray.t_max - passed);
     }

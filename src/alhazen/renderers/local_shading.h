@@ -46,11 +46,10 @@ struct VisibleHit {
                    ///< passed through
 };
 
-/// The first surface along a ray of which something is there: a coverage above 0 and at least
-/// `least_coverage`. Others are passed straight through, at most kMaxPassedSurfaces of them.
+/// The first surface along a ray of which something is there: a coverage above 0. Others are passed
+/// straight through, at most kMaxPassedSurfaces of them.
 [[nodiscard]] bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone,
-                                     bool inside, TraversalStats* stats, VisibleHit& found,
-                                     double least_coverage = 0.0);
+                                     bool inside, TraversalStats* stats, VisibleHit& found);
 inline constexpr int kMaxPassedSurfaces = 4096;
 
 /// Less of a ray than this is not followed any further through surfaces that are partly there.

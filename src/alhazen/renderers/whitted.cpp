@@ -78,7 +78,7 @@ class Tracer {
     Rgb shade(const VisibleHit& found, const Ray& ray, const Path& path, const Rgb& contribution) {
         const ShadingPoint& point = found.point;
         if (point.material.unlit) return point.material.emission;
-        Rgb color = unshadowed_terms(scene_, point) + direct_light(point);
+        Rgb color = unshadowed_terms(scene_, point) + direct_light(point, path.absorption);
         if (path.depth < conventions_.max_depth) {
             Path onward = path;
             onward.depth = path.depth + 1;
@@ -94,7 +94,8 @@ class Tracer {
         return color;
     }
 
-    Rgb direct_light(const ShadingPoint& point) {
+    /// `absorption`: of what the ray came through, if that was inside of something.
+    Rgb direct_light(const ShadingPoint& point, const Rgb& absorption) {
         Rgb sum;
         for (const Light& light : scene_.lights) {
             if (!illuminates(light)) continue;
@@ -102,7 +103,7 @@ class Tracer {
                 sample(light, point.surface.point, conventions_.clamp_attenuation);
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
-            const Rgb shadow = light_let_through(point, l);
+            const Rgb shadow = light_let_through(point, l, absorption);
             if (shadow.is_black()) continue;
             sum +=
                 shadow * l.intensity * reflected_fraction(conventions_, point, l.to_light, cosine);
@@ -111,7 +112,8 @@ class Tracer {
     }
 
     /// What is left of a light on its way to the point: A_shadow.
-    Rgb light_let_through(const ShadingPoint& point, const LightSample& light) {
+    Rgb light_let_through(const ShadingPoint& point, const LightSample& light,
+                          const Rgb& absorption) {
         if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};
         const Ray ray = leaving_ray(point.surface, light.to_light, light.distance);
         RayCount& count = counters_[RayKind::Shadow];
@@ -128,46 +130,60 @@ class Tracer {
             return {0, 0, 0};
         }
         count.hit += !crossings_.empty();
-        return tint_of_crossings(ray);
+        return tint_of_crossings(ray, point.inside, absorption);
     }
 
-    [[nodiscard]] Rgb tint_of_crossings(const Ray& ray) const {
+    /// What the transparent surfaces on the way to a light leave of it.
+    Rgb tint_of_crossings(const Ray& ray, bool starts_inside, const Rgb& absorption) {
         Rgb tint{1, 1, 1};
-        double inside_since = 0.0;
+        media_.clear();
+        if (starts_inside) media_.push_back(absorption);
+        double last = 0.0;
         for (const Hit& crossing : crossings_) {
             const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
             const MaterialSample material = material_at(scene_, surface);
             if (material.coverage == 0.0) continue;
             const bool leaving = dot(ray.direction, surface.normal) >= 0.0;
-            // Light that comes to the back of a single-sided surface passes: it is not there.
-            if (!leaving && material.single_sided && material.transmissive.is_black()) continue;
-            const double inside = leaving ? crossing.t - inside_since : 0.0;
-            Rgb through = light_through(material, inside, leaving);
+            // Light that comes to the back of a surface without one passes.
+            if (!leaving && is_unseen_from_behind(material)) continue;
+            Rgb through = light_through(material, leaving, crossing.t - last);
+            if (material.physical && !material.thin) {
+                tint = tint * through_medium(crossing.t - last);
+                enter_or_leave(leaving, material.absorption);
+            }
             if (material.coverage < 1.0) {
                 const double open = 1.0 - material.coverage;
                 through = Rgb{open, open, open} + material.coverage * through;
             }
-            if (through.is_black()) return {0, 0, 0};
             tint = tint * through;
-            inside_since = crossing.t;
+            if (tint.is_black()) return tint;
+            if (!material.physical || !material.thin) last = crossing.t;
         }
+        if (std::isfinite(ray.t_max)) tint = tint * through_medium(ray.t_max - last);
         return tint;
     }
 
-    /// What a whole surface lets through of light that has come `inside` far through the material.
-    [[nodiscard]] Rgb light_through(const MaterialSample& material, double inside,
-                                    bool leaving) const {
+    /// What one surface lets through; `inside`: the way since the last one.
+    [[nodiscard]] Rgb light_through(const MaterialSample& material, bool leaving,
+                                    double inside) const {
         const Rgb& kt = material.transmissive;
-        if (material.physical) {
-            if (leaving && !kt.is_black() && material.thin && material.single_sided) {
-                return {1, 1, 1};  // the back of a sheet that has only a front
-            }
-            return material.absorption.is_black() ? kt
-                                                  : kt * transmittance(material.absorption, inside);
+        if (material.physical || kt.is_black() ||
+            conventions_.shadow_tint == ShadingConventions::ShadowTint::PerCrossing) {
+            return kt;
         }
-        if (conventions_.shadow_tint == ShadingConventions::ShadowTint::PerCrossing) return kt;
-        if (kt.is_black()) return kt;
         return leaving ? power(kt, inside) : Rgb{1, 1, 1};
+    }
+
+    /// What is left after a way through the innermost volume that was entered.
+    [[nodiscard]] Rgb through_medium(double distance) const {
+        return media_.empty() ? Rgb{1, 1, 1} : transmittance(media_.back(), distance);
+    }
+    void enter_or_leave(bool leaving, const Rgb& absorption) {
+        if (!leaving) {
+            media_.push_back(absorption);
+        } else if (!media_.empty()) {
+            media_.pop_back();
+        }
     }
 
     /// `onward`: the path of the new ray, but for its kind and for what this surface does to it.
@@ -223,6 +239,7 @@ class Tracer {
     RayCounters& counters_;
     TraversalStats* stats_;
     std::vector<Hit> crossings_;
+    std::vector<Rgb> media_;        ///< absorption of the volumes that a shadow ray is inside of
     std::deque<VisibleHit> found_;  ///< by depth; references stay valid while it grows
 };
 

@@ -16,7 +16,8 @@ namespace alhazen {
 
 class MipPyramid {
   public:
-    /// Throws std::bad_alloc only. Time and memory: a third more than the picture's.
+    /// Throws std::bad_alloc only. Memory: the smaller copies hold 16-bit codes, so two
+    /// thirds of an 8-bit picture's and a third of a 16-bit one's.
     MipPyramid(std::shared_ptr<const StoredImage> image, bool decode_srgb);
 
     [[nodiscard]] int levels() const { return static_cast<int>(smaller_.size()) + 1; }
