@@ -49,6 +49,7 @@ TEST(PlyScene, IntegerColoursAreDecodedAndFloatsAreLinear) {
     EXPECT_EQ(color("float", "red green blue alpha", "0.25 2 0.5 0.75"),
               (VertexColor{0.25f, 2, 0.5f, 0.75f}));
     EXPECT_EQ(color("ushort", "red green blue", "65535 0 0"), (VertexColor{1, 0, 0, 1}));
+    EXPECT_EQ(color("uchar", "red green blue", "256 -1 0"), (VertexColor{1, 0, 0, 1})) << "clamped";
     EXPECT_EQ(color("uchar", "red green", "1 2"), (VertexColor{-1, -1, -1, -1}));
     EXPECT_EQ(text_of(found), "");
 }

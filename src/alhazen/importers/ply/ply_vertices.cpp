@@ -7,6 +7,15 @@
 
 namespace alhazen {
 
+namespace {
+
+/// `v` between the two, the lower one for NaN.
+double within(double v, double lowest, double highest) {
+    return v > lowest ? std::min(v, highest) : lowest;
+}
+
+}  // namespace
+
 float linear_of_code(std::uint8_t code) {
     static const std::array<float, 256> kTable = [] {
         std::array<float, 256> table{};
@@ -96,10 +105,12 @@ float PlyVertexLayout::color(std::size_t slot) const {
         case PlyType::Float64:
             return float(v);
         case PlyType::Uint8:
-            return slot == kAlpha ? float(v / 255.0) : linear_of_code(std::uint8_t(v));
+            // An ascii file may say more than its type holds.
+            return slot == kAlpha ? float(within(v, 0.0, 255.0) / 255.0)
+                                  : linear_of_code(std::uint8_t(within(v, 0.0, 255.0)));
         default:
             const double most = types_[slot] == PlyType::Uint16 ? 65535.0 : 255.0;
-            const double unit = std::clamp(v / most, 0.0, 1.0);
+            const double unit = within(v / most, 0.0, 1.0);
             return float(slot == kAlpha ? unit : linear_from_srgb(unit));
     }
 }
@@ -120,7 +131,7 @@ void PlyVertexLayout::append(TriangleMesh& mesh) const {
     }
     if (materials_) {
         mesh.vertex_materials.push_back(
-            std::uint32_t(std::clamp(v[kMaterial], 0.0, double(0xFFFFFFFFu))));
+            std::uint32_t(within(v[kMaterial], 0.0, double(0xFFFFFFFFu))));
     }
 }
 
