@@ -27,6 +27,7 @@ struct SceneArguments {
     std::optional<double> time;
     std::string animation;
     std::uint64_t max_image_pixels = ImageLimits{}.max_pixels;
+    std::optional<std::uint64_t> max_import_mib;
     int threads = 0;
 
     void add_to(CLI::App& command, const std::string& default_accelerator);

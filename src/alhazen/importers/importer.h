@@ -2,6 +2,7 @@
 /// Bytes in, scene description and diagnostics out. To add a format: CONTRIBUTING.md.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,12 @@ struct ImportOptions {
     int max_nesting = 256;               ///< of blocks and groups in text formats
     int max_include_depth = 16;
     std::uint64_t max_included_bytes = std::uint64_t{1} << 32;
-    std::uint64_t max_elements = 400'000'000;  ///< vertices, triangles or primitives in one file
+    /// Vertices, triangles or primitives in one file. glTF counts what it reads: elements of accessors, once for each
+    /// use (a mesh read for two sets of morph weights counts twice). JSON values: a twentieth of this, or a million.
+    std::uint64_t max_elements = 400'000'000;
+    /// Memory for the meshes and parts that a glTF file makes, also of shared data by morph weights, skins and
+    /// instances; none: 64 MiB and 64 times the bytes of the file and its buffers, at most 16 GiB.
+    std::optional<std::uint64_t> max_made_bytes;
     ImageLimits image_limits;                  ///< of each texture
     std::optional<double> time;  ///< seconds: animations of the file are applied at this time; none: as at rest
     std::string animation;       ///< name or position of the only animation to apply; empty: all

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "alhazen/math/quadratic.h"
+#include "alhazen/math/unit_vector.h"
 #include "alhazen/shapes/shape.h"
 
 namespace alhazen {
@@ -34,20 +35,6 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
     return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
             difference_of_products(a.x, b.y, a.y, b.x)};
-}
-
-/// Unit vector along `v`, or `fallback` when `v` is zero or not finite; does not over- or
-/// underflow.
-inline Vec3 unit_or(const Vec3& v, const Vec3& fallback) {
-    const double squared = length_squared(v);
-    if (squared > 1e-200 && squared < 1e200) return v / std::sqrt(squared);
-    const double largest = max_component(abs(v));
-    if (!(largest > 0.0) || !is_finite(v)) return fallback;
-    // A power of two, so that scaling rounds nothing (in two steps, for subnormals).
-    const int exponent = std::ilogb(largest);
-    const double half = std::ldexp(1.0, -exponent / 2);
-    const double rest = std::ldexp(1.0, -exponent - (-exponent / 2));
-    return normalize((v * half) * rest);
 }
 
 /// Half the size of a circle's box: `radius` times the sine of the angle between `n` (unit) and

@@ -65,6 +65,10 @@ TEST(GltfAccessor, SparseValuesReplaceThoseOfTheBase) {
              "'componentType': 5121}, 'values': {'bufferView': 0, 'byteOffset': 20}}}"));
     ASSERT_TRUE(read.is_good()) << read.findings();
     EXPECT_EQ(gltf::read_numbers(read.document, 0), (Numbers{1, 20, 3, 40}));
+    // Of the first elements alone, with those sparse ones that are among them.
+    EXPECT_EQ(gltf::read_numbers(read.document, 0, 1), (Numbers{1}));
+    EXPECT_EQ(gltf::read_numbers(read.document, 0, 3), (Numbers{1, 20, 3}));
+    EXPECT_EQ(gltf::read_numbers(read.document, 0, 9), (Numbers{1, 20, 3, 40}));
 }
 
 TEST(GltfAccessor, WithoutAViewTheBaseOfSparseValuesIsZero) {

@@ -232,6 +232,22 @@ TEST(GltfDocument, DepthOfJsonIsLimitedAndDepthOfNodesIsNot) {
     EXPECT_EQ(read.document.nodes.size(), 100'001u);
 }
 
+TEST(GltfDocument, JsonThatNeedsMuchMemoryForItsSizeIsRefused) {
+    // An object of three bytes counts as eight values: of these 125 000 make a million.
+    const auto objects = [](std::size_t count) {
+        std::string text = R"({"asset": {"version": "2.0"}, "extras": [{})";
+        for (std::size_t i = 1; i < count; ++i) text += ",{}";
+        return text + "]}";
+    };
+    ImportOptions options;
+    options.max_elements = 20'000'000;
+    EXPECT_TRUE(read_gltf(objects(124'990), options).is_good());
+    EXPECT_THROW((void)read_gltf(objects(125'000), options), Error);
+    // By default there are twenty million.
+    EXPECT_TRUE(read_gltf(objects(2'400'000)).is_good());
+    EXPECT_THROW((void)read_gltf(objects(2'500'000)), Error);
+}
+
 TEST(GltfDocument, ABufferOnTheNetIsOnlyRefusedWhenItIsNeeded) {
     const std::string buffer = "'buffers': [{'byteLength': 1, 'uri': 'http://x.example/y.bin'}]";
     EXPECT_TRUE(read_gltf(gltf_with(json(buffer))).is_good());

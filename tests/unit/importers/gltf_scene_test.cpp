@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
 #include <numbers>
 
+#include "alhazen/base/file.h"
 #include "alhazen/importers/gltf/gltf_geometry.h"
 #include "alhazen/importers/gltf/gltf_textures.h"
 #include "unit/importers/gltf_text.h"
@@ -119,6 +122,66 @@ TEST(GltfScene, InstancesOfTheExtensionAreParts) {
     EXPECT_EQ(world_positions(result.scene, 0)[1], (Vec3{1, 7, 0}));
     // Three times as large, half a turn about z.
     EXPECT_NEAR_VEC((Vec3{2, 7, 0}), world_positions(result.scene, 1)[1], 1e-12);
+}
+
+TEST(GltfScene, InstancesAreCountedByAnyAttribute) {
+    GltfText t;
+    const int p = t.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, bounds("0, 0, 0", "1, 1, 0"));
+    const int ids = t.floats("SCALAR", {7, 8, 9, 10});
+    const Imported result = import_gltf(t.file(
+        R"("extensionsUsed": ["EXT_mesh_gpu_instancing"], "scenes": [{"nodes": [0]}], "nodes": [
+          {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"_ID": )" +
+        number(ids) + R"(}}}}], "meshes": [{"primitives": [{"attributes": {"POSITION": )" +
+        number(p) + "}}]}]"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    EXPECT_EQ(result.parts().size(), 4u);
+}
+
+TEST(GltfScene, WhatIsMadeOfAFileIsBounded) {
+    // A mesh of three vertices that every node bends in its own way.
+    GltfText t;
+    const int p = t.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, bounds("0, 0, 0", "1, 1, 0"));
+    std::string nodes, roots;
+    for (int i = 0; i < 20; ++i) {
+        nodes += std::string(i == 0 ? "" : ",") + R"({"mesh": 0, "weights": [)" + number(i) + "]}";
+        roots += (i == 0 ? "" : ",") + number(i);
+    }
+    const std::string text = t.file(R"("scenes": [{"nodes": [)" + roots + R"(]}], "nodes": [)" +
+                                    nodes + R"(], "meshes": [{"primitives": [{"attributes":
+           {"POSITION": )" + number(p) +
+                                    R"(}, "targets": [{"POSITION": )" + number(p) + "}]}]}]");
+    ImportOptions options;
+    options.max_made_bytes = 100'000;
+    EXPECT_EQ(import_gltf(text, options).scene.meshes.size(), 20u);
+    options.max_made_bytes = 5'000;
+    try {
+        import_gltf(text, options);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Resource);
+        EXPECT_NE(std::string(error.what()).find("max_made_bytes"), std::string::npos);
+    }
+}
+
+TEST(GltfScene, SmallFilesThatMakeMuchAreRefusedOrReadWithinAMoment) {
+    std::size_t refused = 0, files = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(ALHAZEN_SOURCE_DIR "/tests/corpus/hostile")) {
+        if (entry.path().extension() != ".gltf") continue;
+        ++files;
+        const auto start = std::chrono::steady_clock::now();
+        try {
+            const Imported result = import_gltf(read_file(entry.path()));
+            EXPECT_EQ(result.errors(), 0u) << entry.path() << '\n' << result.messages();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Resource) << entry.path();
+            ++refused;
+        }
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        EXPECT_LT(seconds.count(), 10.0) << entry.path();
+    }
+    EXPECT_EQ(files, 4u);
+    EXPECT_EQ(refused, 3u);
 }
 
 TEST(GltfGeometry, StripsAndFansKeepTheirWinding) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "unit/importers/gltf_text.h"
 
 namespace alhazen::testing {
@@ -78,6 +80,58 @@ TEST(GltfSkin, NormalsStandOnStretchedSurfaces) {
     geometry.mesh.normals = {{0, 1, 0}};
     gltf::apply_skin(geometry, {Affine::scale({-1, 1, 1})});
     EXPECT_NEAR_VEC((Vec3{0, 1, 0}), geometry.mesh.normals[0], 1e-12);
+}
+
+TEST(GltfSkin, MirrorsKeepTheFrontAndTurnTheBitangent) {
+    alhazen::gltf::PrimitiveGeometry geometry;
+    geometry.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    geometry.mesh.normals.assign(4, {0, 0, 1});
+    geometry.mesh.tangents.assign(4, {1, 0, 0, 1});
+    geometry.mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 2, 0}};
+    // Only corners 0 and 1 are mirrored.
+    geometry.joints = {1, {0, 0, 1, 1}, {1, 1, 1, 1}};
+    gltf::apply_skin(geometry, {Affine::scale({-1, 1, 1}), Affine{}});
+    const std::vector<std::array<std::uint32_t, 3>> expected{{0, 2, 1}, {1, 3, 2}, {3, 2, 0}};
+    EXPECT_EQ(geometry.mesh.triangles, expected);
+    // The front of the first triangle is where its normals point.
+    const std::vector<Vec3>& p = geometry.mesh.positions;
+    const auto [a, b, c] = geometry.mesh.triangles[0];
+    EXPECT_GT(dot(cross(p[b] - p[a], p[c] - p[a]), geometry.mesh.normals[0]), 0.0);
+    // The bitangent cross(n, t) * sign stays y, which the mirror leaves alone.
+    EXPECT_EQ(geometry.mesh.tangents[0].x, -1.0f);
+    EXPECT_EQ(geometry.mesh.tangents[0].sign, -1.0f);
+    EXPECT_EQ(geometry.mesh.tangents[2].x, 1.0f);
+    EXPECT_EQ(geometry.mesh.tangents[2].sign, 1.0f);
+}
+
+TEST(GltfSkin, PrimitivesWithoutJointsFollowTheNodeThoseWithFollowTheJoints) {
+    GltfText t;
+    const auto n = [](int i) { return std::to_string(i); };
+    const int p = t.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, bounds("0, 0, 0", "1, 1, 0"));
+    const int joints = t.bytes("VEC4", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    const int w = t.floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    const Imported result = import_gltf(t.file(
+        R"("scenes": [{"nodes": [0]}], "nodes": [{"translation": [10, 0, 0], "children": [1, 2]},
+             {}, {"mesh": 0, "skin": 0}], "skins": [{"joints": [1]}],
+           "meshes": [{"primitives": [{"attributes": {"POSITION": )" +
+        n(p) + R"(, "JOINTS_0": )" + n(joints) + R"(, "WEIGHTS_0": )" + n(w) +
+        R"(}}, {"attributes": {"POSITION": )" + n(p) + "}}]}]"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    ASSERT_EQ(result.parts().size(), 2u);
+    EXPECT_EQ(world_positions(result.scene, 0)[1], (Vec3{11, 0, 0}));
+    EXPECT_EQ(world_positions(result.scene, 1)[1], (Vec3{11, 0, 0}));
+    EXPECT_EQ(result.scene.meshes.size(), 2u);
+}
+
+TEST(GltfSkin, NodesWithTheSameMeshAndSkinShareIt) {
+    std::string text = skinned_triangle({1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, 0, 0});
+    const std::string children = R"({"children": [2])";
+    // A second one in place of the joint's parent's missing mesh.
+    text.replace(text.find(children), children.size(), R"({"mesh": 0, "skin": 0, "children": [2])");
+    const Imported result = import_gltf(text);
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    EXPECT_EQ(result.parts().size(), 2u);
+    EXPECT_EQ(result.scene.meshes.size(), 1u);
 }
 
 TEST(GltfMorph, TargetsAreAddedByTheirWeights) {

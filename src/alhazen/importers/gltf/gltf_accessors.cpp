@@ -77,6 +77,32 @@ void copy_numbers(const Document& document, const Accessor& accessor, std::vecto
                [most](T x) { return std::max(static_cast<double>(x) / most, -1.0); });
 }
 
+/// All numbers of an accessor, which need not be one of the document's own.
+std::vector<double> numbers_of(const Document& document, const Accessor& accessor) {
+    std::vector<double> out(accessor.count * component_count(accessor.type), 0.0);
+    switch (accessor.component) {
+        case ComponentType::Byte:
+            copy_numbers<std::int8_t>(document, accessor, out);
+            break;
+        case ComponentType::UnsignedByte:
+            copy_numbers<std::uint8_t>(document, accessor, out);
+            break;
+        case ComponentType::Short:
+            copy_numbers<std::int16_t>(document, accessor, out);
+            break;
+        case ComponentType::UnsignedShort:
+            copy_numbers<std::uint16_t>(document, accessor, out);
+            break;
+        case ComponentType::UnsignedInt:
+            copy_numbers<std::uint32_t>(document, accessor, out);
+            break;
+        case ComponentType::Float:
+            copy_numbers<float>(document, accessor, out);
+            break;
+    }
+    return out;
+}
+
 void read_sparse(const JsonObject& object, Accessor& accessor) {
     object.with_object("sparse", [&](const JsonObject& sparse) {
         SparseAccessor result;
@@ -218,29 +244,13 @@ void read_accessors(const JsonObject& root, Loading& loading) {
 }
 
 std::vector<double> read_numbers(const Document& document, Index index) {
-    const Accessor& accessor = document.accessors[index];
-    std::vector<double> out(accessor.count * component_count(accessor.type), 0.0);
-    switch (accessor.component) {
-        case ComponentType::Byte:
-            copy_numbers<std::int8_t>(document, accessor, out);
-            break;
-        case ComponentType::UnsignedByte:
-            copy_numbers<std::uint8_t>(document, accessor, out);
-            break;
-        case ComponentType::Short:
-            copy_numbers<std::int16_t>(document, accessor, out);
-            break;
-        case ComponentType::UnsignedShort:
-            copy_numbers<std::uint16_t>(document, accessor, out);
-            break;
-        case ComponentType::UnsignedInt:
-            copy_numbers<std::uint32_t>(document, accessor, out);
-            break;
-        case ComponentType::Float:
-            copy_numbers<float>(document, accessor, out);
-            break;
-    }
-    return out;
+    return numbers_of(document, document.accessors[index]);
+}
+
+std::vector<double> read_numbers(const Document& document, Index index, std::uint64_t most) {
+    Accessor first = document.accessors[index];
+    first.count = std::min(first.count, most);
+    return numbers_of(document, first);
 }
 
 std::vector<std::uint32_t> read_integers(const Document& document, Index index) {

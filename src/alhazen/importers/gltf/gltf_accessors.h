@@ -58,6 +58,7 @@ void each_run(const Document& document, const Accessor& accessor, F&& f) {
     std::uint64_t next = 0;
     for (std::uint64_t i = 0; i < values.count; ++i) {
         const std::uint64_t at = sparse_index(document, accessor, i);
+        if (at >= accessor.count) break;  // only the first elements are asked for
         piece(next, at);
         f(ElementRun{values.data + i * values.stride, values.stride, at, 1});
         next = at + 1;

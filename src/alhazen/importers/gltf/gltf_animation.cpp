@@ -7,8 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "alhazen/importers/gltf/gltf_budget.h"
-
 namespace alhazen::gltf {
 
 namespace {
@@ -86,13 +84,13 @@ std::size_t width_of(const Document& document, const AnimationChannel& channel) 
 
 class Animator {
   public:
-    Animator(const Document& document, const ImportSource& source, Pose& pose,
+    Animator(const Document& document, const ImportSource& source, Pose& pose, Budget& budget,
              Diagnostics& diagnostics)
         : document_(document),
           source_(source),
           pose_(pose),
-          diagnostics_(diagnostics),
-          budget_(source.options.max_elements) {}
+          budget_(budget),
+          diagnostics_(diagnostics) {}
 
     void apply(Index animation, double time) {
         const Animation& a = document_.animations[animation];
@@ -121,6 +119,7 @@ class Animator {
              std::size_t index) {
         NodePose& node = pose_[*channel.node];
         if (channel.path == AnimationPath::Weights) {
+            budget_.make(keys.width, sizeof(double));
             node.weights = value_at(keys, time);
             return;
         }
@@ -158,8 +157,8 @@ class Animator {
     const Document& document_;
     const ImportSource& source_;
     Pose& pose_;
+    Budget& budget_;
     Diagnostics& diagnostics_;
-    ElementBudget budget_;
     std::map<Index, std::vector<double>> times_;
 };
 
@@ -219,7 +218,7 @@ Quaternion rotation_at(const Keys& keys, double time) {
 }
 
 void apply_animations(const Document& document, const ImportSource& source, Pose& pose,
-                      Diagnostics& diagnostics) {
+                      Budget& budget, Diagnostics& diagnostics) {
     const ImportOptions& options = source.options;
     std::optional<Index> only;
     if (!options.animation.empty()) only = find_animation(document, options.animation);
@@ -228,7 +227,7 @@ void apply_animations(const Document& document, const ImportSource& source, Pose
         diagnostics.warning({source.path.string(), 0, 0},
                             "a time is given, but the file has no animations");
     }
-    Animator animator(document, source, pose, diagnostics);
+    Animator animator(document, source, pose, budget, diagnostics);
     for (Index i = 0; i < document.animations.size(); ++i) {
         if (!only || *only == i) animator.apply(i, *options.time);
     }

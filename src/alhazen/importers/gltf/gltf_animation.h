@@ -8,6 +8,7 @@
 #include <span>
 
 #include "alhazen/base/diagnostics.h"
+#include "alhazen/importers/gltf/gltf_budget.h"
 #include "alhazen/importers/gltf/gltf_pose.h"
 
 namespace alhazen::gltf {
@@ -30,6 +31,6 @@ struct Keys {
 /// Throws Error (Usage) when options.animation is neither a name nor a position in the file; the
 /// message lists what there is.
 void apply_animations(const Document& document, const ImportSource& source, Pose& pose,
-                      Diagnostics& diagnostics);
+                      Budget& budget, Diagnostics& diagnostics);
 
 }  // namespace alhazen::gltf

@@ -1,30 +1,61 @@
 #pragma once
-/// What is read from one file together, against `max_elements` of the options: a small file may
-/// name the same accessor many times.
+/// What one glTF file may cost together: elements that are read, against `max_elements` of the
+/// options (a small file may name the same accessor many times), and bytes that are made of them,
+/// against `max_made_bytes` (morph weights, skins and instances multiply what is in the file).
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "alhazen/base/error.h"
 
 namespace alhazen::gltf {
 
-class ElementBudget {
+class Budget {
   public:
-    explicit ElementBudget(std::uint64_t limit) : limit_(limit) {}
+    explicit Budget(std::uint64_t elements,
+                    std::uint64_t bytes = std::numeric_limits<std::uint64_t>::max())
+        : elements_(elements), bytes_(bytes) {}
 
-    /// Throws Error (Resource) when the limit is exceeded.
+    /// Elements that are about to be read. Throws Error (Resource) when the limit is exceeded.
     void take(std::uint64_t count) {
-        if (count > limit_ - taken_) {
+        if (count > elements_ - taken_) {
             throw Error(ErrorKind::Resource,
-                        "the file has more than " + std::to_string(limit_) + " elements");
+                        "the file has more than " + std::to_string(elements_) + " elements");
         }
         taken_ += count;
     }
 
+    /// Memory that `count` things of `size` bytes are about to need. Throws as `take`.
+    void make(std::uint64_t count, std::uint64_t size) {
+        expect(count, size);
+        made_ += count * size;
+    }
+
+    /// Throws when `make` would.
+    void expect(std::uint64_t count, std::uint64_t size) const {
+        if (size != 0 && count > (bytes_ - made_) / size) {
+            throw Error(ErrorKind::Resource,
+                        "the meshes, morphs, skins and instances of the file "
+                        "need more than " +
+                            std::to_string(bytes_ >> 20) +
+                            " MiB (--max-import-mib, or max_made_bytes of the import options)");
+        }
+    }
+
+    /// The limit of bytes for a file of `file_bytes` with its buffers, when none is given: real
+    /// files stay far below (a vertex of 12 bytes becomes one of 24, a node of 20 a part of 500),
+    /// and what a small file makes still fits into memory with the tree that is built over it.
+    [[nodiscard]] static std::uint64_t default_bytes(std::uint64_t file_bytes) {
+        constexpr std::uint64_t kMiB = std::uint64_t{1} << 20, kPerByte = 64;
+        constexpr std::uint64_t kLeast = 64 * kMiB, kMost = 16384 * kMiB;
+        return std::min(kLeast + kPerByte * std::min(file_bytes, kMost / kPerByte), kMost);
+    }
+
   private:
-    std::uint64_t limit_;
-    std::uint64_t taken_ = 0;
+    std::uint64_t elements_, bytes_;
+    std::uint64_t taken_ = 0, made_ = 0;
 };
 
 }  // namespace alhazen::gltf

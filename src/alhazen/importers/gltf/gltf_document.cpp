@@ -30,6 +30,12 @@ constexpr Named kTopLevel[] = {
     {"textures", Collection::Textures},
 };
 
+/// Of the JSON text. A low limit of elements is meant for the buffers, not for the names in a file.
+std::uint64_t max_values(const ImportOptions& options) {
+    constexpr std::uint64_t kElementsPerValue = 20, kLeast = 1'000'000;
+    return std::max(kLeast, options.max_elements / kElementsPerValue);
+}
+
 /// A list of names without repetitions.
 std::vector<std::string> names_in(const JsonObject& root, std::string_view key) {
     std::vector<std::string> names;
@@ -161,7 +167,8 @@ Document read_gltf_document(const ImportSource& source, Diagnostics& diagnostics
         if (!container) return {};
         loading.binary = container->binary;
         loading.is_glb = container->is_glb;
-        auto tree = parse_json(container->json, loading.file, diagnostics);
+        auto tree =
+            parse_json(container->json, loading.file, max_values(source.options), diagnostics);
         if (!tree) return {};
         const Place top;
         {

@@ -224,6 +224,9 @@ struct Document {
 /// All numbers of an accessor, element after element, [count * component_count]; normalised
 /// integers as -1..1 or 0..1, matrices column-major without padding, sparse values put in place.
 [[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor);
+/// The same of its first elements, at most `most` of them; costs no more than these.
+[[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor,
+                                               std::uint64_t most);
 /// The same for unsigned integers (indices, joints).
 [[nodiscard]] std::vector<std::uint32_t> read_integers(const Document& document, Index accessor);
 /// The bytes of a buffer view.

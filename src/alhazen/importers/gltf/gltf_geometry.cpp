@@ -5,16 +5,11 @@
 #include <algorithm>
 #include <numeric>
 
+#include "alhazen/math/unit_vector.h"
+
 namespace alhazen::gltf {
 
 namespace {
-
-/// `v` as a unit vector; zero where it has no direction (the surface is then flat there).
-Vec3 unit_or_zero(const Vec3& v) {
-    const double largest = max_component(abs(v));
-    if (!(largest > 0.0) || !std::isfinite(largest)) return {};
-    return normalize(v / largest);
-}
 
 /// Numbers of an attribute and of its morph targets.
 struct Values {
@@ -33,7 +28,7 @@ struct Values {
 class PrimitiveReader {
   public:
     PrimitiveReader(const Document& document, const Primitive& primitive,
-                    std::span<const double> weights, ElementBudget& budget)
+                    std::span<const double> weights, Budget& budget)
         : document_(document), primitive_(primitive), weights_(weights), budget_(budget) {}
 
     PrimitiveGeometry read(bool with_joints) {
@@ -43,7 +38,10 @@ class PrimitiveReader {
             return result;
         }
         vertex_count_ = document_.accessors[position->second].count;
-        result.mesh.triangles = triangles_of(primitive_.mode, read_order());
+        const std::vector<std::uint32_t> order = read_order();
+        const bool list = primitive_.mode == PrimitiveMode::Triangles;
+        budget_.make(list ? order.size() / 3 : order.size(), sizeof result.mesh.triangles.front());
+        result.mesh.triangles = triangles_of(primitive_.mode, order);
         number_used_vertices(result.mesh.triangles);
         read_mesh(result.mesh);
         if (with_joints) read_joints(result.joints);
@@ -115,7 +113,7 @@ class PrimitiveReader {
         fill(mesh.positions, "POSITION", 3,
              [](const Values& v, std::size_t i) { return v.vec3(i); });
         fill(mesh.normals, "NORMAL", 3,
-             [](const Values& v, std::size_t i) { return unit_or_zero(v.vec3(i)); });
+             [](const Values& v, std::size_t i) { return unit_or(v.vec3(i), {}); });
         const auto upward = [](const Values& v, std::size_t i) {
             const Vec2 p = v.vec2(i);
             return Vec2{p.x, 1.0 - p.y};
@@ -131,7 +129,7 @@ class PrimitiveReader {
         // Flat shading has no tangents of its own: the specification has them ignored.
         if (mesh.normals.empty()) return;
         fill(mesh.tangents, "TANGENT", 4, [](const Values& v, std::size_t i) {
-            const Vec3 t = unit_or_zero(v.vec3(i));
+            const Vec3 t = unit_or(v.vec3(i), {});
             return VertexTangent{float(t.x), float(t.y), float(t.z),
                                  v.numbers[4 * i + 3] < 0.0 ? -1.0f : 1.0f};
         });
@@ -141,6 +139,7 @@ class PrimitiveReader {
     void fill(std::vector<T>& array, const std::string& semantic, std::size_t width, Make make) {
         const Values values = read(semantic);
         if (values.width < width) return;
+        budget_.make(used_.size(), sizeof(T));
         array.reserve(used_.size());
         for (const std::uint32_t vertex : used_) array.push_back(make(values, vertex));
     }
@@ -157,6 +156,7 @@ class PrimitiveReader {
             const std::vector<std::uint32_t> numbers = read_integers(document_, joints->second);
             // Sets are interleaved, so that a vertex has its joints side by side.
             const std::size_t old = out.per_vertex;
+            budget_.make(vertices, 4 * (sizeof(std::uint32_t) + sizeof(double)));
             VertexJoints wider{old + 4, {}, {}};
             wider.joints.reserve(vertices * wider.per_vertex);
             wider.weights.reserve(vertices * wider.per_vertex);
@@ -176,7 +176,7 @@ class PrimitiveReader {
     const Document& document_;
     const Primitive& primitive_;
     std::span<const double> weights_;
-    ElementBudget& budget_;
+    Budget& budget_;
     std::size_t vertex_count_ = 0;
     std::vector<std::uint32_t> used_;  ///< vertices of the file that the mesh keeps, ascending
 };
@@ -214,7 +214,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(PrimitiveMode mode,
 
 PrimitiveGeometry read_primitive(const Document& document, const Primitive& primitive,
                                  std::span<const double> weights, bool with_joints,
-                                 ElementBudget& budget) {
+                                 Budget& budget) {
     return PrimitiveReader(document, primitive, weights, budget).read(with_joints);
 }
 

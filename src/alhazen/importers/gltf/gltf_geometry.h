@@ -37,6 +37,6 @@ struct PrimitiveGeometry {
 /// missing ones are zero. `with_joints`: also reads JOINTS_n and WEIGHTS_n.
 [[nodiscard]] PrimitiveGeometry read_primitive(const Document& document, const Primitive& primitive,
                                                std::span<const double> weights, bool with_joints,
-                                               ElementBudget& budget);
+                                               Budget& budget);
 
 }  // namespace alhazen::gltf

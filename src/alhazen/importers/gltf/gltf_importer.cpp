@@ -52,9 +52,16 @@ std::vector<gltf::Index> shown_nodes(const gltf::Document& document, const Impor
     return gltf::root_nodes(document);
 }
 
-void name_animations(const gltf::Document& document, const ImportOptions& options,
+gltf::Budget budget_of(const gltf::Document& document, const ImportSource& source) {
+    std::uint64_t bytes = source.bytes.size();
+    for (const gltf::Buffer& buffer : document.buffers) bytes += buffer.bytes.size();
+    const ImportOptions& options = source.options;
+    return gltf::Budget(options.max_elements,
+                        options.max_made_bytes.value_or(gltf::Budget::default_bytes(bytes)));
+}
+
+void name_animations(const gltf::Document& document, gltf::Budget& budget,
                      SceneDescription& scene) {
-    gltf::ElementBudget budget(options.max_elements);
     std::map<gltf::Index, Interval> times;  // samplers share them
     for (const gltf::Animation& animation : document.animations) {
         Interval all;
@@ -96,15 +103,17 @@ SceneDescription GltfImporter::import(const ImportSource& source, Diagnostics& d
     const gltf::Document document = gltf::read_gltf_document(source, diagnostics);
     if (diagnostics.error_count() > 0) return scene;
 
-    name_animations(document, source.options, scene);
+    gltf::Budget budget = budget_of(document, source);
+    name_animations(document, budget, scene);
     gltf::Pose pose = gltf::rest_pose(document);
-    gltf::apply_animations(document, source, pose, diagnostics);
+    gltf::apply_animations(document, source, pose, budget, diagnostics);
     const std::vector<Affine> world_from_node = gltf::world_transforms(document, pose);
     const std::vector<gltf::Index> nodes =
         gltf::nodes_below(document, shown_nodes(document, source, diagnostics));
 
     gltf::add_materials(document, source, scene, diagnostics);
-    gltf::NodeBuilder(document, source, pose, scene, diagnostics).add(nodes, world_from_node);
+    gltf::NodeBuilder(document, source, pose, budget, scene, diagnostics)
+        .add(nodes, world_from_node);
     gltf::add_cameras(document, nodes, world_from_node, scene);
     gltf::add_lights(document, nodes, world_from_node, scene);
     return scene;

@@ -272,7 +272,9 @@ std::vector<Index> JsonObject::indices(std::string_view key, Collection collecti
 namespace {
 
 constexpr int kMaxDepth = 64;
-constexpr std::size_t kMaxValues = 50'000'000;
+// What the tree needs for them, in plain values; a text of one sort of value is then never much
+// larger in memory than one of another.
+constexpr std::uint64_t kStringCost = 4, kContainerCost = 8;
 
 /// Thrown out of the parser to end it.
 struct Refused {
@@ -283,19 +285,21 @@ struct Refused {
 /// but then takes quadratic time for long arrays of objects.
 class Watch final : public nlohmann::json_sax<json> {
   public:
+    explicit Watch(std::uint64_t most) : most_(most) {}
+
     bool null() override { return count(); }
     bool boolean(bool) override { return count(); }
     bool number_integer(number_integer_t) override { return count(); }
     bool number_unsigned(number_unsigned_t) override { return count(); }
     bool number_float(number_float_t, const string_t&) override { return count(); }
-    bool string(string_t&) override { return count(); }
+    bool string(string_t&) override { return count(kStringCost); }
     bool binary(binary_t&) override { return count(); }
     bool start_object(std::size_t) override {
         keys_.emplace_back();
         return open();
     }
     bool key(string_t& name) override {
-        if (keys_.back().insert(name).second) return true;
+        if (keys_.back().insert(name).second) return count(kStringCost);
         throw Refused{"the key " + in_quotes(name) + " occurs twice in one object"};
     }
     bool end_object() override {
@@ -311,22 +315,25 @@ class Watch final : public nlohmann::json_sax<json> {
 
   private:
     bool open() {
-        if (depth_++ < kMaxDepth) return count();
+        if (depth_++ < kMaxDepth) return count(kContainerCost);
         throw Refused{"the JSON text is nested deeper than " + std::to_string(kMaxDepth)};
     }
     bool close() {
         --depth_;
         return true;
     }
-    bool count() {
-        if (++values_ <= kMaxValues) return true;
+    bool count(std::uint64_t cost = 1) {
+        values_ += cost;
+        if (values_ <= most_) return true;
         throw Error(ErrorKind::Resource,
-                    "the JSON text has more than " + std::to_string(kMaxValues) + " values");
+                    "the JSON text has more than " + std::to_string(most_) +
+                        " values, strings counted as 4, objects and arrays as 8 (a twentieth of "
+                        "max_elements of the import options)");
     }
 
     std::vector<std::set<std::string>> keys_;  ///< of the objects that are open
     int depth_ = 0;
-    std::size_t values_ = 0;
+    std::uint64_t most_, values_ = 0;
 };
 
 /// The parser's words without its own prefix "[json.exception...] ", and not the whole of a long
@@ -346,10 +353,10 @@ FileLocation location_at(std::string_view text, std::size_t offset, const std::s
 
 }  // namespace
 
-std::optional<json> parse_json(std::string_view text, const std::string& file,
+std::optional<json> parse_json(std::string_view text, const std::string& file, std::uint64_t most,
                                Diagnostics& diagnostics) {
     try {
-        Watch watch;
+        Watch watch(most);
         static_cast<void>(json::sax_parse(text.begin(), text.end(), &watch));
         json root = json::parse(text.begin(), text.end());
         if (root.is_object()) return root;

@@ -185,9 +185,10 @@ class JsonObject {
 
 /// The tree of a JSON text. Reports (and returns nothing for) a syntax error with its line and
 /// column, a key that occurs twice in an object and nesting beyond 64. Throws Error (Resource) for
-/// more than 50 million values.
+/// more than `most` values, of which strings and keys count as 4, objects and arrays as 8: what
+/// they need of memory (about 20 bytes each).
 [[nodiscard]] std::optional<nlohmann::json> parse_json(std::string_view text,
-                                                       const std::string& file,
+                                                       const std::string& file, std::uint64_t most,
                                                        Diagnostics& diagnostics);
 
 }  // namespace alhazen::gltf

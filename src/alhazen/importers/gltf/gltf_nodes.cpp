@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "alhazen/importers/gltf/gltf_skin.h"
 
@@ -19,20 +20,31 @@ bool is_read(const std::string& semantic) {
            std::find(kRead.begin(), kRead.end(), semantic) != kRead.end();
 }
 
-/// [instance] the transforms of EXT_mesh_gpu_instancing.
+bool has_joints(const Primitive& primitive) {
+    return primitive.attributes.count("JOINTS_0") != 0;
+}
+
+/// The instances of EXT_mesh_gpu_instancing; attributes that are not read count them, too.
+std::uint64_t instance_count(const Document& document, const Attributes& attributes) {
+    std::uint64_t count = std::numeric_limits<std::uint64_t>::max();
+    for (const auto& [semantic, accessor] : attributes) {
+        // The counts of a valid file agree.
+        count = std::min(count, document.accessors[accessor].count);
+    }
+    return attributes.empty() ? 0 : count;
+}
+
+/// [instance]
 std::vector<Affine> instance_transforms(const Document& document, const Attributes& attributes,
-                                        ElementBudget& budget) {
-    std::size_t count = 0;
+                                        std::uint64_t count, Budget& budget) {
     const auto read = [&](const char* semantic, std::size_t width) {
         const auto found = attributes.find(semantic);
         if (found == attributes.end()) return std::vector<double>{};
-        const Accessor& accessor = document.accessors[found->second];
-        if (component_count(accessor.type) != width) return std::vector<double>{};
-        budget.take(accessor.count);
-        std::vector<double> numbers = read_numbers(document, found->second);
-        // The counts of a valid file agree.
-        count = count == 0 ? accessor.count : std::min<std::size_t>(count, accessor.count);
-        return numbers;
+        if (component_count(document.accessors[found->second].type) != width) {
+            return std::vector<double>{};
+        }
+        budget.take(count);
+        return read_numbers(document, found->second, count);
     };
     const std::vector<double> t = read("TRANSLATION", 3);
     const std::vector<double> r = read("ROTATION", 4);
@@ -53,13 +65,13 @@ std::vector<Affine> instance_transforms(const Document& document, const Attribut
 }  // namespace
 
 NodeBuilder::NodeBuilder(const Document& document, const ImportSource& source, const Pose& pose,
-                         SceneDescription& scene, Diagnostics& diagnostics)
+                         Budget& budget, SceneDescription& scene, Diagnostics& diagnostics)
     : document_(document),
       source_(source),
       pose_(pose),
+      budget_(budget),
       scene_(scene),
       diagnostics_(diagnostics),
-      budget_(source.options.max_elements),
       default_material_(scene),
       mesh_seen_(document.meshes.size(), 0) {}
 
@@ -72,53 +84,64 @@ void NodeBuilder::add(std::span<const Index> nodes, const std::vector<Affine>& w
         const std::vector<double>& own = pose_[index].weights;
         const auto& weights = own.empty() ? document_.meshes[*node.mesh].weights : own;
         if (node.skin) {
-            budget_.take(document_.skins[*node.skin].joints.size());
-            const std::vector<Affine> joints =
-                joint_matrices(document_, document_.skins[*node.skin], world_from_node);
-            bool skinned = true;
-            const ObjectIndex object = make_object(*node.mesh, weights, &joints, skinned);
-            if (skinned) {
-                place(object, Affine{}, name);
-            } else if (is_invertible(world_from_node[index])) {
-                place(object, world_from_node[index], name);
-            }
+            add_skinned(index, weights, world_from_node, name);
         } else if (!node.instances.empty()) {
-            place_instances(node, shared_object(node, weights), world_from_node[index], name);
+            place_instances(node, shared_object({*node.mesh, weights}, nullptr),
+                            world_from_node[index], name);
         } else if (is_invertible(world_from_node[index])) {
-            place(shared_object(node, weights), world_from_node[index], name);
+            place(shared_object({*node.mesh, weights}, nullptr), world_from_node[index], name);
         }
     }
     report_left_out();
 }
 
-ObjectIndex NodeBuilder::shared_object(const Node& node, const std::vector<double>& weights) {
-    const ObjectKey key{*node.mesh, weights};
+void NodeBuilder::add_skinned(Index index, const std::vector<double>& weights,
+                              const std::vector<Affine>& world_from_node, const std::string& name) {
+    const Node& node = document_.nodes[index];
+    const auto& primitives = document_.meshes[*node.mesh].primitives;
+    const std::vector<Affine>& joints = joints_of(*node.skin, world_from_node);
+    place(shared_object({*node.mesh, weights, Primitives::WithJoints, *node.skin}, &joints),
+          Affine{}, name);
+    if (std::all_of(primitives.begin(), primitives.end(), has_joints)) return;
+    if (!is_invertible(world_from_node[index])) return;
+    place(shared_object({*node.mesh, weights, Primitives::WithoutJoints}, nullptr),
+          world_from_node[index], name);
+}
+
+const std::vector<Affine>& NodeBuilder::joints_of(Index skin,
+                                                  const std::vector<Affine>& world_from_node) {
+    const auto [entry, fresh] = joints_.try_emplace(skin);
+    if (fresh) {
+        budget_.take(document_.skins[skin].joints.size());
+        entry->second = joint_matrices(document_, document_.skins[skin], world_from_node);
+    }
+    return entry->second;
+}
+
+ObjectIndex NodeBuilder::shared_object(ObjectKey key, const std::vector<Affine>* joints) {
     if (const auto found = objects_.find(key); found != objects_.end()) return found->second;
-    bool skinned = false;
-    const ObjectIndex object = make_object(*node.mesh, weights, nullptr, skinned);
-    objects_.emplace(key, object);
+    budget_.make(1, sizeof(ObjectDescription) + sizeof(double) * key.weights.size());
+    const ObjectIndex object = make_object(key, joints);
+    objects_.emplace(std::move(key), object);
     return object;
 }
 
-/// `skinned` becomes false when the mesh has a primitive without joints.
-ObjectIndex NodeBuilder::make_object(Index index, const std::vector<double>& weights,
-                                     const std::vector<Affine>* world_from_bound, bool& skinned) {
-    const Mesh& mesh = document_.meshes[index];
-    const bool first_time = mesh_seen_[index] == 0;
-    mesh_seen_[index] = 1;
-    ObjectDescription object{mesh_name(index), {}, {source_.path.string(), 0, 0}};
+ObjectIndex NodeBuilder::make_object(const ObjectKey& key, const std::vector<Affine>* joints) {
+    const Mesh& mesh = document_.meshes[key.mesh];
+    const bool first_time = mesh_seen_[key.mesh] == 0;
+    mesh_seen_[key.mesh] = 1;
+    ObjectDescription object{mesh_name(key.mesh), {}, {source_.path.string(), 0, 0}};
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& primitive = mesh.primitives[i];
         if (first_time) count_left_out(primitive);
+        const bool wanted = key.primitives == Primitives::All ||
+                            has_joints(primitive) == (key.primitives == Primitives::WithJoints);
+        if (!wanted) continue;
         PrimitiveGeometry geometry =
-            read_primitive(document_, primitive, weights, world_from_bound != nullptr, budget_);
+            read_primitive(document_, primitive, key.weights, joints != nullptr, budget_);
         if (geometry.mesh.triangles.empty()) continue;
-        if (world_from_bound != nullptr && geometry.joints.per_vertex > 0) {
-            apply_skin(geometry, *world_from_bound);
-        } else {
-            skinned = false;
-        }
-        add_mesh_part(index, i, std::move(geometry), object);
+        if (joints != nullptr && geometry.joints.per_vertex > 0) apply_skin(geometry, *joints);
+        add_mesh_part(key.mesh, i, std::move(geometry), object);
     }
     scene_.objects.push_back(std::move(object));
     return ObjectIndex{std::uint32_t(scene_.objects.size() - 1)};
@@ -148,6 +171,7 @@ void NodeBuilder::add_mesh_part(Index mesh, std::size_t primitive, PrimitiveGeom
     part.material = material ? MaterialId{*material} : default_material_.id();
     part.name = name;
     part.location = object.location;
+    budget_.make(1, part_bytes(name) + sizeof(MeshDescription));
     scene_.meshes.push_back({std::move(name),
                              std::make_shared<TriangleMesh>(std::move(geometry.mesh)),
                              object.location});
@@ -156,6 +180,7 @@ void NodeBuilder::add_mesh_part(Index mesh, std::size_t primitive, PrimitiveGeom
 
 void NodeBuilder::place(ObjectIndex object, const Affine& world_from_part, std::string name) {
     if (scene_.objects[std::size_t(object)].parts.empty()) return;
+    budget_.make(1, part_bytes(name));
     Part part;
     part.what = object;
     part.object_from_part = world_from_part;
@@ -166,12 +191,20 @@ void NodeBuilder::place(ObjectIndex object, const Affine& world_from_part, std::
 
 void NodeBuilder::place_instances(const Node& node, ObjectIndex object,
                                   const Affine& world_from_node, const std::string& name) {
-    const std::vector<Affine> transforms = instance_transforms(document_, node.instances, budget_);
+    const std::uint64_t count = instance_count(document_, node.instances);
+    // Before anything is read: an accessor without data may have any number of elements.
+    budget_.expect(count, part_bytes(name));
+    const std::vector<Affine> transforms =
+        instance_transforms(document_, node.instances, count, budget_);
     for (std::size_t i = 0; i < transforms.size(); ++i) {
         const Affine world_from_instance = world_from_node * transforms[i];
         if (!is_invertible(world_from_instance)) continue;
         place(object, world_from_instance, fmt::format("{}[{}]", name, i));
     }
+}
+
+std::size_t NodeBuilder::part_bytes(const std::string& name) const {
+    return sizeof(Part) + name.size() + source_.path.native().size();
 }
 
 std::string NodeBuilder::mesh_name(Index mesh) const {

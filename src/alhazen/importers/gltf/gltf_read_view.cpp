@@ -1,18 +1,18 @@
 // Cameras and lights.
+#include <numbers>
+
 #include "alhazen/importers/gltf/gltf_readers.h"
 
 namespace alhazen::gltf {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 void read_perspective(const JsonObject& object, Camera& camera) {
     object.require("yfov");
     object.require("znear");
     camera.aspect = object.number("aspectRatio", kPositive);
     camera.yfov = object.number("yfov", kPositive).value_or(1);
-    if (camera.yfov >= kPi) object.error("yfov", "expected an angle below pi");
+    if (camera.yfov >= std::numbers::pi) object.error("yfov", "expected an angle below pi");
     camera.near = object.number("znear", kPositive).value_or(1);
     camera.far = object.number("zfar", kPositive);
     if (camera.far && *camera.far <= camera.near) {
@@ -51,8 +51,8 @@ Camera read_camera(const JsonObject& object) {
 }
 
 void read_spot(const JsonObject& object, PunctualLight& light) {
-    object.number_into("innerConeAngle", light.inner_cone, {0, kPi / 2});
-    object.number_into("outerConeAngle", light.outer_cone, {0, kPi / 2 + 1e-6});
+    object.number_into("innerConeAngle", light.inner_cone, {0, std::numbers::pi / 2});
+    object.number_into("outerConeAngle", light.outer_cone, {0, std::numbers::pi / 2 + 1e-6});
     if (light.inner_cone >= light.outer_cone) {
         object.error("outerConeAngle", "expected an angle above innerConeAngle");
     }

@@ -1,6 +1,8 @@
 #include "alhazen/importers/gltf/gltf_skin.h"
 
-#include <cmath>
+#include <algorithm>
+
+#include "alhazen/math/unit_vector.h"
 
 namespace alhazen::gltf {
 
@@ -36,17 +38,12 @@ Affine blend(const VertexJoints& joints, std::size_t vertex,
     return result;
 }
 
-Vec3 unit_or_zero(const Vec3& v) {
-    const double squared = length_squared(v);
-    return squared > 0.0 && std::isfinite(squared) ? v / std::sqrt(squared) : Vec3{};
-}
-
 /// The normal of a transformed surface: the cofactors of the transform are its inverse transpose
 /// times its determinant, and exist where the inverse does not.
 Vec3 transformed_normal(const Mat3& m, const Vec3& n) {
     const Vec3 turned = n.x * cross(m.y_axis, m.z_axis) + n.y * cross(m.z_axis, m.x_axis) +
                         n.z * cross(m.x_axis, m.y_axis);
-    return unit_or_zero(determinant(m) < 0.0 ? -turned : turned);
+    return unit_or(determinant(m) < 0.0 ? -turned : turned, {});
 }
 
 }  // namespace
@@ -55,7 +52,8 @@ std::vector<Affine> joint_matrices(const Document& document, const Skin& skin,
                                    const std::vector<Affine>& world_from_node) {
     std::vector<double> inverse_bind;
     if (skin.inverse_bind_matrices) {
-        inverse_bind = read_numbers(document, *skin.inverse_bind_matrices);
+        // The accessor may be far longer than the skin, and named by many skins.
+        inverse_bind = read_numbers(document, *skin.inverse_bind_matrices, skin.joints.size());
     }
     std::vector<Affine> matrices;
     matrices.reserve(skin.joints.size());
@@ -69,17 +67,25 @@ std::vector<Affine> joint_matrices(const Document& document, const Skin& skin,
 
 void apply_skin(PrimitiveGeometry& geometry, const std::vector<Affine>& world_from_bound) {
     TriangleMesh& mesh = geometry.mesh;
+    std::vector<double> turned(mesh.positions.size());  // [vertex] negative: mirrored
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Affine m = blend(geometry.joints, i, world_from_bound);
+        turned[i] = determinant(m.linear);
         mesh.positions[i] = m.point(mesh.positions[i]);
         if (!mesh.normals.empty()) {
             mesh.normals[i] = transformed_normal(m.linear, mesh.normals[i]);
         }
         if (!mesh.tangents.empty()) {
             VertexTangent& tangent = mesh.tangents[i];
-            const Vec3 t = unit_or_zero(m.linear * Vec3{tangent.x, tangent.y, tangent.z});
-            tangent = {float(t.x), float(t.y), float(t.z), tangent.sign};
+            const Vec3 t = unit_or(m.linear * Vec3{tangent.x, tangent.y, tangent.z}, {});
+            // The bitangent is mirrored with the surface, the normal is not.
+            const float sign = turned[i] < 0.0 ? -tangent.sign : tangent.sign;
+            tangent = {float(t.x), float(t.y), float(t.z), sign};
         }
+    }
+    // A mirror turns the winding, which says what the front is.
+    for (auto& [a, b, c] : mesh.triangles) {
+        if (turned[a] + turned[b] + turned[c] < 0.0) std::swap(b, c);
     }
 }
 

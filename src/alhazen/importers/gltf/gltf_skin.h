@@ -14,7 +14,8 @@ namespace alhazen::gltf {
 [[nodiscard]] std::vector<Affine> joint_matrices(const Document& document, const Skin& skin,
                                                  const std::vector<Affine>& world_from_node);
 
-/// Moves positions, normals and tangents. `geometry.joints.per_vertex` must not be 0.
+/// Moves positions, normals and tangents; triangles whose corners are mirrored (taken together)
+/// are turned, so that they keep their front. `geometry.joints.per_vertex` must not be 0.
 void apply_skin(PrimitiveGeometry& geometry, const std::vector<Affine>& world_from_bound);
 
 }  // namespace alhazen::gltf

@@ -4,19 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "alhazen/math/unit_vector.h"
 
 namespace alhazen::gltf {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-/// `v` as a unit vector, or `fallback` for a direction that a scale of zero has destroyed.
-Vec3 unit_or(const Vec3& v, const Vec3& fallback) {
-    const double largest = max_component(abs(v));
-    if (!(largest > 0.0) || !std::isfinite(largest)) return fallback;
-    return normalize(v / largest);
-}
 
 std::string name_of(const std::string& node, const std::string& thing, const char* kind,
                     std::size_t position) {
@@ -43,7 +37,8 @@ CameraDescription camera_of(const Camera& camera, const Affine& world_from_node)
 }
 
 Light light_of(const PunctualLight& light, const Affine& world_from_node) {
-    const Rgb color = (light.intensity / kPi) * Rgb{light.color[0], light.color[1], light.color[2]};
+    const Rgb color =
+        (light.intensity / std::numbers::pi) * Rgb{light.color[0], light.color[1], light.color[2]};
     const Vec3 direction = unit_or(-world_from_node.linear.z_axis, {0, 0, -1});
     const Attenuation inverse_square{0, 0, 1};
     const double range = light.range.value_or(std::numeric_limits<double>::infinity());

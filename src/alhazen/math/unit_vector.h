@@ -1,0 +1,26 @@
+#pragma once
+/// Unit vectors of vectors of any length.
+///
+/// Source: none. Differs: nothing. Conventions: what has no direction gives the fallback.
+
+#include <cmath>
+
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+/// Unit vector along `v`, or `fallback` when `v` is zero or not finite; does not over- or
+/// underflow.
+inline Vec3 unit_or(const Vec3& v, const Vec3& fallback) {
+    const double squared = length_squared(v);
+    if (squared > 1e-200 && squared < 1e200) return v / std::sqrt(squared);
+    const double largest = max_component(abs(v));
+    if (!(largest > 0.0) || !is_finite(v)) return fallback;
+    // A power of two, so that scaling rounds nothing (in two steps, for subnormals).
+    const int exponent = std::ilogb(largest);
+    const double half = std::ldexp(1.0, -exponent / 2);
+    const double rest = std::ldexp(1.0, -exponent - (-exponent / 2));
+    return normalize((v * half) * rest);
+}
+
+}  // namespace alhazen
