@@ -4,6 +4,7 @@
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/convert.h"
 #include "commands.h"
+#include "messages.h"
 #include "options.h"
 
 namespace alhazen::cli {
@@ -27,14 +28,14 @@ int run(const ConvertArguments& args) {
     const ConvertReport report = convert(description, args.output, args.convert);
     if (args.quiet) return kDone;
     if (!report.left_out.empty()) {
-        fmt::print(stderr, "warning: left out, as they are not meshes: {}\n", report.left_out);
+        tell("warning: left out, as they are not meshes: {}\n", report.left_out);
     }
     const std::size_t beside = report.files.size() - 1;
-    fmt::print(stderr, "{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,
-               1e-6 * static_cast<double>(report.bytes),
-               beside == 0   ? ""
-               : beside == 1 ? ", one file beside it"
-                             : fmt::format(", {} files beside it", beside));
+    tell("{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,
+         1e-6 * static_cast<double>(report.bytes),
+         beside == 0   ? ""
+         : beside == 1 ? ", one file beside it"
+                       : fmt::format(", {} files beside it", beside));
     return kDone;
 }
 

@@ -6,6 +6,7 @@
 #include "alhazen/imaging/image_difference.h"
 #include "alhazen/imaging/image_io.h"
 #include "commands.h"
+#include "messages.h"
 
 namespace alhazen::cli {
 
@@ -78,9 +79,9 @@ void add_diff(CLI::App& app, int& exit_status) {
                                              {"within_one_step", d.within_one_step}};
             for (const Metric& m : kMetrics) report[m.name] = m.value(d);
             report["holds"] = holds;
-            fmt::print("{}\n", report.dump(2));
+            print("{}\n", report.dump(2));
         } else {
-            fmt::print(
+            print(
                 "{} of {} pixels identical ({:.4f} %), {:.4f} % within 1/255, max {:.6g}, rmse "
                 "{:.6g}, "
                 "psnr {:.2f} dB\n",

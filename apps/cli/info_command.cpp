@@ -5,6 +5,7 @@
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/info.h"
 #include "commands.h"
+#include "messages.h"
 #include "options.h"
 
 namespace alhazen::cli {
@@ -26,9 +27,8 @@ void add_info(CLI::App& app, int& exit_status) {
         using json = nlohmann::ordered_json;
         const json info = scene_info(args->scene.scene, loaded, {args->all});
         // Names are as the file has them: what is no UTF-8 is replaced.
-        fmt::print("{}", args->json
-                             ? info.dump(2, ' ', false, json::error_handler_t::replace) + "\n"
-                             : info_text(info, args->all));
+        print("{}", args->json ? info.dump(2, ' ', false, json::error_handler_t::replace) + "\n"
+                               : info_text(info, args->all));
         exit_status = kDone;
     });
 }

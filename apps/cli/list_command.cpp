@@ -9,13 +9,14 @@
 #include "alhazen/renderers/renderer.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "commands.h"
+#include "messages.h"
 
 namespace alhazen::cli {
 
 namespace {
 
 void print_entry(const char* name, const char* description) {
-    fmt::print("  {:<14} {}\n", name, description);
+    print("  {:<14} {}\n", name, description);
 }
 
 void list_renderers() {
@@ -58,7 +59,7 @@ void add_list(CLI::App& app, int& exit_status) {
     command->callback([wanted, &exit_status] {
         for (const Topic& topic : kTopics) {
             if (!wanted->empty() && *wanted != topic.name) continue;
-            fmt::print("{}\n", topic.name);
+            print("{}\n", topic.name);
             topic.print();
         }
         exit_status = kDone;

@@ -1,6 +1,8 @@
 /// The command line: `alhazen COMMAND`. Results go to stdout, progress and messages to stderr.
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -9,6 +11,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/session/statistics.h"
 #include "commands.h"
+#include "messages.h"
 #include "stop_signals.h"
 
 namespace {
@@ -63,26 +66,35 @@ int run(int argc, char** argv) {
     return exit_status;
 }
 
+/// A program that was started with a standard stream closed would get its number for the next file
+/// it opens, and write messages into a picture.
+void open_closed_streams() {
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", O_RDWR);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    open_closed_streams();
     fail_instead_of_dying_on_writes();
     try {
         const int status = run(argc, argv);
         // A full disk behind a redirection shows only now.
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            fmt::print(stderr, "alhazen: standard output could not be written\n");
+            tell("alhazen: standard output could not be written\n");
             return kBadFile;
         }
         return status;
     } catch (const Error& error) {
-        fmt::print(stderr, "alhazen: {}\n", error.what());
+        tell("alhazen: {}\n", error.what());
         return exit_status_of(error.kind());
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "alhazen: out of memory\n");
+        tell("alhazen: out of memory\n");
         return kOutOfResource;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "alhazen: internal error: {}\n", error.what());
+        tell("alhazen: internal error: {}\n", error.what());
         return kCheckFailed;
     }
 }

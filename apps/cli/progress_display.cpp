@@ -1,4 +1,5 @@
 #include "progress_display.h"
+#include "messages.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -51,18 +52,18 @@ void ProgressDisplay::show(double fraction, double elapsed, bool complete) {
     const std::string times = complete ? fmt::format("{:.2f} s", elapsed)
                                        : fmt::format("{} ETA {}", minutes(elapsed), minutes(left));
     if (!terminal_) {
-        fmt::print(stderr, "{}: {:.0f}% {}\n", phase_, 100.0 * fraction, times);
+        tell("{}: {:.0f}% {}\n", phase_, 100.0 * fraction, times);
         return;
     }
     const int filled = static_cast<int>(fraction * kBarWidth);
-    fmt::print(stderr, "\r{:<7}[{}{}] {:3.0f}% {}\x1b[K", phase_, std::string(filled, '#'),
-               std::string(kBarWidth - filled, '-'), 100.0 * fraction, times);
+    tell("\r{:<7}[{}{}] {:3.0f}% {}\x1b[K", phase_, std::string(filled, '#'),
+         std::string(kBarWidth - filled, '-'), 100.0 * fraction, times);
     std::fflush(stderr);
     line_open_ = true;
 }
 
 void ProgressDisplay::finish() {
-    if (line_open_) fmt::print(stderr, "\n");
+    if (line_open_) tell("\n");
     line_open_ = false;
 }
 

@@ -14,6 +14,7 @@
 #include "alhazen/session/statistics.h"
 #include "alhazen/session/stopwatch.h"
 #include "commands.h"
+#include "messages.h"
 #include "options.h"
 #include "progress_display.h"
 #include "stop_signals.h"
@@ -90,7 +91,7 @@ void complete(const RenderArguments& args, const RenderOptions& options, LoadedS
     framing.camera = options.camera;
     framing.aspect = free_aspect(loaded.description.picture, options);
     for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {
-        if (!args.quiet) fmt::print(stderr, "{}\n", note);
+        if (!args.quiet) tell("{}\n", note);
     }
 }
 
@@ -119,7 +120,7 @@ void write_pictures(const RenderArguments& args, const RenderOptions& options,
     if (options.aovs.empty() || !writes_aov_pictures(args)) return;
     for (const std::string& line :
          write_aov_pictures(args.output, options.aovs, result.layers, common)) {
-        if (!args.quiet) fmt::print(stderr, "{}\n", line);
+        if (!args.quiet) tell("{}\n", line);
     }
 }
 
@@ -144,6 +145,10 @@ int run(const RenderArguments& args) {
     options.stop = &stop_on_signals();
     const RenderResult result = render(loaded.scene, loaded.description.picture, options);
     progress.finish();
+    if (result.tiles_done == 0 && !result.complete) {
+        tell("stopped before a tile was done; nothing was written\n");
+        return kStopped;
+    }
     const Stopwatch write_time;
     write_pictures(args, options, loaded, result);
     const double write_seconds = write_time.seconds();
@@ -153,19 +158,18 @@ int run(const RenderArguments& args) {
             statistics(args.scene.scene, loaded, options, result, write_seconds).dump(2) + "\n");
     }
     if (result.counters.non_finite > 0 && !args.quiet) {
-        fmt::print(stderr, "warning: {} samples were not finite and were left out\n",
-                   result.counters.non_finite);
+        tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);
     }
     if (!result.complete) {
-        fmt::print(stderr, "stopped: {} of {} tiles are in {}; the rest is black\n",
-                   result.tiles_done, result.tiles, args.output);
+        tell("stopped: {} of {} tiles are in {}; the rest is black\n", result.tiles_done,
+             result.tiles, args.output);
         return kStopped;
     }
     if (!args.quiet) {
-        fmt::print(stderr, "{}: {}x{}, {:.2f} M rays in {:.2f} s on {} thread{}\n", args.output,
-                   result.film.crop().width(), result.film.crop().height(),
-                   1e-6 * static_cast<double>(result.counters.total_cast()), result.seconds,
-                   result.threads, result.threads == 1 ? "" : "s");
+        tell("{}: {}x{}, {:.2f} M rays in {:.2f} s on {} thread{}\n", args.output,
+             result.film.crop().width(), result.film.crop().height(),
+             1e-6 * static_cast<double>(result.counters.total_cast()), result.seconds,
+             result.threads, result.threads == 1 ? "" : "s");
     }
     const bool spotless =
         result.counters.non_finite == 0 && loaded.diagnostics.warning_count() == 0;

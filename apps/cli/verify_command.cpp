@@ -7,6 +7,7 @@
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/verify.h"
 #include "commands.h"
+#include "messages.h"
 #include "options.h"
 #include "progress_display.h"
 
@@ -39,8 +40,8 @@ json to_json(const VerifyReport& report) {
             {"reported", disagreements}};
 }
 
-void print(const VerifyReport& report) {
-    fmt::print(
+void print_report(const VerifyReport& report) {
+    print(
         "{}: {} rays, {} hits, {} disagreements with list; {} closed surfaces, {} lines, {} with "
         "an "
         "odd number of crossings\n",
@@ -49,7 +50,7 @@ void print(const VerifyReport& report) {
     for (const Disagreement& d : report.reported) {
         const Vec3& o = d.ray.origin;
         const Vec3& v = d.ray.direction;
-        fmt::print(
+        print(
             "  {} {}: origin {:.17g} {:.17g} {:.17g} direction {:.17g} {:.17g} {:.17g}\n    found "
             "{}\n    expected {}\n",
             d.kind, d.query, o.x, o.y, o.z, v.x, v.y, v.z, d.found, d.expected);
@@ -95,7 +96,7 @@ void add_verify(CLI::App& app, int& exit_status) {
             progress.finish();
             holds = holds && report.holds();
             reports.push_back(to_json(report));
-            if (args->json != "-") print(report);
+            if (args->json != "-") print_report(report);
         };
         if (args->scene.accelerator == "all") {
             for (const AcceleratorEntry& entry : accelerator_table()) check(entry.name);

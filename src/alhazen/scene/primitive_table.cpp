@@ -129,6 +129,12 @@ bool PrimitiveTable::is_opaque_from_front(PrimitiveId id) const {
                Opacity::OpaqueFromFront;
 }
 
+PrimitiveTable::ShadowEffect PrimitiveTable::shadow_effect(PrimitiveId id, const Ray& ray) const {
+    if (is_opaque(id)) return ShadowEffect::Blocks;
+    if (!is_opaque_from_front(id)) return ShadowEffect::Tints;
+    return leaves_through_front(id, ray) ? ShadowEffect::Blocks : ShadowEffect::None;
+}
+
 bool PrimitiveTable::leaves_through_front(PrimitiveId id, const Ray& ray) const {
     const std::uint32_t triangle = index(id);
     const auto [a, b, c] = triangle_vertices(triangle);
@@ -144,8 +150,12 @@ Box3 PrimitiveTable::box(std::size_t i) const {
         return placed_box(instances[j].placement, instances[j].aggregate->box());
     }
     if (k == kTriangleKind) {
+        const std::array<Vec3, 3> corners = triangle_vertices(j);
+        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+            return {};
+        }
         Box3 box;
-        for (const Vec3& p : triangle_vertices(j)) box.include(p);
+        for (const Vec3& p : corners) box.include(p);
         return padded(box);
     }
     return with_column(columns, k, [&](const auto& c) {
@@ -262,10 +272,9 @@ bool PrimitiveTable::shadowed(PrimitiveId id, const Ray& ray, const RayShear& sh
         const std::size_t before = crossings.size();
         all_hits(id, ray, shear, crossings, stats);
         if (crossings.size() == before) return false;
-        if (is_opaque(id)) return true;
-        if (!is_opaque_from_front(id)) return false;
-        crossings.resize(before);
-        return leaves_through_front(id, ray);
+        const ShadowEffect effect = shadow_effect(id, ray);
+        if (effect == ShadowEffect::None) crossings.resize(before);
+        return effect == ShadowEffect::Blocks;
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     const std::size_t before = crossings.size();

@@ -63,8 +63,8 @@ inline constexpr int kMaxShapeHits = 8;
 
 /// What a material does to light that comes to its surface.
 enum class Opacity : std::uint8_t {
-    Transparent,  ///< some of it may pass: the renderer finds out
-    Opaque,       ///< none passes
+    Transparent,      ///< some of it may pass: the renderer finds out
+    Opaque,           ///< none passes
     OpaqueFromFront,  ///< none passes from the front, all from the back
 };
 
@@ -95,7 +95,15 @@ class PrimitiveTable final : public BoundsSource {
     /// sure: false).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;
 
-    // ---- bounds
+    /// What a primitive that is hit (no instance) does to a shadow ray.
+    enum class ShadowEffect {
+        Blocks,
+        Tints,  ///< a crossing that the renderer looks at
+        None,   ///< the light comes to a back that is not there
+    };
+    [[nodiscard]] ShadowEffect shadow_effect(PrimitiveId id, const Ray& ray) const;
+
+    // ---- bounds; empty for what cannot be hit: a triangle with two equal vertices
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
 

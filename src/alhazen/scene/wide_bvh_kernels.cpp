@@ -208,7 +208,13 @@ struct CollectQuery {
     HWY_INLINE bool operator()(const TriangleBlock& block, std::size_t lane, Stats stats) {
         ShapeHit hit;
         if (!hit_triangle(block, lane, ray, shear, hit, stats)) return false;
-        if (kStopAtOpaque && (block.ids.opaque >> lane & 1) != 0) return true;
+        if (kStopAtOpaque) {
+            if ((block.ids.opaque >> lane & 1) != 0) return true;
+            const auto effect = table.shadow_effect(block.ids.id[lane], ray);
+            if (effect != PrimitiveTable::ShadowEffect::Tints) {
+                return effect == PrimitiveTable::ShadowEffect::Blocks;
+            }
+        }
         append_hit(hits, hit, block.ids.id[lane]);
         return false;
     }

@@ -139,6 +139,30 @@ PrimitiveTable random_triangles(int count, double reach, double size, std::uint6
     return builder.finish();
 }
 
+TEST(WideBvh, SingleSidedTrianglesShadowAsTheListSays) {
+    PrimitiveTable table = random_triangles(300, 1, 0.6, 31);
+    ASSERT_FALSE(table.meshes.empty());
+    table.meshes[0].material = MaterialId{2};
+    table.material_opacity = {Opacity::Opaque, Opacity::Transparent, Opacity::OpaqueFromFront};
+    compare("single-sided", table, random_rays(1));
+    table.meshes[0].mirrored = true;
+    compare("mirrored and single-sided", table, random_rays(1));
+}
+
+TEST(WideBvh, TrianglesWithTwoEqualVerticesAreInNoTree) {
+    TableBuilder builder;
+    const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
+    builder.add_triangle(a, b, c);
+    for (int i = 0; i < 1000; ++i) builder.add_triangle(a, a, i % 2 == 0 ? a : b);
+    const PrimitiveTable table = builder.finish();
+    compare("without area", table, random_rays(1));
+    TraversalStats stats;
+    Hit hit;
+    const Ray ray{{0.25, 0.25, 1}, {0, 0, -1}, 0, std::numeric_limits<double>::infinity()};
+    EXPECT_TRUE(make_aggregate("wide_bvh", table)->closest(ray, hit, &stats));
+    EXPECT_LT(stats.primitive_tests, 100u);
+}
+
 PrimitiveTable random_spheres(int count, double reach, double size, std::uint64_t seed) {
     Random random(seed);
     TableBuilder builder;

@@ -1,0 +1,31 @@
+#pragma once
+/// Text for a person, on standard error and standard output.
+///
+/// Writing may fail (a full disk, a closed pipe): messages are then lost, and the work goes on.
+/// What is lost on standard output is noticed when the program ends.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace alhazen::cli {
+
+template <class... Args>
+void print_to(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {
+    const std::string text = fmt::format(format, std::forward<Args>(args)...);
+    (void)std::fwrite(text.data(), 1, text.size(), stream);
+}
+/// To standard error.
+template <class... Args>
+void tell(fmt::format_string<Args...> format, Args&&... args) {
+    print_to(stderr, format, std::forward<Args>(args)...);
+}
+/// To standard output.
+template <class... Args>
+void print(fmt::format_string<Args...> format, Args&&... args) {
+    print_to(stdout, format, std::forward<Args>(args)...);
+}
+
+}  // namespace alhazen::cli
