@@ -129,7 +129,7 @@ TEST(GltfModels, AnimationsMoveTheirNodes) {
         triangles.erase(triangles.begin(), triangles.end() - 62);
         Box3 box;
         for (const Corners& c : triangles) {
-            for (std::size_t k = 0; k < 9; k += 3) box.include({c[k], c[k + 1], c[k + 2]});
+            for (std::size_t k = 0; k < 9; k += 3) box.include(Vec3{c[k], c[k + 1], c[k + 2]});
         }
         return box;
     };
