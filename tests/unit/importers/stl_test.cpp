@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <chrono>
+#include <cmath>
 
 #include "alhazen/importers/mesh_export.h"
 #include "alhazen/importers/stl/stl_reader.h"
+#include "alhazen/importers/vertex_welder.h"
 #include "import_text.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"
@@ -88,6 +91,52 @@ TEST(Stl, CornersInTheSamePlaceAreOneVertexSoThatASolidIsClosed) {
     ASSERT_EQ(solids.size(), 1u) << text_of(found);
     EXPECT_EQ(solids[0].mesh.positions.size(), mesh.positions.size());
     EXPECT_TRUE(solids[0].mesh.closed());
+}
+
+/// Positions whose hashes by a well-known multiplier, without a seed, end in the same 24 bits.
+std::vector<Vec3> colliding_positions(std::size_t count) {
+    constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15u;
+    std::uint64_t inverse = kFactor;  // modulo 2^64, by Newton's iteration
+    for (int i = 0; i < 6; ++i) inverse *= 2 - kFactor * inverse;
+    std::vector<Vec3> points;
+    for (std::uint64_t i = 1; points.size() < count; ++i) {
+        const Vec3 p{double(i), 0.5, 0};
+        std::uint64_t hash = 0;
+        for (const double c : {p.x, p.y}) {
+            hash = (hash ^ std::bit_cast<std::uint64_t>(c)) * kFactor;
+            hash ^= hash >> 32;
+        }
+        std::uint64_t wanted = i << 24;
+        wanted ^= wanted >> 32;
+        const double z = std::bit_cast<double>(hash ^ wanted * inverse);
+        if (std::isfinite(z)) points.push_back({p.x, p.y, z});
+    }
+    return points;
+}
+
+TEST(Stl, PositionsThatAreChosenToCollideAreFoundAsFast) {
+    const std::vector<Vec3> points = colliding_positions(80'000);
+    const auto started = std::chrono::steady_clock::now();
+    TriangleMesh mesh;
+    VertexWelder welder(mesh, points.size());
+    for (int round = 0; round < 2; ++round) {
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            ASSERT_EQ(welder.find_or_add(points[i]), i);
+        }
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
+    EXPECT_LT(seconds.count(), 1.0);  // one list for all took 10 s and more
+}
+
+TEST(Stl, AWelderThatStartsSmallNumbersInOrder) {
+    TriangleMesh mesh;
+    VertexWelder welder(mesh, 0);
+    for (int round = 0; round < 2; ++round) {
+        for (std::uint32_t i = 0; i < 1000; ++i) {
+            ASSERT_EQ(welder.find_or_add({double(i % 10), double(i / 10), -0.0}), i);
+        }
+    }
+    EXPECT_EQ(mesh.positions.size(), 1000U);
 }
 
 TEST(Stl, SizesThatDoNotFitTheCountAreToldWithBoth) {
