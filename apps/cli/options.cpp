@@ -77,6 +77,12 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->type_name("N")
         ->check(CLI::Range(1.0, 1e15));
     command
+        .add_option("--max-texture-pixels", max_texture_pixels,
+                    "Textures that together are larger are refused")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 1e15));
+    command
         .add_option("--max-import-mib", max_import_mib,
                     "Memory for the meshes and instances that a glTF file makes of shared data; "
                     "default: 64, and 64 times the file")
@@ -93,6 +99,7 @@ LoadOptions SceneArguments::load_options() const {
     options.import.allowed_root = allow_path;
     options.import.animation = animation;
     options.import.image_limits.max_pixels = max_image_pixels;
+    options.import.image_limits.max_total_pixels = max_texture_pixels;
     if (max_import_mib) options.import.max_made_bytes = *max_import_mib << 20;
     if (time) {
         if (!std::isfinite(*time)) throw Error(ErrorKind::Usage, "--time must be a finite number");

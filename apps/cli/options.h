@@ -27,6 +27,7 @@ struct SceneArguments {
     std::optional<double> time;
     std::string animation;
     std::uint64_t max_image_pixels = ImageLimits{}.max_pixels;
+    std::uint64_t max_texture_pixels = ImageLimits{}.max_total_pixels;
     std::optional<std::uint64_t> max_import_mib;
     int threads = 0;
 

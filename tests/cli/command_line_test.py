@@ -76,6 +76,7 @@ class CommandLine(unittest.TestCase):
                           ["render", self.scene, "-o", picture, "--view", "30,20", "--camera", "top"],
                           ["render", self.scene, "-o", picture, "--time", "inf"],
                           ["render", self.scene, "-o", picture, "--max-image-pixels", "0"],
+                          ["render", self.scene, "-o", picture, "--max-texture-pixels", "0"],
                           ["verify", self.scene, "--rays", "-1"],
                           ["diff", self.scene], ["list", "colours"]):
             result = run(*arguments)

@@ -6,6 +6,8 @@
 /// phase.
 
 #include <cstddef>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,10 @@ class Diagnostics {
     [[nodiscard]] std::size_t error_count() const { return error_count_; }
     [[nodiscard]] std::size_t warning_count() const { return warning_count_; }
 
+    /// Notes a file that is about to be read, so that no output replaces it.
+    void note_file(const std::filesystem::path& path) { files_.insert(path); }
+    [[nodiscard]] const std::set<std::filesystem::path>& files() const { return files_; }
+
     /// Throws `Error` (kind Scene) whose message lists all errors, one a line, when there is any.
     void throw_if_errors() const;
 
@@ -44,6 +50,7 @@ class Diagnostics {
     void add(Severity severity, FileLocation location, std::string message);
 
     std::vector<Diagnostic> kept_;
+    std::set<std::filesystem::path> files_;
     std::size_t error_count_ = 0;
     std::size_t warning_count_ = 0;
 };

@@ -24,6 +24,9 @@ namespace alhazen {
 struct ImageLimits {
     int max_side = 32768;
     std::uint64_t max_pixels = std::uint64_t{1} << 26;  ///< changed by --max-image-pixels
+    /// Of all pictures of a scene together, each counted once; see TextureTable. Changed by
+    /// --max-texture-pixels.
+    std::uint64_t max_total_pixels = std::uint64_t{1} << 28;
 };
 
 /// Reads a picture. Throws Error: File when it cannot be read, Scene when it is malformed or of an

@@ -56,6 +56,7 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     const ImportSource source{bytes, path, options};
     SceneDescription description = find_importer(source).import(source, diagnostics);
+    description.files = diagnostics.files();
     // A file with mistakes is validated too, so that all of them are told at once; but what
     // validation says of the whole (nothing to see) may only be a consequence.
     const bool complete = diagnostics.error_count() == 0;

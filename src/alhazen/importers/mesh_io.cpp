@@ -37,6 +37,7 @@ TriangleMesh read_any(const ImportSource& source, Diagnostics& diagnostics) {
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const ImportOptions& options,
                        Diagnostics& diagnostics) {
+    diagnostics.note_file(path);
     const std::string bytes = read_file(path, options.max_included_bytes);
     std::string_view text = bytes;
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

@@ -3,13 +3,17 @@
 /// with different settings share the picture.
 ///
 /// Conventions: a picture that cannot be used is reported once, at its first use, and yields no
-/// texture at any. Sizes are held to the limits given.
+/// texture at any. Sizes are held to the limits given: of each picture, and of all together, where
+/// a pixel of 8-bit codes counts once, of 16-bit codes twice and of floats four times: at most 4
+/// bytes each (1 GiB by default), and at most two thirds more for smaller copies (MipPyramid). An
+/// embedded picture counts at least a quarter of its encoded bytes, as bytes can be shared.
 
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "alhazen/importers/importer.h"
 
@@ -29,18 +33,24 @@ class TextureTable {
 
     /// The texture of `file`, as written in a scene file in `folder`, with the other fields of
     /// `settings`. Reports an error at `where` and returns nothing when the file cannot be used.
+    /// Throws Error (Resource) when all pictures together exceed the limit.
     std::optional<TextureId> load(const std::string& file, const std::filesystem::path& folder,
                                   const Texture& settings, std::string name,
                                   const FileLocation& where);
 
     /// The texture of a picture that lies in the scene's own bytes, `encoded` as in a picture file.
-    /// `key` tells pictures apart: the same key is the same picture. Otherwise as `load`.
-    std::optional<TextureId> add(std::string_view encoded, const std::string& key,
-                                 const Texture& settings, std::string name,
-                                 const FileLocation& where);
+    /// Pictures are told apart by where they lie: the bytes must stay there while the table lives.
+    /// Otherwise as `load`.
+    std::optional<TextureId> add(std::string_view encoded, const Texture& settings,
+                                 std::string name, const FileLocation& where);
 
   private:
     using Picture = std::shared_ptr<const StoredImage>;
+
+    /// What `decode` makes of a picture within the limits that it is given; counts it, at least
+    /// with `least`.
+    template <class Decode>
+    Picture decoded(const Decode& decode, std::uint64_t least = 0);
 
     std::optional<TextureId> use(const Picture& picture, const Texture& settings, std::string name,
                                  const FileLocation& where);
@@ -49,9 +59,10 @@ class TextureTable {
     Diagnostics& diagnostics_;
     std::filesystem::path root_;
     ImageLimits limits_;
-    /// By resolved path, or by key; null for a picture that could not be read.
+    std::uint64_t taken_pixels_ = 0;
+    /// By resolved path, or by place; null for a picture that could not be read.
     std::map<std::filesystem::path, Picture> files_;
-    std::map<std::string, Picture> embedded_;
+    std::map<std::pair<const char*, std::size_t>, Picture> embedded_;
 };
 
 }  // namespace alhazen

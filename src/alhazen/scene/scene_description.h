@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -95,6 +96,7 @@ enum class UpAxis { Y, Z };
 struct SceneDescription {
     std::string format;  ///< name of the importer
     std::filesystem::path path;
+    std::set<std::filesystem::path> files;   ///< others that were read, or that it names
     std::vector<CameraDescription> cameras;  ///< the first is the default
     std::vector<LightDescription> lights;
     std::vector<MaterialDescription> materials;  ///< indexed by MaterialId

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <span>
 
 #include "alhazen/base/error.h"
@@ -39,15 +40,37 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 /// Writes OUT and the files that it names, and keeps the report.
 class Output {
   public:
-    Output(const SceneDescription& description, fs::path path)
-        : scene_(description.path), path_(std::move(path)) {
-        report_.files.reserve(4);
-    }
+    explicit Output(fs::path path) : path_(std::move(path)) { report_.files.reserve(4); }
 
     /// Relative to OUT: where the files that it names are.
     [[nodiscard]] std::string folder() const { return path_.stem().string() + "_files"; }
     [[nodiscard]] fs::path sibling(const char* suffix) const {
         return fs::path(path_.stem()).concat(suffix);
+    }
+
+    /// Throws Error (Usage) when one of `inputs` could be replaced: it is OUT or the file of its
+    /// materials, or lies in the folder of its files.
+    void check_inputs(const std::set<fs::path>& inputs, const std::string& suffix) const {
+        std::vector<fs::path> written{path_};
+        if (suffix == ".obj") written.push_back(path_.parent_path() / sibling(".mtl"));
+        const bool has_folder = suffix == ".obj" || suffix == ".alhazen";
+        const fs::path files = path_.parent_path() / folder();
+        for (const fs::path& input : inputs) {
+            std::error_code failed;
+            const fs::path target = fs::canonical(input, failed);
+            const bool replaced = std::any_of(written.begin(), written.end(), [&](const auto& w) {
+                return is_same_file(w, input);
+            });
+            const bool inside =
+                has_folder && (is_same_file(fs::absolute(input).parent_path(), files) ||
+                               is_same_file(target.parent_path(), files));
+            if (!replaced && !inside) continue;
+            throw Error(
+                ErrorKind::Usage,
+                fmt::format("{} belongs to the scene that is read and could be overwritten; "
+                            "expected another name for {}",
+                            input.string(), path_.string()));
+        }
     }
 
     void write_beside(const fs::path& name, std::span<const std::byte> bytes) {
@@ -71,16 +94,12 @@ class Output {
         }
     }
     void write(const fs::path& path, std::span<const std::byte> bytes) {
-        if (is_same_file(path, scene_)) {
-            throw Error(ErrorKind::Usage,
-                        fmt::format("the scene itself would be overwritten: {}", path.string()));
-        }
         write_file_atomically(path, bytes);
         report_.files.push_back(path);
         report_.bytes += bytes.size();
     }
 
-    fs::path scene_, path_;
+    fs::path path_;
     ConvertReport report_;
 };
 
@@ -184,6 +203,13 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     return output.finish(bytes_of(bytes));
 }
 
+/// All files that the scene was read from.
+std::set<fs::path> inputs_of(const SceneDescription& description) {
+    std::set<fs::path> inputs = description.files;
+    if (!description.path.empty()) inputs.insert(description.path);
+    return inputs;
+}
+
 }  // namespace
 
 void check_convert_target(const fs::path& scene, const fs::path& path) {
@@ -202,8 +228,9 @@ ConvertReport convert(const SceneDescription& description, const fs::path& path,
                       const ConvertOptions& options) {
     check_convert_target(description.path, path);
     check_writable(path);
-    Output output(description, path);
+    Output output(path);
     const std::string suffix = suffix_of(path);
+    output.check_inputs(inputs_of(description), suffix);
     if (suffix == ".alhazen") return write_native(description, output);
     return write_meshes(description, suffix, path, options, output);
 }

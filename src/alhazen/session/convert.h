@@ -5,8 +5,9 @@
 /// Conventions: OUT.alhazen names its meshes (binary PLY) and pictures (PNG, EXR) in OUT_files/
 /// beside it, OUT.obj its materials in OUT.mtl and its pictures likewise, all relative: file and
 /// folder can be moved together. The named files are written first, each in one step, OUT itself
-/// last; files of these names are replaced, others left alone. Mesh files hold every placed mesh in
-/// the frame of the scene, in the order of the description.
+/// last; files of these names are replaced, others left alone; a target is refused, and nothing
+/// written, where that could be a file that the scene was read from. Mesh files hold every placed
+/// mesh in the frame of the scene, in the order of the description.
 
 #include <cstdint>
 #include <filesystem>

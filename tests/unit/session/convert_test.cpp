@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
@@ -164,7 +165,7 @@ TEST(ConvertNative, TheSceneItselfIsNeverOverwritten) {
     scene.meshes[0].mesh->generate_normals();
     scene.path = folder.write("out_files/mesh_0.ply", std::string("precious"));
     EXPECT_NE(message_of(scene, folder.path() / "out.alhazen", ErrorKind::Usage)
-                  .find("would be overwritten"),
+                  .find("could be overwritten"),
               std::string::npos);
     EXPECT_EQ(read_file(scene.path), "precious");
     scene.path = folder.write("in.alhazen", std::string("precious"));
@@ -174,6 +175,55 @@ TEST(ConvertNative, TheSceneItselfIsNeverOverwritten) {
                   std::string::npos);
     }
     EXPECT_EQ(read_file(scene.path), "precious");
+}
+
+TEST(ConvertMeshes, FilesOfTheSceneAreNeverOverwritten) {
+    const ScratchFolder folder;
+    const auto in = folder.write(
+        "in.obj", std::string("mtllib out.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"));
+    const std::string text = "newmtl m\nmap_Kd out_files/texture_0.pfm\n";
+    const auto library = folder.write("out.mtl", text);
+    (void)folder.write("out_files/texture_0.pfm", "PF\n1 1\n-1\n" + std::string(12, '\0'));
+    Diagnostics found;
+    const SceneDescription scene = load_description(in, {}, found);
+    EXPECT_EQ(scene.textures.size(), 1U);
+    EXPECT_NE(message_of(scene, folder.path() / "out.obj", ErrorKind::Usage).find("out.mtl"),
+              std::string::npos);
+    EXPECT_NE(message_of(scene, folder.path() / "out.alhazen", ErrorKind::Usage).find("texture_0"),
+              std::string::npos);
+    EXPECT_EQ(read_file(library), text);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.obj"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out_files/texture_0.exr"));
+    // What is not written may lie there.
+    EXPECT_EQ(convert(scene, folder.path() / "out.ply").triangles, 1U);
+    EXPECT_EQ(convert(scene, folder.path() / "other.obj").triangles, 1U);
+}
+
+TEST(ConvertMeshes, BuffersMeshesAndIncludedFilesBelongToTheScene) {
+    const ScratchFolder folder;
+    const auto names = [&](const std::string& file) {
+        Diagnostics found;
+        std::set<std::string> read;
+        for (const auto& path : load_description(folder.path() / file, {}, found).files) {
+            read.insert(path.filename().string());
+        }
+        return read;
+    };
+    (void)folder.write("tri.stl", std::string("solid a\nfacet normal 0 0 1\nouter loop\n"
+                                              "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                                              "endloop\nendfacet\nendsolid a\n"));
+    (void)folder.write("more.alhazen", std::string("alhazen 1\nmesh { file = \"tri.stl\" }\n"));
+    (void)folder.write("a.alhazen", std::string("alhazen 1\ninclude \"more.alhazen\"\n"));
+    EXPECT_EQ(names("a.alhazen"), (std::set<std::string>{"more.alhazen", "tri.stl"}));
+    (void)folder.write("b.bin", std::string(36, '\0'));
+    (void)folder.write("b.gltf",
+                       std::string(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [0, 0, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "buffers": [{"byteLength": 36, "uri": "b.bin"}]})"));
+    EXPECT_EQ(names("b.gltf"), (std::set<std::string>{"b.bin"}));
 }
 
 TEST(ConvertNative, WhatCannotBeWrittenIsToldAndLeavesNoScene) {

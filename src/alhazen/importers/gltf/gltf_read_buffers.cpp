@@ -70,6 +70,7 @@ class BufferLoader {
             const auto path = resolve_inside(loading_.root, loading_.folder, name);
             SharedBytes& bytes = files_[path];
             if (!bytes) {
+                loading_.diagnostics.note_file(path);
                 const std::uint64_t limit = loading_.source.options.max_included_bytes;
                 bytes = std::make_shared<const std::string>(read_file(path, limit - included_));
                 included_ += bytes->size();

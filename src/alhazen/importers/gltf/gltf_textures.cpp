@@ -84,7 +84,7 @@ TextureId Textures::make(const TextureInfo& info, ColorSpace space) {
     } else {
         const std::string_view bytes =
             image.view ? bytes_of(document_, document_.views[*image.view]) : image.data;
-        id = table_.add(bytes, fmt::format("#/images/{}", index), settings, name, where);
+        id = table_.add(bytes, settings, name, where);
     }
     return id.value_or(kNoTexture);
 }

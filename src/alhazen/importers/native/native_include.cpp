@@ -38,6 +38,7 @@ std::optional<std::string> read_bytes(TextNode name, NativeContext& context,
             context.diagnostics.error(where, "include: the file includes itself");
             return std::nullopt;
         }
+        context.diagnostics.note_file(path);
         std::string bytes =
             read_file(path, context.options.max_included_bytes - context.included_bytes);
         context.included_bytes += bytes.size();

@@ -81,6 +81,7 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
     known->second = true;
     try {
         const std::filesystem::path path = resolve_inside(root_, folder_, *found);
+        diagnostics_.note_file(path);
         const std::string bytes = read_file(path, source_.options.max_included_bytes);
         std::string_view text = bytes;
         if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -219,6 +220,7 @@ TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
     settings.wrap_u = settings.wrap_v = map.clamp ? Wrap::Clamp : Wrap::Repeat;
     settings.uv_transform = {map.scale.x, 0, 0, map.scale.y, map.offset};
     const std::size_t errors = picture_findings_.error_count();
+    diagnostics_.note_file(folder_ / *found);
     const auto id = textures_.load(*found, folder_, settings, map.file, map.location);
     if (picture_findings_.error_count() != errors && !picture_findings_.all().empty()) {
         diagnostics_.warning(map.location,

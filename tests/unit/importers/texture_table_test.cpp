@@ -1,0 +1,131 @@
+#include "alhazen/importers/texture_table.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/imaging/image_io.h"
+#include "unit/importers/gltf_text.h"
+
+namespace alhazen {
+namespace {
+
+/// A picture of `width` x 4 pixels as a file of this suffix.
+std::string picture(int width, const std::string& suffix = "png") {
+    Image image;
+    image.width = width;
+    image.height = 4;
+    image.channels = 3;
+    image.linear = suffix != "png";
+    image.samples.assign(std::size_t(width) * 12, 0.5F);
+    std::string bytes;
+    for (const std::byte b : encode_image(suffix, image)) bytes += char(b);
+    return bytes;
+}
+
+/// How many of the pictures are taken before the total is exceeded.
+std::size_t taken(const std::vector<std::string>& pictures, std::uint64_t total) {
+    SceneDescription scene;
+    Diagnostics found;
+    ImageLimits limits;
+    limits.max_total_pixels = total;
+    TextureTable table(scene, found, ".", limits);
+    std::size_t count = 0;
+    try {
+        for (const std::string& bytes : pictures) {
+            if (table.add(bytes, {}, "p", {})) ++count;
+        }
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Resource);
+        EXPECT_NE(std::string(error.what()).find("--max-texture-pixels"), std::string::npos);
+    }
+    EXPECT_EQ(found.error_count(), 0U);
+    return count;
+}
+
+TEST(TextureTable, AllPicturesTogetherAreLimited) {
+    const std::vector<std::string> three(3, picture(100));
+    EXPECT_EQ(taken(three, 1200), 3U);
+    EXPECT_EQ(taken(three, 1199), 2U);
+    EXPECT_EQ(taken(three, 399), 0U);
+    // Floats count four times.
+    const std::vector<std::string> floats(3, picture(100, "pfm"));
+    EXPECT_EQ(taken(floats, 4800), 3U);
+    EXPECT_EQ(taken(floats, 4799), 2U);
+}
+
+TEST(TextureTable, OnePictureBeyondItsOwnLimitIsAFinding) {
+    SceneDescription scene;
+    Diagnostics found;
+    ImageLimits limits;
+    limits.max_pixels = 399;
+    TextureTable table(scene, found, ".", limits);
+    const std::string bytes = picture(100);
+    EXPECT_FALSE(table.add(bytes, {}, "p", {}));
+    EXPECT_EQ(found.error_count(), 1U);
+}
+
+TEST(TextureTable, TheSameBytesAreOnePicture) {
+    SceneDescription scene;
+    Diagnostics found;
+    ImageLimits limits;
+    limits.max_total_pixels = 400;
+    TextureTable table(scene, found, ".", limits);
+    const std::string bytes = picture(100);
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(table.add(bytes, {}, std::to_string(i), {}));
+    EXPECT_EQ(scene.textures.at(0).texture.image, scene.textures.at(4).texture.image);
+}
+
+TEST(TextureTable, BytesThatManyPicturesShareAreCountedForEach) {
+    SceneDescription scene;
+    Diagnostics found;
+    ImageLimits limits;
+    limits.max_total_pixels = 1000;
+    TextureTable table(scene, found, ".", limits);
+    const std::string bytes = picture(1) + std::string(2000, ' ');
+    const std::string_view view = bytes;
+    (void)table.add(view, {}, "a", {});
+    EXPECT_THROW((void)table.add(view.substr(0, view.size() - 1), {}, "b", {}), Error);
+}
+
+/// A triangle with 40 materials, textures and images that all show this picture.
+std::string forty_images(const std::string& png) {
+    testing::GltfText t;
+    const int p =
+        t.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, testing::bounds("0, 0, 0", "1, 1, 0"));
+    const int uv = t.floats("VEC2", {0, 0, 1, 0, 0, 1});
+    std::string images, textures, materials, primitives;
+    for (int i = 0; i < 40; ++i) {
+        const std::string comma = i == 0 ? "" : ", ", n = std::to_string(i);
+        images += comma + R"({"bufferView": 2, "mimeType": "image/png"})";
+        textures += comma + R"({"source": )" + n + "}";
+        materials += comma + R"({"emissiveTexture": {"index": )" + n + "}}";
+        primitives += comma + R"({"attributes": {"POSITION": )" + std::to_string(p) +
+                      R"(, "TEXCOORD_0": )" + std::to_string(uv) + R"(}, "material": )" + n + "}";
+    }
+    std::string text = t.file(
+        R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [)" +
+        primitives + R"(]}], "materials": [)" + materials + R"(], "textures": [)" + textures +
+        R"(], "images": [)" + images + "]");
+    const auto insert = [&](const std::string& array, const std::string& element) {
+        text.insert(text.find(']', text.find('"' + array + "\": [")), ", " + element);
+    };
+    const std::string size = std::to_string(png.size());
+    insert("bufferViews", R"({"buffer": 2, "byteLength": )" + size + "}");
+    insert("buffers", R"({"byteLength": )" + size +
+                          R"(, "uri": "data:application/octet-stream;base64,)" +
+                          testing::base64(png) + R"("})");
+    return text;
+}
+
+TEST(TextureTable, ManyImagesOfAGltfFileInOneBufferViewAreOnePicture) {
+    ImportOptions options;
+    options.image_limits.max_total_pixels = 400;
+    const auto imported = testing::import_gltf(forty_images(picture(100)), options);
+    ASSERT_EQ(imported.errors(), 0U) << imported.messages();
+    ASSERT_EQ(imported.scene.textures.size(), 40U);
+    for (const TextureDescription& texture : imported.scene.textures) {
+        EXPECT_EQ(texture.texture.image, imported.scene.textures[0].texture.image);
+    }
+}
+
+}  // namespace
+}  // namespace alhazen
