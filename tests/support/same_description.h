@@ -293,12 +293,12 @@ void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const ch
 }
 
 inline void expect_same(const SceneDescription& a, const SceneDescription& b) {
-    const auto& [format_a, path_a, cameras_a, lights_a, materials_a, textures_a, meshes_a,
+    const auto& [format_a, path_a, files_a, cameras_a, lights_a, materials_a, textures_a, meshes_a,
                  objects_a, root_a, animations_a, picture_a, up_a, conventions_a] = a;
-    const auto& [format_b, path_b, cameras_b, lights_b, materials_b, textures_b, meshes_b,
+    const auto& [format_b, path_b, files_b, cameras_b, lights_b, materials_b, textures_b, meshes_b,
                  objects_b, root_b, animations_b, picture_b, up_b, conventions_b] = b;
     (void)format_a, (void)format_b, (void)path_a, (void)path_b;
-    (void)animations_a, (void)animations_b;
+    (void)files_a, (void)files_b, (void)animations_a, (void)animations_b;
     expect_same_list(cameras_a, cameras_b, "camera");
     expect_same_list(lights_a, lights_b, "light");
     expect_same_list(materials_a, materials_b, "material");
