@@ -9,10 +9,14 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "messages.h"
 
 namespace alhazen::cli {
 
 namespace {
+
+/// A flood of them would hide what follows.
+constexpr std::size_t kMaxShownWarnings = 20;
 
 /// Whole numbers separated by `separator`; empty when the text is anything else.
 std::vector<int> parse_integers(const std::string& text, char separator) {
@@ -111,11 +115,14 @@ LoadOptions SceneArguments::load_options() const {
 }
 
 void print_warnings(const Diagnostics& diagnostics) {
+    std::size_t shown = 0;
     for (const Diagnostic& diagnostic : diagnostics.all()) {
-        fmt::print(stderr, "{}\n", to_string(diagnostic));
+        if (shown++ == kMaxShownWarnings) break;
+        tell("{}\n", to_string(diagnostic));
     }
-    if (diagnostics.warning_count() > Diagnostics::kMaxKept) {
-        fmt::print(stderr, "({} warnings in all)\n", diagnostics.warning_count());
+    if (diagnostics.warning_count() > kMaxShownWarnings) {
+        tell("({} warnings in all; `alhazen info SCENE --json` has more of them)\n",
+             diagnostics.warning_count());
     }
 }
 
