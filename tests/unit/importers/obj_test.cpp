@@ -122,6 +122,16 @@ TEST(Obj, ColoursOfVerticesAreDecodedFromTheirDisplayValues) {
     EXPECT_NEAR(bytes[0].b, 0.21404114, 1e-7);
 }
 
+TEST(Obj, IndicesOfNormalsAndCoordinatesThatTheFileLeavesOutAreAWarning) {
+    Diagnostics found;
+    const TriangleMesh mesh = mesh_of(kCorners + "f 1/1/1 2/2/2 3/3/3\n", "a.obj", found);
+    EXPECT_EQ(mesh.triangles.size(), 1u);
+    EXPECT_TRUE(mesh.uvs.empty());
+    EXPECT_TRUE(mesh.normals.empty());
+    EXPECT_EQ(found.warning_count(), 2u);
+    EXPECT_EQ(found.error_count(), 0u);
+}
+
 TEST(Obj, FindingsNameLineAndColumn) {
     const auto finding = [](const std::string& text) {
         Diagnostics found;
@@ -138,7 +148,7 @@ TEST(Obj, FindingsNameLineAndColumn) {
     expect("f 1 2 0", "a.obj:5:7: error: the index 0; indices count from 1");
     expect("f 1 2 -5", "a.obj:5:7: error: the index -5 is out of range");
     expect("f 1 2 5", "a.obj:5: error: the index 5 is above the 4 statements 'v'");
-    expect("f 1/1 2/1 3/1", "a.obj:5: error: the index 1 is above the 0 statements 'vt'");
+    expect("vt 0 0\nf 1/2 2/1 3/1", "a.obj:6: error: the index 2 is above the 1 statements 'vt'");
     expect("f 1 2", "a.obj:5:6: error: a face needs at least three vertices, found 2");
     expect("f", "a.obj:5:2: error: a face needs");
     expect("f 1 2 3x", "a.obj:5:8: error: expected a vertex");

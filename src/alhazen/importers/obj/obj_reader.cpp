@@ -44,7 +44,20 @@ class PartMaker {
     }
 
   private:
+    /// Exporters write indices of normals and texture coordinates that they leave out.
+    void drop_indices_of_nothing(std::vector<std::int32_t>& indices, std::size_t count,
+                                 const char* what) {
+        if (count != 0 ||
+            std::none_of(indices.begin(), indices.end(), [](std::int32_t i) { return i >= 0; })) {
+            return;
+        }
+        diagnostics_.warning({file_, 0, 0}, std::string("faces name '") + what +
+                                                "' statements, and the file has none: left out");
+        indices.clear();
+    }
     void check_indices() {
+        drop_indices_of_nothing(in_.corners.uv, in_.uvs.size(), "vt");
+        drop_indices_of_nothing(in_.corners.normal, in_.normals.size(), "vn");
         in_.for_each_face(
             [&](const ObjRun&, std::uint32_t begin, std::uint32_t end, std::uint32_t line) {
                 for (std::uint32_t c = begin; c < end; ++c) {
