@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "alhazen/imaging/encoding.h"
+#include "alhazen/importers/mesh_export_text.h"
 
 namespace alhazen {
 
@@ -79,13 +80,7 @@ void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
 
 // --- Text.
 
-void append_number(std::string& out, double value) {
-    std::array<char, 40> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    out += ' ';
-    out.append(buffer.data(), end);
-}
-void append_number(std::string& out, std::uint64_t value) {
+void append_index(std::string& out, std::uint64_t value) {
     std::array<char, 24> buffer;
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
     out.append(buffer.data(), end);
@@ -93,20 +88,6 @@ void append_number(std::string& out, std::uint64_t value) {
 void append_vector(std::string& out, const char* word, const Vec3& v) {
     out += word;
     for (const double c : {v.x, v.y, v.z}) append_number(out, c);
-}
-
-/// A name on a line of its own: no control characters, no blanks around it.
-std::string one_line(const std::string& name) {
-    std::string line = name;
-    for (char& c : line) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
-    }
-    const std::size_t first = line.find_first_not_of(' ');
-    if (first == std::string::npos) return {};
-    line = line.substr(first, line.find_last_not_of(' ') - first + 1);
-    // A backslash before the end of the line would join the next one.
-    if (line.back() == '\\') line.back() = '_';
-    return line;
 }
 
 /// How many vertices, texture coordinates and normals were written before.
@@ -152,12 +133,12 @@ void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out)
         out += 'f';
         for (const std::uint32_t i : placed(t, mirrored)) {
             out += ' ';
-            append_number(out, offsets.positions + i);
+            append_index(out, offsets.positions + i);
             if (!mesh.uvs.empty() || !mesh.normals.empty()) out += '/';
-            if (!mesh.uvs.empty()) append_number(out, offsets.uvs + i);
+            if (!mesh.uvs.empty()) append_index(out, offsets.uvs + i);
             if (!mesh.normals.empty()) {
                 out += '/';
-                append_number(out, offsets.normals + i);
+                append_index(out, offsets.normals + i);
             }
         }
         out += '\n';

@@ -1,28 +1,11 @@
 // Materials as MTL: what the format can say of them.
 
-#include <array>
-#include <charconv>
-
 #include "alhazen/importers/mesh_export.h"
+#include "alhazen/importers/mesh_export_text.h"
 
 namespace alhazen {
 
 namespace {
-
-void append_number(std::string& out, double value) {
-    std::array<char, 40> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    out += ' ';
-    out.append(buffer.data(), end);
-}
-
-/// A name on a line of its own.
-std::string one_line(std::string name) {
-    for (char& c : name) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
-    }
-    return name;
-}
 
 class MtlWriter {
   public:

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "alhazen/base/error.h"
+#include "alhazen/math/unit_vector.h"
 #include "alhazen/renderers/eye_samples.h"
 #include "alhazen/renderers/local_shading.h"
 #include "alhazen/renderers/renderer.h"
@@ -71,11 +72,6 @@ struct PixelGeometry {
     }
 };
 
-Vec3 unit_or_zero(const Vec3& v) {
-    const double l = length(v);
-    return l > 0.0 ? (1.0 / l) * v : Vec3{};
-}
-
 void write(AovFilm& film, int i, int j, const PixelGeometry& g) {
     const double share = g.hits > 0 ? 1.0 / g.hits : 0.0;
     const auto set = [&](AovKind kind, std::initializer_list<double> values) {
@@ -84,8 +80,8 @@ void write(AovFilm& film, int i, int j, const PixelGeometry& g) {
     const auto set_vector = [&](AovKind kind, const Vec3& v) { set(kind, {v.x, v.y, v.z}); };
     set(AovKind::Alpha, {static_cast<double>(g.hits) / g.samples});
     set(AovKind::Depth, {g.hits > 0 ? share * g.depth : std::numeric_limits<double>::infinity()});
-    set_vector(AovKind::Normal, unit_or_zero(g.normal));
-    set_vector(AovKind::GeometricNormal, unit_or_zero(g.geometric));
+    set_vector(AovKind::Normal, unit_or(g.normal, {}));
+    set_vector(AovKind::GeometricNormal, unit_or(g.geometric, {}));
     set_vector(AovKind::Position, share * g.position);
     set(AovKind::Uv, {share * g.uv.x, share * g.uv.y});
     const Rgb albedo = share * g.albedo;

@@ -2,25 +2,17 @@
 
 #include <cmath>
 
+#include "alhazen/math/unit_vector.h"
+
 namespace alhazen {
-
-namespace {
-
-/// Zero when `v` has no direction.
-Vec3 unit_or_zero(const Vec3& v) {
-    const double squared = length_squared(v);
-    return squared > 0.0 && std::isfinite(squared) ? v / std::sqrt(squared) : Vec3{};
-}
-
-}  // namespace
 
 TangentFrame frame_from_derivatives(const Vec3& n, const Vec3& dpdu, const Vec3& dpdv) {
     // Scaled first: tangents of large or small coordinates must not over- or underflow.
-    return frame_from_tangents(n, unit_or_zero(dpdu), unit_or_zero(dpdv));
+    return frame_from_tangents(n, unit_or(dpdu, {}), unit_or(dpdv, {}));
 }
 
 TangentFrame frame_from_tangents(const Vec3& n, const Vec3& tangent, const Vec3& bitangent) {
-    const Vec3 t = unit_or_zero(tangent - dot(n, tangent) * n);
+    const Vec3 t = unit_or(tangent - dot(n, tangent) * n, {});
     if (t == Vec3{}) return {};
     const Vec3 b = cross(n, t);
     return {t, dot(b, bitangent) < 0.0 ? -b : b};
@@ -43,7 +35,7 @@ Vec3 bent_normal(const Rgb& texel, double scale, const Vec3& n, const TangentFra
     const double x = scale * (2.0 * texel.r - 1.0);
     const double y = scale * (2.0 * texel.g - 1.0);
     const double z = 2.0 * texel.b - 1.0;
-    const Vec3 bent = unit_or_zero(x * frame.tangent + y * frame.bitangent + z * n);
+    const Vec3 bent = unit_or(x * frame.tangent + y * frame.bitangent + z * n, {});
     return bent == Vec3{} ? n : bent;
 }
 
