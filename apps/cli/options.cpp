@@ -66,7 +66,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->capture_default_str();
     command
         .add_option("--allow-path", allow_path,
-                    "Folder that files named by the scene may lie in, when not its own")
+                    "Folder that files named by the scene may lie in, instead of its own")
         ->type_name("DIR");
     command
         .add_option("--time", time,
