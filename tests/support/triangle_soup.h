@@ -118,7 +118,7 @@ inline std::string difference(const TriangleMesh& ours, const PolygonSoup& their
         if (polygon.size() != end - begin) {
             ++lost;
         } else if (polygon.size() >= 3) {
-            (void)triangulate(places.positions(), polygon, other);
+            triangulate(places.positions(), polygon, other);
         }
         begin = end;
     }

@@ -150,11 +150,7 @@ void NffBuilder::add_triangles(const std::vector<Vec3>& vertices, const std::vec
     std::iota(loop.begin(), loop.end(), std::uint32_t(mesh.positions.size()));
     mesh.positions.insert(mesh.positions.end(), vertices.begin(), vertices.end());
     mesh.normals.insert(mesh.normals.end(), normals.begin(), normals.end());
-    if (!triangulate(mesh.positions, loop, mesh.triangles)) {
-        diagnostics_.error(where, "a concave patch of " + std::to_string(vertices.size()) +
-                                      " vertices; the limit is " +
-                                      std::to_string(kMaxConcaveVertices));
-    }
+    triangulate(mesh.positions, loop, mesh.triangles);
 }
 
 TriangleMesh& NffBuilder::current_mesh(bool smooth, const FileLocation& where) {

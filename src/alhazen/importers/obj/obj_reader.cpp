@@ -164,15 +164,12 @@ class PartMaker {
         });
         mesh.triangles.reserve(corners - 2 * faces);
         std::vector<std::uint32_t> polygon;
-        for_each_face(group, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t line) {
+        for_each_face(group, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
             polygon.clear();
             for (std::uint32_t c = begin; c < end; ++c) {
                 polygon.push_back(std::uint32_t(in_.corners.position[c]));
             }
-            if (errors_ < kMaxErrors && !triangulate(mesh.positions, polygon, mesh.triangles)) {
-                error(line, "a concave polygon of " + std::to_string(polygon.size()) +
-                                " vertices; the limit is " + std::to_string(kMaxConcaveVertices));
-            }
+            triangulate(mesh.positions, polygon, mesh.triangles);
         });
     }
 

@@ -186,12 +186,8 @@ class BodyReader {
         }
         if (count < 3) {
             ++small_faces_;
-        } else if (!triangulate(mesh_.positions, polygon_, mesh_.triangles)) {
-            fail(element, item,
-                 "a concave polygon of " + std::to_string(count) + " vertices; the limit is " +
-                     std::to_string(kMaxConcaveVertices),
-                 start);
-            return errors_ < kMaxErrors;
+        } else {
+            triangulate(mesh_.positions, polygon_, mesh_.triangles);
         }
         return true;
     }

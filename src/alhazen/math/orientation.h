@@ -1,0 +1,32 @@
+#pragma once
+/// On which side of a line through two points of the plane a third one lies: the exact sign.
+///
+/// Source: Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+/// Predicates", Discrete & Computational Geometry 18, 1997: the filter of section 4.1, two-sums and
+/// two-products of section 2.
+/// Differs: behind the filter there is one stage, the exact sum of all products that are not 0.
+/// Conventions: right for all finite points whose differences multiply without over- and underflow;
+/// those that do not are scaled by their caller. NaN gives 0.
+
+#include <cmath>
+
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+/// The sign behind the filter. Slower; called by orientation().
+[[nodiscard]] int exact_orientation(Vec2 a, Vec2 b, Vec2 c);
+
+/// 1 when a, b, c turn left (counter-clockwise), -1 when they turn right, 0 on one line.
+[[nodiscard]] inline int orientation(Vec2 a, Vec2 b, Vec2 c) {
+    constexpr double kFilter = 3.3306690738754716e-16;  // (3 + 16 e) e with e = 2^-53
+    const double left = (a.x - c.x) * (b.y - c.y);
+    const double right = (a.y - c.y) * (b.x - c.x);
+    const double sum = left - right;
+    const double bound = kFilter * (std::abs(left) + std::abs(right));
+    if (sum > bound) return 1;
+    if (sum < -bound) return -1;
+    return exact_orientation(a, b, c);
+}
+
+}  // namespace alhazen
