@@ -7,10 +7,14 @@
 #include "alhazen/imaging/image_io.h"
 #include "commands.h"
 #include "messages.h"
+#include "options.h"
 
 namespace alhazen::cli {
 
 namespace {
+
+/// Two pictures of 8192 x 4096 pixels pass, and stay below 1 GiB.
+constexpr std::uint64_t kDiffMiB = 960;
 
 struct Metric {
     const char* name;
@@ -49,6 +53,7 @@ void add_diff(CLI::App& app, int& exit_status) {
         std::string a, b, output, metric = "max";
         double max = 0;
         bool json = false;
+        ImageLimitArguments limits{.max_mib = kDiffMiB};
     };
     CLI::App* command = app.add_subcommand("diff", "Compare two pictures; exit 1 above the bound");
     const auto args = std::make_shared<Arguments>();
@@ -65,11 +70,14 @@ void add_diff(CLI::App& app, int& exit_status) {
                      "Write the difference picture, scaled to full range")
         ->type_name("FILE");
     command->add_flag("--json", args->json, "As JSON");
+    args->limits.add_to(*command);
     command->callback([args, &exit_status] {
         const Metric& metric = find_metric(args->metric);
         if (!args->output.empty()) check_image_suffix(args->output);
-        const Image a = read_image(args->a);
-        const Image b = read_image(args->b);
+        ImageLimits limits = args->limits.limits();
+        const Image a = read_image(args->a, limits);
+        limits.max_bytes -= a.samples.size() * sizeof(float);
+        const Image b = read_image(args->b, limits);
         const ImageDifference d = difference(a, b);
         const double value = metric.value(d);
         const bool holds = value <= args->max;

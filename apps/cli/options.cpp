@@ -55,6 +55,29 @@ PixelBox parse_crop(const std::string& text) {
     return {n[0], n[1], n[2], n[3]};
 }
 
+void ImageLimitArguments::add_to(CLI::App& command) {
+    command
+        .add_option("--max-image-pixels", max_pixels,
+                    "Larger pictures are refused before they are decoded")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 1e15));
+    command.add_option("--max-image-side", max_side, "The same for longer sides")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20));
+    command
+        .add_option("--max-image-mib", max_mib,
+                    "Memory for all pictures together, also while they are read")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(1.0, 1e9));
+}
+
+ImageLimits ImageLimitArguments::limits() const {
+    return {.max_side = max_side, .max_pixels = max_pixels, .max_bytes = max_mib << 20};
+}
+
 void SceneArguments::add_to(CLI::App& command, const std::string& default_accelerator) {
     accelerator = default_accelerator;
     command.add_option("scene", scene, "Scene file; its format is recognised by content")
@@ -65,27 +88,18 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                     "Accelerator by name; see `alhazen list accelerators`")
         ->capture_default_str();
     command
-        .add_option("--allow-path", allow_path,
-                    "Folder that files named by the scene may lie in, instead of its own")
-        ->type_name("DIR");
+        .add_option("--allow-path", allow_paths,
+                    "Another folder that files named by the scene may lie in; may be repeated")
+        ->type_name("DIR")
+        ->expected(1)
+        ->take_all();
     command
         .add_option("--time", time,
                     "Moment of the file's animations; default: the pose without them")
         ->type_name("SECONDS");
     command.add_option("--animation", animation, "Apply only this animation")
         ->type_name("NAME|INDEX");
-    command
-        .add_option("--max-image-pixels", max_image_pixels,
-                    "Larger textures are refused before they are decoded")
-        ->capture_default_str()
-        ->type_name("N")
-        ->check(CLI::Range(1.0, 1e15));
-    command
-        .add_option("--max-texture-pixels", max_texture_pixels,
-                    "Textures that together are larger are refused")
-        ->capture_default_str()
-        ->type_name("N")
-        ->check(CLI::Range(1.0, 1e15));
+    image_limits.add_to(command);
     command
         .add_option("--max-import-mib", max_import_mib,
                     "Memory for the meshes and instances that a glTF file makes of shared data; "
@@ -100,11 +114,13 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
 
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
-    options.import.allowed_root = allow_path;
+    options.import.allowed_folders.assign(allow_paths.begin(), allow_paths.end());
     options.import.animation = animation;
-    options.import.image_limits.max_pixels = max_image_pixels;
-    options.import.image_limits.max_total_pixels = max_texture_pixels;
+    options.import.image_limits = image_limits.limits();
     if (max_import_mib) options.import.max_made_bytes = *max_import_mib << 20;
+    if (!animation.empty() && !time) {
+        throw Error(ErrorKind::Usage, "--animation needs --time: without it nothing is animated");
+    }
     if (time) {
         if (!std::isfinite(*time)) throw Error(ErrorKind::Usage, "--time must be a finite number");
         options.import.time = time;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "alhazen/imaging/film.h"
 #include "alhazen/session/load.h"
@@ -19,15 +20,24 @@ struct Size {
 /// "x0,y0,x1,y1" in pixels. Throws Error (Usage).
 [[nodiscard]] PixelBox parse_crop(const std::string& text);
 
+/// How large pictures may be that are read.
+struct ImageLimitArguments {
+    std::uint64_t max_pixels = ImageLimits{}.max_pixels;
+    int max_side = ImageLimits{}.max_side;
+    std::uint64_t max_mib = ImageLimits{}.max_bytes >> 20;
+
+    void add_to(CLI::App& command);
+    [[nodiscard]] ImageLimits limits() const;
+};
+
 /// Where a scene is and how it may be read: the positional argument and the limits.
 struct SceneArguments {
     std::string scene;
     std::string accelerator;
-    std::string allow_path;
+    std::vector<std::string> allow_paths;
     std::optional<double> time;
     std::string animation;
-    std::uint64_t max_image_pixels = ImageLimits{}.max_pixels;
-    std::uint64_t max_texture_pixels = ImageLimits{}.max_total_pixels;
+    ImageLimitArguments image_limits;
     std::optional<std::uint64_t> max_import_mib;
     int threads = 0;
 

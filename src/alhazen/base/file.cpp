@@ -193,32 +193,40 @@ void check_writable(const fs::path& path) {
     if (fs::is_directory(path, failed)) refuse("it is a folder");
 }
 
-fs::path resolve_inside(const fs::path& root, const fs::path& folder, const std::string& name) {
+fs::path resolve_inside(std::span<const fs::path> roots, const fs::path& folder,
+                        const std::string& name) {
     const auto refuse = [&](const std::string& why) {
         throw Error(ErrorKind::Scene, "the file name \"" + name + "\" " + why);
     };
     if (name.empty()) refuse("is empty");
     if (name.find('\0') != std::string::npos) refuse("holds a NUL");
-    const fs::path relative(name);
-    if (relative.is_absolute()) refuse("is absolute, expected one relative to the scene");
-
     const auto whole = [](const fs::path& path) {
         return fs::absolute(path.empty() ? fs::path(".") : path).lexically_normal();
     };
-    const fs::path place = (folder / relative).lexically_normal();
-    const fs::path inside = whole(place).lexically_relative(whole(root));
-    if (inside.empty() || *inside.begin() == "..") {
-        refuse("leaves the folder " + root.string() + " that the scene may read");
-    }
-    // Symbolic links must not lead out either.
+    const auto is_inside = [](const fs::path& path, const fs::path& root) {
+        const fs::path inside = path.lexically_relative(root);
+        return !inside.empty() && *inside.begin() != "..";
+    };
+    const fs::path place = (folder / name).lexically_normal();
     std::error_code failed;
     const fs::path real = fs::weakly_canonical(whole(place), failed);
-    const fs::path real_root = failed ? fs::path() : fs::weakly_canonical(whole(root), failed);
-    const fs::path real_inside = failed ? fs::path() : real.lexically_relative(real_root);
-    if (real_inside.empty() || *real_inside.begin() == "..") {
-        refuse("leads out of the folder " + root.string() + " through a symbolic link");
+    bool led_out = false;  // as it is written it lies in a root
+    for (const fs::path& root : roots) {
+        if (failed) break;
+        const fs::path real_root = fs::weakly_canonical(whole(root), failed);
+        if (!failed && is_inside(real, real_root)) return place;
+        led_out = led_out || is_inside(whole(place), whole(root));
     }
-    return place;
+    std::string allowed;
+    for (const fs::path& root : roots) allowed += (allowed.empty() ? "" : ", ") + root.string();
+    refuse(led_out ? "leads out of the folder " + allowed + " through a symbolic link"
+                   : "leaves the folder " + allowed +
+                         " that the scene may read (--allow-path adds another)");
+    return {};
+}
+
+fs::path resolve_inside(const fs::path& root, const fs::path& folder, const std::string& name) {
+    return resolve_inside(std::span(&root, 1), folder, name);
 }
 
 }  // namespace alhazen

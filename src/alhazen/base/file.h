@@ -34,8 +34,12 @@ void write_file_atomically(const std::filesystem::path& path, const std::string&
 void check_writable(const std::filesystem::path& path);
 
 /// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) when it is
-/// absolute, empty, holds a NUL or leaves `root` (a folder that contains `folder`) through `..` or
-/// a symbolic link.
+/// empty, holds a NUL, or does not lie in one of the folders `roots` after all symbolic links are
+/// followed; absolute names are held to the same.
+[[nodiscard]] std::filesystem::path resolve_inside(std::span<const std::filesystem::path> roots,
+                                                   const std::filesystem::path& folder,
+                                                   const std::string& name);
+/// The same for one folder.
 [[nodiscard]] std::filesystem::path resolve_inside(const std::filesystem::path& root,
                                                    const std::filesystem::path& folder,
                                                    const std::string& name);

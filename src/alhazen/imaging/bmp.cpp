@@ -183,8 +183,14 @@ StoredImage decode_bmp(std::string_view bytes, const std::string& name, const Im
     Image floats;
     Codes codes;
     if (masked) {
-        floats = reserved_image(int(header.width), int(header.height), channels, false);
+        // Beside the floats lie the codes that are made of them: 16-bit ones at the most.
+        const auto all_channels = std::uint64_t(channels);
+        check_image_memory(sample_bytes(header.width, header.height, all_channels, 4 + 2), limits,
+                           name);
+        floats =
+            reserved_image(int(header.width), int(header.height), channels, false, limits, name);
     } else {
+        check_image_memory(sample_bytes(header.width, header.height, 3, 1), limits, name);
         codes.reserve(std::size_t(header.width) * std::size_t(header.height) * 3);
     }
     for (std::int64_t y = 0; y < header.height; ++y) {

@@ -79,14 +79,17 @@ std::vector<std::string> channel_names(const Imf::ChannelList& list, const std::
     return wanted;
 }
 
+int band_rows(int height) {
+    return std::min(height, 64);
+}
+
 /// Rows are decoded in bands, so that a file that ends early costs no more than what it holds.
 void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, Image& image) {
-    constexpr int kBandRows = 256;
     const Imath::Box2i window = file.header().dataWindow();
     const std::size_t row_samples = std::size_t(image.width) * channels.size();
-    std::vector<float> band(row_samples * std::size_t(std::min(kBandRows, image.height)));
-    for (int y = window.min.y; y <= window.max.y; y += kBandRows) {
-        const int last = std::min(y + kBandRows - 1, window.max.y);
+    std::vector<float> band(row_samples * std::size_t(band_rows(image.height)));
+    for (int y = window.min.y; y <= window.max.y; y += band_rows(image.height)) {
+        const int last = std::min(y + band_rows(image.height) - 1, window.max.y);
         const Imath::Box2i place(Imath::V2i(window.min.x, y), Imath::V2i(window.max.x, last));
         Imf::FrameBuffer frame;
         for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -102,9 +105,9 @@ void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, 
     }
 }
 
-Image read_exr(const std::string& header, std::string_view bytes, const std::string& name,
+Image read_exr(const ExrHeader& header, std::string_view bytes, const std::string& name,
                const ImageLimits& limits) {
-    MemoryInput stream(header, bytes, name);
+    MemoryInput stream(header.bytes, bytes, name);
     Imf::InputFile file(stream, 0);
     const Imath::Box2i window = file.header().dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
@@ -122,7 +125,12 @@ Image read_exr(const std::string& header, std::string_view bytes, const std::str
                       "the EXR channel " + channel + " holds integers, expected half or float");
         }
     }
-    Image image = reserved_image(int(width), int(height), int(channels.size()), true);
+    // The decoder's buffers were checked with the header, but they are there at the same time.
+    const std::uint64_t all =
+        sample_bytes(width, height, channels.size(), sizeof(float)) + header.decoder_bytes +
+        sample_bytes(width, band_rows(int(height)), channels.size(), sizeof(float));
+    check_image_memory(all, limits, name);
+    Image image = reserved_image(int(width), int(height), int(channels.size()), true, limits, name);
     read_bands(file, channels, image);
     return image;
 }
@@ -157,14 +165,19 @@ void write_exr(ExrMemoryOutput& stream, const Image& image, Imf::Header header) 
     static const std::array<std::vector<const char*>, 5> kNames{
         {{}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
     const auto channels = std::size_t(image.channels);
-    std::vector<Sample> samples(image.samples.size());
-    std::transform(image.samples.begin(), image.samples.end(), samples.begin(),
-                   [](float value) { return Sample(value); });
+    std::vector<Sample> halves;
+    const Sample* samples = nullptr;
+    if constexpr (std::is_same_v<Sample, float>) {
+        samples = image.samples.data();
+    } else {
+        halves.assign(image.samples.begin(), image.samples.end());
+        samples = halves.data();
+    }
     Imf::FrameBuffer frame;
     for (std::size_t i = 0; i < channels; ++i) {
         const char* name = kNames[channels][i];
         header.channels().insert(name, Imf::Channel(kType));
-        frame.insert(name, Imf::Slice::Make(kType, samples.data() + i, header.dataWindow(),
+        frame.insert(name, Imf::Slice::Make(kType, samples + i, header.dataWindow(),
                                             sizeof(Sample) * channels,
                                             sizeof(Sample) * channels * std::size_t(image.width)));
     }
@@ -176,7 +189,7 @@ void write_exr(ExrMemoryOutput& stream, const Image& image, Imf::Header header) 
 }  // namespace
 
 Image decode_exr(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
-    const std::string header = checked_exr_header(bytes, name, limits);
+    const ExrHeader header = checked_exr_header(bytes, name, limits);
     try {
         return read_exr(header, bytes, name, limits);
     } catch (const Error&) {
@@ -192,6 +205,8 @@ std::vector<std::byte> encode_exr(const Image& image, const ImageWriteOptions& o
     ExrMemoryOutput stream;
     try {
         const Imf::Header header = header_of(image, options);
+        // Room that is not used costs nothing, and growing would need twice of it.
+        stream.reserve(image.samples.size() * (options.full_float ? 4 : 2) + (1 << 20));
         if (options.full_float) {
             write_exr<float>(stream, image, header);
         } else {

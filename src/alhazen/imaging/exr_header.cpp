@@ -1,7 +1,9 @@
 #include "alhazen/imaging/exr_header.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "alhazen/imaging/byte_reader.h"
@@ -18,13 +20,35 @@ constexpr int kMaxParts = 1000;
 constexpr int kMaxAttributes = 10'000;
 constexpr std::uint32_t kMaxTileSide = 4096;
 /// Width times channels: the library decodes up to 256 rows at a time, of 4 bytes a sample.
+/// Bounds the products in `decoder_bytes`, too: 2^12 * 2^12 * 2^18 * 2^4 < 2^63.
 constexpr std::uint64_t kMaxRowSamples = std::uint64_t{1} << 18;
 
 struct PartHeader {
     std::int64_t width = 0, height = 0;
     std::uint64_t channels = 0;
     bool has_window = false;
+    std::uint8_t compression = 0;
+    std::uint64_t tile_width = 0, tile_height = 0;  ///< 0: rows
 };
+
+/// Rows that are packed together, by the number of the compression.
+std::uint64_t rows_together(std::uint8_t compression) {
+    constexpr std::array<std::uint8_t, 9> kRows{1, 1, 1, 16, 32, 16, 32, 32, 32};
+    return compression < kRows.size() ? kRows[compression] : 256;
+}
+
+/// Precondition: width times channels is at most kMaxRowSamples.
+std::uint64_t decoder_bytes(const PartHeader& part) {
+    constexpr std::uint64_t kSampleBytes = 4, kCopies = 4;
+    const auto width = std::uint64_t(part.width), height = std::uint64_t(part.height);
+    if (part.tile_width == 0) {
+        const std::uint64_t rows = std::min(rows_together(part.compression), height);
+        return width * part.channels * rows * kSampleBytes * kCopies;
+    }
+    const std::uint64_t kept = std::min<std::uint64_t>(part.channels, 4);
+    return part.tile_width * part.tile_height * part.channels * kSampleBytes * kCopies +
+           width * part.tile_height * kept * kSampleBytes;
+}
 
 std::uint64_t count_channels(ByteReader list) {
     std::uint64_t count = 0;
@@ -49,13 +73,15 @@ void read_window(ByteReader value, PartHeader& part) {
     part.has_window = true;
 }
 
-void read_tiles(ByteReader value) {
+void read_tiles(ByteReader value, PartHeader& part) {
     const std::uint32_t width = value.u32_little(), height = value.u32_little();
     if (width < 1 || height < 1 || width > kMaxTileSide || height > kMaxTileSide) {
         bad_image(value.name(), "EXR tiles of " + std::to_string(width) + " x " +
                                     std::to_string(height) + " pixels, expected sides of 1 to " +
                                     std::to_string(kMaxTileSide));
     }
+    part.tile_width = width;
+    part.tile_height = height;
 }
 
 /// The attributes that the library needs, and the bytes of their values (0: any).
@@ -98,7 +124,9 @@ void read_value(std::string_view attribute, ByteReader value, PartHeader& part) 
     } else if (attribute == "channels") {
         part.channels = count_channels(value);
     } else if (attribute == "tiles") {
-        read_tiles(value);
+        read_tiles(value, part);
+    } else if (attribute == "compression") {
+        part.compression = value.u8();
     } else if (attribute == "type" && value.take(value.left()).starts_with("deep")) {
         bad_image(value.name(), "deep EXR pictures are not supported");
     }
@@ -121,9 +149,8 @@ void read_attribute(std::string_view attribute, ByteReader& reader,
 
 /// False at the empty header that ends a list of parts.
 bool read_part(ByteReader& reader, std::vector<std::string_view>& ignored,
-               const ImageLimits& limits) {
+               const ImageLimits& limits, PartHeader& part) {
     const std::string& name = reader.name();
-    PartHeader part;
     for (int i = 0;; ++i) {
         const std::string_view attribute = reader.until('\0', kMaxName);
         if (attribute.empty() && i == 0) return false;
@@ -145,8 +172,8 @@ bool read_part(ByteReader& reader, std::vector<std::string_view>& ignored,
 
 }  // namespace
 
-std::string checked_exr_header(std::string_view bytes, const std::string& name,
-                               const ImageLimits& limits) {
+ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
+                             const ImageLimits& limits) {
     ByteReader reader(bytes, name);
     (void)reader.u32_little();
     const std::uint32_t version = reader.u32_little();
@@ -156,8 +183,12 @@ std::string checked_exr_header(std::string_view bytes, const std::string& name,
     if ((version & kDeepFlag) != 0) bad_image(name, "deep EXR pictures are not supported");
     std::vector<std::string_view> ignored;
     int parts = 0;
-    while (read_part(reader, ignored, limits)) {
-        ++parts;
+    std::uint64_t first_part_bytes = 0;
+    for (PartHeader part; read_part(reader, ignored, limits, part); part = {}) {
+        if (++parts == 1) {
+            first_part_bytes = decoder_bytes(part);
+            check_image_memory(first_part_bytes, limits, name);
+        }
         if ((version & kMultiPartFlag) == 0) break;
         if (parts > kMaxParts) bad_image(name, "damaged EXR: too many parts");
     }
@@ -166,7 +197,7 @@ std::string checked_exr_header(std::string_view bytes, const std::string& name,
     for (const std::string_view type : ignored) {
         header.replace(std::size_t(type.data() - bytes.data()), type.size(), type.size(), '?');
     }
-    return header;
+    return {std::move(header), first_part_bytes};
 }
 
 }  // namespace alhazen

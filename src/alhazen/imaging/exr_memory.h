@@ -21,6 +21,7 @@ class ExrMemoryOutput final : public Imf::OStream {
         std::memcpy(bytes_.data() + position_, source, std::size_t(count));
         position_ = end;
     }
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
     std::uint64_t tellp() override { return position_; }
     void seekp(std::uint64_t position) override { position_ = std::size_t(position); }
     std::vector<std::byte> take() { return std::move(bytes_); }

@@ -162,7 +162,7 @@ Image decode_hdr(std::string_view bytes, const std::string& name, const ImageLim
     ByteReader reader(bytes, name);
     const Size size = read_header(reader);
     check_image_size(size.width, size.height, limits, name);
-    Image image = reserved_image(int(size.width), int(size.height), 3, true);
+    Image image = reserved_image(int(size.width), int(size.height), 3, true, limits, name);
     std::vector<Rgbe> row(std::size_t(size.width));
     for (std::int64_t y = 0; y < size.height; ++y) {
         read_row(reader, row);

@@ -71,9 +71,22 @@ void check_samples(const Image& image) {
     }
 }
 
+/// The bytes of a file, whose memory counts, too.
+std::string file_within(const std::filesystem::path& path, const ImageLimits& limits) {
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(path, failed);
+    if (!failed) check_image_memory(size, limits, path.string());
+    return read_file(path);
+}
+
+/// What is left while `bytes` are in memory.
+ImageLimits beside(const std::string& bytes, ImageLimits limits) {
+    limits.max_bytes -= std::min<std::uint64_t>(limits.max_bytes, bytes.size());
+    return limits;
+}
+
 /// The same picture in linear values; alpha is linear already.
-Image linear_image(Image image) {
-    if (image.linear) return image;
+Image linear_copy(Image image) {
     image.linear = true;
     const auto channels = std::size_t(image.channels);
     const bool has_alpha = channels == 2 || channels == 4;
@@ -104,18 +117,26 @@ StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
 
 Image decode_image(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
     try {
-        return expanded(decode_stored_image(bytes, name, limits));
+        StoredImage image = decode_stored_image(bytes, name, limits);
+        if (!std::holds_alternative<std::vector<float>>(image.samples)) {
+            const std::uint64_t floats =
+                sample_bytes(image.width, image.height, std::uint64_t(image.channels), 4);
+            check_image_memory(image.memory_bytes() + floats, limits, name);
+        }
+        return expanded(std::move(image));
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::Resource, "not enough memory for the picture", {name, 0, 0});
     }
 }
 
 StoredImage read_stored_image(const std::filesystem::path& path, const ImageLimits& limits) {
-    return decode_stored_image(read_file(path), path.string(), limits);
+    const std::string bytes = file_within(path, limits);
+    return decode_stored_image(bytes, path.string(), beside(bytes, limits));
 }
 
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits) {
-    return decode_image(read_file(path), path.string(), limits);
+    const std::string bytes = file_within(path, limits);
+    return decode_image(bytes, path.string(), beside(bytes, limits));
 }
 
 const std::vector<std::string>& image_suffixes() {
@@ -140,9 +161,13 @@ std::vector<std::byte> encode_image(const std::string& suffix, const Image& imag
     if (suffix == "jpg" || suffix == "jpeg") {
         return encode_jpeg(encode(image, options.encoding, 8), options.jpeg_quality);
     }
-    if (suffix == "exr") return encode_exr(linear_image(image), options);
-    if (suffix == "hdr") return encode_hdr(linear_image(image));
-    if (suffix == "pfm") return encode_pfm(linear_image(image));
+    // Pictures can be large: what is linear already is not copied.
+    if ((suffix == "exr" || suffix == "hdr" || suffix == "pfm") && !image.linear) {
+        return encode_image(suffix, linear_copy(image), options);
+    }
+    if (suffix == "exr") return encode_exr(image, options);
+    if (suffix == "hdr") return encode_hdr(image);
+    if (suffix == "pfm") return encode_pfm(image);
     unknown_suffix(suffix, {});
 }
 

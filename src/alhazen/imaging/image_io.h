@@ -3,9 +3,9 @@
 ///
 /// In: PNG (all colour types, 1 to 16 bit), JPEG, TGA, BMP (1, 4 and 8-bit palette, 16, 24, 32 bit,
 /// not RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Out: PNG, JPG, EXR, HDR, PFM.
-/// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes, and
-/// memory grows with what is decoded, not with what the header claims. An EXR is read as its data
-/// window.
+/// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes: the
+/// sizes, and the bytes that the samples and the buffers of the decoder will take. Memory grows
+/// with what is decoded, not with what the header claims. An EXR is read as its data window.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "alhazen/base/error.h"
 #include "alhazen/imaging/encoding.h"
 #include "alhazen/imaging/image.h"
 #include "alhazen/imaging/stored_image.h"
@@ -22,11 +23,18 @@
 namespace alhazen {
 
 struct ImageLimits {
-    int max_side = 32768;
+    int max_side = 32768;                               ///< changed by --max-image-side
     std::uint64_t max_pixels = std::uint64_t{1} << 26;  ///< changed by --max-image-pixels
-    /// Of all pictures of a scene together, each counted once; see TextureTable. Changed by
-    /// --max-texture-pixels.
-    std::uint64_t max_total_pixels = std::uint64_t{1} << 28;
+    /// Memory that reading a picture may take at its worst moment: the file, the samples, and what
+    /// the decoder needs beside them. The pictures of a scene share it (TextureTable). Changed by
+    /// --max-image-mib.
+    std::uint64_t max_bytes = std::uint64_t{640} << 20;
+};
+
+/// Reading a picture would take more than ImageLimits::max_bytes.
+class ImageMemoryExceeded : public Error {
+  public:
+    using Error::Error;
 };
 
 /// Reads a picture. Throws Error: File when it cannot be read, Scene when it is malformed or of an

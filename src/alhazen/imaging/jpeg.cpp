@@ -200,6 +200,23 @@ class Writer {
     Compression state_;
 };
 
+/// What libjpeg keeps of a picture whose data come in several scans: a short for each coefficient
+/// of each component, whole blocks of 8 x 8 and whole groups of blocks.
+std::uint64_t coefficient_bytes(jpeg_decompress_struct& cinfo) {
+    if (!jpeg_has_multiple_scans(&cinfo)) return 0;
+    std::uint64_t blocks = 0;
+    for (int i = 0; i < cinfo.num_components; ++i) {
+        const jpeg_component_info& c = cinfo.comp_info[i];
+        const auto whole = [](std::uint64_t n, int group) {
+            const auto g = std::uint64_t(group);
+            return (n + g - 1) / g * g;
+        };
+        blocks +=
+            whole(c.width_in_blocks, c.h_samp_factor) * whole(c.height_in_blocks, c.v_samp_factor);
+    }
+    return blocks * sizeof(JBLOCK);
+}
+
 /// Adobe's files store 255 - ink.
 void append_cmyk_row(std::vector<std::uint8_t>& codes, std::span<const JSAMPLE> row,
                      bool inverted) {
@@ -244,6 +261,10 @@ StoredImage decode_jpeg(std::string_view bytes, const std::string& name,
     if (std::uint64_t(width) * std::uint64_t(height) > bytes.size() * 2048 + (1u << 20)) {
         bad_image(name, "damaged JPEG: the data end too early");
     }
+    // Three channels at most are kept; beside them lie the coefficients.
+    const std::uint64_t kept = state.cinfo.num_components == 1 ? 1 : 3;
+    check_image_memory(sample_bytes(width, height, kept, 1) + coefficient_bytes(state.cinfo),
+                       limits, name);
     reader.check(start_reading);
     const int channels = state.cinfo.out_color_components;
     StoredImage image{int(width), int(height), channels == 1 ? 1 : 3, false, {}};

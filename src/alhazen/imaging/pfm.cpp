@@ -70,7 +70,7 @@ Image decode_pfm(std::string_view bytes, const std::string& name, const ImageLim
     }
     const std::uint64_t row_bytes = std::uint64_t(width) * std::uint64_t(channels) * 4;
     const std::string_view rows = reader.take(row_bytes * std::uint64_t(height));
-    Image image = reserved_image(int(width), int(height), channels, true);
+    Image image = reserved_image(int(width), int(height), channels, true, limits, name);
     for (std::int64_t y = height - 1; y >= 0; --y) {
         append_floats(image, rows.substr(std::size_t(y) * row_bytes, row_bytes), scale < 0,
                       float(std::abs(scale)));

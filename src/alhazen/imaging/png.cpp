@@ -292,6 +292,8 @@ StoredImage decode_png(std::string_view bytes, const std::string& name, const Im
     if (state.row_bytes * state.height / 32 > bytes.size() * 1032 + 4096) {
         bad_image(name, "damaged PNG: the data end too early");
     }
+    check_image_memory(std::uint64_t{state.row_bytes} * (state.height + std::uint64_t{1}), limits,
+                       name);
     StoredImage image{int(state.width), int(state.height), state.channels, false, {}};
     if (state.depth == 16) {
         image.samples = read_codes<std::uint16_t>(reader);

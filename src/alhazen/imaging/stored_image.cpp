@@ -78,6 +78,23 @@ Rgba StoredImage::pixel(std::size_t index, bool decode_srgb) const {
         samples);
 }
 
+void StoredImage::read_pixels(std::size_t first, std::size_t count, bool decode_srgb,
+                              double* out) const {
+    const auto step = std::size_t(channels);
+    // Alpha is never decoded.
+    const std::size_t colors = channels == 2 || channels == 4 ? step - 1 : step;
+    std::visit(
+        [&](const auto& all) {
+            const auto* in = all.data() + first * step;
+            for (std::size_t i = 0; i < count; ++i, in += step, out += step) {
+                for (std::size_t k = 0; k < step; ++k) {
+                    out[k] = decode_srgb && k < colors ? decoded(in[k]) : double(value_of(in[k]));
+                }
+            }
+        },
+        samples);
+}
+
 bool StoredImage::is_opaque() const {
     if (channels != 2 && channels != 4) return true;
     return std::visit(

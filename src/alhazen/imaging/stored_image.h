@@ -27,6 +27,9 @@ struct StoredImage {
     /// One pixel, counted through the rows; grey is repeated, alpha is 1 where there is none.
     /// `decode_srgb`: the colours are made linear, by the sRGB curve; alpha never is.
     [[nodiscard]] Rgba pixel(std::size_t index, bool decode_srgb) const;
+    /// The same values for a run of pixels, as many channels of each as there are:
+    /// out[count][channels].
+    void read_pixels(std::size_t first, std::size_t count, bool decode_srgb, double* out) const;
 };
 
 /// Bytes when every sample of a picture that is not linear is a code of 8 bits, shorts when of 16,

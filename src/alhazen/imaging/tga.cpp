@@ -190,6 +190,7 @@ StoredImage decode_tga(std::string_view bytes, const std::string& name, const Im
         int(h.width), int(h.height), channels_of(h, alpha_is_meant(bytes)), false, {}};
     const auto channels = std::size_t(image.channels);
     const auto width = std::size_t(h.width), height = std::size_t(h.height);
+    check_image_memory(width * height * channels, limits, name);
     std::vector<std::uint8_t> samples(width * height * channels);
     PixelReader pixels(reader, h, std::move(palette));
     for (std::size_t j = 0; j < height; ++j) {

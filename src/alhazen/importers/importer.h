@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "alhazen/base/diagnostics.h"
 #include "alhazen/imaging/image_io.h"
@@ -13,10 +14,9 @@
 namespace alhazen {
 
 struct ImportOptions {
-    /// Files named by the scene are looked for relative to the scene file and must lie inside its
-    /// folder or one of its ancestors up to `allowed_root` (empty: the scene file's own folder, or
-    /// what the format prescribes).
-    std::filesystem::path allowed_root;
+    /// Files named by the scene are looked for relative to the scene file. They must lie inside its
+    /// own folder (or what the format prescribes) or one of these, symbolic links followed.
+    std::vector<std::filesystem::path> allowed_folders;
     int max_nesting = 256;  ///< of blocks and groups in text formats
     int max_include_depth = 16;
     std::uint64_t max_included_bytes = std::uint64_t{1} << 32;

@@ -34,11 +34,11 @@ std::map<std::string, std::string> list(const std::filesystem::path& folder) {
 
 std::optional<std::string> PictureFinder::exact(const std::string& name) const {
     try {
-        const std::filesystem::path path = resolve_inside(root_, folder_, name);
+        const std::filesystem::path path = resolve_inside(roots_, folder_, name);
         std::error_code failed;
         if (std::filesystem::is_regular_file(path, failed)) return name;
     } catch (const Error&) {
-        // Outside of the scene's folder: as if it were not there.
+        // Outside of the allowed folders: as if it were not there.
     }
     return std::nullopt;
 }
@@ -48,7 +48,7 @@ std::optional<std::string> PictureFinder::with_other_capitals(const std::string&
     const std::filesystem::path parent = relative.parent_path();
     std::filesystem::path folder = folder_;
     try {
-        if (!parent.empty()) folder = resolve_inside(root_, folder_, parent.string());
+        if (!parent.empty()) folder = resolve_inside(roots_, folder_, parent.string());
     } catch (const Error&) {
         return std::nullopt;
     }

@@ -4,20 +4,21 @@
 ///
 /// Conventions: tried are, in this order, the name as it is (backslashes as slashes), the same
 /// whatever its capitals, and its last part beside the scene file, also whatever its capitals.
-/// Nothing outside `root` is looked at. After kMaxNames different names no more are looked for, so
-/// that a list of made-up names does not take forever.
+/// Nothing outside of `roots` is looked at. After kMaxNames different names no more are looked for,
+/// so that a list of made-up names does not take forever.
 
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace alhazen {
 
 class PictureFinder {
   public:
-    PictureFinder(std::filesystem::path root, std::filesystem::path folder)
-        : root_(std::move(root)), folder_(std::move(folder)) {}
+    PictureFinder(std::vector<std::filesystem::path> roots, std::filesystem::path folder)
+        : roots_(std::move(roots)), folder_(std::move(folder)) {}
 
     static constexpr std::size_t kMaxNames = 10'000;
 
@@ -29,7 +30,8 @@ class PictureFinder {
     std::optional<std::string> exact(const std::string& name) const;
     std::optional<std::string> with_other_capitals(const std::string& name);
 
-    std::filesystem::path root_, folder_;
+    std::vector<std::filesystem::path> roots_;
+    std::filesystem::path folder_;
     std::map<std::string, std::optional<std::string>> found_;
     /// Lower-case name -> name of the files in a folder; folders that were looked at.
     std::map<std::filesystem::path, std::map<std::string, std::string>> listings_;

@@ -1,7 +1,6 @@
 #include "alhazen/shading/mip_pyramid.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace alhazen {
 
@@ -30,25 +29,14 @@ std::vector<Span> spans(int from, int to) {
     return result;
 }
 
-void append(const Rgba& c, int channels, std::vector<float>& samples) {
-    const double values[] = {c.r, c.g, c.b, c.a};
-    if (channels < 3) {
-        samples.push_back(static_cast<float>(c.r));
-        if (channels == 2) samples.push_back(static_cast<float>(c.a));
-        return;
-    }
-    for (int i = 0; i < channels; ++i) samples.push_back(static_cast<float>(values[i]));
+void store(double value, float& sample) {
+    sample = static_cast<float>(value);
 }
-
-void append(const Rgba& c, int channels, std::vector<std::uint16_t>& samples) {
-    const auto code = [](double v) { return static_cast<std::uint16_t>(std::lround(65535.0 * v)); };
-    const double values[] = {c.r, c.g, c.b, c.a};
-    if (channels < 3) {
-        samples.push_back(code(c.r));
-        if (channels == 2) samples.push_back(code(c.a));
-        return;
-    }
-    for (int i = 0; i < channels; ++i) samples.push_back(code(values[i]));
+/// The nearest code, as lround has it; `value` is not negative.
+void store(double value, std::uint16_t& sample) {
+    const double code = 65535.0 * value;
+    const auto below = static_cast<std::uint32_t>(code);
+    sample = static_cast<std::uint16_t>(below + (code - below >= 0.5 ? 1 : 0));
 }
 
 template <class Sample>
@@ -57,25 +45,28 @@ StoredImage halved(const StoredImage& from, bool decode_srgb) {
         std::max(1, from.width / 2), std::max(1, from.height / 2), from.channels, true, {}};
     const std::vector<Span> columns = spans(from.width, to.width);
     const std::vector<Span> rows = spans(from.height, to.height);
-    std::vector<Sample> samples;
-    samples.reserve(static_cast<std::size_t>(to.width) * static_cast<std::size_t>(to.height) *
-                    static_cast<std::size_t>(to.channels));
-    std::vector<Rgba> sums(static_cast<std::size_t>(from.width));
-    for (const Span& row : rows) {
-        std::fill(sums.begin(), sums.end(), Rgba{0, 0, 0, 0});
-        for (std::size_t k = 0; k < row.weights.size(); ++k) {
-            const std::size_t begin =
-                (static_cast<std::size_t>(row.first) + k) * static_cast<std::size_t>(from.width);
-            for (std::size_t x = 0; x < sums.size(); ++x) {
-                sums[x] += row.weights[k] * from.pixel(begin + x, decode_srgb);
-            }
+    const auto channels = static_cast<std::size_t>(from.channels);
+    const auto width = static_cast<std::size_t>(from.width);
+    std::vector<Sample> samples(static_cast<std::size_t>(to.width) *
+                                static_cast<std::size_t>(to.height) * channels);
+    std::vector<double> row(width * channels), sums(row.size());
+    Sample* out = samples.data();
+    for (const Span& span : rows) {
+        std::fill(sums.begin(), sums.end(), 0.0);
+        for (std::size_t k = 0; k < span.weights.size(); ++k) {
+            const std::size_t begin = (static_cast<std::size_t>(span.first) + k) * width;
+            from.read_pixels(begin, width, decode_srgb, row.data());
+            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += span.weights[k] * row[i];
         }
         for (const Span& column : columns) {
-            Rgba mean{0, 0, 0, 0};
-            for (std::size_t k = 0; k < column.weights.size(); ++k) {
-                mean += column.weights[k] * sums[static_cast<std::size_t>(column.first) + k];
+            const double* first = sums.data() + static_cast<std::size_t>(column.first) * channels;
+            for (std::size_t i = 0; i < channels; ++i) {
+                double mean = 0.0;
+                for (std::size_t k = 0; k < column.weights.size(); ++k) {
+                    mean += column.weights[k] * first[k * channels + i];
+                }
+                store(mean, *out++);
             }
-            append(mean, to.channels, samples);
         }
     }
     to.samples = std::move(samples);
@@ -100,6 +91,18 @@ Rgba MipPyramid::texel(int level, int x, int y) const {
     return image.pixel(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                            static_cast<std::size_t>(x),
                        decode_srgb_ && level == 0);
+}
+
+std::uint64_t MipPyramid::memory_bytes_for(const StoredImage& image) {
+    const bool floats = std::holds_alternative<std::vector<float>>(image.samples);
+    const auto texel_bytes = std::uint64_t(image.channels) * (floats ? 4 : 2);
+    std::uint64_t texels = 0;
+    for (int w = image.width, h = image.height; w > 1 || h > 1;) {
+        w = std::max(1, w / 2);
+        h = std::max(1, h / 2);
+        texels += std::uint64_t(w) * std::uint64_t(h);
+    }
+    return texels * texel_bytes;
 }
 
 std::size_t MipPyramid::memory_bytes() const {

@@ -8,6 +8,7 @@
 /// beside them, not multiplied in. Copies of pictures stored as codes are kept as 16-bit linear
 /// codes, others as floats. Level 0 is the picture itself, which is not copied.
 
+#include <cstdint>
 #include <memory>
 
 #include "alhazen/imaging/stored_image.h"
@@ -27,6 +28,8 @@ class MipPyramid {
     [[nodiscard]] Rgba texel(int level, int x, int y) const;
     /// Of the smaller copies.
     [[nodiscard]] std::size_t memory_bytes() const;
+    /// What they will take, before they are made.
+    [[nodiscard]] static std::uint64_t memory_bytes_for(const StoredImage& image);
 
   private:
     [[nodiscard]] const StoredImage& at(int level) const {

@@ -151,5 +151,30 @@ TEST(ResolveInside, NamesThatLeaveTheRootAreSceneErrors) {
     EXPECT_EQ(kind_of_error([&] { (void)resolve_inside("", "", "../c"); }), ErrorKind::Scene);
 }
 
+TEST(ResolveInside, AnyOfSeveralRootsIsEnough) {
+    const std::vector<std::filesystem::path> roots{"/a", "/x/y"};
+    EXPECT_EQ(resolve_inside(roots, "/a", "b/c"), "/a/b/c");
+    EXPECT_EQ(resolve_inside(roots, "/a", "../x/y/c"), "/x/y/c");
+    EXPECT_EQ(resolve_inside(roots, "/a", "/x/y/c"), "/x/y/c");
+    EXPECT_EQ(resolve_inside(roots, "/a", "/a/c"), "/a/c");
+    for (const char* name : {"../x/c", "/x/yc", "/x/y/../c", "/etc/passwd"}) {
+        EXPECT_EQ(kind_of_error([&] { (void)resolve_inside(roots, "/a", name); }), ErrorKind::Scene)
+            << name;
+    }
+}
+
+TEST_F(File, LinksMustLeadIntoOneOfTheRoots) {
+    for (const char* name : {"own", "other", "third"}) fs::create_directory(folder_ / name);
+    fs::create_symlink("../other", folder_ / "own/link");
+    fs::create_symlink("../third", folder_ / "own/away");
+    const std::vector<fs::path> roots{folder_ / "own", folder_ / "other"};
+    EXPECT_EQ(resolve_inside(roots, folder_ / "own", "link/c"), folder_ / "own/link/c");
+    EXPECT_EQ(kind_of_error([&] { (void)resolve_inside(roots, folder_ / "own", "away/c"); }),
+              ErrorKind::Scene);
+    EXPECT_EQ(kind_of_error(
+                  [&] { (void)resolve_inside(roots, folder_, (folder_ / "own/away/c").string()); }),
+              ErrorKind::Scene);
+}
+
 }  // namespace
 }  // namespace alhazen

@@ -45,5 +45,30 @@ TEST(StoredImage, PixelsAreTheSamplesWithGreyRepeatedAndAlphaLinear) {
     EXPECT_TRUE(stored(image).is_opaque());
 }
 
+TEST(StoredImage, RunsOfPixelsAreThePixelsOneByOne) {
+    for (int channels = 1; channels <= 4; ++channels) {
+        for (const int bits : {8, 16, 32}) {
+            Image image = bits == 32 ? testing::random_image(5, 3, channels, -1, 2, 9)
+                                     : from_codes(testing::random_codes(5, 3, channels, bits, 9));
+            image.linear = false;
+            const StoredImage s = stored(image);
+            for (const bool decode : {false, true}) {
+                std::vector<double> run(7 * std::size_t(channels));
+                s.read_pixels(4, 7, decode, run.data());
+                for (std::size_t i = 0; i < 7; ++i) {
+                    const Rgba p = s.pixel(4 + i, decode);
+                    const double color[] = {p.r, p.g, p.b};
+                    for (int k = 0; k < channels; ++k) {
+                        const bool alpha = channels % 2 == 0 && k == channels - 1;
+                        EXPECT_EQ(run[i * std::size_t(channels) + std::size_t(k)],
+                                  alpha ? p.a : color[k])
+                            << channels << " channels, " << bits << " bits, " << decode;
+                    }
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/base/file.h"
 #include "alhazen/imaging/image_io.h"
+#include "support/scratch_folder.h"
 #include "unit/importers/gltf_text.h"
 
 namespace alhazen {
@@ -21,21 +23,25 @@ std::string picture(int width, const std::string& suffix = "png") {
     return bytes;
 }
 
-/// How many of the pictures are taken before the total is exceeded.
-std::size_t taken(const std::vector<std::string>& pictures, std::uint64_t total) {
+/// The samples of picture(100) as 8-bit codes, and one row of them, which its decoder needs.
+constexpr std::uint64_t kCodes = 1200, kRow = 300;
+
+/// How many of the pictures are taken before `max_bytes` are exceeded.
+std::size_t taken(const std::vector<std::string>& pictures, std::uint64_t max_bytes,
+                  const Texture& settings = {}) {
     SceneDescription scene;
     Diagnostics found;
     ImageLimits limits;
-    limits.max_total_pixels = total;
-    TextureTable table(scene, found, ".", limits);
+    limits.max_bytes = max_bytes;
+    TextureTable table(scene, found, {"."}, limits);
     std::size_t count = 0;
     try {
         for (const std::string& bytes : pictures) {
-            if (table.add(bytes, {}, "p", {})) ++count;
+            if (table.add(bytes, settings, "p", {})) ++count;
         }
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::Resource);
-        EXPECT_NE(std::string(error.what()).find("--max-texture-pixels"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("--max-image-mib"), std::string::npos);
     }
     EXPECT_EQ(found.error_count(), 0U);
     return count;
@@ -43,13 +49,59 @@ std::size_t taken(const std::vector<std::string>& pictures, std::uint64_t total)
 
 TEST(TextureTable, AllPicturesTogetherAreLimited) {
     const std::vector<std::string> three(3, picture(100));
-    EXPECT_EQ(taken(three, 1200), 3U);
-    EXPECT_EQ(taken(three, 1199), 2U);
-    EXPECT_EQ(taken(three, 399), 0U);
-    // Floats count four times.
+    const std::uint64_t each = kCodes + three[0].size();
+    EXPECT_EQ(taken(three, 3 * each + kRow), 3U);
+    EXPECT_EQ(taken(three, 3 * each + kRow - 1), 2U);
+    EXPECT_EQ(taken(three, each + kRow - 1), 0U);
+    // Floats are four times as large.
     const std::vector<std::string> floats(3, picture(100, "pfm"));
-    EXPECT_EQ(taken(floats, 4800), 3U);
-    EXPECT_EQ(taken(floats, 4799), 2U);
+    EXPECT_EQ(taken(floats, 3 * (4 * kCodes + floats[0].size())), 3U);
+    EXPECT_EQ(taken(floats, 3 * (4 * kCodes + floats[0].size()) - 1), 2U);
+}
+
+TEST(TextureTable, SmallerCopiesAreCountedBeforeTheyAreMade) {
+    const std::vector<std::string> one{picture(100)};
+    const Texture mipmapped{.filter = TextureFilter::Mipmapped};
+    // 50 x 2, 25 x 1, 12, 6, 3 and 1 texels of three shorts.
+    const std::uint64_t bytes = kCodes + one[0].size() + (100 + 25 + 12 + 6 + 3 + 1) * 6;
+    EXPECT_EQ(taken(one, bytes, mipmapped), 1U);
+    EXPECT_EQ(taken(one, bytes - 1, mipmapped), 0U);
+}
+
+TEST(TextureTable, SmallerCopiesAreCountedForColourAndForDataOnceEach) {
+    SceneDescription scene;
+    Diagnostics found;
+    ImageLimits limits;
+    const std::string bytes = picture(100);
+    limits.max_bytes = kCodes + bytes.size() + 2 * 147 * 6 - 1;
+    TextureTable table(scene, found, {"."}, limits);
+    Texture settings{.filter = TextureFilter::Mipmapped};
+    EXPECT_TRUE(table.add(bytes, settings, "colour", {}));
+    EXPECT_TRUE(table.add(bytes, settings, "the same", {}));
+    settings.decode_srgb = true;
+    EXPECT_THROW((void)table.add(bytes, settings, "data", {}), Error);
+}
+
+TEST(TextureTable, AFileCountsWhileItIsRead) {
+    const testing::ScratchFolder folder;
+    const std::string bytes = picture(100);
+    write_file_atomically(folder.path() / "p.png", bytes);
+    const auto fits = [&](std::uint64_t max_bytes) {
+        SceneDescription scene;
+        Diagnostics found;
+        ImageLimits limits;
+        limits.max_bytes = max_bytes;
+        TextureTable table(scene, found, {folder.path()}, limits);
+        try {
+            return table.load("p.png", folder.path(), {}, "p", {}).has_value();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Resource);
+            return false;
+        }
+    };
+    EXPECT_TRUE(fits(bytes.size() + kCodes + kRow));
+    EXPECT_FALSE(fits(bytes.size() + kCodes + kRow - 1));
+    EXPECT_FALSE(fits(bytes.size() - 1));
 }
 
 TEST(TextureTable, OnePictureBeyondItsOwnLimitIsAFinding) {
@@ -57,7 +109,7 @@ TEST(TextureTable, OnePictureBeyondItsOwnLimitIsAFinding) {
     Diagnostics found;
     ImageLimits limits;
     limits.max_pixels = 399;
-    TextureTable table(scene, found, ".", limits);
+    TextureTable table(scene, found, {"."}, limits);
     const std::string bytes = picture(100);
     EXPECT_FALSE(table.add(bytes, {}, "p", {}));
     EXPECT_EQ(found.error_count(), 1U);
@@ -67,9 +119,9 @@ TEST(TextureTable, TheSameBytesAreOnePicture) {
     SceneDescription scene;
     Diagnostics found;
     ImageLimits limits;
-    limits.max_total_pixels = 400;
-    TextureTable table(scene, found, ".", limits);
     const std::string bytes = picture(100);
+    limits.max_bytes = kCodes + kRow + bytes.size();
+    TextureTable table(scene, found, {"."}, limits);
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(table.add(bytes, {}, std::to_string(i), {}));
     EXPECT_EQ(scene.textures.at(0).texture.image, scene.textures.at(4).texture.image);
 }
@@ -78,8 +130,8 @@ TEST(TextureTable, BytesThatManyPicturesShareAreCountedForEach) {
     SceneDescription scene;
     Diagnostics found;
     ImageLimits limits;
-    limits.max_total_pixels = 1000;
-    TextureTable table(scene, found, ".", limits);
+    limits.max_bytes = 4000;
+    TextureTable table(scene, found, {"."}, limits);
     const std::string bytes = picture(1) + std::string(2000, ' ');
     const std::string_view view = bytes;
     (void)table.add(view, {}, "a", {});
@@ -118,8 +170,10 @@ std::string forty_images(const std::string& png) {
 
 TEST(TextureTable, ManyImagesOfAGltfFileInOneBufferViewAreOnePicture) {
     ImportOptions options;
-    options.image_limits.max_total_pixels = 400;
-    const auto imported = testing::import_gltf(forty_images(picture(100)), options);
+    const std::string png = picture(100);
+    // The materials show it with mipmaps.
+    options.image_limits.max_bytes = kCodes + png.size() + 147 * 6;
+    const auto imported = testing::import_gltf(forty_images(png), options);
     ASSERT_EQ(imported.errors(), 0U) << imported.messages();
     ASSERT_EQ(imported.scene.textures.size(), 40U);
     for (const TextureDescription& texture : imported.scene.textures) {

@@ -116,7 +116,7 @@ Loading::Loading(const ImportSource& from, Diagnostics& findings)
     : JsonContext{findings, from.path.string(), {}, {}},
       source(from),
       folder(folder_of(from.path)),
-      root(scene_root(from.options, folder)) {}
+      roots(scene_roots(from.options, folder)) {}
 
 void read_asset(const JsonObject& root) {
     root.require("asset");

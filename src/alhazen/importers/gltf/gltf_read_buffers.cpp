@@ -67,7 +67,7 @@ class BufferLoader {
 
     SharedBytes file(const JsonObject& object, const std::string& name) {
         try {
-            const auto path = resolve_inside(loading_.root, loading_.folder, name);
+            const auto path = resolve_inside(loading_.roots, loading_.folder, name);
             SharedBytes& bytes = files_[path];
             if (!bytes) {
                 loading_.diagnostics.note_file(path);

@@ -19,8 +19,9 @@ struct Loading : JsonContext {
 
     const ImportSource& source;
     Document document;
-    std::filesystem::path folder, root;      ///< of the file; that files named by it must be in
-    std::optional<std::string_view> binary;  ///< chunk of a GLB
+    std::filesystem::path folder;              ///< of the file
+    std::vector<std::filesystem::path> roots;  ///< files named by it must lie in one of them
+    std::optional<std::string_view> binary;    ///< chunk of a GLB
     bool is_glb = false;
     bool quantized = false;  ///< KHR_mesh_quantization is used
 };

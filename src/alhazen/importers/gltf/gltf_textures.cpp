@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+
+#include "alhazen/base/file.h"
 
 namespace alhazen::gltf {
 
@@ -42,7 +45,7 @@ Textures::Textures(const Document& document, const ImportSource& source, SceneDe
     : document_(document),
       source_(source),
       diagnostics_(diagnostics),
-      table_(scene, diagnostics, scene_root(source.options, folder_of(source.path)),
+      table_(scene, diagnostics, scene_roots(source.options, folder_of(source.path)),
              source.options.image_limits) {}
 
 TextureId Textures::use(const std::optional<TextureInfo>& info, ColorSpace space) {
@@ -51,6 +54,17 @@ TextureId Textures::use(const std::optional<TextureInfo>& info, ColorSpace space
     const auto [entry, fresh] = made_.try_emplace(key, kNoTexture);
     if (fresh) entry->second = make(*info, space);
     return entry->second;
+}
+
+bool Textures::is_missing(const Image& image) const {
+    const std::filesystem::path folder = folder_of(source_.path);
+    try {
+        std::error_code failed;
+        return !std::filesystem::is_regular_file(
+            resolve_inside(scene_roots(source_.options, folder), folder, image.uri), failed);
+    } catch (const Error&) {
+        return false;  // not to be read, whether it is there or not
+    }
 }
 
 TextureId Textures::make(const TextureInfo& info, ColorSpace space) {
@@ -80,6 +94,7 @@ TextureId Textures::make(const TextureInfo& info, ColorSpace space) {
     const std::string name = name_of(image, index);
     std::optional<TextureId> id;
     if (!image.uri.empty()) {
+        if (is_missing(image)) return kNoTexture;  // was reported with the images
         id = table_.load(image.uri, folder_of(source_.path), settings, name, where);
     } else {
         const std::string_view bytes =

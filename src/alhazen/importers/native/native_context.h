@@ -20,7 +20,7 @@ struct NativeContext {
     SceneDescription& scene;
     Diagnostics& diagnostics;
     const ImportOptions& options;
-    std::filesystem::path root;  ///< files the scene names must lie inside
+    std::vector<std::filesystem::path> roots;  ///< files the scene names must lie inside of one
     TextureTable textures;
 
     // Names defined so far; a name must be defined before it is used.

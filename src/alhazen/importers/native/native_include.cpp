@@ -32,7 +32,7 @@ std::optional<std::string> read_bytes(TextNode name, NativeContext& context,
     const FileLocation where = name.location();
     check_limits(context, where);
     try {
-        path = resolve_inside(context.root, scope.folder, std::string(name.text()));
+        path = resolve_inside(context.roots, scope.folder, std::string(name.text()));
         if (std::find(context.open_files.begin(), context.open_files.end(), file_identity(path)) !=
             context.open_files.end()) {
             context.diagnostics.error(where, "include: the file includes itself");

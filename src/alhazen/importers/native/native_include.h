@@ -2,7 +2,7 @@
 /// `include "file"` of the native format.
 ///
 /// Conventions: names are relative to the including file and must stay inside the root scene's
-/// folder (or ImportOptions::allowed_root). Cycles and deep or endless nesting are refused.
+/// folder (or ImportOptions::allowed_folders). Cycles and deep or endless nesting are refused.
 
 #include "alhazen/importers/native/native_context.h"
 

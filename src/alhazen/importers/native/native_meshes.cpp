@@ -51,7 +51,7 @@ void read_mesh_file(BlockReader& reader, NativeContext& context, const NativeSco
     std::string file;
     if (!reader.read("file", file)) return;
     try {
-        mesh = read_mesh(resolve_inside(context.root, scope.folder, file), context.options,
+        mesh = read_mesh(resolve_inside(context.roots, scope.folder, file), context.options,
                          context.diagnostics);
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::Resource) throw;

@@ -146,8 +146,8 @@ NativeContext::NativeContext(SceneDescription& scene_, Diagnostics& diagnostics_
     : scene(scene_),
       diagnostics(diagnostics_),
       options(options_),
-      root(scene_root(options_, folder_of(scene_.path))),
-      textures(scene_, diagnostics_, root, options_.image_limits) {}
+      roots(scene_roots(options_, folder_of(scene_.path))),
+      textures(scene_, diagnostics_, roots, options_.image_limits) {}
 
 void NativeContext::count_elements(std::uint64_t more, const FileLocation& where) {
     elements += more;

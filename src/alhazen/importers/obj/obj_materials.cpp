@@ -52,9 +52,9 @@ ObjMaterials::ObjMaterials(const ImportSource& source, SceneDescription& scene,
       diagnostics_(diagnostics),
       colored_(colored),
       folder_(folder_of(source.path)),
-      root_(scene_root(source.options, folder_)),
-      textures_(scene, picture_findings_, root_, source.options.image_limits),
-      finder_(root_, folder_) {}
+      roots_(scene_roots(source.options, folder_)),
+      textures_(scene, picture_findings_, roots_, source.options.image_limits),
+      finder_(roots_, folder_) {}
 
 void ObjMaterials::load(const std::vector<ObjLibrary>& libraries) {
     for (const ObjLibrary& library : libraries) {
@@ -80,7 +80,7 @@ bool ObjMaterials::load_library(const std::string& name, const FileLocation& whe
     if (!found) return false;
     known->second = true;
     try {
-        const std::filesystem::path path = resolve_inside(root_, folder_, *found);
+        const std::filesystem::path path = resolve_inside(roots_, folder_, *found);
         diagnostics_.note_file(path);
         const std::string bytes = read_file(path, source_.options.max_included_bytes);
         std::string_view text = bytes;

@@ -47,7 +47,8 @@ class ObjMaterials {
     Diagnostics& diagnostics_;
     bool colored_;  ///< the vertices have colours
     Diagnostics picture_findings_;
-    std::filesystem::path folder_, root_;
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> roots_;
     TextureTable textures_;
     PictureFinder finder_;
     std::vector<MtlMaterial> entries_;

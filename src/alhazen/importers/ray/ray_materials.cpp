@@ -22,7 +22,8 @@ RayMaterials::RayMaterials(RayContext& context)
     : context_(context),
       folder_(folder_of(context.scene.path)),
       textures_(context.scene, context.diagnostics,
-                scene_root(context.options, default_root(folder_)), context.options.image_limits) {}
+                scene_roots(context.options, default_root(folder_)), context.options.image_limits) {
+}
 
 RayMaterial RayMaterials::read(TextNode value, const RayMaterial& enclosing) {
     if (value.broken()) return enclosing;

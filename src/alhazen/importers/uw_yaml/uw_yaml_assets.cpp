@@ -25,15 +25,11 @@ std::string names_of(const Map& map) {
 
 }  // namespace
 
-std::filesystem::path find_course_root(const std::filesystem::path& scene_folder,
-                                       const std::filesystem::path& allowed_root) {
-    const std::filesystem::path top =
-        allowed_root.empty() ? allowed_root
-                             : std::filesystem::absolute(allowed_root).lexically_normal();
+std::filesystem::path find_course_root(const std::filesystem::path& scene_folder) {
     std::error_code ignored;
     for (std::filesystem::path folder = scene_folder;; folder = folder.parent_path()) {
         if (std::filesystem::is_directory(folder / "assets", ignored)) return folder;
-        if (folder == folder.parent_path() || folder == top) return scene_folder;
+        if (folder == folder.parent_path()) return scene_folder;
     }
 }
 
@@ -43,8 +39,8 @@ UwAssets::UwAssets(const YAML::Node& document, const ImportSource& source, Scene
       source_(source),
       scene_(scene),
       diagnostics_(diagnostics),
-      root_(find_course_root(folder_of(source.path), source.options.allowed_root)),
-      texture_files_(scene, diagnostics, scene_root(source.options, root_),
+      root_(find_course_root(folder_of(source.path))),
+      texture_files_(scene, diagnostics, scene_roots(source.options, root_),
                      source.options.image_limits),
       materials_(table_of(YamlValues::find(document, "Materials"))),
       textures_(table_of(YamlValues::find(document, "Textures"))),
@@ -154,8 +150,8 @@ std::optional<MeshIndex> UwAssets::mesh(const std::string& name, const YAML::Nod
     const std::size_t errors_before = diagnostics_.error_count();
     TriangleMesh mesh;
     try {
-        const std::filesystem::path file = resolve_inside(scene_root(source_.options, root_), root_,
-                                                          values_.text(found->second, "Path"));
+        const std::filesystem::path file = resolve_inside(
+            scene_roots(source_.options, root_), root_, values_.text(found->second, "Path"));
         mesh = read_mesh(file, source_.options, diagnostics_);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::Resource) throw;

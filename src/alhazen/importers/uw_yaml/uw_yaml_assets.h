@@ -18,9 +18,8 @@
 namespace alhazen {
 
 /// The nearest folder above `scene_folder` (itself included) with a folder `assets`; `scene_folder`
-/// when there is none. Does not climb above `allowed_root` unless that is empty.
-[[nodiscard]] std::filesystem::path find_course_root(const std::filesystem::path& scene_folder,
-                                                     const std::filesystem::path& allowed_root);
+/// when there is none.
+[[nodiscard]] std::filesystem::path find_course_root(const std::filesystem::path& scene_folder);
 
 class UwAssets {
   public:
