@@ -3,6 +3,7 @@
 ///
 /// Writing may fail (a full disk, a closed pipe): messages are then lost, and the work goes on.
 /// What is lost on standard output is noticed when the program ends.
+/// Control characters, which names in files may hold, are escaped; newlines are not.
 
 #include <fmt/format.h>
 
@@ -10,11 +11,14 @@
 #include <string>
 #include <utility>
 
+#include "alhazen/base/control_characters.h"
+
 namespace alhazen::cli {
 
 template <class... Args>
 void print_to(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {
-    const std::string text = fmt::format(format, std::forward<Args>(args)...);
+    const std::string text =
+        escape_controls(fmt::format(format, std::forward<Args>(args)...), Newlines::Keep);
     (void)std::fwrite(text.data(), 1, text.size(), stream);
 }
 /// To standard error.

@@ -56,8 +56,11 @@ void ProgressDisplay::show(double fraction, double elapsed, bool complete) {
         return;
     }
     const int filled = static_cast<int>(fraction * kBarWidth);
-    tell("\r{:<7}[{}{}] {:3.0f}% {}\x1b[K", phase_, std::string(filled, '#'),
-         std::string(kBarWidth - filled, '-'), 100.0 * fraction, times);
+    // Written as it is: the terminal is meant to go back and to clear the line.
+    const std::string bar =
+        fmt::format("\r{:<7}[{}{}] {:3.0f}% {}\x1b[K", phase_, std::string(filled, '#'),
+                    std::string(kBarWidth - filled, '-'), 100.0 * fraction, times);
+    (void)std::fwrite(bar.data(), 1, bar.size(), stderr);
     std::fflush(stderr);
     line_open_ = true;
 }

@@ -2,12 +2,14 @@
 
 #include <utility>
 
+#include "alhazen/base/control_characters.h"
+
 namespace alhazen {
 
 std::string to_string(const Diagnostic& diagnostic) {
     const std::string place = to_string(diagnostic.location);
     const char* kind = diagnostic.severity == Severity::Error ? "error: " : "warning: ";
-    return (place.empty() ? "" : place + ": ") + kind + diagnostic.message;
+    return escape_controls((place.empty() ? "" : place + ": ") + kind + diagnostic.message);
 }
 
 void Diagnostics::warning(FileLocation location, std::string message) {

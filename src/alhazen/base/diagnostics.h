@@ -23,7 +23,7 @@ struct Diagnostic {
     std::string message;
 };
 
-/// `file:line:column: error: message`.
+/// `file:line:column: error: message`, one line: control characters are escaped.
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
 
 class Diagnostics {

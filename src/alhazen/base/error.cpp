@@ -1,5 +1,7 @@
 #include "alhazen/base/error.h"
 
+#include "alhazen/base/control_characters.h"
+
 namespace alhazen {
 
 std::string to_string(const FileLocation& location) {
@@ -14,7 +16,8 @@ std::string to_string(const FileLocation& location) {
 namespace {
 std::string with_location(const std::string& message, const FileLocation& location) {
     const std::string place = to_string(location);
-    return place.empty() ? message : place + ": " + message;
+    // what() ends at a NUL, and names from files must not command a terminal.
+    return escape_controls(place.empty() ? message : place + ": " + message, Newlines::Keep);
 }
 }  // namespace
 

@@ -2,7 +2,8 @@
 /// The one exception type of the library, and the place in a file it speaks of.
 ///
 /// Cold code (loading, building, writing) throws `Error`; kernels never do. The message says what
-/// was found and what was expected. The kind decides the exit status of the command line.
+/// was found and what was expected; control characters but the newline are escaped. The kind
+/// decides the exit status of the command line.
 
 #include <stdexcept>
 #include <string>

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/primitive_table.h"
@@ -302,7 +303,8 @@ const CameraDescription& find_camera(const Scene& scene, const std::string& name
     }
     std::string known;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, scene.cameras[i].name);
+        known +=
+            fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, escape_controls(scene.cameras[i].name));
     }
     throw Error(ErrorKind::Usage, fmt::format("no camera '{}'; the scene has: {}", name, known));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/session/info.h"
 
 namespace alhazen {
@@ -49,7 +50,7 @@ std::string point(const json& v) {
 
 std::string name_of(const json& entry) {
     const std::string name = entry["name"].get<std::string>();
-    return name.empty() ? "(no name)" : name;
+    return name.empty() ? "(no name)" : escape_controls(name);
 }
 
 class Report {
@@ -192,7 +193,7 @@ void add_time(Report& report, const json& info) {
 
 std::string info_text(const json& info, bool all) {
     Report report(all);
-    report.line("scene", info["scene"].get<std::string>());
+    report.line("scene", escape_controls(info["scene"].get<std::string>()));
     report.line("format", info["format"].get<std::string>() +
                               (info["file_bytes"].is_null()
                                    ? std::string()
