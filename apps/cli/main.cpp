@@ -79,6 +79,7 @@ void open_closed_streams() {
 int main(int argc, char** argv) {
     open_closed_streams();
     fail_instead_of_dying_on_writes();
+    exit_on_signals();
     try {
         const int status = run(argc, argv);
         // A full disk behind a redirection shows only now.

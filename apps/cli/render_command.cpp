@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
@@ -65,6 +67,22 @@ RenderOptions render_options(const RenderArguments& args) {
 /// AOVs go into the EXR, and into pictures of their own where there is no EXR or it is asked for.
 bool writes_aov_pictures(const RenderArguments& args) {
     return args.aov_png || !holds_layers(args.output);
+}
+
+/// Options that would change nothing are mistakes.
+void check_effects(const RenderArguments& args) {
+    const auto need = [](bool has_effect, const char* message) {
+        if (!has_effect) throw Error(ErrorKind::Usage, message);
+    };
+    std::string suffix = std::filesystem::path(args.output).extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool jpeg = suffix == ".jpg" || suffix == ".jpeg";
+    need(!args.aov_png || !args.aovs.empty(), "--aov-png needs --aov: no layers were asked for");
+    need(args.bits == 8 || suffix == ".png", "--bits 16 is for .png: no other picture has them");
+    need(!args.full_float || suffix == ".exr", "--full-float is for .exr");
+    need(args.encoding.empty() || suffix == ".png" || jpeg,
+         "--encoding is for .png and .jpg: other pictures hold linear values");
 }
 
 /// Every file that will be written can be, and no two are one.
@@ -132,6 +150,7 @@ int run(const RenderArguments& args) {
     check_accelerator_name(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
     check_outputs(args, options);
+    check_effects(args);
     ProgressDisplay progress(args.quiet);
     LoadOptions load_options = args.scene.load_options();
     load_options.progress = &progress;
@@ -155,7 +174,9 @@ int run(const RenderArguments& args) {
     if (!args.stats.empty()) {
         write_report(
             args.stats,
-            statistics(args.scene.scene, loaded, options, result, write_seconds).dump(2) + "\n");
+            statistics(args.scene.scene, loaded, options, result, write_seconds)
+                    .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+                "\n");
     }
     if (result.counters.non_finite > 0 && !args.quiet) {
         tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);

@@ -1,13 +1,20 @@
 #include "stop_signals.h"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
 #include <ctime>
+
+#include "commands.h"
 
 namespace alhazen::cli {
 
 namespace {
 
 StopFlag stop_flag;
+/// Somebody looks at the flag.
+std::atomic<bool> work_stops{false};
 volatile std::sig_atomic_t first_signal_seconds = 0;
 /// A second signal so soon after the first is the same wish told twice (timeout(1) signals the
 /// process and its group).
@@ -20,6 +27,11 @@ long now_seconds() {
 }
 
 extern "C" void on_stop_signal(int signal_number) {
+    if (!work_stops.load()) {
+        static constexpr char kMessage[] = "alhazen: stopped; nothing was written\n";
+        (void)!write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+        _exit(kStopped);
+    }
     if (stop_flag.requested()) {
         if (now_seconds() - first_signal_seconds <= kSameWishSeconds) return;
         std::signal(signal_number, SIG_DFL);
@@ -32,9 +44,14 @@ extern "C" void on_stop_signal(int signal_number) {
 
 }  // namespace
 
-const StopFlag& stop_on_signals() {
+void exit_on_signals() {
     std::signal(SIGINT, on_stop_signal);
     std::signal(SIGTERM, on_stop_signal);
+}
+
+const StopFlag& stop_on_signals() {
+    exit_on_signals();
+    work_stops.store(true);
     return stop_flag;
 }
 

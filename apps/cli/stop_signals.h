@@ -1,11 +1,15 @@
 #pragma once
-/// SIGINT and SIGTERM ask running work to stop; a second one ends the process at once.
+/// SIGINT and SIGTERM end the process at once with status 75 while there is nothing to write yet;
+/// later they ask running work to stop, and a second one ends the process at once.
 
 #include "alhazen/base/progress.h"
 
 namespace alhazen::cli {
 
-/// Installs the handlers once and returns the flag they set.
+/// Installs the handlers: from now on a signal ends the process with status 75.
+void exit_on_signals();
+
+/// From now on a signal only sets the flag that is returned; a second one kills.
 const StopFlag& stop_on_signals();
 
 /// Lets a write to a closed pipe or beyond a size limit fail with an error instead of ending the

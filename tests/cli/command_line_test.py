@@ -76,14 +76,22 @@ class CommandLine(unittest.TestCase):
                           ["render", self.scene, "-o", picture, "--view", "30,20", "--camera", "top"],
                           ["render", self.scene, "-o", picture, "--time", "inf"],
                           ["render", self.scene, "-o", picture, "--max-image-pixels", "0"],
-                          ["render", self.scene, "-o", picture, "--max-texture-pixels", "0"],
+                          ["render", self.scene, "-o", picture, "--max-image-mib", "0"],
+                          # Options that would change nothing.
+                          ["render", self.scene, "-o", picture, "--animation", "0"],
+                          ["info", self.scene, "--animation", "0"],
+                          ["render", self.scene, "-o", picture, "--aov-png"],
+                          ["render", self.scene, "-o", self.path("out.jpg"), "--bits", "16"],
+                          ["render", self.scene, "-o", self.path("out.exr"), "--bits", "16"],
+                          ["render", self.scene, "-o", picture, "--full-float"],
+                          ["render", self.scene, "-o", self.path("out.exr"), "--encoding", "srgb"],
                           ["verify", self.scene, "--rays", "-1"],
                           ["diff", self.scene], ["list", "colours"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertTrue(result.stderr, arguments)
             self.assertEqual(result.stdout, "", arguments)
-        self.assertFalse(os.path.exists(picture))
+        self.assertEqual(os.listdir(self.folder.name), ["scene with space.alhazen"])
 
     def test_names_that_are_not_known_are_answered_with_those_that_are(self):
         self.assertIn("wide_bvh", self.render("--accelerator", "octopus").stderr)
@@ -134,6 +142,49 @@ class CommandLine(unittest.TestCase):
         scene = self.write("inside/scene.alhazen", 'alhazen 1\ninclude "link/part.alhazen"\n')
         self.assertEqual(run("info", scene).returncode, 3)
         self.assertEqual(run("info", scene, "--allow-path", self.folder.name).returncode, 0)
+
+    def test_allowed_folders_are_added_to_that_of_the_scene(self):
+        for name in "own", "one", "two":
+            os.mkdir(self.path(name))
+            self.write(name + "/part.alhazen", "alhazen 1\nsphere { }\n")
+        self.write("own/away.alhazen", f'alhazen 1\ninclude "{self.path("two")}/part.alhazen"\n')
+        scene = self.write("own/scene.alhazen", 'alhazen 1\ninclude "part.alhazen"\ninclude "../one/part.alhazen"\n'
+                           f'include "{self.path("two")}/part.alhazen"\n')
+        one, two = ["--allow-path", self.path("one")], ["--allow-path", self.path("two")]
+        for allowed, status in (([], 3), (one, 3), (two, 3), (one + two, 0), (["--allow-path", self.folder.name], 0)):
+            result = run("info", scene, *allowed)
+            self.assertEqual(result.returncode, status, allowed)
+            self.assertEqual("--allow-path" in result.stderr, status == 3)
+        # What stands after the option's folder is the scene.
+        self.assertEqual(run("info", *one, *two, scene).returncode, 0)
+        # A link in an allowed folder does not lead out of all of them.
+        os.symlink("../two/part.alhazen", self.path("one/link.alhazen"))
+        scene = self.write("own/link.alhazen", 'alhazen 1\ninclude "../one/link.alhazen"\n')
+        self.assertEqual(run("info", scene, *one).returncode, 3)
+        self.assertEqual(run("info", scene, *one, *two).returncode, 0)
+
+    def test_control_characters_of_names_do_not_reach_the_terminal(self):
+        bad = 'x\x1b[31m\a\x7f\x9b\0y'
+        self.write("m.mtl", f"newmtl {bad}\nKd 1 0 0\nmap_Kd {bad}.png\n")
+        mesh = self.write("m.obj", f"mtllib m.mtl\nmtllib {bad}\no {bad}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl {bad}\n"
+                                   f"f 1 2 3\nusemtl not{bad}\nf 1 2 3\n")
+        gltf = self.write("m.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"name": bad + "\nnext", "camera": 0}], "materials": [{"name": bad + "\nnext"}],
+            "cameras": [{"name": bad, "type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+            "images": [{"uri": bad + "\n.png"}], "textures": [{"source": 0}]}))
+        results = [run("render", mesh, "-o", self.path("o.png"), "--size", "8x8"), run("info", mesh),
+                   run("info", mesh, "--json"), run("info", gltf), run("info", gltf, "--json"),
+                   run("render", gltf, "-o", self.path("o.png"), "--camera", "nobody"), run("info", self.path(bad[:-2]))]
+        for result in results:
+            text = result.stdout + result.stderr
+            self.assertFalse([c for c in text if c != "\n" and (ord(c) < 32 or 127 <= ord(c) < 160)], repr(text))
+            # No name begins a line.
+            self.assertNotIn("\nnext", text)
+            self.assertTrue(text)
+        self.assertIn(r"x\x1b[31m\x07\x7f\xc2\x9b", results[1].stdout)
+        self.assertEqual(json.loads(results[4].stdout)["materials"][0]["name"], bad + "\nnext")
+        self.assertIn(r"\x00y", results[0].stderr)
 
     def test_the_same_bits_for_any_threads_tiles_and_accelerator(self):
         self.render("-t", "1", "--tile-size", "64", "--spp", "4", output="a.png")
@@ -305,6 +356,45 @@ class CommandLine(unittest.TestCase):
             info = json.loads(run("info", out, "--json").stdout)
             self.assertEqual(info["triangles"], 12)
 
+    def test_a_picture_never_replaces_a_file_of_the_scene(self):
+        self.assertEqual(self.render(output="wood.png", size="8x8").returncode, 0)
+        os.rename(self.path("wood.png"), self.path("wood.depth.png"))
+        wood = self.read("wood.depth.png")
+        scene = self.write("wood.alhazen", SPHERES + 'texture "wood" { file = "wood.depth.png" }\n')
+        os.symlink("wood.depth.png", self.path("link.png"))
+        for arguments in (["-o", self.path("wood.depth.png")], ["-o", self.path("link.png")],
+                          ["-o", self.path("wood.png"), "--aov", "depth"],
+                          ["-o", self.path("new.png"), "--stats", self.path("wood.depth.png")],
+                          ["-o", self.path("new.png"), "--stats", scene]):
+            result = run("render", scene, "--size", "8x8", *arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn("belongs to the scene", result.stderr)
+        self.assertEqual(self.read("wood.depth.png"), wood)
+        self.assertFalse(os.path.exists(self.path("new.png")))
+        self.assertEqual(run("render", scene, "--size", "8x8", "-o", self.path("new.png")).returncode, 0)
+
+    def test_a_failed_conversion_leaves_nothing_behind(self):
+        # The picture is small enough for the limit, the scene is not.
+        self.render(output="dot.png", size="1x1")
+        scene = self.write("s.alhazen", SPHERES + 'texture "t" { file = "dot.png" }\n' + SPHERES.split("\n", 1)[1]
+                           .replace('"front"', '"a"').replace('"top"', '"b"').replace('"mirror"', '"c"') * 1)
+        before = sorted(os.listdir(self.folder.name))
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+        result = run("convert", scene, self.path("out.alhazen"), preexec_fn=limit)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), before)
+
+    def test_an_obj_tells_what_its_materials_cannot_say(self):
+        self.render(output="dot.png", size="4x4")
+        scene = self.write("s.alhazen", """alhazen 1
+texture "t" { file = "dot.png"; wrap_u = mirror; wrap_v = mirror }
+material "m" { diffuse = texture("t") }
+mesh { material = "m"; positions = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; triangles = [(0, 1, 2)] }
+""")
+        result = run("convert", scene, self.path("out.obj"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("warning: the MTL file cannot say the mirrored repeat of a picture (material 'm')", result.stderr)
+
     def test_convert_refuses_what_it_cannot_write(self):
         for arguments, status, message in (
             ([self.scene, self.path("out.gltf")], 2, ".alhazen (the whole scene), .ply .obj .stl"),
@@ -329,6 +419,41 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(process.returncode, 75)
         self.assertIn("stopped", messages)
         self.assertTrue(self.read("out.png").startswith(b"\x89PNG"))
+
+    def test_rendering_stops_within_one_pixel(self):
+        # Each surface splits a ray in two: an eye ray has up to 2^200 others behind it.
+        glass = "material = { diffuse = 0; reflective = 1; transmissive = 1; index = 1.5 }"
+        scene = self.write("slow.alhazen", "alhazen 1\nconventions { max_depth = 200 }\n"
+                           "perspective_camera { eye = (0, 0, 3); look_at = (0, 0, 0) }\n"
+                           f"sphere {{ radius = 1; {glass} }}\nsphere {{ radius = 0.8; {glass} }}\n")
+        process = subprocess.Popen([ALHAZEN, "render", scene, "-o", self.path("slow.png"), "--size", "64x64"],
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        self.assertIsNone(process.poll())
+        begin = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - begin, 5)
+        self.assertEqual(process.returncode, 75)
+
+    def test_a_signal_while_the_scene_is_read_exits_75_at_once(self):
+        big = self.path("big.obj")
+        with open(big, "w", encoding="ascii") as file:
+            file.write("v 0.123456 1.2345678 -9.87654321\n" * 3_000_000)
+        process = subprocess.Popen([ALHAZEN, "render", big, "-o", self.path("big.png")],
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(0.15)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGTERM)
+        _, messages = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 75)
+        self.assertIn("nothing was written", messages)
+        self.assertFalse(os.path.exists(self.path("big.png")))
+
+    def test_bounds_are_those_of_the_vertices(self):
+        mesh = self.write("m.obj", "v 0.1 -0.3 0\nv 1 0 0.7\nv 0.2 1 -5\nf 1 2 3\n")
+        bounds = json.loads(run("info", mesh, "--json").stdout)["bounds"]
+        self.assertEqual((bounds["min"], bounds["max"]), ([0.1, -0.3, -5], [1, 1, 0.7]))
 
     def test_the_readme_scene_renders(self):
         with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as readme:

@@ -8,7 +8,7 @@
 namespace alhazen {
 
 /// Calls `radiance(const Ray& eye_ray)` -> Rgb for each sample and writes the mean of the finite
-/// ones to the film.
+/// ones to the film. Returns early when the job is to stop; no pixel is left half done.
 template <class Radiance>
 void render_pixels(const RenderJob& job, const PixelBox& tile, Film& film, RayCounters& counters,
                    Radiance&& radiance) {
@@ -24,6 +24,8 @@ void render_pixels(const RenderJob& job, const PixelBox& tile, Film& film, RayCo
             for (int s = 0; s < job.samples_per_pixel; ++s) {
                 const Vec2 p = eye_sample(job, i, j, width, height, s);
                 const Rgb c = radiance(eye_ray(job.camera, p.x, p.y));
+                // The pixel is given up: its last sample may be cut short.
+                if (job.stop_requested()) return;
                 if (c.is_finite()) {
                     sum += c;
                     ++finite;

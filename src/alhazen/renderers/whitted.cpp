@@ -20,7 +20,8 @@ Rgb power(const Rgb& base, double exponent) {
 class Tracer {
   public:
     Tracer(const RenderJob& job, RayCounters& counters)
-        : scene_(job.scene),
+        : job_(job),
+          scene_(job.scene),
           conventions_(job.scene.conventions),
           counters_(counters),
           stats_(job.count_tests ? &counters.tests : nullptr) {}
@@ -38,6 +39,8 @@ class Tracer {
     /// Radiance along a ray of unit direction. Where a surface is only partly there, the ray goes
     /// straight on behind it as the same ray.
     Rgb trace(const Ray& whole, const Path& path) {
+        // One eye ray can have millions behind it; the pixel is given up with it.
+        if (job_.stop_requested()) return {};
         RayCount& count = counters_[path.kind];
         ++count.cast;
         Ray ray = whole;
@@ -234,6 +237,7 @@ class Tracer {
                refract(ray.direction, point.geometric, eta, direction);
     }
 
+    const RenderJob& job_;
     const Scene& scene_;
     const ShadingConventions& conventions_;
     RayCounters& counters_;
