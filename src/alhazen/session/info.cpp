@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "alhazen/session/framing.h"
+#include "alhazen/session/exact_bounds.h"
 #include "alhazen/session/mesh_figures.h"
 
 namespace alhazen {
@@ -163,12 +163,13 @@ void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& opti
         vertices += figures.back().vertices;
         unused += figures.back().unused_vertices;
     }
+    // Asked of the accelerator, whose box has margins, is only whether there are bounds.
     const Box3 box = loaded.scene.aggregate->box();
-    info["bounds"] = box_json(box);
-    info["bounded"] = box.empty() || box.bounded();
-    if (!box.empty() && !box.bounded()) {
-        info["bounded_part"] = box_json(bounded_part(*loaded.scene.aggregate));
-    }
+    const bool unbounded = !box.empty() && !box.bounded();
+    const json bounds = box.empty() ? nullptr : box_json(exact_bounds(*loaded.scene.aggregate));
+    info["bounds"] = unbounded ? nullptr : bounds;
+    info["bounded"] = !unbounded;
+    if (unbounded) info["bounded_part"] = bounds;
     info["parts"] = part_counts(d);
     info["analytic_shapes"] = census.analytic_shapes;
     info["triangles"] = census.triangles;

@@ -1,0 +1,82 @@
+#include "alhazen/session/exact_bounds.h"
+
+#include <map>
+
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The image of a box, not widened for what rounds.
+Box3 placed(const Affine& outer_from_inner, const Box3& box) {
+    Box3 image;
+    for (int i = 0; i < 8; ++i) image.include(outer_from_inner.point(box.corner(i)));
+    return image;
+}
+
+class ExactBounds {
+  public:
+    /// Nesting is bounded by validation, so recursion is safe here.
+    const Box3& of(const Aggregate& aggregate) {
+        const auto known = boxes_.find(&aggregate);
+        if (known != boxes_.end()) return known->second;
+        const PrimitiveTable& table = aggregate.primitives();
+        Box3 sum;
+        std::apply([&](const auto&... column) { (add_shapes(column, table, sum), ...); },
+                   table.columns);
+        for (const PlacedMesh& mesh : table.meshes) add(mesh.mesh->box(), sum);
+        for (const Instance& instance : table.instances) add_instance(instance, sum);
+        return boxes_[&aggregate] = sum;
+    }
+
+  private:
+    static void add(const Box3& box, Box3& sum) {
+        if (!box.empty() && box.bounded()) sum.include(box);
+    }
+
+    template <class Column>
+    static void add_shapes(const Column& column, const PrimitiveTable& table, Box3& sum) {
+        for (std::size_t i = 0; i < column.shapes.size(); ++i) {
+            const Box3 box = column.shapes[i].box();
+            if (box.empty() || !box.bounded()) continue;
+            const std::uint32_t placement = column.placements[i];
+            add(placement == kNoPlacement
+                    ? box
+                    : placed(table.placements[placement].outer_from_inner, box),
+                sum);
+        }
+    }
+
+    void add_instance(const Instance& instance, Box3& sum) {
+        const PrimitiveTable& inner = instance.aggregate->primitives();
+        const Affine& outer_from_inner = instance.placement.outer_from_inner;
+        std::size_t corners = 0;
+        for (const PlacedMesh& mesh : inner.meshes) corners += 3 * mesh.mesh->triangles.size();
+        const bool only_meshes = inner.first(kTriangleKind) == 0 && inner.instances.empty();
+        if (!only_meshes || corners > corners_left_) {
+            const Box3& box = of(*instance.aggregate);
+            if (!box.empty()) add(placed(outer_from_inner, box), sum);
+            return;
+        }
+        corners_left_ -= corners;
+        for (const PlacedMesh& mesh : inner.meshes) {
+            for (const auto& triangle : mesh.mesh->triangles) {
+                for (const std::uint32_t vertex : triangle) {
+                    sum.include(outer_from_inner.point(mesh.mesh->positions[vertex]));
+                }
+            }
+        }
+    }
+
+    std::map<const Aggregate*, Box3> boxes_;
+    std::size_t corners_left_ = kMaxPlacedCorners;
+};
+
+}  // namespace
+
+Box3 exact_bounds(const Aggregate& aggregate) {
+    return ExactBounds().of(aggregate);
+}
+
+}  // namespace alhazen
