@@ -163,6 +163,27 @@ TEST(Stl, SizesThatDoNotFitTheCountAreToldWithBoth) {
     EXPECT_TRUE(mentions(found, "2 bytes behind the last facet")) << text_of(found);
 }
 
+TEST(Stl, ABinaryFileThatBeginsWithSolidIsToldOfAsBinaryWhenItsSizeIsWrong) {
+    for (const char* start : {"solid", "solid part of a program", "SOLID\n"}) {
+        std::string bytes = binary({kTriangle, kTriangle}, start);
+        Diagnostics found;
+        bytes.resize(bytes.size() - 7);
+        EXPECT_TRUE(solids_of(bytes, found).empty());
+        EXPECT_TRUE(mentions(found, "a binary STL of 2 facets has 184 bytes; the file has 177"))
+            << text_of(found);
+    }
+    // A header without a zero byte; the coordinates have some.
+    std::string bytes = binary({kTriangle, kTriangle}, "solid" + std::string(75, ' '));
+    bytes.resize(bytes.size() - 50);
+    Diagnostics found;
+    EXPECT_TRUE(solids_of(bytes, found).empty());
+    EXPECT_TRUE(mentions(found, "has 184 bytes; the file has 134")) << text_of(found);
+    // Bytes behind the last facet are as harmless as in other binary files.
+    Diagnostics more;
+    EXPECT_EQ(solids_of(binary({kTriangle}, "solid") + "\r\n", more).size(), 1u);
+    EXPECT_TRUE(mentions(more, "2 bytes behind the last facet")) << text_of(more);
+}
+
 TEST(Stl, PositionsThatAreNoNumbersNameTheirFacet) {
     auto bad = kTriangle;
     bad[4] = std::numeric_limits<float>::quiet_NaN();

@@ -56,6 +56,12 @@ bool is_ascii(std::string_view bytes) {
     return is_word(word, "facet") || is_word(word, "endsolid");
 }
 
+/// Binary files that begin with "solid" have zero bytes soon: at the end of their header or in a
+/// coordinate. Texts have none.
+bool has_zero_byte(std::string_view bytes) {
+    return bytes.substr(0, 65536).find('\0') != std::string_view::npos;
+}
+
 class StlReader {
   public:
     StlReader(std::string_view bytes, const std::string& file, const ImportOptions& options,
@@ -69,7 +75,7 @@ class StlReader {
     std::vector<StlSolid> read() {
         if (is_exact_binary(bytes_)) {
             read_binary(u32(bytes_.data() + 80));
-        } else if (begins_with_solid(bytes_)) {
+        } else if (is_ascii(bytes_) || (begins_with_solid(bytes_) && !has_zero_byte(bytes_))) {
             read_ascii();
         } else {
             read_damaged_binary();

@@ -4,7 +4,8 @@
 /// Source: 3D Systems, "Stereolithography Interface Specification", 1989; the file layout as
 /// described in Marshall Burns, "Automated Fabrication", 1993, section 6.5.
 /// Differs: an ascii file may hold several solids; words in any capitals; endsolid may be missing.
-/// A file is binary when its size is that which its count asks for, even if it begins with "solid".
+/// A file is binary when its size is that which its count asks for, even if it begins with "solid";
+/// one of another size that begins so is binary when zero bytes follow, and told of as such.
 /// Conventions: corners of exactly equal position (-0 = 0) are one vertex. The winding decides what
 /// is outside, not the normals of the file. Attribute bytes are ignored.
 
