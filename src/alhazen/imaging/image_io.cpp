@@ -1,11 +1,11 @@
 #include "alhazen/imaging/image_io.h"
 
 #include <algorithm>
-#include <cctype>
 #include <new>
 #include <span>
 
 #include "alhazen/base/file.h"
+#include "alhazen/base/lower_case.h"
 #include "alhazen/imaging/bmp.h"
 #include "alhazen/imaging/exr.h"
 #include "alhazen/imaging/hdr.h"
@@ -45,10 +45,8 @@ constexpr Signature kSignatures[] = {
 };
 
 std::string suffix_of(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
+    std::string suffix = lower_suffix(path);
     if (!suffix.empty()) suffix.erase(0, 1);
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
     return suffix;
 }
 

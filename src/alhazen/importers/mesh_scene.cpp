@@ -1,10 +1,9 @@
 #include "alhazen/importers/mesh_scene.h"
 
-#include <algorithm>
-#include <cctype>
 #include <memory>
 #include <utility>
 
+#include "alhazen/base/lower_case.h"
 #include "alhazen/importers/native/native_settings.h"
 
 namespace alhazen {
@@ -60,10 +59,7 @@ bool is_plain_text(const ImportSource& source, Diagnostics& diagnostics) {
 }
 
 bool has_suffix(const std::filesystem::path& path, std::string_view suffix) {
-    std::string own = path.extension().string();
-    std::transform(own.begin(), own.end(), own.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return own == suffix;
+    return lower_suffix(path) == suffix;
 }
 
 }  // namespace alhazen

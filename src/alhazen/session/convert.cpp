@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 #include <span>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/base/lower_case.h"
 #include "alhazen/importers/native/native_writer.h"
 #include "alhazen/importers/picture_export.h"
 #include "alhazen/importers/unique_labels.h"
@@ -24,13 +24,6 @@ namespace fs = std::filesystem;
 constexpr const char* kSuffixes = ".alhazen (the whole scene), .ply .obj .stl (its meshes)";
 /// Placed meshes of a mesh file: some 200 bytes each while it is made.
 constexpr std::uint64_t kMaxPlacedMeshes = 4'000'000;
-
-std::string suffix_of(const fs::path& path) {
-    std::string suffix = path.extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
-}
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
     std::error_code failed;  // one of them does not exist: they differ
@@ -213,7 +206,7 @@ std::set<fs::path> inputs_of(const SceneDescription& description) {
 }  // namespace
 
 void check_convert_target(const fs::path& scene, const fs::path& path) {
-    const std::string suffix = suffix_of(path);
+    const std::string suffix = lower_suffix(path);
     if (suffix != ".alhazen" && suffix != ".ply" && suffix != ".obj" && suffix != ".stl") {
         throw Error(ErrorKind::Usage, fmt::format("cannot convert to '{}'; possible are {}",
                                                   path.string(), kSuffixes));
@@ -229,7 +222,7 @@ ConvertReport convert(const SceneDescription& description, const fs::path& path,
     check_convert_target(description.path, path);
     check_writable(path);
     Output output(path);
-    const std::string suffix = suffix_of(path);
+    const std::string suffix = lower_suffix(path);
     output.check_inputs(inputs_of(description), suffix);
     if (suffix == ".alhazen") return write_native(description, output);
     return write_meshes(description, suffix, path, options, output);

@@ -6,16 +6,16 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "alhazen/base/error.h"
+#include "alhazen/math/angle.h"
 #include "alhazen/scene/primitive_table.h"
 
 namespace alhazen {
 
 namespace {
 
-constexpr double kFieldOfView = std::numbers::pi / 4;
+constexpr double kFieldOfView = kPi / 4;
 constexpr double kMargin = 0.05;
 /// Flatter than this part of its other sides: seen from the front.
 constexpr double kFlat = 0.25;
@@ -35,7 +35,7 @@ Turn turn(double degrees) {
         const double rest = std::fmod(quarters, 4.0);
         return kQuarters[static_cast<int>(rest < 0 ? rest + 4 : rest)];
     }
-    const double radians = degrees * (std::numbers::pi / 180.0);
+    const double radians = degrees * kRadiansPerDegree;
     return {std::cos(radians), std::sin(radians)};
 }
 

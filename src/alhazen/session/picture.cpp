@@ -1,22 +1,9 @@
 #include "alhazen/session/picture.h"
 
-#include <algorithm>
-#include <cctype>
-
+#include "alhazen/base/lower_case.h"
 #include "alhazen/imaging/exr_layers.h"
 
 namespace alhazen {
-
-namespace {
-
-std::string lower_suffix(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
-}
-
-}  // namespace
 
 bool holds_layers(const std::filesystem::path& path) {
     return lower_suffix(path) == ".exr";

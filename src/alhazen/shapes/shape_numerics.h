@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "alhazen/math/angle.h"
 #include "alhazen/math/quadratic.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/shapes/shape.h"
@@ -28,7 +29,6 @@ constexpr double gamma_bound(int n) {
 inline constexpr double kMaxCoordinate = 1e70;
 inline constexpr double kMinLength = 1e-70;
 
-inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Each component right to 1.5 ulp, however nearly parallel the two are.

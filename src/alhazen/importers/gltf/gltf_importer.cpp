@@ -1,10 +1,10 @@
 #include "alhazen/importers/gltf/gltf_importer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 
+#include "alhazen/base/lower_case.h"
 #include "alhazen/importers/gltf/gltf_animation.h"
 #include "alhazen/importers/gltf/gltf_budget.h"
 #include "alhazen/importers/gltf/gltf_document.h"
@@ -89,8 +89,7 @@ const char* GltfImporter::description() const {
 
 int GltfImporter::recognise(const ImportSource& source) const {
     if (source.bytes.starts_with("glTF") || looks_like_json_gltf(source.bytes)) return 2;
-    std::string suffix = source.path.extension().string();
-    for (char& c : suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
+    const std::string suffix = lower_suffix(source.path);
     return suffix == ".gltf" || suffix == ".glb" ? 1 : 0;
 }
 

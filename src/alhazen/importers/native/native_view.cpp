@@ -1,15 +1,13 @@
 #include "alhazen/importers/native/native_view.h"
 
-#include <numbers>
 #include <utility>
 
 #include "alhazen/importers/native/native_materials.h"
+#include "alhazen/math/angle.h"
 
 namespace alhazen {
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 /// Exactly one of the keys must be there; returns the one that is.
 std::string_view require_one_of(BlockReader& reader, std::string_view a, std::string_view b) {

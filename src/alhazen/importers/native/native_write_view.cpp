@@ -1,15 +1,13 @@
-#include <numbers>
 #include <string_view>
 
 #include "alhazen/importers/native/native_settings.h"
 #include "alhazen/importers/native/native_words.h"
 #include "alhazen/importers/native/native_write_context.h"
+#include "alhazen/math/angle.h"
 
 namespace alhazen {
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 void add_light_colors(NativeBlockText& block, const Rgb& color, const Rgb& ambient) {
     block.add_unless("color", color, Rgb{1, 1, 1});

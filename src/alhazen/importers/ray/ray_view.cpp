@@ -1,17 +1,15 @@
 #include "alhazen/importers/ray/ray_view.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "alhazen/importers/block_reader.h"
 #include "alhazen/importers/ray/ray_extensions.h"
+#include "alhazen/math/angle.h"
 
 namespace alhazen {
 
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 BlockReader reader_of(TextNode entry, RayContext& context) {
     return {entry.first(), std::string(entry.text()), BlockReader::Strictness::Tolerant,

@@ -1,7 +1,8 @@
 #include "alhazen/importers/uw_yaml/uw_yaml_scene.h"
 
 #include <array>
-#include <numbers>
+
+#include "alhazen/math/angle.h"
 
 namespace alhazen {
 
@@ -13,7 +14,7 @@ constexpr std::size_t kMaxVisits = 200'000;
 constexpr double kPlaneHalfThickness = 1e-5;
 
 double radians(double degrees) {
-    return degrees * (std::numbers::pi / 180.0);
+    return degrees * kRadiansPerDegree;
 }
 
 }  // namespace
