@@ -1,0 +1,149 @@
+/// Transforms, solids, materials and meshes of .ray files.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ray_scene.h"
+
+namespace alhazen {
+namespace {
+
+using testing::expect_near;
+using testing::import_ray;
+using testing::Imported;
+using testing::material_of;
+
+TEST(RayImporter, SmallShininessDecidesNothingWhereTheTokenFamilySpellsItself) {
+    const std::string material = "sphere { material = { shininess = 0.2; } }\n";
+    using ShadowTint = ShadingConventions::ShadowTint;
+    EXPECT_EQ(import_ray(material).scene.conventions.shadow_tint, ShadowTint::PerCrossing);
+    const std::string mesh =
+        "polymesh { points = ((0,0,0),(1,0,0),(0,1,0)); faces = ((0,1,2)); gennormals; }\n";
+    EXPECT_EQ(import_ray(material + mesh).scene.conventions.shadow_tint, ShadowTint::PerDistance);
+}
+
+TEST(RayImporter, MultipliesTransformsFromTheOutsideIn) {
+    const Imported i = import_ray(
+        "translate(1,2,3, rotate(0,0,1, 1.5707963267948966, scale(2, translate(1,0,0, "
+        "sphere{}))))");
+    ASSERT_EQ(i.parts().size(), 1u) << i.messages();
+    expect_near(i.parts()[0].object_from_part.point({0, 0, 0}), {1, 4, 3});
+    expect_near(i.parts()[0].object_from_part.point({1, 0, 0}), {1, 6, 3});
+}
+
+TEST(RayImporter, TakesTheRowsOfAMatrix) {
+    const Imported i = import_ray("transform((1,2,3,4),(0,1,5,6),(0,0,1,7),(0,0,0,1), box{})");
+    expect_near(i.parts().at(0).object_from_part.point({1, 1, 1}), {10, 12, 8});
+    EXPECT_TRUE(
+        import_ray("transform((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,1,1), box{})").says("last row"));
+}
+
+TEST(RayImporter, GivesTheSolidsTheSizesOfTheFormat) {
+    const Imported i = import_ray(
+        "sphere{} box{} square{} cylinder{} cone{}"
+        "cone{ height = -2; bottom_radius = -.5; top_radius = .25; capped = false }");
+    ASSERT_EQ(i.parts().size(), 6u) << i.messages();
+    EXPECT_EQ(std::get<Sphere>(std::get<AnyShape>(i.parts()[0].what)).radius, 1);
+    EXPECT_EQ(std::get<BoxShape>(std::get<AnyShape>(i.parts()[1].what)).lo, (Vec3{-.5, -.5, -.5}));
+    EXPECT_EQ(std::get<Rectangle>(std::get<AnyShape>(i.parts()[2].what)).corner,
+              (Vec3{-.5, -.5, 0}));
+    EXPECT_EQ(std::get<Cylinder>(std::get<AnyShape>(i.parts()[3].what)).top, (Vec3{0, 0, 1}));
+    const auto& cone = std::get<Cone>(std::get<AnyShape>(i.parts()[5].what));
+    EXPECT_EQ(cone.top, (Vec3{0, 0, -2}));
+    EXPECT_EQ(cone.base_radius, .5);
+    EXPECT_EQ(cone.top_radius, .25);
+    EXPECT_FALSE(cone.capped);
+}
+
+TEST(RayImporter, CarriesADefaultMaterialOnAndBackOutOfAGroup) {
+    const Imported i = import_ray(
+        "material = { diffuse = (1,0,0); shininess = 9 }"
+        "sphere {}"
+        "{ material = { specular = (0,1,0) } sphere {} }"
+        "translate(1,0,0, { material = { diffuse = (0,0,1) } sphere {} })"
+        "sphere { material = { ambient = (1,1,1) } }"
+        "sphere {}");
+    ASSERT_EQ(i.parts().size(), 5u) << i.messages();
+    EXPECT_EQ(material_of(i, 0).diffuse.color, (Rgb{1, 0, 0}));
+    EXPECT_EQ(material_of(i, 1).diffuse.color, (Rgb{1, 0, 0}));
+    EXPECT_EQ(material_of(i, 1).specular.color, (Rgb{0, 1, 0}));
+    EXPECT_EQ(material_of(i, 2).diffuse.color, (Rgb{0, 0, 1}));
+    EXPECT_EQ(material_of(i, 3).shininess.value, 9);
+    EXPECT_EQ(material_of(i, 4).specular.color, (Rgb{}));
+    EXPECT_EQ(material_of(i, 4).ambient.color, (Rgb{}));
+}
+
+TEST(RayImporter, FindsMaterialsByNameInBothSpellings) {
+    const Imported i = import_ray(
+        "material = { name red; diffuse = (1,0,0) } "
+        "material { name = \"#2\"; diffuse = (0,1,0); } "
+        "sphere { material = \"#2\" } sphere { material = red } sphere { }");
+    ASSERT_EQ(i.parts().size(), 3u) << i.messages();
+    EXPECT_EQ(i.errors(), 0u) << i.messages();
+    EXPECT_EQ(material_of(i, 0).diffuse.color, (Rgb{0, 1, 0}));
+    EXPECT_EQ(material_of(i, 1).diffuse.color, (Rgb{1, 0, 0}));
+    EXPECT_EQ(i.parts()[1].material, i.parts()[2].material);
+}
+
+TEST(RayImporter, ReportsUndefinedAndRepeatedNames) {
+    const Imported i = import_ray("material = { name red; } sphere { material = blue }");
+    EXPECT_TRUE(i.says("scene.ray:2:46: error: material 'blue' is not defined; defined are red"))
+        << i.messages();
+    EXPECT_TRUE(import_ray("material = { name red; } material = { name red; }")
+                    .says("'red' is already defined in line 2"));
+}
+
+TEST(RayImporter, KeepsAWrittenReflectiveWhateverTheSpecular) {
+    const Imported i = import_ray(
+        "sphere { material = { reflective = (0,0,0); specular = (.5,.5,.5); shininess = .2 } }");
+    EXPECT_EQ(material_of(i, 0).reflective.color, (Rgb{}));
+}
+
+constexpr const char* kSquareMesh =
+    "points = ((0,0,0),(1,0,0),(1,1,0),(0,1,0)); faces = ((0,1,2,3)); ";
+
+TEST(RayImporter, MakesFansOfPolygons) {
+    const Imported i = import_ray(std::string("polymesh { ") + kSquareMesh + " gennormals; }");
+    ASSERT_EQ(i.scene.meshes.size(), 1u) << i.messages();
+    const TriangleMesh& mesh = *i.scene.meshes[0].mesh;
+    ASSERT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{0, 2, 3}));
+    ASSERT_EQ(mesh.normals.size(), 4u);
+    expect_near(mesh.normals[0], {0, 0, 1});
+}
+
+TEST(RayImporter, ReadsNormalsAndMaterialsAtTheVertices) {
+    const Imported i = import_ray(
+        std::string("material = { name a; diffuse = (1,0,0) } trimesh { ") + kSquareMesh +
+        "normals = ((0,0,2),(0,0,2),(0,0,2),(0,2,0)); "
+        "materials = (a, { diffuse = (0,1,0) }, a, a); }");
+    ASSERT_EQ(i.errors(), 0u) << i.messages();
+    const TriangleMesh& mesh = *i.scene.meshes.at(0).mesh;
+    expect_near(mesh.normals.at(3), {0, 1, 0});
+    ASSERT_EQ(mesh.vertex_materials.size(), 4u);
+    EXPECT_EQ(mesh.vertex_materials[0], mesh.vertex_materials[2]);
+    EXPECT_EQ(i.scene.materials[mesh.vertex_materials[1]].material.diffuse.color, (Rgb{0, 1, 0}));
+}
+
+TEST(RayImporter, ReportsEveryBadIndexOfAMesh) {
+    const Imported i = import_ray(
+        "trimesh { points = ((0,0,0),(1,0,0),(1,1,0));\n"
+        " faces = ((0,1,3),(0,1,-1),(0,1,.5),(0,1),(0,1,x),(0,1,2)); }");
+    EXPECT_EQ(i.errors(), 5u) << i.messages();
+    EXPECT_TRUE(
+        i.says("scene.ray:3:16: error: faces: a vertex number must be a whole number "
+               "from 0 to 2"))
+        << i.messages();
+    EXPECT_TRUE(i.scene.meshes.empty());
+    EXPECT_EQ(import_ray("trimesh { faces = ((0,1,2)); points = ((0,0,0)) }").errors(), 1u);
+    EXPECT_EQ(import_ray("trimesh { }").errors(), 2u);
+    EXPECT_EQ(
+        import_ray(std::string("trimesh { ") + kSquareMesh + "normals = ((0,0,1)); }").errors(),
+        1u);
+    EXPECT_EQ(import_ray(std::string("trimesh { ") + kSquareMesh + "materials = ({}); }").errors(),
+              1u);
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,132 @@
+/// Cameras and lights of .ray files.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "ray_scene.h"
+
+namespace alhazen {
+namespace {
+
+using testing::expect_near;
+using testing::import_ray;
+using testing::Imported;
+
+TEST(RayImporter, LooksDownMinusZWithUnitHeightByDefault) {
+    const Imported i = import_ray("camera { }");
+    ASSERT_EQ(i.scene.cameras.size(), 1u);
+    const auto& c = std::get<PerspectiveCamera>(i.scene.cameras[0].camera);
+    expect_near(c.look, {0, 0, -1});
+    expect_near(c.right, {1, 0, 0});
+    expect_near(c.up, {0, 1, 0});
+}
+
+TEST(RayImporter, AFileWithoutACameraHasTheProgramsOwn) {
+    const Imported i = import_ray("sphere { }");
+    ASSERT_EQ(i.scene.cameras.size(), 1u);
+    const auto& camera = std::get<PerspectiveCamera>(i.scene.cameras[0].camera);
+    EXPECT_EQ(camera.eye, (Vec3{0, 0, 0}));
+    EXPECT_EQ(camera.look, (Vec3{0, 0, -1}));
+    EXPECT_EQ(camera.up, (Vec3{0, 1, 0}));
+}
+
+TEST(RayImporter, KeepsTheShearAndLengthOfTheCamera) {
+    const Imported i = import_ray(
+        "camera { position = (15,0,5); viewdir = (-1,0,-.3); updir = (0,0,2);"
+        " fov = 90 aspectratio = 1.5 }");
+    const auto& c = std::get<PerspectiveCamera>(i.scene.cameras[0].camera);
+    expect_near(c.eye, {15, 0, 5});
+    expect_near(c.look, {-1, 0, -.3});
+    expect_near(c.up, {0, 0, 4});  // updir times 2 tan 45
+    expect_near(c.right, 3.0 * cross(Vec3{-1, 0, -.3}, Vec3{0, 0, 2}));
+    EXPECT_EQ(i.scene.cameras[0].aspect, 1.5);
+}
+
+TEST(RayImporter, NormalisesTheCameraOfTheDictionaryFamilyOnly) {
+    const std::string camera = "camera { viewdir = (0,0,-3); updir = (0,2,1); ";
+    const auto look = [](const Imported& i) {
+        return std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera).look;
+    };
+    const auto up = [](const Imported& i) {
+        return std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera).up;
+    };
+    expect_near(look(import_ray(camera + "}")), {0, 0, -3});
+    const Imported a = import_ray(camera + "focaldistance = 3; }");
+    expect_near(look(a), {0, 0, -1});
+    expect_near(up(a), Vec3{0, 2, 1} / std::sqrt(5.0));  // and still not perpendicular
+}
+
+TEST(RayImporter, TurnsTheCameraByAQuaternionInBothSpellings) {
+    const double s = std::sin(std::numbers::pi / 4);  // a quarter turn about y: -z becomes -x
+    for (const char* key : {"quaternian", "quaternion"}) {
+        const Imported i = import_ray(std::string("camera { ") + key + " = (0," +
+                                      std::to_string(s) + ",0," + std::to_string(s) + ") }");
+        EXPECT_EQ(i.errors(), 0u) << i.messages();
+        const Vec3 look = std::get<PerspectiveCamera>(i.scene.cameras.at(0).camera).look;
+        expect_near(look, {-1, 0, 0});
+    }
+}
+
+TEST(RayImporter, WantsViewAndUpTogether) {
+    EXPECT_TRUE(import_ray("camera { viewdir = (1,0,0) }").says("together"));
+    EXPECT_TRUE(import_ray("camera { viewdir = (0,0,0); updir = (0,1,0) }").says("zero vector"));
+}
+
+TEST(RayImporter, DefaultsAttenuationByFamily) {
+    const std::string light = "point_light { position = (1,2,3); colour = (1,.5,.25) ";
+    const Imported b = import_ray(light + "}");
+    const auto& of_b = std::get<PointLight>(b.scene.lights.at(0).light);
+    EXPECT_EQ(of_b.attenuation.constant, 0);
+    EXPECT_EQ(of_b.attenuation.quadratic, 1);
+    expect_near(of_b.position, {1, 2, 3});
+    EXPECT_EQ(of_b.color, (Rgb{1, .5, .25}));
+    const Imported a = import_ray(light + "} material { name = \"m\"; }");
+    const auto& of_a = std::get<PointLight>(a.scene.lights.at(0).light);
+    EXPECT_EQ(of_a.attenuation.constant, 1);
+    EXPECT_EQ(of_a.attenuation.quadratic, 0);
+}
+
+TEST(RayImporter, TurnsLightDirectionsAround) {
+    const Imported i = import_ray("directional_light { direction = (0,0,-2); color = (1,1,1) }");
+    expect_near(std::get<DirectionalLight>(i.scene.lights.at(0).light).to_light, {0, 0, 1});
+}
+
+TEST(RayImporter, RequiresWhatALightNeeds) {
+    EXPECT_TRUE(import_ray("point_light { color = (1,1,1) }").says("'position = ...' is missing"));
+    EXPECT_TRUE(import_ray("point_light { position = (1,1,1) }").says("'color = ...' is missing"));
+    EXPECT_TRUE(import_ray("directional_light { color = (1,1,1) }").says("'direction = ...'"));
+    EXPECT_TRUE(import_ray("directional_light { color = (1,1,1); direction = (0,0,0) }")
+                    .says("must not be the zero vector"));
+}
+
+TEST(RayImporter, ReadsSpotLightsInThreeSpellings) {
+    const std::string start = "spot_light { position = (0,2,0); colour = (1,1,1); ";
+    const struct {
+        const char* keys;
+        double inner, outer;
+    } cases[] = {{"direction = (0,-2,0); edgeplace = (30,0,0); }", 30, 30},
+                 {"direction = (0,-2,0); size = 60; blend = 0.5; }", 15, 30},
+                 {"target = (0,0,0); cone_angle = 40; penumbra = 5; }", 20, 25}};
+    for (const auto& c : cases) {
+        const Imported i = import_ray(start + c.keys);
+        ASSERT_EQ(i.errors(), 0u) << i.messages();
+        const auto& light = std::get<SpotLight>(i.scene.lights.at(0).light);
+        expect_near(light.direction, {0, -1, 0});
+        EXPECT_NEAR(light.inner_angle * 180 / std::numbers::pi, c.inner, 1e-12);
+        EXPECT_NEAR(light.outer_angle * 180 / std::numbers::pi, c.outer, 1e-12);
+    }
+    EXPECT_EQ(import_ray(start + "direction = (0,0,0); size = 3 }").errors(), 1u);
+    EXPECT_EQ(import_ray(start + "direction = (0,1,0) }").errors(), 1u);
+}
+
+TEST(RayImporter, TakesAnAreaLightOfRadiusZeroForAPoint) {
+    const std::string start = "area_light { position = (0,2,0); color = (1,1,1); ";
+    EXPECT_EQ(import_ray(start + "light_radius = 0 }").errors(), 0u);
+    EXPECT_EQ(import_ray(start + "light_radius = 0.5 }").errors(), 1u);
+    EXPECT_TRUE(import_ray(start + "u = (1,0,0); v = (0,1,0) }").says("lights with an extent"));
+}
+
+}  // namespace
+}  // namespace alhazen
