@@ -12,6 +12,7 @@ namespace {
 using testing::expect_near;
 using testing::import_ray;
 using testing::Imported;
+using testing::kSquareMesh;
 using testing::material_of;
 
 TEST(RayImporter, SmallShininessDecidesNothingWhereTheTokenFamilySpellsItself) {
@@ -99,9 +100,6 @@ TEST(RayImporter, KeepsAWrittenReflectiveWhateverTheSpecular) {
         "sphere { material = { reflective = (0,0,0); specular = (.5,.5,.5); shininess = .2 } }");
     EXPECT_EQ(material_of(i, 0).reflective.color, (Rgb{}));
 }
-
-constexpr const char* kSquareMesh =
-    "points = ((0,0,0),(1,0,0),(1,1,0),(0,1,0)); faces = ((0,1,2,3)); ";
 
 TEST(RayImporter, MakesFansOfPolygons) {
     const Imported i = import_ray(std::string("polymesh { ") + kSquareMesh + " gennormals; }");

@@ -12,6 +12,10 @@
 
 namespace alhazen::testing {
 
+/// A mesh of a square, up to its material.
+inline constexpr const char* kSquareMesh =
+    "points = ((0,0,0),(1,0,0),(1,1,0),(0,1,0)); faces = ((0,1,2,3)); ";
+
 inline Imported import_ray(const std::string& body, const ImportOptions& options = {}) {
     return import_text<RayImporter>("SBT-raytracer 1.0\n" + body, "scene.ray", options);
 }

@@ -12,6 +12,7 @@ namespace {
 using testing::expect_near;
 using testing::import_ray;
 using testing::Imported;
+using testing::kSquareMesh;
 using testing::material_of;
 
 TEST(RayImporter, RecognisesTheHeaderEvenAfterAComment) {
