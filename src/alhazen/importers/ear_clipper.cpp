@@ -1,5 +1,7 @@
 #include "alhazen/importers/ear_clipper.h"
 
+#include <algorithm>
+
 #include "alhazen/math/orientation.h"
 
 namespace alhazen {
@@ -75,7 +77,8 @@ void EarClipper::classify(std::uint32_t i) {
 void EarClipper::update_ear(std::uint32_t i) {
     const Corner& corner = corners_[i];
     bool ear = convex_.contains(i);
-    if (ear && spent_ + reflex_->tests() < kTestsPerVertex * flat_.size()) {
+    const std::uint64_t most = std::max(kMostTests, kTestsPerVertex * flat_.size());
+    if (ear && spent_ + reflex_->tests() < most) {
         ear = !reflex_->any_in(flat_[corner.previous], flat_[i], flat_[corner.next]);
     }
     ears_.assign(i, ear);

@@ -10,8 +10,9 @@
 /// Conventions: a simple counter-clockwise polygon is tiled by its triangles, exactly; those of
 /// other polygons have its signed area.
 /// Complexity and threads: O(n log n) and at most 3 n searches of the tree, each O(sqrt n) for
-/// evenly spread vertices; a polygon for which they look at more than kTestsPerVertex n boxes is
-/// cut without looking from there on. No state shared.
+/// evenly spread vertices; a polygon for which they look at more than kTestsPerVertex n boxes, and
+/// more than kMostTests, is cut without looking from there on: no polygon of up to 4096 vertices
+/// comes there. No state shared.
 
 #include <array>
 #include <cstdint>
@@ -24,7 +25,9 @@
 namespace alhazen {
 
 /// Boxes and points that a polygon may look at for each of its vertices.
-inline constexpr std::uint64_t kTestsPerVertex = 2048;
+inline constexpr std::uint64_t kTestsPerVertex = 256;
+/// What all of them may look at in any case: 4 * 4096^2.
+inline constexpr std::uint64_t kMostTests = std::uint64_t{1} << 26;
 
 class EarClipper {
   public:

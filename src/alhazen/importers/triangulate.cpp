@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "alhazen/importers/ear_clipper.h"
+#include "alhazen/importers/sweep_triangulation.h"
 
 namespace alhazen {
 
@@ -61,6 +63,9 @@ std::vector<Vec2> flatten(std::span<const Vec3> positions, std::span<const std::
     }
     return flat;
 }
+
+/// Ear clipping makes shapelier triangles and takes any polygon; the sweep is sure to be fast.
+constexpr std::size_t kMostForEars = 4096;
 
 /// True when no corner turns right and the turns add up to one revolution (a star turns left at
 /// every corner, but more than once around).
@@ -120,7 +125,10 @@ void triangulate(std::span<const Vec3> positions, std::span<const std::uint32_t>
         flat = flatten(scaled, loop);
     }
     if (is_convex(flat)) return fan();
-    for (const auto& [a, b, c] : EarClipper(flat).clip()) {
+    std::optional<std::vector<std::array<std::uint32_t, 3>>> cut;
+    if (flat.size() > kMostForEars) cut = triangulate_by_sweep(flat);
+    if (!cut) cut = EarClipper(flat).clip();
+    for (const auto& [a, b, c] : *cut) {
         triangles.push_back({polygon[a], polygon[b], polygon[c]});
     }
 }

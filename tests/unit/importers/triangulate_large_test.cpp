@@ -2,14 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <unordered_map>
 
+#include "alhazen/importers/ear_clipper.h"
 #include "alhazen/importers/ordered_bits.h"
 #include "alhazen/importers/point_tree.h"
+#include "alhazen/importers/sweep_triangulation.h"
 #include "alhazen/importers/triangulate.h"
 #include "support/polygon_maker.h"
 
@@ -68,8 +71,13 @@ void expect_tiling(const std::vector<Vec2>& polygon, const Triangles& triangles)
     }
 }
 
+/// By the size's own way, by ears and by the sweep.
 void expect_tiled(const std::vector<Vec2>& polygon) {
     expect_tiling(polygon, cut(polygon));
+    expect_tiling(polygon, EarClipper(polygon).clip());
+    const std::optional<Triangles> swept = triangulate_by_sweep(polygon);
+    ASSERT_TRUE(swept);
+    expect_tiling(polygon, *swept);
 }
 
 TEST(LargePolygons, StarsCombsAndSpiralsOfFiftyThousandVerticesAreTiled) {
@@ -136,7 +144,7 @@ TEST(LargePolygons, HolesOnBridgesStayHoles) {
         SCOPED_TRACE(std::to_string(holes) + " holes");
         const std::vector<Vec2> polygon = keyhole_polygon(holes);
         EXPECT_EQ(double(doubled_area(polygon)), 2.0 * (4.0 * (3.0 * holes + 1) - holes));
-        expect_tiled(polygon);
+        expect_tiling(polygon, cut(polygon));
     }
 }
 
@@ -152,6 +160,24 @@ TEST(LargePolygons, FarFromTheOriginAndAtAnyScaleTheyAreTiledAsWell) {
     std::vector<Vec2> far = testing::comb_polygon(100);
     for (Vec2& p : far) p = p + Vec2{1e12, -3e13};
     expect_tiled(far);
+}
+
+TEST(LargePolygons, ASqueezedSpiralThatBoxesCannotTellApartIsTiled) {
+    std::vector<Vec2> polygon = testing::spiral_polygon(50000, 500.0);
+    for (Vec2& p : polygon) p = {p.x + 0.5 * p.y, p.x + 0.50001 * p.y};
+    if (doubled_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+    expect_tiling(polygon, cut(polygon));
+}
+
+TEST(LargePolygons, ThoseThatCrossThemselvesAreNoticedByTheSweep) {
+    EXPECT_FALSE(triangulate_by_sweep({{0, 0}, {2, 2}, {2, 0}, {0, 2}}));
+    std::vector<Vec2> pentagram;
+    for (int i = 0; i < 5; ++i) {
+        const double angle = 4.0 * std::numbers::pi * i / 5.0;
+        pentagram.push_back({std::cos(angle), std::sin(angle)});
+    }
+    EXPECT_FALSE(triangulate_by_sweep(pentagram));
+    EXPECT_FALSE(triangulate_by_sweep(std::vector<Vec2>(9)));
 }
 
 TEST(LargePolygons, TangledAndFlatOnesStillGiveTheirNumberOfTriangles) {
