@@ -97,6 +97,23 @@ TEST(HostileImages, SizesBeyondTheLimitsAreResourceErrors) {
     }
 }
 
+TEST(HostileImages, MemoryBeyondTheLimitIsRefusedBeforeItIsTaken) {
+    for (const Sample& sample : samples()) {
+        const StoredImage image = decode_stored_image(sample.bytes, sample.name);
+        const auto kind_at = [&](std::uint64_t max_bytes) -> std::optional<ErrorKind> {
+            try {
+                (void)decode_stored_image(sample.bytes, sample.name, {.max_bytes = max_bytes});
+                return std::nullopt;
+            } catch (const ImageMemoryExceeded& error) {
+                return error.kind();
+            }
+        };
+        EXPECT_EQ(kind_at(image.memory_bytes() - 1), ErrorKind::Resource) << sample.name;
+        // What decoders need beside the samples is little for a picture so small.
+        EXPECT_EQ(kind_at(image.memory_bytes() + (1 << 16)), std::nullopt) << sample.name;
+    }
+}
+
 TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
     const auto peak_kib = [] {
         rusage usage{};
@@ -104,7 +121,9 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
         return usage.ru_maxrss;
     };
     const long before = peak_kib();
-    const ImageLimits limits{.max_pixels = std::uint64_t{1} << 28};  // the sizes pass, the data end
+    // The sizes pass, the data end.
+    const ImageLimits limits{.max_pixels = std::uint64_t{1} << 28,
+                             .max_bytes = std::uint64_t{1} << 34};
     const std::string size = "-Y 16384 +X 16384\n";
     const std::string hdr = "#?RADIANCE\n\n" + size + std::string(100, 'x');
     const std::string pfm = "PF\n16384 16384\n-1\n" + std::string(100, 'x');
