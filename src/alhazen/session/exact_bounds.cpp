@@ -1,5 +1,7 @@
 #include "alhazen/session/exact_bounds.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "alhazen/scene/primitive_table.h"
@@ -13,6 +15,21 @@ Box3 placed(const Affine& outer_from_inner, const Box3& box) {
     Box3 image;
     for (int i = 0; i < 8; ++i) image.include(outer_from_inner.point(box.corner(i)));
     return image;
+}
+
+/// Boxes of shapes are a few roundings wider than they, as rays are: to 13 digits of the largest
+/// coordinate they are as they were written.
+Box3 without_margin(Box3 box) {
+    const double reach = std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+    const double digits = 13.0 - std::ceil(std::log10(reach));
+    constexpr double kExactPowers = 22.0;  // of ten, as doubles
+    if (!(digits >= 0.0 && digits <= kExactPowers)) return box;
+    const double scale = std::pow(10.0, digits);
+    for (int i = 0; i < 3; ++i) {
+        box.lo[i] = std::round(box.lo[i] * scale) / scale + 0.0;  // no -0
+        box.hi[i] = std::round(box.hi[i] * scale) / scale + 0.0;
+    }
+    return box;
 }
 
 class ExactBounds {
@@ -38,8 +55,9 @@ class ExactBounds {
     template <class Column>
     static void add_shapes(const Column& column, const PrimitiveTable& table, Box3& sum) {
         for (std::size_t i = 0; i < column.shapes.size(); ++i) {
-            const Box3 box = column.shapes[i].box();
-            if (box.empty() || !box.bounded()) continue;
+            const Box3 inner = column.shapes[i].box();
+            if (inner.empty() || !inner.bounded()) continue;
+            const Box3 box = without_margin(inner);
             const std::uint32_t placement = column.placements[i];
             add(placement == kNoPlacement
                     ? box

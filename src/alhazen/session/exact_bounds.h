@@ -1,8 +1,9 @@
 #pragma once
 /// The box of a scene as it was given: without the margins that the boxes of accelerators have.
 ///
-/// Conventions: endless shapes are left out. Corners of meshes are as they were placed; what an
-/// instance holds is looked at corner by corner while that takes little time, then by its box.
+/// Conventions: endless shapes are left out, others are given to 13 digits. Corners of meshes are
+/// as they were placed; what an instance holds is looked at corner by corner while that takes
+/// little time, then by its box.
 
 #include "alhazen/geometry/box.h"
 #include "alhazen/scene/aggregate.h"

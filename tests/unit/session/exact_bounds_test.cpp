@@ -35,7 +35,7 @@ TEST(ExactBounds, LeaveOutWhatIsEndless) {
 std::string strip() {
     std::string text =
         "ply\nformat ascii 1.0\nelement vertex 72\nproperty float x\nproperty float "
-        "y\nproperty float z\nelement face 70\nproperty list uchar int v\n"
+        "y\nproperty float z\nelement face 70\nproperty list uchar int vertex_indices\n"
         "end_header\n";
     for (int i = 0; i < 72; ++i) {
         const double x = (i / 2) / 35.0;
