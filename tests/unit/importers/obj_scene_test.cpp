@@ -220,13 +220,83 @@ TEST(ObjScene, PicturesOfNumbersAreNotDecoded) {
     EXPECT_EQ(s.texture(m.metallic_roughness->roughness.texture).wrap_u, Wrap::Clamp);
 }
 
+/// An OBJ with the materials "m0", "m1" ... of these statements beside a picture of heights h.png
+/// (a ramp), and one of directions n.png.
+struct WithBumps {
+    TemporaryFolder folder;
+    Diagnostics found;
+    SceneDescription scene;
+    explicit WithBumps(const std::vector<std::string>& materials) {
+        Image heights(8, 4, 1), directions(8, 4, 3);
+        heights.linear = directions.linear = false;
+        for (int x = 0; x < 8; ++x) {
+            for (int y = 0; y < 4; ++y) {
+                *heights.pixel(x, y) = float(x) / 8;
+                for (int k = 0; k < 3; ++k) directions.pixel(x, y)[k] = k == 2 ? 1.0f : 0.5f;
+            }
+        }
+        write_image(folder.path() / "h.png", heights, {});
+        write_image(folder.path() / "n.png", directions, {});
+        std::string mtl, obj = "mtllib a.mtl\n" + kSquare + "vt 0 0\n";
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            const std::string name = "m" + std::to_string(i) + "\n";
+            mtl += "newmtl " + name + "Kd 1 1 1\n" + materials[i];
+            obj += "usemtl " + name + "f 1/1 2/1 3/1\n";
+        }
+        folder.write("a.mtl", mtl);
+        scene = scene_of(obj, found, folder.path());
+        EXPECT_EQ(text_of(found), "");
+    }
+    [[nodiscard]] const NormalMap& map(std::size_t i) const {
+        return scene.materials.at(i).material.normal_map;
+    }
+    [[nodiscard]] const Texture& texture(std::size_t i) const {
+        return scene.textures.at(std::size_t(map(i).texture)).texture;
+    }
+};
+
+TEST(ObjScene, HeightsBecomeNormalsOnceForEachStrength) {
+    const WithBumps s({"bump h.png\n", "map_Bump -s 2 2 2 h.png\n", "map_bump h.png -bm 3\n",
+                       "map_bump -clamp on h.png\n", "map_bump -imfchan m h.png\n",
+                       "map_bump h.png -bm 0\n"});
+    EXPECT_EQ(s.texture(0).image, s.texture(1).image);
+    EXPECT_EQ(s.texture(1).uv_transform.uu, 2.0);
+    EXPECT_NE(s.texture(2).image, s.texture(0).image);
+    EXPECT_NE(s.texture(3).image, s.texture(0).image);
+    EXPECT_EQ(s.texture(3).wrap_u, Wrap::Clamp);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(s.map(i).scale, 1.0);
+        EXPECT_FALSE(s.texture(i).decode_srgb);
+        EXPECT_EQ(s.texture(i).image->channels, 3);
+        EXPECT_EQ(s.texture(i).image->width, 8);
+    }
+    // The heights rise to the right, the normals lean to the left; alpha is 1 everywhere.
+    EXPECT_LT(s.texture(0).image->pixel(9, false).r, 0.5);
+    EXPECT_LT(s.texture(2).image->pixel(9, false).r, s.texture(0).image->pixel(9, false).r);
+    EXPECT_NEAR(s.texture(4).image->pixel(9, false).r, 0.5, 0.003);
+    EXPECT_EQ(s.map(5).texture, kNoTexture);
+}
+
+TEST(ObjScene, BumpMapsOfDirectionsAreNormalMaps) {
+    const WithBumps s({"map_bump -bm 0.5 n.png\n", "norm -bm 2 h.png\n", "norm n.png\nbump h.png\n",
+                       "bump h.png\nnorm gone/../n.png\n", "map_bump -imfchan b n.png\n"});
+    EXPECT_EQ(s.map(0).scale, 0.5);
+    EXPECT_EQ(s.texture(0).image->pixel(0, false).b, 1.0);
+    EXPECT_EQ(s.map(1).scale, 2.0);  // said to be directions
+    EXPECT_EQ(s.texture(1).image->channels, 1);
+    EXPECT_EQ(s.texture(2).image, s.texture(0).image);
+    EXPECT_EQ(s.texture(3).image, s.texture(0).image);
+    EXPECT_NE(s.texture(4).image, s.texture(0).image);  // a channel: one number is meant
+}
+
 TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {
-    const WithPicture picture("map_Kd gone.png\nbump my pic.png\nKd .5 .5 .5\n");
+    const WithPicture picture("map_Kd gone.png\nbump lost.png\nKd .5 .5 .5\n");
     EXPECT_EQ(picture.material().diffuse.texture, kNoTexture);
     EXPECT_EQ(picture.material().diffuse.color, (Rgb{.5, .5, .5}));
     EXPECT_TRUE(mentions(picture.found, "a b.mtl:2:1: warning: the picture 'gone.png'"))
         << text_of(picture.found);
-    EXPECT_TRUE(mentions(picture.found, "bump maps"));
+    EXPECT_TRUE(mentions(picture.found, "'lost.png'"));
+    EXPECT_EQ(picture.material().normal_map.texture, kNoTexture);
     EXPECT_EQ(picture.found.error_count(), 0u);
 
     Diagnostics found;

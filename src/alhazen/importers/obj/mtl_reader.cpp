@@ -175,7 +175,7 @@ class MtlReader {
             std::string_view keyword;
             MtlMap MtlMaterial::*field;
         };
-        static constexpr std::array<Map, 11> kMaps{{{"map_ka", &MtlMaterial::map_ka},
+        static constexpr std::array<Map, 13> kMaps{{{"map_ka", &MtlMaterial::map_ka},
                                                     {"map_kd", &MtlMaterial::map_kd},
                                                     {"map_ks", &MtlMaterial::map_ks},
                                                     {"map_ke", &MtlMaterial::map_ke},
@@ -185,7 +185,9 @@ class MtlReader {
                                                     {"map_pr", &MtlMaterial::map_pr},
                                                     {"map_pm", &MtlMaterial::map_pm},
                                                     {"norm", &MtlMaterial::normal},
-                                                    {"map_norm", &MtlMaterial::normal}}};
+                                                    {"map_norm", &MtlMaterial::normal},
+                                                    {"bump", &MtlMaterial::map_bump},
+                                                    {"map_bump", &MtlMaterial::map_bump}}};
         for (const Color& color : kColors) {
             if (color.keyword == keyword) return read_color(m.*color.field);
         }
@@ -199,18 +201,16 @@ class MtlReader {
             std::optional<double> model;
             read_number(model);
             if (model && *model >= 0 && *model <= 10) m.illum = int(*model);
-        } else if (keyword == "bump" || keyword == "map_bump") {
-            warn_once(1, "bump maps (heights) are ignored; normal maps are read from 'norm'");
         } else if (keyword == "disp" || keyword == "map_disp" || keyword == "decal" ||
                    keyword == "refl" || keyword == "map_tr" || keyword == "map_ps") {
-            warn_once(2, "displacement, decals, reflection maps, map_Tr and map_Ps are ignored");
+            warn_once(1, "displacement, decals, reflection maps, map_Tr and map_Ps are ignored");
         }
     }
 
     void read_color(std::optional<Rgb>& color) {
         cursor_.skip_blanks();
         if (std::isalpha(static_cast<unsigned char>(cursor_.peek()))) {
-            return warn_once(3, "spectral and XYZ colours are not supported and ignored");
+            return warn_once(2, "spectral and XYZ colours are not supported and ignored");
         }
         Rgb value;
         int count = 0;
@@ -239,7 +239,7 @@ class MtlReader {
         map.location = start_;
         cursor_.skip_blanks();
         if (!MapReader(map).read(cursor_.rest_of_line())) {
-            warn_once(4, "the base of -mm and the channel z of -imfchan are ignored");
+            warn_once(3, "the base of -mm and the channel z of -imfchan are ignored");
         }
     }
 
@@ -258,7 +258,7 @@ class MtlReader {
     Diagnostics& diagnostics_;
     FileLocation start_;
     std::vector<MtlMaterial> materials_;
-    std::array<bool, 5> warned_{};
+    std::array<bool, 4> warned_{};
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ struct MtlMaterial {
     std::optional<Rgb> ka, kd, ks, ke, tf;
     std::optional<double> ns, ni, d, tr, pr, pm;
     std::optional<int> illum;
-    MtlMap map_ka, map_kd, map_ks, map_ke, map_ns, map_d, map_pr, map_pm, normal;
+    MtlMap map_ka, map_kd, map_ks, map_ke, map_ns, map_d, map_pr, map_pm, normal, map_bump;
     FileLocation location;
 };
 

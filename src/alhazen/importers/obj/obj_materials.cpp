@@ -1,9 +1,11 @@
 #include "alhazen/importers/obj/obj_materials.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "alhazen/base/file.h"
 #include "alhazen/importers/mesh_scene.h"
+#include "alhazen/importers/obj/bump_map.h"
 #include "alhazen/importers/text_cursor.h"
 
 namespace alhazen {
@@ -139,9 +141,7 @@ MaterialId ObjMaterials::add(const MtlMaterial& m) {
     out.index.value = m.ni && *m.ni > 0 ? *m.ni : 1.0;
     set_reflection(m, out);
     set_light_through(m, out);
-    if (const TextureId normal = texture(m.normal, false); normal != kNoTexture) {
-        out.normal_map = {normal, m.normal.bump};
-    }
+    out.normal_map = normal_map(m);
     if (m.pr || m.pm || !m.map_pr.file.empty() || !m.map_pm.file.empty()) {
         set_metallic_roughness(m, out);
     }
@@ -202,6 +202,34 @@ void ObjMaterials::set_metallic_roughness(const MtlMaterial& m, Material& out) {
     mr.thickness.value = mr.transmission.value > 0.0 ? 1.0 : 0.0;
     if (!m.ni || !(*m.ni >= 1.0)) out.index.value = 1.5;
     out.metallic_roughness = mr;
+}
+
+NormalMap ObjMaterials::normal_map(const MtlMaterial& m) {
+    if (const TextureId id = texture(m.normal, false); id != kNoTexture) {
+        return {id, m.normal.bump};
+    }
+    const MtlMap& map = m.map_bump;
+    if (map.bump == 0.0) return {};
+    const TextureId id = texture(map, false);
+    if (id == kNoTexture) return {};
+    // A channel is only chosen where one number is meant.
+    if (!map.channel && is_normal_map(scene_.textures[std::size_t(id)].texture.image)) {
+        return {id, map.bump};
+    }
+    const HeightMap heights{map.bump * map.gain, map.channel.value_or(Channel::Mean),
+                            map.clamp ? Wrap::Clamp : Wrap::Repeat};
+    const std::string key = std::to_string(std::bit_cast<std::uint64_t>(heights.strength)) + ' ' +
+                            std::to_string(int(heights.channel)) + (map.clamp ? " clamp" : "");
+    textures_.derive(id, key, [&](const StoredImage& picture) {
+        return normals_from_heights(picture, heights);
+    });
+    return {id, 1.0};
+}
+
+bool ObjMaterials::is_normal_map(const std::shared_ptr<const StoredImage>& picture) {
+    const auto [known, fresh] = is_normal_map_.try_emplace(picture, false);
+    if (fresh) known->second = looks_like_normal_map(*picture);
+    return known->second;
 }
 
 TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {

@@ -7,6 +7,7 @@
 /// Conventions: a library or picture that is missing or cannot be read is a warning; a name that no
 /// library has is the grey material, with one warning.
 
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -38,6 +39,10 @@ class ObjMaterials {
     void set_light_through(const MtlMaterial& m, Material& out);
     void set_metallic_roughness(const MtlMaterial& m, Material& out);
     [[nodiscard]] double dissolve_of(const MtlMaterial& m);
+    /// Of a `norm` picture, else of a bump map: one of directions as it is, one of heights as the
+    /// normals made of it.
+    NormalMap normal_map(const MtlMaterial& m);
+    bool is_normal_map(const std::shared_ptr<const StoredImage>& picture);
     TextureId texture(const MtlMap& map, bool is_color);
     ColorInput color(const Rgb& value, const MtlMap& map);
     ScalarInput scalar(double value, const MtlMap& map);
@@ -57,6 +62,7 @@ class ObjMaterials {
     std::unordered_map<std::string, std::size_t> entry_of_;
     std::unordered_map<std::string, MaterialId> used_;
     std::unordered_map<std::string, bool> loaded_;
+    std::unordered_map<std::shared_ptr<const StoredImage>, bool> is_normal_map_;
     std::optional<MaterialId> grey_;
 };
 
