@@ -30,6 +30,9 @@ int run(const ConvertArguments& args) {
     if (!report.left_out.empty()) {
         tell("warning: left out, as they are not meshes: {}\n", report.left_out);
     }
+    for (const std::string& line : report.lost) {
+        tell("warning: the MTL file cannot say {}\n", line);
+    }
     const std::size_t beside = report.files.size() - 1;
     tell("{}: {} triangles, {:.1f} MB{}\n", args.output, report.triangles,
          1e-6 * static_cast<double>(report.bytes),

@@ -13,6 +13,7 @@
 #include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"
 #include "alhazen/session/render.h"
+#include "alhazen/session/scene_files.h"
 #include "alhazen/session/statistics.h"
 #include "alhazen/session/stopwatch.h"
 #include "commands.h"
@@ -85,8 +86,9 @@ void check_effects(const RenderArguments& args) {
          "--encoding is for .png and .jpg: other pictures hold linear values");
 }
 
-/// Every file that will be written can be, and no two are one.
-void check_outputs(const RenderArguments& args, const RenderOptions& options) {
+/// Every file that will be written: each of them can be, and no two are one.
+std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
+                                                   const RenderOptions& options) {
     check_image_suffix(args.output);
     std::vector<std::filesystem::path> outputs{args.output};
     if (writes_aov_pictures(args)) {
@@ -94,12 +96,14 @@ void check_outputs(const RenderArguments& args, const RenderOptions& options) {
             outputs.push_back(std::move(path));
         }
     }
-    for (const auto& path : outputs) check_writable(path);
-    if (args.stats.empty() || args.stats == "-") return;
-    if (std::find(outputs.begin(), outputs.end(), args.stats) != outputs.end()) {
-        throw Error(ErrorKind::Usage, "--stats and a picture name the same file");
+    if (!args.stats.empty() && args.stats != "-") {
+        if (std::find(outputs.begin(), outputs.end(), args.stats) != outputs.end()) {
+            throw Error(ErrorKind::Usage, "--stats and a picture name the same file");
+        }
+        outputs.emplace_back(args.stats);
     }
-    check_writable(args.stats);
+    for (const auto& path : outputs) check_writable(path);
+    return outputs;
 }
 
 /// Camera and light where the file has none; what was done is told.
@@ -149,7 +153,7 @@ int run(const RenderArguments& args) {
     (void)make_renderer(options.renderer);
     check_accelerator_name(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
-    check_outputs(args, options);
+    const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);
     check_effects(args);
     ProgressDisplay progress(args.quiet);
     LoadOptions load_options = args.scene.load_options();
@@ -157,6 +161,7 @@ int run(const RenderArguments& args) {
     load_options.keep_meshes = false;
     LoadedScene loaded = load(args.scene.scene, load_options);
     progress.finish();
+    check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
     complete(args, options, loaded);
 

@@ -9,6 +9,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "alhazen/math/affine.h"
 #include "alhazen/shading/material.h"
@@ -34,10 +35,16 @@ struct NamedMesh {
 /// One `o` per mesh. `mtllib` names the material file; empty: none.
 [[nodiscard]] std::string obj_text(std::span<const NamedMesh> meshes,
                                    const std::string& mtllib = {});
-/// The MTL file of these materials, by their names. `texture_files` [texture] are the names of the
-/// pictures, relative to it; an empty name leaves the map out.
+/// A texture beside an MTL file.
+struct MtlTexture {
+    std::string file;  ///< of the picture, relative to the MTL file; empty: the map is left out
+    Texture settings;
+};
+/// The MTL file of these materials, by their names; `textures` [texture]. Adds a line to `lost` for
+/// each kind of thing that MTL cannot say.
 [[nodiscard]] std::string mtl_text(std::span<const Material> materials,
-                                   std::span<const std::string> texture_files);
+                                   std::span<const MtlTexture> textures,
+                                   std::vector<std::string>& lost);
 
 /// All triangles as one binary STL. Throws Error (Resource) beyond 2^32 - 1 triangles.
 [[nodiscard]] std::string stl_bytes(std::span<const NamedMesh> meshes);

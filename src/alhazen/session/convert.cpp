@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <span>
 
 #include "alhazen/base/error.h"
@@ -13,7 +12,9 @@
 #include "alhazen/importers/native/native_writer.h"
 #include "alhazen/importers/picture_export.h"
 #include "alhazen/importers/unique_labels.h"
+#include "alhazen/session/convert_output.h"
 #include "alhazen/session/placed_meshes.h"
+#include "alhazen/session/scene_files.h"
 
 namespace alhazen {
 
@@ -25,88 +26,17 @@ constexpr const char* kSuffixes = ".alhazen (the whole scene), .ply .obj .stl (i
 /// Placed meshes of a mesh file: some 200 bytes each while it is made.
 constexpr std::uint64_t kMaxPlacedMeshes = 4'000'000;
 
-bool is_same_file(const fs::path& a, const fs::path& b) {
-    std::error_code failed;  // one of them does not exist: they differ
-    return fs::equivalent(a, b, failed) && !failed;
-}
-
-/// Writes OUT and the files that it names, and keeps the report.
-class Output {
-  public:
-    explicit Output(fs::path path) : path_(std::move(path)) { report_.files.reserve(4); }
-
-    /// Relative to OUT: where the files that it names are.
-    [[nodiscard]] std::string folder() const { return path_.stem().string() + "_files"; }
-    [[nodiscard]] fs::path sibling(const char* suffix) const {
-        return fs::path(path_.stem()).concat(suffix);
-    }
-
-    /// Throws Error (Usage) when one of `inputs` could be replaced: it is OUT or the file of its
-    /// materials, or lies in the folder of its files.
-    void check_inputs(const std::set<fs::path>& inputs, const std::string& suffix) const {
-        std::vector<fs::path> written{path_};
-        if (suffix == ".obj") written.push_back(path_.parent_path() / sibling(".mtl"));
-        const bool has_folder = suffix == ".obj" || suffix == ".alhazen";
-        const fs::path files = path_.parent_path() / folder();
-        for (const fs::path& input : inputs) {
-            std::error_code failed;
-            const fs::path target = fs::canonical(input, failed);
-            const bool replaced = std::any_of(written.begin(), written.end(), [&](const auto& w) {
-                return is_same_file(w, input);
-            });
-            const bool inside =
-                has_folder && (is_same_file(fs::absolute(input).parent_path(), files) ||
-                               is_same_file(target.parent_path(), files));
-            if (!replaced && !inside) continue;
-            throw Error(
-                ErrorKind::Usage,
-                fmt::format("{} belongs to the scene that is read and could be overwritten; "
-                            "expected another name for {}",
-                            input.string(), path_.string()));
-        }
-    }
-
-    void write_beside(const fs::path& name, std::span<const std::byte> bytes) {
-        const fs::path path = path_.parent_path() / name;
-        if (name.has_parent_path()) make_folder(path.parent_path());
-        write(path, bytes);
-    }
-    ConvertReport finish(std::span<const std::byte> bytes) {
-        write(path_, bytes);
-        return std::move(report_);
-    }
-    ConvertReport& report() { return report_; }
-
-  private:
-    static void make_folder(const fs::path& folder) {
-        std::error_code failed;
-        fs::create_directory(folder, failed);
-        if (failed || !fs::is_directory(folder)) {
-            throw Error(ErrorKind::File, "cannot make the folder: " + failed.message(),
-                        {folder.string(), 0, 0});
-        }
-    }
-    void write(const fs::path& path, std::span<const std::byte> bytes) {
-        write_file_atomically(path, bytes);
-        report_.files.push_back(path);
-        report_.bytes += bytes.size();
-    }
-
-    fs::path path_;
-    ConvertReport report_;
-};
-
 std::span<const std::byte> bytes_of(const std::string& text) {
     return std::as_bytes(std::span(text));
 }
 
-ConvertReport write_native(const SceneDescription& description, Output& output) {
+ConvertReport write_native(const SceneDescription& description, ConvertOutput& output) {
     for (const MeshDescription& mesh : description.meshes) {
         output.report().triangles += mesh.mesh->triangles.size();
     }
     const std::string text = native_scene_text(
         description, output.folder(),
-        [&](const std::string& name, auto bytes) { output.write_beside(name, bytes); });
+        [&](const std::string& name, auto bytes) { return output.write_beside(name, bytes); });
     return output.finish(bytes_of(text));
 }
 
@@ -149,19 +79,19 @@ std::vector<std::string> material_words(const SceneDescription& description) {
 
 /// Pictures in the folder, materials in OUT.mtl; returns the name of that file.
 std::string write_materials(const SceneDescription& description,
-                            const std::vector<std::string>& names, Output& output) {
+                            const std::vector<std::string>& names, ConvertOutput& output) {
     std::map<const StoredImage*, std::string> files;
-    std::vector<std::string> texture_files;
+    std::vector<MtlTexture> textures;
     for (const TextureDescription& texture : description.textures) {
         const StoredImage* image = texture.texture.image.get();
         std::string& file = files[image];
         if (file.empty()) {
             const PictureFile picture = picture_file(*image);
-            file = fmt::format("{}/texture_{}.{}", output.folder(), texture_files.size(),
-                               picture.suffix);
-            output.write_beside(file, picture.bytes);
+            file =
+                fmt::format("{}/texture_{}.{}", output.folder(), textures.size(), picture.suffix);
+            file = output.write_beside(file, picture.bytes);
         }
-        texture_files.push_back(file);
+        textures.push_back({file, texture.texture});
     }
     std::vector<Material> materials;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -169,13 +99,14 @@ std::string write_materials(const SceneDescription& description,
         materials.back().name = names[i];
     }
     const fs::path name = output.sibling(".mtl");
-    const std::string text = mtl_text(materials, texture_files);
-    output.write_beside(name, bytes_of(text));
+    const std::string text = mtl_text(materials, textures, output.report().lost);
+    output.write_sibling(name, bytes_of(text));
     return name.string();
 }
 
 ConvertReport write_meshes(const SceneDescription& description, const std::string& suffix,
-                           const fs::path& path, const ConvertOptions& options, Output& output) {
+                           const fs::path& path, const ConvertOptions& options,
+                           ConvertOutput& output) {
     const PlacedCounts counts = count_placed(description);
     check_counts(counts, path, options);
     output.report().triangles = counts.triangles;
@@ -196,13 +127,6 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     return output.finish(bytes_of(bytes));
 }
 
-/// All files that the scene was read from.
-std::set<fs::path> inputs_of(const SceneDescription& description) {
-    std::set<fs::path> inputs = description.files;
-    if (!description.path.empty()) inputs.insert(description.path);
-    return inputs;
-}
-
 }  // namespace
 
 void check_convert_target(const fs::path& scene, const fs::path& path) {
@@ -221,9 +145,9 @@ ConvertReport convert(const SceneDescription& description, const fs::path& path,
                       const ConvertOptions& options) {
     check_convert_target(description.path, path);
     check_writable(path);
-    Output output(path);
     const std::string suffix = lower_suffix(path);
-    output.check_inputs(inputs_of(description), suffix);
+    ConvertOutput output(path, suffix);
+    output.check_inputs(files_of_scene(description));
     if (suffix == ".alhazen") return write_native(description, output);
     return write_meshes(description, suffix, path, options, output);
 }

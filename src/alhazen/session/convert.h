@@ -5,8 +5,10 @@
 /// Conventions: OUT.alhazen names its meshes (binary PLY) and pictures (PNG, EXR) in OUT_files/
 /// beside it, OUT.obj its materials in OUT.mtl and its pictures likewise, all relative: file and
 /// folder can be moved together. The named files are written first, each in one step, OUT itself
-/// last; files of these names are replaced, others left alone; a target is refused, and nothing
-/// written, where that could be a file that the scene was read from. Mesh files hold every placed
+/// last; files of these names are replaced, others left alone. A file of OUT_files/ that another
+/// scene beside OUT names, with other bytes, is never replaced: the new one gets another name. A
+/// target is refused, and nothing written, where it could be a file that the scene was read from.
+/// What fails takes the files and the folder that it made away again. Mesh files hold every placed
 /// mesh in the frame of the scene, in the order of the description.
 
 #include <cstdint>
@@ -27,8 +29,9 @@ struct ConvertOptions {
 struct ConvertReport {
     std::vector<std::filesystem::path> files;  ///< in the order they were written; the last is OUT
     std::uint64_t bytes = 0;                   ///< of all of them
-    std::uint64_t triangles = 0;  ///< written: of each mesh once, or of all placed ones
-    std::string left_out;         ///< "2 spheres, 1 plane": what meshes_only dropped
+    std::uint64_t triangles = 0;    ///< written: of each mesh once, or of all placed ones
+    std::string left_out;           ///< "2 spheres, 1 plane": what meshes_only dropped
+    std::vector<std::string> lost;  ///< OBJ: what MTL cannot say of the materials, a line each
 };
 
 /// Throws Error (Usage) that lists the known suffixes when `path` has none of them, or when it is

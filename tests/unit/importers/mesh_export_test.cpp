@@ -197,9 +197,13 @@ TEST(MeshExport, MaterialsReadBackAsTheyWere) {
     leaf.alpha_mode = AlphaMode::Blend;
     leaf.alpha.value = 0.5;
     const std::vector<Material> all{matt, glass, leaf};
-    const std::vector<std::string> files{"", "leaf picture.png"};
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    const std::vector<MtlTexture> textures{{"", settings}, {"leaf picture.png", settings}};
     Diagnostics found;
-    const std::vector<MtlMaterial> back = read_mtl(mtl_text(all, files), "a.mtl", found);
+    std::vector<std::string> lost;
+    const std::vector<MtlMaterial> back = read_mtl(mtl_text(all, textures, lost), "a.mtl", found);
+    EXPECT_TRUE(lost.empty()) << lost[0];
     EXPECT_EQ(text_of(found), "");
     ASSERT_EQ(back.size(), 3u);
     EXPECT_EQ(back[0].kd, matt.diffuse.color);
@@ -212,6 +216,105 @@ TEST(MeshExport, MaterialsReadBackAsTheyWere) {
     EXPECT_EQ(back[1].ni, 1.5);
     EXPECT_EQ(back[2].map_kd.file, "leaf picture.png");
     EXPECT_EQ(back[2].d, 0.5);
+}
+
+/// The MTL statements of a material with one texture, read back, and what was lost.
+struct MtlTrip {
+    std::vector<std::string> lost;
+    std::vector<MtlMaterial> back;
+
+    explicit MtlTrip(const Texture& settings, Material m = {}) {
+        m.name = "m";
+        m.diffuse = {{.5, .5, .5}, TextureId{0}};
+        if (m.metallic_roughness) m.metallic_roughness->base_color = m.diffuse;
+        const std::vector<MtlTexture> textures{{"p.png", settings}};
+        Diagnostics found;
+        back = read_mtl(mtl_text({&m, 1}, textures, lost), "a.mtl", found);
+        EXPECT_EQ(text_of(found), "");
+        EXPECT_EQ(back.at(0).map_kd.file, "p.png");
+    }
+    [[nodiscard]] const MtlMap& map() const { return back[0].map_kd; }
+    [[nodiscard]] bool loses(const std::string& part) const {
+        return std::any_of(lost.begin(), lost.end(), [&](const std::string& line) {
+            return line.find(part) != std::string::npos;
+        });
+    }
+};
+
+TEST(MeshExport, MtlKeepsTheScaleOffsetAndClampOfPictures) {
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    settings.wrap_u = settings.wrap_v = Wrap::Clamp;
+    settings.uv_transform = {-2.5, 0, 0, 0.1, {0.25, -1e-3}};
+    const MtlTrip trip(settings);
+    EXPECT_EQ(trip.map().scale, (Vec2{-2.5, 0.1}));
+    EXPECT_EQ(trip.map().offset, (Vec2{0.25, -1e-3}));
+    EXPECT_TRUE(trip.map().clamp);
+    EXPECT_TRUE(trip.lost.empty()) << trip.lost[0];
+    settings.wrap_u = settings.wrap_v = Wrap::Repeat;
+    EXPECT_FALSE(MtlTrip(settings).map().clamp);
+}
+
+TEST(MeshExport, WhatMtlCannotSayIsTold) {
+    Texture usual;
+    usual.filter = TextureFilter::Mipmapped;
+    EXPECT_TRUE(MtlTrip(usual).lost.empty());
+    Texture t = usual;
+    t.uv_transform.uv = 0.5;
+    EXPECT_TRUE(MtlTrip(t).loses("rotation"));
+    t = usual;
+    t.wrap_v = Wrap::Mirror;
+    EXPECT_TRUE(MtlTrip(t).loses("mirrored"));
+    t = usual;
+    t.wrap_v = Wrap::Clamp;
+    EXPECT_TRUE(MtlTrip(t).loses("one axis only"));
+    t = usual;
+    t.uv_set = 1;
+    EXPECT_TRUE(MtlTrip(t).loses("second set"));
+    t = usual;
+    t.filter = TextureFilter::Nearest;
+    EXPECT_TRUE(MtlTrip(t).loses("filter"));
+    t = usual;
+    t.image =
+        std::make_shared<StoredImage>(StoredImage{1, 1, 1, false, std::vector<std::uint8_t>{7}});
+    EXPECT_TRUE(MtlTrip(t).loses("linear"));
+    t.decode_srgb = true;
+    EXPECT_TRUE(MtlTrip(t).lost.empty());
+
+    Material m;
+    m.transmissive = {{1, 1, 1}, TextureId{0}};
+    EXPECT_TRUE(MtlTrip(usual, m).loses("a picture beside Tf"));
+    m = {};
+    m.double_sided = false;
+    EXPECT_EQ(MtlTrip(usual, m).lost.size(), 1u);
+    m = {};
+    m.metallic_roughness.emplace();
+    m.metallic_roughness->occlusion.texture = TextureId{0};
+    EXPECT_TRUE(MtlTrip(usual, m).loses("occlusion"));
+}
+
+TEST(MeshExport, LossesAreToldOnceWithTheirNumber) {
+    std::vector<Material> many(3);
+    for (Material& m : many) m.double_sided = false;
+    many[0].name = "first";
+    std::vector<std::string> lost;
+    (void)mtl_text(many, {}, lost);
+    ASSERT_EQ(lost.size(), 1u);
+    EXPECT_EQ(lost[0], "that only the front is seen (material 'first', 3 times in all)");
+}
+
+TEST(MeshExport, BlackTimesAPictureStaysBlack) {
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    Material m;
+    m.name = "m";
+    m.diffuse = {{0, 0, 0}, TextureId{0}};
+    const std::vector<MtlTexture> textures{{"p.png", settings}};
+    std::vector<std::string> lost;
+    Diagnostics found;
+    const auto back = read_mtl(mtl_text({&m, 1}, textures, lost), "a.mtl", found);
+    EXPECT_EQ(back.at(0).map_kd.file, "");
+    EXPECT_EQ(back.at(0).kd, (Rgb{}));
 }
 
 }  // namespace

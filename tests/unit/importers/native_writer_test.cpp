@@ -37,6 +37,7 @@ struct RoundTrip {
             EXPECT_FALSE(files.contains(name)) << "written twice: " << name;
             files[name] = bytes.size();
             folder.write(name, bytes);
+            return name;
         });
         read = testing::import_text<NativeImporter>(text, folder.path() / "scene.alhazen");
         EXPECT_EQ(read.messages(), "") << text.substr(0, 4000);

@@ -9,6 +9,7 @@
 #include "alhazen/base/file.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/placed_meshes.h"
+#include "support/same_description.h"
 #include "support/scene_maker.h"
 #include "support/scratch_folder.h"
 
@@ -224,6 +225,127 @@ TEST(ConvertMeshes, BuffersMeshesAndIncludedFilesBelongToTheScene) {
         "bufferViews": [{"buffer": 0, "byteLength": 36}],
         "buffers": [{"byteLength": 36, "uri": "b.bin"}]})"));
     EXPECT_EQ(names("b.gltf"), (std::set<std::string>{"b.bin"}));
+}
+
+/// One textured mesh of many triangles; `grey` is the only texel of its picture.
+SceneDescription textured(std::uint8_t grey) {
+    SceneMaker maker;
+    Texture texture;
+    texture.image =
+        std::make_shared<StoredImage>(StoredImage{1, 1, 1, false, std::vector<std::uint8_t>{grey}});
+    maker.description().textures.push_back({"t", texture, {}});
+    Material m;
+    m.name = "m";
+    m.diffuse = {{1, 1, 1}, TextureId{0}};
+    maker.add(maker.mesh(testing::tetrahedron()), maker.material(m));
+    return maker.description();
+}
+
+/// The only texel of the first texture of a scene file.
+double texel_of(const std::filesystem::path& path) {
+    Diagnostics found;
+    const SceneDescription scene = load_description(path, {}, found);
+    return std::round(255 * scene.textures.at(0).texture.image->pixel(0, false).r);
+}
+
+std::size_t entries_in(const std::filesystem::path& folder) {
+    return std::size_t(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(ConvertNative, FilesOfAnotherSceneAreNotReplaced) {
+    const ScratchFolder folder;
+    const auto native = folder.path() / "out.alhazen", obj = folder.path() / "out.obj";
+    (void)convert(textured(10), native);
+    (void)convert(textured(20), obj);  // takes the same folder, and another name in it
+    EXPECT_EQ(texel_of(native), 10);
+    EXPECT_EQ(texel_of(obj), 20);
+    EXPECT_EQ(entries_in(folder.path() / "out_files"), 2U);
+    // Its own files are replaced, equal ones shared.
+    (void)convert(textured(30), obj);
+    EXPECT_EQ(texel_of(obj), 30);
+    (void)convert(textured(10), obj);
+    EXPECT_EQ(texel_of(obj), 10);
+    EXPECT_EQ(texel_of(native), 10);
+    // A copy under another name holds them, too.
+    std::filesystem::copy_file(native, folder.path() / "copy.alhazen");
+    (void)convert(textured(40), native);
+    EXPECT_EQ(texel_of(folder.path() / "copy.alhazen"), 10);
+    EXPECT_EQ(texel_of(native), 40);
+}
+
+TEST(ConvertNative, WithoutAnotherSceneTheNamesStayTheSame) {
+    const ScratchFolder folder;
+    const auto out = folder.path() / "out.alhazen";
+    for (const std::uint8_t grey : {10, 20, 30}) {
+        const ConvertReport report = convert(textured(grey), out);
+        EXPECT_EQ(report.files.at(0).filename(), "texture_0.png");
+        EXPECT_EQ(texel_of(out), grey);
+    }
+    EXPECT_EQ(entries_in(folder.path() / "out_files"), 1U);
+    // A link may lead to anybody's file.
+    (void)folder.write("precious.png", std::string("precious"));
+    std::filesystem::remove(folder.path() / "out_files" / "texture_0.png");
+    std::filesystem::create_symlink("../precious.png",
+                                    folder.path() / "out_files" / "texture_0.png");
+    (void)convert(textured(40), out);
+    EXPECT_EQ(read_file(folder.path() / "precious.png"), "precious");
+    EXPECT_EQ(texel_of(out), 40);
+}
+
+TEST(ConvertNative, WhatFailsLeavesNothingBehind) {
+    const ScratchFolder folder;
+    SceneDescription broken = textured(10);
+    broken.materials[0].material.emission.color.r = std::nan("");
+    // The picture is written before the material fails.
+    (void)message_of(broken, folder.path() / "out.alhazen", ErrorKind::Scene);
+    EXPECT_EQ(entries_in(folder.path()), 0U);
+    // The pictures and the materials are written before OUT, which is no place for a file.
+    std::filesystem::create_symlink("/dev/null", folder.path() / "out.obj");
+    (void)message_of(textured(10), folder.path() / "out.obj", ErrorKind::File);
+    EXPECT_EQ(entries_in(folder.path()), 1U);
+    // What was there before stays.
+    (void)folder.write("out_files/mine.txt", std::string("mine"));
+    (void)message_of(textured(10), folder.path() / "out.obj", ErrorKind::File);
+    EXPECT_EQ(entries_in(folder.path()), 2U);
+    EXPECT_EQ(entries_in(folder.path() / "out_files"), 1U);
+}
+
+TEST(ConvertMeshes, WhatMtlCannotSayIsReported) {
+    const ScratchFolder folder;
+    SceneDescription scene = textured(10);
+    scene.textures[0].texture.wrap_u = Wrap::Mirror;
+    const ConvertReport report = convert(scene, folder.path() / "out.obj");
+    ASSERT_FALSE(report.lost.empty());
+    EXPECT_NE(report.lost[0].find("mirrored repeat"), std::string::npos) << report.lost[0];
+    EXPECT_TRUE(convert(scene, folder.path() / "out.ply").lost.empty());
+}
+
+TEST(ConvertNative, BumpMapsStayBitForBit) {
+    const ScratchFolder folder;
+    (void)folder.write("a.obj", std::string("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                            "vt 3 0\nvt 0 3\nusemtl m\nf 1/1 2/2 3/3\n"));
+    (void)folder.write("a.mtl", std::string("newmtl m\nKd 1 1 1\nmap_Kd b.pfm\n"
+                                            "map_bump -bm 4 -o .25 0 -s 2 2 b.pfm\n"));
+    std::string picture = "Pf\n4 4\n-1\n";
+    for (int i = 0; i < 16; ++i) {
+        const float height = float(i * i % 7) / 7;
+        picture.append(reinterpret_cast<const char*>(&height), sizeof height);
+    }
+    (void)folder.write("b.pfm", picture);
+    Diagnostics found;
+    const SceneDescription scene = load_description(folder.path() / "a.obj", {}, found);
+    ASSERT_EQ(found.all().size(), 0U) << to_string(found.all()[0]);
+    (void)convert(scene, folder.path() / "out.alhazen");
+    testing::expect_same(scene, load_description(folder.path() / "out.alhazen", {}, found));
+    // As MTL it is a normal map.
+    const ConvertReport report = convert(scene, folder.path() / "out.obj");
+    EXPECT_TRUE(report.lost.empty()) << report.lost[0];
+    const SceneDescription back = load_description(folder.path() / "out.obj", {}, found);
+    const auto map_of = [](const SceneDescription& s) {
+        return s.textures.at(std::size_t(s.materials.at(0).material.normal_map.texture)).texture;
+    };
+    EXPECT_EQ(map_of(back).image->samples, map_of(scene).image->samples);
+    EXPECT_EQ(map_of(back).uv_transform, map_of(scene).uv_transform);
 }
 
 TEST(ConvertNative, WhatCannotBeWrittenIsToldAndLeavesNoScene) {

@@ -21,9 +21,7 @@ struct NativeWriteContext {
 
     /// Hands over a file of the folder and returns how the scene names it.
     std::string write_file(const std::string& file_name, std::span<const std::byte> bytes) const {
-        const std::string name = folder + "/" + file_name;
-        write_beside(name, bytes);
-        return name;
+        return write_beside(folder + "/" + file_name, bytes);
     }
     void append(const NativeBlockText& block, int indent = 0) {
         text += block.text(indent);

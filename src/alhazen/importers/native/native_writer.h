@@ -17,8 +17,10 @@
 
 namespace alhazen {
 
-/// Takes one file: its name relative to the scene file, and its bytes.
-using NativeFileSink = std::function<void(const std::string& name, std::span<const std::byte>)>;
+/// Takes one file: its name relative to the scene file, and its bytes. Returns the name that it
+/// got, which may be another one where that is taken.
+using NativeFileSink =
+    std::function<std::string(const std::string& name, std::span<const std::byte>)>;
 
 /// The text of the scene. `folder` is where the scene will name its other files, relative to itself
 /// and without a slash at the end; each is handed to `write_beside`, meshes as binary PLY, pictures

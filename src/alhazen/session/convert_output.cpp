@@ -1,0 +1,160 @@
+#include "alhazen/session/convert_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <system_error>
+
+#include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+#include "alhazen/base/lower_case.h"
+#include "alhazen/session/scene_files.h"
+
+namespace alhazen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Scene files larger than this are not looked into: they may name anything.
+constexpr std::uint64_t kMaxSceneText = std::uint64_t{64} << 20;
+
+bool is_scene_text(const fs::path& path) {
+    static constexpr std::array<std::string_view, 6> kSuffixes{".alhazen", ".mtl", ".gltf",
+                                                               ".yaml",    ".yml", ".ray"};
+    const std::string suffix = lower_suffix(path);
+    return std::find(kSuffixes.begin(), kSuffixes.end(), suffix) != kSuffixes.end();
+}
+
+/// Adds the names behind each "_files/" of a text, as far as conversions make such names.
+void add_names(std::string_view text, std::set<std::string>& names) {
+    constexpr std::string_view kFolder = "_files";
+    for (std::size_t at = text.find(kFolder); at != std::string_view::npos;
+         at = text.find(kFolder, at)) {
+        at += kFolder.size();
+        const std::size_t begin = std::min(text.find_first_not_of("/\\", at), text.size());
+        if (begin == at) continue;
+        std::size_t end = begin;
+        while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) != 0 ||
+                                     text[end] == '_' || text[end] == '.')) {
+            ++end;
+        }
+        names.emplace(text.substr(begin, end - begin));
+        at = end;
+    }
+}
+
+bool holds_bytes(const fs::path& path, std::span<const std::byte> bytes) {
+    std::error_code failed;
+    if (fs::file_size(path, failed) != bytes.size() || failed) return false;
+    const std::string old = read_file(path, bytes.size());
+    return std::ranges::equal(std::as_bytes(std::span(old)), bytes);
+}
+
+}  // namespace
+
+ConvertOutput::~ConvertOutput() {
+    if (finished_) return;
+    std::error_code ignored;
+    for (const fs::path& file : made_) fs::remove(file, ignored);
+    if (made_folder_) fs::remove(*made_folder_, ignored);  // only when it is empty
+}
+
+void ConvertOutput::check_inputs(const std::set<fs::path>& inputs) const {
+    std::vector<fs::path> written{path_};
+    if (suffix_ == ".obj") written.push_back(path_.parent_path() / sibling(".mtl"));
+    const bool has_folder = suffix_ == ".obj" || suffix_ == ".alhazen";
+    const fs::path files = path_.parent_path() / folder();
+    for (const fs::path& input : inputs) {
+        std::error_code failed;
+        const fs::path target = fs::canonical(input, failed);
+        const bool replaced = std::any_of(written.begin(), written.end(),
+                                          [&](const auto& w) { return is_same_file(w, input); });
+        const bool inside = has_folder && (is_same_file(fs::absolute(input).parent_path(), files) ||
+                                           is_same_file(target.parent_path(), files));
+        if (!replaced && !inside) continue;
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{} belongs to the scene that is read and could be overwritten; "
+                                "expected another name for {}",
+                                input.string(), path_.string()));
+    }
+}
+
+std::string ConvertOutput::write_beside(const std::string& name, std::span<const std::byte> bytes) {
+    const fs::path path = path_.parent_path() / name;
+    make_folder(path.parent_path());
+    const fs::path free = free_name(path, bytes);
+    write(free, bytes);
+    return (fs::path(name).parent_path() / free.filename()).string();
+}
+
+void ConvertOutput::write_sibling(const fs::path& name, std::span<const std::byte> bytes) {
+    write(path_.parent_path() / name, bytes);
+}
+
+ConvertReport ConvertOutput::finish(std::span<const std::byte> bytes) {
+    write(path_, bytes);
+    finished_ = true;
+    return std::move(report_);
+}
+
+void ConvertOutput::make_folder(const fs::path& folder) {
+    std::error_code failed;
+    if (fs::create_directory(folder, failed)) made_folder_ = folder;
+    if (failed || !fs::is_directory(folder)) {
+        throw Error(ErrorKind::File, "cannot make the folder: " + failed.message(),
+                    {folder.string(), 0, 0});
+    }
+}
+
+fs::path ConvertOutput::free_name(const fs::path& path, std::span<const std::byte> bytes) {
+    fs::path candidate = path;
+    // Each round passes over a file that is there: there are not that many.
+    for (int number = 2;; ++number) {
+        std::error_code failed;
+        const fs::file_status status = fs::symlink_status(candidate, failed);
+        if (!fs::exists(status)) return candidate;
+        const bool replaceable =
+            fs::is_regular_file(status) &&
+            (!is_named_by_others(candidate.filename().string()) || holds_bytes(candidate, bytes));
+        if (replaceable) return candidate;
+        candidate = path;
+        candidate.replace_filename(
+            fmt::format("{}_v{}{}", path.stem().string(), number, path.extension().string()));
+    }
+}
+
+bool ConvertOutput::is_named_by_others(const std::string& file_name) {
+    if (!named_by_others_) {
+        named_by_others_.emplace();
+        const fs::path beside = path_.has_parent_path() ? path_.parent_path() : fs::path(".");
+        std::error_code failed;
+        for (const auto& entry : fs::directory_iterator(beside, failed)) {
+            std::error_code no_file;
+            if (!is_scene_text(entry.path()) || !entry.is_regular_file(no_file)) continue;
+            // What is about to be replaced does not count.
+            if (is_same_file(entry.path(), path_)) continue;
+            if (suffix_ == ".obj" && is_same_file(entry.path(), beside / sibling(".mtl"))) continue;
+            try {
+                add_names(read_file(entry.path(), kMaxSceneText), *named_by_others_);
+            } catch (const Error&) {
+                may_name_anything_ = true;
+            }
+        }
+    }
+    return may_name_anything_ || named_by_others_->contains(file_name);
+}
+
+void ConvertOutput::write(const fs::path& path, std::span<const std::byte> bytes) {
+    std::error_code failed;
+    const bool fresh = !fs::exists(fs::symlink_status(path, failed));
+    write_file_atomically(path, bytes);
+    if (fresh) made_.push_back(path);
+    report_.files.push_back(path);
+    report_.bytes += bytes.size();
+}
+
+}  // namespace alhazen
