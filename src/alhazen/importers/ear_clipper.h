@@ -9,7 +9,7 @@
 /// next corner that does not turn right, so that n vertices always give n - 2 triangles.
 /// Conventions: a simple counter-clockwise polygon is tiled by its triangles, exactly; those of
 /// other polygons have its signed area.
-/// Complexity and threads: O(n log n) and at most 3 n searches of the tree, each O(sqrt n) for
+/// Complexity and threads: O(n log n) and at most 11 n searches of the tree, each O(sqrt n) for
 /// evenly spread vertices; a polygon for which they look at more than kTestsPerVertex n boxes, and
 /// more than kMostTests, is cut without looking from there on: no polygon of up to 4096 vertices
 /// comes there. No state shared.

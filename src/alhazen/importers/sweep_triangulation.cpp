@@ -175,7 +175,7 @@ class Sweep {
         return is_new;
     }
     bool close(std::uint32_t region) {
-        lower_edges_.erase(places_[region]);
+        lower_edges_.erase(std::exchange(places_[region], lower_edges_.end()));
         region_of_[regions_[region].lower] = kNone;
         return true;
     }
