@@ -143,8 +143,8 @@ MEMORY, SIDE, PIXELS = "--max-image-mib", "--max-image-side", "--max-image-pixel
 # What is rendered, and None or the option that its message must name.
 CASES = {
     "20 PNGs of 8192 x 4096 in one glTF": (many_pictures, MEMORY),
-    # The fullest that fits: 256 MiB and twice 171.
-    "a PNG of 8192 x 8192 as colour and as normals": (lambda f: color_and_normal(f, 8192, 8192), None),
+    # 128 MiB and twice 85; of twice the height 597 MiB, which fit as well but take their time.
+    "a PNG of 8192 x 4096 as colour and as normals": (lambda f: color_and_normal(f, 8192, 4096), None),
     "a PNG of 8192 x 8192 x 16 bits": (lambda f: native(f, png, 8192, 8192, RGBA, 16), MEMORY),
     "a PNG of 2048 x 2048 x 16 bits": (lambda f: native(f, png, 2048, 2048, RGBA, 16), None),
     "a PNG of 32768 x 4096": (lambda f: native(f, png, 32768, 4096, RGB), PIXELS),

@@ -98,12 +98,7 @@ void check_file(const Loading& loading, const Image& image, const std::string& p
         const auto path = resolve_inside(loading.roots, loading.folder, image.uri);
         check_bytes(loading, image, place, head_of(path));
     } catch (const Error& error) {
-        // Models are often passed on without all of their pictures, and are worth seeing.
-        if (error.kind() == ErrorKind::File) {
-            loading.warning(place + "/uri", std::string(error.what()) + "; it is left out");
-        } else {
-            loading.error(place + "/uri", error.what());
-        }
+        loading.error(place + "/uri", error.what());
     } catch (const std::filesystem::filesystem_error& error) {
         loading.error(place + "/uri", error.what());
     }

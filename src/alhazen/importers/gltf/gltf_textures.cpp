@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
-
-#include "alhazen/base/file.h"
 
 namespace alhazen::gltf {
 
@@ -56,17 +53,6 @@ TextureId Textures::use(const std::optional<TextureInfo>& info, ColorSpace space
     return entry->second;
 }
 
-bool Textures::is_missing(const Image& image) const {
-    const std::filesystem::path folder = folder_of(source_.path);
-    try {
-        std::error_code failed;
-        return !std::filesystem::is_regular_file(
-            resolve_inside(scene_roots(source_.options, folder), folder, image.uri), failed);
-    } catch (const Error&) {
-        return false;  // not to be read, whether it is there or not
-    }
-}
-
 TextureId Textures::make(const TextureInfo& info, ColorSpace space) {
     const FileLocation where{source_.path.string(), 0, 0};
     const Texture& texture = document_.textures[info.texture];
@@ -94,7 +80,6 @@ TextureId Textures::make(const TextureInfo& info, ColorSpace space) {
     const std::string name = name_of(image, index);
     std::optional<TextureId> id;
     if (!image.uri.empty()) {
-        if (is_missing(image)) return kNoTexture;  // was reported with the images
         id = table_.load(image.uri, folder_of(source_.path), settings, name, where);
     } else {
         const std::string_view bytes =

@@ -26,14 +26,13 @@ class Textures {
     Textures(const Document& document, const ImportSource& source, SceneDescription& scene,
              Diagnostics& diagnostics);
 
-    /// kNoTexture when there is none, its file is missing (a warning) or cannot be read (an error).
+    /// kNoTexture when there is none or it cannot be read (then reported).
     [[nodiscard]] TextureId use(const std::optional<TextureInfo>& info, ColorSpace space);
 
   private:
     using Key =
         std::tuple<Index, Index, std::array<double, 2>, std::array<double, 2>, double, ColorSpace>;
 
-    [[nodiscard]] bool is_missing(const Image& image) const;
     [[nodiscard]] TextureId make(const TextureInfo& info, ColorSpace space);
 
     const Document& document_;
