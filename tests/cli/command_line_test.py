@@ -174,7 +174,10 @@ class CommandLine(unittest.TestCase):
             "nodes": [{"name": bad + "\nnext", "camera": 0}], "materials": [{"name": bad + "\nnext"}],
             "cameras": [{"name": bad, "type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
             "images": [{"uri": name + "\n.png"}], "textures": [{"source": 0}]}))
-        results = [run("render", mesh, "-o", self.path("o.png"), "--size", "8x8"), run("info", mesh),
+        missing = run("info", gltf)
+        self.assertEqual(missing.returncode, 3)
+        self.write(name + "\n.png", "no picture")
+        results = [missing, run("render", mesh, "-o", self.path("o.png"), "--size", "8x8"), run("info", mesh),
                    run("info", mesh, "--json"), run("info", gltf), run("info", gltf, "--json"),
                    run("render", gltf, "-o", self.path("o.png"), "--camera", "nobody"), run("info", self.path(name))]
         for result in results:
@@ -183,9 +186,9 @@ class CommandLine(unittest.TestCase):
             # No name begins a line.
             self.assertNotIn("\nnext", text)
             self.assertTrue(text)
-        self.assertIn(r"x\x1b[31m\x07\x7f\xc2\x9b", results[1].stdout)
-        self.assertEqual(json.loads(results[4].stdout)["materials"][0]["name"], bad + "\nnext")
-        self.assertIn(r"\x00y", results[3].stdout)
+        self.assertIn(r"x\x1b[31m\x07\x7f\xc2\x9b", results[2].stdout)
+        self.assertEqual(json.loads(results[5].stdout)["materials"][0]["name"], bad + "\nnext")
+        self.assertIn(r"\x00y", results[4].stdout)
 
     def test_the_same_bits_for_any_threads_tiles_and_accelerator(self):
         self.render("-t", "1", "--tile-size", "64", "--spp", "4", output="a.png")
