@@ -1,7 +1,10 @@
 /// Rays per second of wide_bvh beside Embree: same triangles, same rays, one thread, A B A B,
 /// medians. Usage: alhazen_kernel_bench [MESH_FILE...] [--json FILE] [--side N] [--rounds N]
+/// [--only RAYS]
 
 #include <fmt/format.h>
+
+#include <time.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -27,6 +30,7 @@ using json = nlohmann::ordered_json;
 struct Arguments {
     std::vector<std::string> meshes;
     std::string json_file;
+    std::string only;  ///< name of a ray set; empty: all
     int side = 512;
     int rounds = 5;
 };
@@ -52,9 +56,55 @@ std::size_t trace(const Aggregate& aggregate, const RaySet& set) {
     return hits;
 }
 
+/// The same rays by the batch, as many at a time as a renderer's tile has.
+std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set) {
+    constexpr std::size_t kBatch = 1024;
+    std::vector<Hit> hits(kBatch);
+    const auto occluded = std::make_unique<bool[]>(kBatch);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < set.rays.size(); i += kBatch) {
+        const std::size_t n = std::min(kBatch, set.rays.size() - i);
+        const std::span<const Ray> rays(&set.rays[i], n);
+        if (set.any_hit) {
+            aggregate.occluded_batch(rays, {occluded.get(), n}, nullptr);
+            for (std::size_t k = 0; k < n; ++k) count += occluded[k];
+        } else {
+            aggregate.closest_batch(rays, std::span(hits).first(n), nullptr);
+            for (std::size_t k = 0; k < n; ++k) count += hits[k].found();
+        }
+    }
+    return count;
+}
+
+/// What a ray of the set costs on average, counted.
+json count_work(const Aggregate& aggregate, const RaySet& set) {
+    TraversalStats stats;
+    for (const Ray& ray : set.rays) {
+        Hit hit;
+        if (set.any_hit) {
+            (void)aggregate.occluded(ray, &stats);
+        } else {
+            (void)aggregate.closest(ray, hit, &stats);
+        }
+    }
+    const auto per_ray = [&](std::uint64_t n) {
+        return static_cast<double>(n) / static_cast<double>(set.rays.size());
+    };
+    return {{"node_visits", per_ray(stats.node_visits)},
+            {"primitive_tests", per_ray(stats.primitive_tests)},
+            {"primitive_hits", per_ray(stats.primitive_hits)}};
+}
+
 double median(std::vector<double> v) {
     std::sort(v.begin(), v.end());
     return v[v.size() / 2];
+}
+
+/// Seconds that this thread has computed: what other programs take of the processor does not count.
+double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Tracers in turn, round after round, so that a drift of the machine's speed meets them all alike.
@@ -64,11 +114,12 @@ json measure(const RaySet& set, const Tracers& tracers, int rounds) {
     std::vector<std::size_t> hits(tracers.size());
     for (int round = 0; round <= rounds; ++round) {
         for (std::size_t i = 0; i < tracers.size(); ++i) {
-            const Stopwatch time;
+            const double begin = processor_seconds();
             hits[i] = tracers[i].trace(set);
+            const double seconds = processor_seconds() - begin;
             // The first round warms the caches.
             if (round > 0)
-                rates[i].push_back(1e-6 * static_cast<double>(set.rays.size()) / time.seconds());
+                rates[i].push_back(1e-6 * static_cast<double>(set.rays.size()) / seconds);
         }
     }
     json row = {{"rays", set.name}, {"count", set.rays.size()}};
@@ -94,7 +145,8 @@ json run(const KernelScene& scene, const Arguments& args) {
                    {"bytes_per_triangle", static_cast<double>(aggregate->memory_bytes()) /
                                               static_cast<double>(scene.mesh.triangles.size())}};
     std::vector<Tracer> tracers{
-        {"wide_bvh", [&](const RaySet& s) { return trace(*aggregate, s); }}};
+        {"wide_bvh", [&](const RaySet& s) { return trace(*aggregate, s); }},
+        {"wide_bvh_batch", [&](const RaySet& s) { return trace_batches(*aggregate, s); }}};
 #ifdef ALHAZEN_HAVE_EMBREE
     const EmbreeTracer fast(scene.mesh, false), robust(scene.mesh, true);
     result["build_seconds"]["embree"] = fast.build_seconds();
@@ -103,8 +155,12 @@ json run(const KernelScene& scene, const Arguments& args) {
 #endif
     fmt::print("{}: {} triangles\n", scene.name, scene.mesh.triangles.size());
     for (const RaySet& set : ray_sets(scene, *aggregate, args.side)) {
+        if (!args.only.empty() && set.name != args.only) continue;
         json row = measure(set, tracers, args.rounds);
-        fmt::print("  {:<9}", set.name);
+        row["wide_bvh_per_ray"] = count_work(*aggregate, set);
+        fmt::print("  {:<9} {:5.1f} nodes {:5.1f} tests per ray", set.name,
+                   row["wide_bvh_per_ray"]["node_visits"].get<double>(),
+                   row["wide_bvh_per_ray"]["primitive_tests"].get<double>());
         for (const Tracer& t : tracers) {
             fmt::print(" {:>14} {:7.3f} ({} hits)", t.name,
                        row[t.name]["mrays_per_s"].get<double>(),
@@ -128,6 +184,8 @@ Arguments parse(int argc, char** argv) {
             args.json_file = value();
         } else if (a == "--side") {
             args.side = std::stoi(value());
+        } else if (a == "--only") {
+            args.only = value();
         } else if (a == "--rounds") {
             args.rounds = std::stoi(value());
         } else {
@@ -145,7 +203,9 @@ int main(int argc, char** argv) try {
     for (const std::string& file : args.meshes) {
         results.push_back(run(mesh_scene(std::filesystem::path(file).stem().string(), file), args));
     }
-    results.push_back(run(tessellated_balls(4, 1), args));
+    if (args.meshes.empty() || args.only.empty()) {
+        results.push_back(run(tessellated_balls(4, 1), args));
+    }
     if (!args.json_file.empty()) write_file_atomically(args.json_file, results.dump(2) + "\n");
     return 0;
 } catch (const std::exception& error) {

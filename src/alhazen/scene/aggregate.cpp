@@ -2,6 +2,16 @@
 
 namespace alhazen {
 
+void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
+                              TraversalStats* stats) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) (void)closest(rays[i], hits[i], stats);
+}
+
+void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result,
+                               TraversalStats* stats) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], stats);
+}
+
 bool hit_less(const Hit& a, const Hit& b) {
     if (a.t != b.t) return a.t < b.t;
     // Outermost ids first: paths are stored innermost first, followed outward.

@@ -6,6 +6,7 @@
 /// ray hits nothing. Threads: const functions may be called from many threads.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "alhazen/accel/traversal_stats.h"
@@ -39,6 +40,14 @@ class Aggregate {
     /// light.
     [[nodiscard]] virtual bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                         TraversalStats* stats) const = 0;
+
+    /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
+    /// than ray by ray from about ten rays on, whatever their order.
+    virtual void closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
+                               TraversalStats* stats) const;
+    /// Whether there is any hit on every ray.
+    virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
+                                TraversalStats* stats) const;
 };
 
 /// The order of hits: by t, then by the ids from the outermost aggregate inward. Sorts must be

@@ -62,19 +62,21 @@ class Packer final : public LeafSink {
 
   private:
     template <class Block>
-    NodeRef add_blocks(std::uint32_t kind, std::vector<Block>& blocks) {
+    NodeRef add_blocks(std::uint32_t kind, HugeVector<Block>& blocks) {
         const std::size_t offset = blocks.size();
         for (std::size_t i = 0; i < ids_.size(); i += kBlockWidth) {
             const std::size_t count = std::min(kBlockWidth, ids_.size() - i);
             Block& block = blocks.emplace_back();
             for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
-                const PrimitiveId id = ids_[i + (lane < count ? lane : 0)];
-                fill(block, lane, id);
-                block.ids.id[lane] = id;
-                if (table_.is_opaque(id)) block.ids.opaque |= 1u << lane;
+                if (lane < count) {
+                    const PrimitiveId id = ids_[i + lane];
+                    fill(block, lane, id);
+                    block.ids[lane] = {id, table_.is_opaque(id)};
+                } else {
+                    leave_free(block, lane);
+                    block.ids[lane] = BlockId::none();
+                }
             }
-            block.ids.lanes = (1u << count) - 1;
-            block.ids.opaque &= block.ids.lanes;
         }
         return reference(kind, offset, blocks.size() - offset);
     }
@@ -82,8 +84,19 @@ class Packer final : public LeafSink {
     void fill(TriangleBlock& block, std::size_t lane, PrimitiveId id) const {
         const auto corners = table_.triangle_vertices(table_.index(id));
         for (std::size_t corner = 0; corner < 3; ++corner) {
+            const Vec3 local = layout_.frame.local(corners[corner]);
             for (int axis = 0; axis < 3; ++axis) {
-                block.vertex[corner][axis][lane] = corners[corner][axis];
+                block.vertex[corner][axis][lane] = static_cast<float>(local[axis]);
+            }
+        }
+    }
+    /// Rays that come near it have left the scene, and the filter sees it from the edge by chance
+    /// only.
+    static void leave_free(TriangleBlock& block, std::size_t lane) {
+        constexpr float kFar[3][3] = {{40, 47, 53}, {41, 45, 52}, {42, 48, 50}};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                block.vertex[corner][axis][lane] = kFar[corner][axis];
             }
         }
     }
@@ -92,6 +105,11 @@ class Packer final : public LeafSink {
             std::get<ShapeColumn<Sphere>>(table_.columns).shapes[table_.index(id)];
         for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
         block.radius[lane] = sphere.radius;
+        block.lanes |= 1u << lane;
+    }
+    static void leave_free(SphereBlock& block, std::size_t lane) {
+        for (auto& center : block.center) center[lane] = center[0];
+        block.radius[lane] = block.radius[0];
     }
 
     static NodeRef reference(std::uint32_t kind, std::size_t offset, std::size_t count) {
@@ -122,6 +140,9 @@ Box3 box_of_all(const BoundedPrimitives& bounded) {
 }  // namespace
 
 WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitives& bounded) {
+    if (table.size() > BlockId::kLimit) {
+        throw Error(ErrorKind::Resource, "too many primitives for one wide BVH");
+    }
     WideBvhLayout layout;
     layout.frame = LocalFrame(box_of_all(bounded));
     std::vector<BuildReference> references(bounded.size());

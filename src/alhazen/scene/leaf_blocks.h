@@ -1,10 +1,10 @@
 #pragma once
-/// How primitives lie in the leaves of the wide BVH: eight of one kind side by side, lane by
-/// lane, in double, so that the block test has the very numbers of the scalar one. Kinds without
-/// a block are tested one by one.
+/// How primitives lie in the leaves of the wide BVH: eight of one kind side by side, lane by lane.
+/// Triangles are there in float, in the local frame, for the filter (triangle_filter.h); spheres in
+/// double, so that the block test has the very numbers of the scalar one. Kinds without a block are
+/// tested one by one.
 ///
-/// Conventions: lanes are in ascending order of id; `lanes` has a bit for each lane in use,
-/// `opaque` for each that lets no light through; lanes not in use repeat the first.
+/// Conventions: lanes are in ascending order of id; the used ones come first.
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,6 @@
 #include "alhazen/accel/wide_bvh/local_frame.h"
 #include "alhazen/accel/wide_bvh/wide_node.h"
 #include "alhazen/geometry/hit.h"
-#include "alhazen/math/vec.h"
 
 namespace alhazen {
 
@@ -22,31 +21,52 @@ class PrimitiveTable;
 
 inline constexpr std::size_t kBlockWidth = 8;
 
+/// Lanes of a block that are in use.
+template <class Block>
+[[nodiscard]] std::uint32_t used_lanes(const Block& block) {
+    std::uint32_t count = 0;
+    for (const auto& id : block.ids) count += id.used();
+    return count;
+}
+
 /// Kinds of leaf, as NodeRef::kind.
 enum class LeafType : std::uint32_t { Triangles, Spheres, Others };
 
-/// What all blocks have beside their geometry.
-struct BlockIds {
-    PrimitiveId id[kBlockWidth];
-    std::uint32_t lanes = 0;
-    std::uint32_t opaque = 0;
+/// What a lane holds.
+class BlockId {
+  public:
+    BlockId() = default;
+    BlockId(PrimitiveId id, bool opaque)
+        : bits_(static_cast<std::uint32_t>(id) | (opaque ? kOpaqueBit : 0u)) {}
+    /// Of the lanes that are not in use.
+    [[nodiscard]] static BlockId none() { return {kNoPrimitive, true}; }
+
+    [[nodiscard]] bool used() const { return bits_ != static_cast<std::uint32_t>(kNoPrimitive); }
+    [[nodiscard]] PrimitiveId id() const { return PrimitiveId{bits_ & ~kOpaqueBit}; }
+    /// It lets no light through.
+    [[nodiscard]] bool opaque() const { return (bits_ & kOpaqueBit) != 0; }
+
+    /// Ids from this on do not fit.
+    static constexpr std::uint32_t kLimit = 0x7FFFFFFFu;
+
+  private:
+    static constexpr std::uint32_t kOpaqueBit = 1u << 31;
+    std::uint32_t bits_;
 };
 
+/// Five cache lines. Lanes not in use hold a triangle far outside of the scene.
 struct alignas(64) TriangleBlock {
-    double vertex[3][3][kBlockWidth];  ///< [corner][axis][lane]
-    BlockIds ids;
-
-    [[nodiscard]] Vec3 corner(int i, std::size_t lane) const {
-        return {vertex[i][0][lane], vertex[i][1][lane], vertex[i][2][lane]};
-    }
+    float vertex[3][3][kBlockWidth];  ///< [corner][axis][lane], in the frame of the tree
+    BlockId ids[kBlockWidth];
 };
-static_assert(sizeof(TriangleBlock) == 640);
+static_assert(sizeof(TriangleBlock) == 320);
 
 /// Spheres that stand in the frame of the aggregate.
 struct alignas(64) SphereBlock {
     double center[3][kBlockWidth];  ///< [axis][lane]
     double radius[kBlockWidth];
-    BlockIds ids;
+    BlockId ids[kBlockWidth];
+    std::uint32_t lanes = 0;  ///< a bit for each lane in use; the others repeat the first
 };
 static_assert(sizeof(SphereBlock) == 320);
 
@@ -54,8 +74,8 @@ static_assert(sizeof(SphereBlock) == 320);
 struct WideBvhLayout {
     LocalFrame frame;
     WideBvh tree;
-    std::vector<TriangleBlock> triangles;
-    std::vector<SphereBlock> spheres;
+    HugeVector<TriangleBlock> triangles;
+    HugeVector<SphereBlock> spheres;
     std::vector<PrimitiveId> others;
 
     [[nodiscard]] std::size_t memory_bytes() const;

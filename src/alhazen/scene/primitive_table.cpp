@@ -102,6 +102,18 @@ std::array<Vec3, 3> PrimitiveTable::triangle_vertices(std::uint32_t triangle) co
     return {p[corners[0]], p[corners[1]], p[corners[2]]};
 }
 
+const std::array<std::uint32_t, 3>* PrimitiveTable::triangle_corners(std::uint32_t triangle) const {
+    const PlacedMesh& placed = mesh_of(triangle);
+    return &placed.mesh->triangles[triangle - placed.first_triangle];
+}
+
+std::array<const Vec3*, 3> PrimitiveTable::corner_positions(std::uint32_t triangle) const {
+    const PlacedMesh& placed = mesh_of(triangle);
+    const auto& corners = placed.mesh->triangles[triangle - placed.first_triangle];
+    const Vec3* p = placed.mesh->positions.data();
+    return {p + corners[0], p + corners[1], p + corners[2]};
+}
+
 bool PrimitiveTable::is_opaque(PrimitiveId id) const {
     const std::uint32_t k = kind(id);
     const std::uint32_t i = static_cast<std::uint32_t>(id) - first_[k];

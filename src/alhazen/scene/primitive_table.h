@@ -91,6 +91,10 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] const PlacedMesh& mesh_of(std::uint32_t triangle) const;
     /// Vertices of the i-th triangle of the table.
     [[nodiscard]] std::array<Vec3, 3> triangle_vertices(std::uint32_t triangle) const;
+    /// Where these vertices lie, and the indices that lead to them: to fetch them ahead of use.
+    [[nodiscard]] std::array<const Vec3*, 3> corner_positions(std::uint32_t triangle) const;
+    [[nodiscard]] const std::array<std::uint32_t, 3>* triangle_corners(
+        std::uint32_t triangle) const;
     /// True when the primitive lets no light through from either side (an instance never does for
     /// sure: false).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "alhazen/base/huge_pages.h"
 #include "alhazen/scene/aggregate_of.h"
 #include "alhazen/scene/bounded_primitives.h"
 
@@ -13,6 +14,10 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table)
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
     layout_ = build_wide_bvh(table_, bounded);
+    for (const PlacedMesh& placed : table_.meshes) {
+        collapse_to_huge_pages(std::span(placed.mesh->triangles));
+        collapse_to_huge_pages(std::span(placed.mesh->positions));
+    }
 }
 
 std::size_t WideBvhAggregate::memory_bytes() const {
@@ -39,7 +44,7 @@ bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, TraversalStats* stats) 
         table_.closest(id, shrinking, shear, hit, policy);
         return false;
     });
-    if (!layout_.tree.empty) kernels_->closest(scene(), shrinking, shear, hit, stats);
+    if (!layout_.tree.empty) kernels_->closest(scene(), shrinking, hit, stats);
     return hit.found();
 }
 
@@ -50,7 +55,7 @@ bool WideBvhAggregate::occluded(const Ray& ray, TraversalStats* stats) const {
         return table_.occluded(id, ray, shear, policy);
     });
     if (found || layout_.tree.empty) return found;
-    return kernels_->occluded(scene(), ray, shear, stats);
+    return kernels_->occluded(scene(), ray, stats);
 }
 
 void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits,
@@ -62,7 +67,7 @@ void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits,
         table_.all_hits(id, ray, shear, hits, policy);
         return false;
     });
-    if (!layout_.tree.empty) (void)kernels_->all_hits(scene(), ray, shear, hits, stats);
+    if (!layout_.tree.empty) (void)kernels_->all_hits(scene(), ray, hits, stats);
     sort_appended(hits, before);
 }
 
@@ -75,10 +80,37 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings,
         return table_.shadowed(id, ray, shear, crossings, policy);
     });
     if (opaque) return true;
-    if (!layout_.tree.empty && kernels_->shadowed(scene(), ray, shear, crossings, stats))
-        return true;
+    if (!layout_.tree.empty && kernels_->shadowed(scene(), ray, crossings, stats)) return true;
     sort_appended(crossings, before);
     return false;
+}
+
+void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
+                                     TraversalStats* stats) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = Hit{};
+        if (unbounded_.empty() || !is_valid(rays[i])) continue;
+        Ray shrinking = rays[i];
+        const RayShear shear(shrinking.direction);
+        any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+            table_.closest(id, shrinking, shear, hits[i], policy);
+            return false;
+        });
+    }
+    if (!layout_.tree.empty) kernels_->closest_batch(scene(), rays, hits, stats);
+}
+
+void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
+                                      TraversalStats* stats) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        occluded[i] = false;
+        if (unbounded_.empty() || !is_valid(rays[i])) continue;
+        const RayShear shear(rays[i].direction);
+        occluded[i] = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+            return table_.occluded(id, rays[i], shear, policy);
+        });
+    }
+    if (!layout_.tree.empty) kernels_->occluded_batch(scene(), rays, occluded, stats);
 }
 
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id) {

@@ -1,6 +1,6 @@
 #pragma once
 /// The production accelerator: a bounding volume hierarchy eight wide, traversed with SIMD, its
-/// leaves blocks of eight triangles or spheres in double.
+/// leaves blocks of eight triangles or spheres.
 ///
 /// Source: see the headers of accel/wide_bvh/.
 /// Differs: boxes are float but conservative with respect to tests in double, so the hits are
@@ -37,6 +37,10 @@ class WideBvhAggregate final : public Aggregate {
     void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                 TraversalStats* stats) const override;
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
+                       TraversalStats* stats) const override;
+    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
+                        TraversalStats* stats) const override;
 
   private:
     [[nodiscard]] WideBvhScene scene() const { return {&table_, &layout_}; }

@@ -1,6 +1,7 @@
 #pragma once
 /// The queries of the wide BVH aggregate, compiled once per instruction set.
 
+#include <span>
 #include <vector>
 
 #include "alhazen/scene/leaf_blocks.h"
@@ -14,17 +15,21 @@ struct WideBvhScene {
     const WideBvhLayout* layout;
 };
 
-/// The queries of `Aggregate` on the bounded primitives; the ray is valid, the tree not empty,
-/// `stats` may be null, hits are appended unsorted. `best` and `ray.t_max` may hold a hit found
-/// before.
+/// The queries of `Aggregate` on the bounded primitives; the tree is not empty, `stats` may be
+/// null, hits are appended unsorted. Single rays are valid.
 struct WideBvhKernels {
-    void (*closest)(const WideBvhScene&, Ray& ray, const RayShear&, Hit& best, TraversalStats*);
-    bool (*occluded)(const WideBvhScene&, const Ray&, const RayShear&, TraversalStats*);
+    /// `best` may hold a hit found before; ray.t_max is not beyond it.
+    void (*closest)(const WideBvhScene&, const Ray&, Hit& best, TraversalStats*);
+    bool (*occluded)(const WideBvhScene&, const Ray&, TraversalStats*);
     /// Always false.
-    bool (*all_hits)(const WideBvhScene&, const Ray&, const RayShear&, std::vector<Hit>&,
-                     TraversalStats*);
-    bool (*shadowed)(const WideBvhScene&, const Ray&, const RayShear&, std::vector<Hit>&,
-                     TraversalStats*);
+    bool (*all_hits)(const WideBvhScene&, const Ray&, std::vector<Hit>&, TraversalStats*);
+    bool (*shadowed)(const WideBvhScene&, const Ray&, std::vector<Hit>&, TraversalStats*);
+    /// [ray] each; `best` may hold hits found before.
+    void (*closest_batch)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
+                          TraversalStats*);
+    /// [ray] each; what is true already stays so.
+    void (*occluded_batch)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
+                           TraversalStats*);
 };
 
 /// Out of line, so that no copy of std::vector's code is made for a wide instruction set.

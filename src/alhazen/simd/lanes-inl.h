@@ -1,8 +1,8 @@
-/// Eight lanes of float or double with the operators of a scalar: what the templates of geometry/
-/// need to run on a block of eight primitives, and the node test on eight children.
+/// Eight (or N) lanes of float or double with the operators of a scalar: what the templates of
+/// geometry/ need to run on a block of eight primitives, and the node test on eight children.
 ///
-/// A block is one AVX-512 register of double, two of AVX, four of SSE. Every operation is the
-/// correctly rounded IEEE one and nothing is fused unless `mul_add` is called, so each lane has
+/// A block of double is one AVX-512 register of double, two of AVX, four of SSE. Every operation is
+/// the correctly rounded IEEE one and nothing is fused unless `mul_add` is called, so each lane has
 /// the bits of the scalar form on every target.
 /// Conventions: included once per target, by the pattern of Highway's foreach_target.h;
 /// everything is in HWY_NAMESPACE and must not escape from it.
@@ -35,27 +35,28 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr std::size_t kLaneCount = 8;
+inline constexpr std::uint32_t kAllLanes = (1u << kLaneCount) - 1;
 
-template <class T>
-using LaneTag = hn::CappedTag<T, kLaneCount>;
+template <class T, std::size_t N = kLaneCount>
+using LaneTag = hn::CappedTag<T, N>;
 
 /// Registers in a block.
-template <class T>
-inline constexpr std::size_t kParts = kLaneCount / hn::MaxLanes(LaneTag<T>());
+template <class T, std::size_t N = kLaneCount>
+inline constexpr std::size_t kParts = N / hn::MaxLanes(LaneTag<T, N>());
 
-template <class T>
+template <class T, std::size_t N = kLaneCount>
 struct LaneMask {
-    hn::Mask<LaneTag<T>> part[kParts<T>];
+    hn::Mask<LaneTag<T, N>> part[kParts<T, N>];
 };
 
-template <class T>
+template <class T, std::size_t N = kLaneCount>
 struct Lanes {
-    hn::Vec<LaneTag<T>> part[kParts<T>];
+    hn::Vec<LaneTag<T, N>> part[kParts<T, N>];
 
     Lanes() = default;
     /// All lanes the same.
     HWY_INLINE explicit Lanes(T value) {
-        for (std::size_t i = 0; i < kParts<T>; ++i) part[i] = hn::Set(LaneTag<T>(), value);
+        for (std::size_t i = 0; i < kParts<T, N>; ++i) part[i] = hn::Set(LaneTag<T, N>(), value);
     }
 };
 
@@ -63,45 +64,107 @@ using Doubles = Lanes<double>;
 using Floats = Lanes<float>;
 
 /// `values` is aligned to a block (64 bytes for double, 32 for float).
-template <class T>
-HWY_INLINE Lanes<T> load_lanes(const T* values) {
-    Lanes<T> r;
-    const LaneTag<T> d;
-    for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = hn::Load(d, values + i * hn::Lanes(d));
+template <std::size_t N = kLaneCount, class T>
+HWY_INLINE Lanes<T, N> load_lanes(const T* values) {
+    Lanes<T, N> r;
+    const LaneTag<T, N> d;
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
+        r.part[i] = hn::Load(d, values + i * hn::Lanes(d));
+    }
     return r;
 }
-template <class T>
-HWY_INLINE void store_lanes(const Lanes<T>& a, T* values) {
-    const LaneTag<T> d;
-    for (std::size_t i = 0; i < kParts<T>; ++i) hn::Store(a.part[i], d, values + i * hn::Lanes(d));
+/// `values` is anywhere.
+template <std::size_t N = kLaneCount, class T>
+HWY_INLINE Lanes<T, N> load_unaligned_lanes(const T* values) {
+    Lanes<T, N> r;
+    const LaneTag<T, N> d;
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
+        r.part[i] = hn::LoadU(d, values + i * hn::Lanes(d));
+    }
+    return r;
+}
+template <class T, std::size_t N>
+HWY_INLINE void store_lanes(const Lanes<T, N>& a, T* values) {
+    const LaneTag<T, N> d;
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
+        hn::Store(a.part[i], d, values + i * hn::Lanes(d));
+    }
 }
 
-#define ALHAZEN_LANES_UNARY(name, expression)                               \
-    template <class T>                                                      \
-    HWY_INLINE Lanes<T> name(const Lanes<T>& a) {                           \
-        Lanes<T> r;                                                         \
-        ALHAZEN_UNROLL                                                      \
-        for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = expression; \
-        return r;                                                           \
+/// a where the mask is set, else b.
+template <class T, std::size_t N>
+HWY_INLINE Lanes<T, N> select(const LaneMask<T, N>& mask, const Lanes<T, N>& a,
+                              const Lanes<T, N>& b) {
+    Lanes<T, N> r;
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
+        r.part[i] = hn::IfThenElse(mask.part[i], a.part[i], b.part[i]);
     }
-#define ALHAZEN_LANES_BINARY(name, expression)                              \
-    template <class T>                                                      \
-    HWY_INLINE Lanes<T> name(const Lanes<T>& a, const Lanes<T>& b) {        \
-        Lanes<T> r;                                                         \
-        ALHAZEN_UNROLL                                                      \
-        for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = expression; \
-        return r;                                                           \
+    return r;
+}
+
+/// 2^floor(log2 a) of normal a > 0, and its reciprocal.
+template <std::size_t N>
+HWY_INLINE void powers_of_two(const Lanes<double, N>& a, Lanes<double, N>& power,
+                              Lanes<double, N>& reciprocal) {
+    const LaneTag<double, N> d;
+    const hn::RebindToUnsigned<LaneTag<double, N>> du;
+    for (std::size_t i = 0; i < kParts<double, N>; ++i) {
+        const auto exponent =
+            hn::And(hn::BitCast(du, a.part[i]), hn::Set(du, std::uint64_t{0x7FF} << 52));
+        power.part[i] = hn::BitCast(d, exponent);
+        reciprocal.part[i] =
+            hn::BitCast(d, hn::Sub(hn::Set(du, std::uint64_t{2046} << 52), exponent));
     }
-#define ALHAZEN_LANES_COMPARE(name, expression)                             \
-    template <class T>                                                      \
-    HWY_INLINE LaneMask<T> name(const Lanes<T>& a, const Lanes<T>& b) {     \
-        LaneMask<T> r;                                                      \
-        ALHAZEN_UNROLL                                                      \
-        for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = expression; \
-        return r;                                                           \
+}
+
+/// Rounded to float, the nearest.
+template <std::size_t N>
+HWY_INLINE void store_as_floats(const Lanes<double, N>& a, float* values) {
+    const LaneTag<double, N> d;
+    const hn::Rebind<float, LaneTag<double, N>> df;
+    for (std::size_t i = 0; i < kParts<double, N>; ++i) {
+        hn::Store(hn::DemoteTo(df, a.part[i]), df, values + i * hn::Lanes(d));
+    }
+}
+/// Rounded to float, as doubles again.
+template <std::size_t N>
+HWY_INLINE Lanes<double, N> rounded_to_float(const Lanes<double, N>& a) {
+    const LaneTag<double, N> d;
+    const hn::Rebind<float, LaneTag<double, N>> df;
+    Lanes<double, N> r;
+    for (std::size_t i = 0; i < kParts<double, N>; ++i) {
+        r.part[i] = hn::PromoteTo(d, hn::DemoteTo(df, a.part[i]));
+    }
+    return r;
+}
+
+#define ALHAZEN_LANES_UNARY(name, expression)                                  \
+    template <class T, std::size_t N>                                          \
+    HWY_INLINE Lanes<T, N> name(const Lanes<T, N>& a) {                        \
+        Lanes<T, N> r;                                                         \
+        ALHAZEN_UNROLL                                                         \
+        for (std::size_t i = 0; i < kParts<T, N>; ++i) r.part[i] = expression; \
+        return r;                                                              \
+    }
+#define ALHAZEN_LANES_BINARY(name, expression)                                 \
+    template <class T, std::size_t N>                                          \
+    HWY_INLINE Lanes<T, N> name(const Lanes<T, N>& a, const Lanes<T, N>& b) {  \
+        Lanes<T, N> r;                                                         \
+        ALHAZEN_UNROLL                                                         \
+        for (std::size_t i = 0; i < kParts<T, N>; ++i) r.part[i] = expression; \
+        return r;                                                              \
+    }
+#define ALHAZEN_LANES_COMPARE(name, expression)                                  \
+    template <class T, std::size_t N>                                            \
+    HWY_INLINE LaneMask<T, N> name(const Lanes<T, N>& a, const Lanes<T, N>& b) { \
+        LaneMask<T, N> r;                                                        \
+        ALHAZEN_UNROLL                                                           \
+        for (std::size_t i = 0; i < kParts<T, N>; ++i) r.part[i] = expression;   \
+        return r;                                                                \
     }
 
 ALHAZEN_LANES_UNARY(operator-, hn::Neg(a.part[i]))
+ALHAZEN_LANES_UNARY(abs, hn::Abs(a.part[i]))
 ALHAZEN_LANES_UNARY(sqrt, hn::Sqrt(a.part[i]))
 ALHAZEN_LANES_BINARY(operator+, hn::Add(a.part[i], b.part[i]))
 ALHAZEN_LANES_BINARY(operator-, hn::Sub(a.part[i], b.part[i]))
@@ -127,39 +190,45 @@ ALHAZEN_LANES_COMPARE(operator>=, hn::Ge(a.part[i], b.part[i]))
 #undef ALHAZEN_LANES_BINARY
 #undef ALHAZEN_LANES_COMPARE
 
-/// a b + c, fused where the target can: only for bounds that carry slack for either rounding.
-template <class T>
-HWY_INLINE Lanes<T> mul_add(const Lanes<T>& a, const Lanes<T>& b, const Lanes<T>& c) {
-    Lanes<T> r;
-    ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<T>; ++i) {
-        r.part[i] = hn::MulAdd(a.part[i], b.part[i], c.part[i]);
+/// Fused where the target can: only for bounds that carry slack for either rounding.
+#define ALHAZEN_LANES_FUSED(name, operation)                                \
+    template <class T, std::size_t N>                                       \
+    HWY_INLINE Lanes<T, N> name(const Lanes<T, N>& a, const Lanes<T, N>& b, \
+                                const Lanes<T, N>& c) {                     \
+        Lanes<T, N> r;                                                      \
+        ALHAZEN_UNROLL                                                      \
+        for (std::size_t i = 0; i < kParts<T, N>; ++i) {                    \
+            r.part[i] = operation(a.part[i], b.part[i], c.part[i]);         \
+        }                                                                   \
+        return r;                                                           \
     }
-    return r;
-}
+ALHAZEN_LANES_FUSED(mul_add, hn::MulAdd)         ///< a b + c
+ALHAZEN_LANES_FUSED(mul_sub, hn::MulSub)         ///< a b - c
+ALHAZEN_LANES_FUSED(neg_mul_add, hn::NegMulAdd)  ///< c - a b
+#undef ALHAZEN_LANES_FUSED
 
-template <class T>
-HWY_INLINE LaneMask<T> operator|(const LaneMask<T>& a, const LaneMask<T>& b) {
-    LaneMask<T> r;
+template <class T, std::size_t N>
+HWY_INLINE LaneMask<T, N> operator|(const LaneMask<T, N>& a, const LaneMask<T, N>& b) {
+    LaneMask<T, N> r;
     ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = hn::Or(a.part[i], b.part[i]);
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) r.part[i] = hn::Or(a.part[i], b.part[i]);
     return r;
 }
-template <class T>
-HWY_INLINE LaneMask<T> operator&(const LaneMask<T>& a, const LaneMask<T>& b) {
-    LaneMask<T> r;
+template <class T, std::size_t N>
+HWY_INLINE LaneMask<T, N> operator&(const LaneMask<T, N>& a, const LaneMask<T, N>& b) {
+    LaneMask<T, N> r;
     ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<T>; ++i) r.part[i] = hn::And(a.part[i], b.part[i]);
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) r.part[i] = hn::And(a.part[i], b.part[i]);
     return r;
 }
 
 /// Bit i for lane i.
-template <class T>
-HWY_INLINE std::uint32_t bits_of(const LaneMask<T>& a) {
-    const LaneTag<T> d;
+template <class T, std::size_t N>
+HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
+    const LaneTag<T, N> d;
     std::uint32_t bits = 0;
     ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<T>; ++i) {
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
         std::uint8_t byte[8] = {};  // Highway may write a whole word
         hn::StoreMaskBits(d, a.part[i], byte);
         bits |= static_cast<std::uint32_t>(byte[0]) << (i * hn::Lanes(d));

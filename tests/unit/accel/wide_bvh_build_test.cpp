@@ -64,13 +64,13 @@ WideBvh build_and_check(std::vector<BuildReference> references, const std::strin
     for (const WideNode& node : tree.nodes) {
         for (std::size_t i = 0; i < kWideNodeWidth; ++i) {
             const FloatBox box = node.box(i);
-            if (i >= node.child_count) {
+            if (i >= node.child_count()) {
                 EXPECT_EQ(box, FloatBox{}) << name << ": a free slot can be hit";
             } else if (node.child[i].is_leaf()) {
                 check_leaf(node.child[i], box);
             } else {
                 const WideNode& child = tree.nodes[node.child[i].index()];
-                for (std::size_t j = 0; j < child.child_count; ++j) {
+                for (std::size_t j = 0; j < child.child_count(); ++j) {
                     wrong_boxes += !contains(box, child.box(j));
                 }
             }
@@ -150,7 +150,7 @@ TEST(WideBvhBuild, TheExpectedCostIsFarBelowThatOfHalving) {
     const WideBvh tree = build_and_check(references, "clusters");
     float cost = 0;
     for (const WideNode& node : tree.nodes) {
-        for (std::size_t i = 0; i < node.child_count; ++i) cost += node.box(i).weight();
+        for (std::size_t i = 0; i < node.child_count(); ++i) cost += node.box(i).weight();
     }
     FloatBox all;
     for (const BuildReference& r : references) all.include(r.box);

@@ -75,6 +75,25 @@ std::string difference(const Answer& list, const Answer& tested) {
     return "";
 }
 
+/// The batches say what the single queries said.
+void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
+                     const std::vector<Answer>& answers, const std::string& name) {
+    std::vector<Hit> hits(rays.size());
+    tested.closest_batch(rays, hits, nullptr);
+    const auto occluded = std::make_unique<bool[]>(rays.size());
+    tested.occluded_batch(rays, {occluded.get(), rays.size()}, nullptr);
+    TraversalStats stats;
+    std::vector<Hit> counted(rays.size());
+    tested.closest_batch(rays, counted, &stats);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(same(hits[i], answers[i].closest))
+            << name << ", ray " << i << ": " << show(rays[i]) << ": " << show(answers[i].closest)
+            << " became " << show(hits[i]);
+        ASSERT_EQ(occluded[i], answers[i].occluded) << name << ", ray " << i;
+        ASSERT_TRUE(same(counted[i], hits[i])) << name << ", ray " << i;
+    }
+}
+
 using MakeRay = std::function<Ray(Random&)>;
 
 /// Compares with the list on `count` rays, on every instruction set.
@@ -100,6 +119,7 @@ void compare(const std::string& name, const PrimitiveTable& table, const MakeRay
             ASSERT_EQ(difference(answers[i], ask(*tested, rays[i])), "")
                 << name << " on " << target << ", ray " << i << ": " << show(rays[i]);
         }
+        compare_batches(*tested, rays, answers, name + " on " + target);
     }
 }
 
@@ -449,7 +469,7 @@ bool same_layout(const WideBvhLayout& a, const WideBvhLayout& b) {
     }
     if (a.triangles.size() != b.triangles.size()) return false;
     for (std::size_t i = 0; i < a.triangles.size(); ++i) {
-        if (std::memcmp(a.triangles[i].ids.id, b.triangles[i].ids.id, 32) != 0) return false;
+        if (std::memcmp(&a.triangles[i], &b.triangles[i], sizeof(TriangleBlock)) != 0) return false;
     }
     return equal(a.others, b.others);
 }

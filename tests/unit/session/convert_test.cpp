@@ -1,5 +1,7 @@
 #include "alhazen/session/convert.h"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -276,7 +278,7 @@ TEST(ConvertNative, FilesOfAnotherSceneAreNotReplaced) {
 TEST(ConvertNative, WithoutAnotherSceneTheNamesStayTheSame) {
     const ScratchFolder folder;
     const auto out = folder.path() / "out.alhazen";
-    for (const std::uint8_t grey : {10, 20, 30}) {
+    for (const std::uint8_t grey : std::array<std::uint8_t, 3>{10, 20, 30}) {
         const ConvertReport report = convert(textured(grey), out);
         EXPECT_EQ(report.files.at(0).filename(), "texture_0.png");
         EXPECT_EQ(texel_of(out), grey);

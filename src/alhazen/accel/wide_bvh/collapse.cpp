@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "alhazen/base/error.h"
 
@@ -116,12 +117,13 @@ class Collapse {
         children.reserve(kWidth);
         divide(subtree, choice.inner_left, kWidth, children);
         const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
-        wide_.nodes.emplace_back().child_count = static_cast<std::uint32_t>(children.size());
+        wide_.nodes.emplace_back();
         for (std::size_t i = 0; i < children.size(); ++i) {
             wide_.nodes[index].set_box(i, binary_.nodes[children[i].node].box);
             const NodeRef child = emit(children[i], depth + 1);
             wide_.nodes[index].child[i] = child;
         }
+        wide_.nodes[index].set_order();
         return NodeRef::node(index);
     }
 

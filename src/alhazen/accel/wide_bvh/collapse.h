@@ -8,9 +8,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "alhazen/accel/wide_bvh/binary_builder.h"
+#include "alhazen/base/huge_pages.h"
 
 namespace alhazen {
 
@@ -24,7 +24,7 @@ class LeafSink {
 };
 
 struct WideBvh {
-    std::vector<WideNode> nodes;
+    HugeVector<WideNode> nodes;
     NodeRef root{};  ///< may be a leaf
     bool empty = true;
     int depth = 0;  ///< levels of inner nodes

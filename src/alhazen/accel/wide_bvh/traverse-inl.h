@@ -5,8 +5,8 @@
 /// Differs: slab test with all slack in the ray's constants (`SlabRay`); ways of their own for
 /// one and two children hit.
 /// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` offers `bool
-/// visit(NodeRef)`, true to stop, and `float s_max()`, how far the ray still needs to go: boxes
-/// that begin at exactly that are visited.
+/// visit(NodeRef, stats)`, true to stop, and `float s_max`, how far the ray still needs to go:
+/// boxes that begin at exactly that are visited.
 
 #if defined(ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_
@@ -15,7 +15,7 @@
 #define ALHAZEN_WIDE_BVH_TRAVERSE_INL_H_
 #endif
 
-#include "alhazen/accel/wide_bvh/slab_ray.h"
+#include "alhazen/accel/wide_bvh/slab_ray-inl.h"
 #include "alhazen/accel/wide_bvh/wide_node.h"
 #include "alhazen/simd/lanes-inl.h"
 
@@ -23,40 +23,25 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The constants of a ray in every lane.
-struct WideRay {
-    Floats reciprocal[3], near_offset[3], far_offset[3], s_min;
-    std::size_t near_row[3], far_row[3];  ///< distances from planes[0], in floats
-
-    HWY_INLINE explicit WideRay(const SlabRay& ray) {
-        for (int k = 0; k < 3; ++k) {
-            reciprocal[k] = Floats(ray.reciprocal[k]);
-            near_offset[k] = Floats(ray.near_offset[k]);
-            far_offset[k] = Floats(ray.far_offset[k]);
-            near_row[k] = ray.near_row[k] * kWideNodeWidth;
-            far_row[k] = ray.far_row(k) * kWideNodeWidth;
-        }
-        s_min = Floats(ray.s_min);
-    }
-};
-
-/// Bits of the children whose boxes the ray meets; `entry` is where.
-HWY_INLINE std::uint32_t meet_children(const WideNode& node, const WideRay& ray, float s_max,
-                                       Floats& entry) {
+/// The children whose boxes the ray meets; `entry` is where.
+template <std::size_t N>
+HWY_INLINE LaneMask<float> meet_children(const WideNode& node, const SlabRays<N>& rays,
+                                         std::size_t ray, float s_max, Floats& entry) {
     const float* planes = node.planes[0];
-    Floats nearest = ray.s_min;
-    Floats farthest = Floats(s_max);
+    Floats nearest(rays.s_min[ray]);
+    Floats farthest(s_max);
     HWY_UNROLL(3)
     for (int k = 0; k < 3; ++k) {
-        const Floats near =
-            mul_add(load_lanes(planes + ray.near_row[k]), ray.reciprocal[k], ray.near_offset[k]);
-        const Floats far =
-            mul_add(load_lanes(planes + ray.far_row[k]), ray.reciprocal[k], ray.far_offset[k]);
+        const Floats reciprocal(rays.reciprocal[k][ray]);
+        const Floats near = mul_add(load_lanes(planes + rays.near_plane[k][ray]), reciprocal,
+                                    Floats(rays.near_offset[k][ray]));
+        const Floats far = mul_add(load_lanes(planes + rays.far_plane[k][ray]), reciprocal,
+                                   Floats(rays.far_offset[k][ray]));
         nearest = max_lanes(nearest, near);
         farthest = min_lanes(farthest, far);
     }
     entry = nearest;
-    return bits_of(nearest <= farthest);
+    return nearest <= farthest;
 }
 
 struct StackEntry {
@@ -84,21 +69,20 @@ HWY_INLINE std::size_t push_sorted(const WideNode& node, std::uint32_t hit, cons
 /// Visits the leaves the ray meets, nearest first if `kOrdered`, until `leaf` says stop; true when
 /// it did.
 template <bool kOrdered, class Leaf, class Stats>
-HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRay& slab_ray, Leaf& leaf,
+HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRays<1>& ray, Leaf& leaf,
                          Stats stats) {
-    const WideRay ray(slab_ray);
     StackEntry stack[kTraversalStackSize];
     std::size_t height = 0;
     NodeRef ref = root;
     while (true) {
         if (ref.is_leaf()) {
-            if (leaf.visit(ref)) return true;
+            if (leaf.visit(ref, stats)) return true;
         } else {
             const WideNode& node = nodes[ref.index()];
             stats.nodes(1);
-            stats.boxes(node.child_count);
+            stats.boxes(node.child_count());
             Floats entries;
-            std::uint32_t hit = meet_children(node, ray, leaf.s_max(), entries);
+            std::uint32_t hit = bits_of(meet_children(node, ray, 0, leaf.s_max, entries));
             if (hit != 0) {
                 const auto first = static_cast<std::size_t>(std::countr_zero(hit));
                 hit &= hit - 1;
@@ -136,7 +120,7 @@ HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRay& sla
         do {
             if (height == 0) return false;
             --height;
-        } while (stack[height].entry > leaf.s_max());
+        } while (stack[height].entry > leaf.s_max);
         ref = stack[height].ref;
     }
 }

@@ -29,6 +29,8 @@ class NodeRef {
                                       std::uint32_t count) {
         return NodeRef(kLeafBit | kind << 29 | (count - 1) << 25 | offset);
     }
+    /// A leaf of the kind that no primitive has: where a ray is that has seen all.
+    [[nodiscard]] static NodeRef none() { return leaf(3, 0, 1); }
     [[nodiscard]] static NodeRef from_bits(std::uint32_t bits) { return NodeRef(bits); }
 
     [[nodiscard]] bool is_leaf() const { return (bits_ & kLeafBit) != 0; }
@@ -72,12 +74,23 @@ struct FloatBox {
 struct alignas(256) WideNode {
     /// Rows lo.x, lo.y, lo.z, hi.x, hi.y, hi.z.
     float planes[6][kWideNodeWidth];
-    NodeRef child[kWideNodeWidth]{};
-    std::uint32_t child_count = 0;  ///< slots in use: the first ones
+    NodeRef child[kWideNodeWidth]{};  ///< the slots in use are the first ones
+    /// [octant of the direction] the slots from the farthest to the nearest, three bits each from
+    /// the lowest; bit k of the octant is set when component k is negative.
+    std::uint32_t order[8];
 
     WideNode() {
         for (std::size_t i = 0; i < kWideNodeWidth; ++i) set_box(i, FloatBox{});
+        for (std::uint32_t& slots : order) slots = 0xFAC688;  // 0, 1, ... 7
     }
+    /// Slots in use.
+    [[nodiscard]] std::uint32_t child_count() const {
+        std::uint32_t count = 0;
+        for (const float lo : planes[0]) count += lo < std::numeric_limits<float>::infinity();
+        return count;
+    }
+    /// Sets `order` for the boxes as they are.
+    void set_order();
     void set_box(std::size_t slot, const FloatBox& box) {
         for (int k = 0; k < 3; ++k) {
             planes[k][slot] = box.lo[k];
@@ -94,6 +107,30 @@ struct alignas(256) WideNode {
     }
 };
 static_assert(sizeof(WideNode) == 256);
+
+inline void WideNode::set_order() {
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+        float along[kWideNodeWidth];
+        for (std::size_t i = 0; i < kWideNodeWidth; ++i) {
+            along[i] = 0;
+            for (std::uint32_t k = 0; k < 3; ++k) {
+                const float center2 = planes[k][i] + planes[k + 3][i];
+                along[i] += (octant >> k & 1) != 0 ? -center2 : center2;
+            }
+        }
+        // Insertion sort; free slots have NaN and stay where they are, behind.
+        std::uint32_t slots[kWideNodeWidth];
+        for (std::uint32_t i = 0; i < kWideNodeWidth; ++i) {
+            std::uint32_t place = i;
+            for (; place > 0 && along[slots[place - 1]] < along[i]; --place) {
+                slots[place] = slots[place - 1];
+            }
+            slots[place] = i;
+        }
+        order[octant] = 0;
+        for (std::uint32_t i = 0; i < kWideNodeWidth; ++i) order[octant] |= slots[i] << 3 * i;
+    }
+}
 
 /// Levels of inner nodes that a builder may make; the traversal stack is sized for it.
 inline constexpr int kMaxWideDepth = 88;

@@ -1,0 +1,56 @@
+#pragma once
+/// Memory in large pages where the system gives them: what is read all over the place, as a tree is
+/// by its rays, costs a page walk less at almost every step.
+///
+/// Where there are none all of this is ordinary memory.
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <span>
+#include <vector>
+
+namespace alhazen {
+
+inline constexpr std::size_t kHugePageBytes = std::size_t{2} << 20;
+
+/// Asks for large pages for memory that is not touched yet.
+void prefer_huge_pages(void* memory, std::size_t bytes);
+/// Moves memory in use to large pages, where they fit inside of it.
+void collapse_to_huge_pages(const void* memory, std::size_t bytes);
+template <class T>
+void collapse_to_huge_pages(std::span<T> values) {
+    collapse_to_huge_pages(values.data(), values.size_bytes());
+}
+
+/// For containers that grow large: blocks from the size of a large page on are aligned to it.
+template <class T>
+struct HugePageAllocator {
+    using value_type = T;
+    HugePageAllocator() = default;
+    template <class U>
+    explicit HugePageAllocator(const HugePageAllocator<U>&) {}
+
+    [[nodiscard]] T* allocate(std::size_t n) {
+        if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
+        const std::size_t bytes = n * sizeof(T);
+        const bool huge = bytes >= kHugePageBytes;
+        void* memory = ::operator new(bytes, alignment(huge));
+        if (huge) prefer_huge_pages(memory, bytes);
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t n) {
+        ::operator delete(memory, alignment(n * sizeof(T) >= kHugePageBytes));
+    }
+    friend bool operator==(const HugePageAllocator&, const HugePageAllocator&) { return true; }
+
+  private:
+    static std::align_val_t alignment(bool huge) {
+        return std::align_val_t{huge ? kHugePageBytes : alignof(T)};
+    }
+};
+
+template <class T>
+using HugeVector = std::vector<T, HugePageAllocator<T>>;
+
+}  // namespace alhazen

@@ -1,0 +1,321 @@
+/// The queries of the wide BVH aggregate on the leaves: what is asked of a block, and what of the
+/// primitives that are left of it.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h). The queries are what the
+/// traversals of accel/wide_bvh take; every decision is that of the scalar tests.
+
+#if defined(ALHAZEN_SCENE_LEAF_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SCENE_LEAF_QUERIES_INL_H_
+#undef ALHAZEN_SCENE_LEAF_QUERIES_INL_H_
+#else
+#define ALHAZEN_SCENE_LEAF_QUERIES_INL_H_
+#endif
+
+#include <bit>
+
+#include "alhazen/scene/sphere_block-inl.h"
+#include "alhazen/scene/triangle_filter-inl.h"
+#include "alhazen/scene/wide_bvh_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// N rays with all that the tests of their nodes and leaves need.
+template <std::size_t N>
+struct RayGroup {
+    SlabRays<N> slabs;
+    TriangleFilterRays<N> filter;
+
+    HWY_INLINE void make(const LocalFrame& frame, const RayLanes<N>& rays) {
+        make_slab_rays(frame, rays, slabs);
+        make_triangle_filter_rays(rays, slabs, filter);
+    }
+};
+
+/// The part of a query on one ray of a group that is the same for all. `Derived` offers
+/// `bool triangles(block, found, stats)`, `bool sphere(block, lane, stats)` and
+/// `bool other(id, stats)`, true to stop.
+template <class Derived, std::size_t N>
+struct LeafQuery {
+    const WideBvhScene& scene;
+    const SlabRays<N>& slabs;
+    const TriangleFilterRays<N>& filter;
+    std::size_t in_group;  ///< the ray's place
+    float s_max;
+    Ray ray;
+
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const RayGroup<N>& group, std::size_t i,
+                         const Ray& r)
+        : scene(s),
+          slabs(group.slabs),
+          filter(group.filter),
+          in_group(i),
+          s_max(group.slabs.s_max[i]),
+          ray(r) {}
+
+    template <class Stats>
+    HWY_INLINE bool visit(NodeRef ref, Stats stats) {
+        Derived& query = static_cast<Derived&>(*this);
+        const std::uint32_t count = ref.count();
+        switch (static_cast<LeafType>(ref.kind())) {
+            case LeafType::Triangles: {
+                const TriangleBlock* blocks = &scene.layout->triangles[ref.offset()];
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    stats.primitives(used_lanes(blocks[i]));
+                    FilteredTriangles found;
+                    if (filter_triangles(blocks[i], filter, in_group, slabs.s_min[in_group], s_max,
+                                         found) &&
+                        query.triangles(blocks[i], found, stats)) {
+                        return true;
+                    }
+                }
+                return false;
+            }
+            case LeafType::Spheres: {
+                const SphereBlock* blocks = &scene.layout->spheres[ref.offset()];
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    std::uint32_t rest = sphere_candidates(blocks[i], ray);
+                    // The query counts the candidates.
+                    stats.primitives(
+                        static_cast<std::uint64_t>(std::popcount(blocks[i].lanes & ~rest)));
+                    for (; rest != 0; rest &= rest - 1) {
+                        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                        if (query.sphere(blocks[i].ids[lane], stats)) return true;
+                    }
+                }
+                return false;
+            }
+            case LeafType::Others:
+                break;
+            default:
+                return true;
+        }
+        const PrimitiveId* ids = &scene.layout->others[ref.offset()];
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (query.other(ids[i], stats)) return true;
+        }
+        return false;
+    }
+
+    HWY_INLINE void prefetch(NodeRef ref) const {
+        const char* lines;
+        switch (static_cast<LeafType>(ref.kind())) {
+            case LeafType::Triangles:
+                lines = reinterpret_cast<const char*>(&scene.layout->triangles[ref.offset()]);
+                break;
+            case LeafType::Spheres:
+                lines = reinterpret_cast<const char*>(&scene.layout->spheres[ref.offset()]);
+                break;
+            default:
+                return hwy::Prefetch(&scene.layout->others[ref.offset()]);
+        }
+        static_assert(sizeof(TriangleBlock) == 320 && sizeof(SphereBlock) == 320);
+        HWY_UNROLL(5)
+        for (int i = 0; i < 5; ++i) hwy::Prefetch(lines + 64 * i);
+    }
+
+    /// Made anew for the few tests that need it.
+    [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
+    [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
+        return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
+    }
+    /// The test in double.
+    HWY_INLINE bool hits_triangle(PrimitiveId id, ShapeHit& hit) const {
+        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id));
+        return intersect_triangle(ray, shear(), a, b, c, hit);
+    }
+};
+
+/// The nearest hit. Triangles are remembered as the filter finds them, each that is sure ends the
+/// search behind it, and the test in double decides among the few that are left in the end.
+template <std::size_t N>
+struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
+    using Base = LeafQuery<ClosestQuery<N>, N>;
+    using Base::in_group, Base::ray, Base::s_max, Base::scene, Base::slabs;
+    static constexpr bool kOrdered = true;
+    static constexpr std::uint32_t kMaxPending = 8;
+
+    Hit& best;
+    std::uint32_t pending_count = 0;
+    std::uint32_t step = 0;  ///< of finishing
+    struct {
+        PrimitiveId id;
+        float lo;
+    } pending[kMaxPending];
+
+    /// `found` may hold a hit found before.
+    HWY_INLINE ClosestQuery(const WideBvhScene& s, const RayGroup<N>& group, std::size_t i,
+                            const Ray& r, Hit& found)
+        : Base(s, group, i, r), best(found) {}
+
+    template <class Stats>
+    HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
+                              Stats stats) {
+        for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            const BlockId id = block.ids[lane];
+            if (!id.used()) continue;
+            if (pending_count == kMaxPending) finish(stats);
+            pending[pending_count++] = {id.id(), found.lo[lane]};
+            if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
+        }
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool sphere(BlockId id, Stats stats) {
+        return other(id.id(), stats);
+    }
+    template <class Stats>
+    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
+        scene.table->closest(id, ray, this->shear(), best, stats);
+        shrink();
+        return false;
+    }
+    /// Decides what is pending.
+    template <class Stats>
+    HWY_INLINE void finish(Stats stats) {
+        for (std::uint32_t i = 0; i < pending_count; ++i) {
+            // Written so that a NaN is not passed over.
+            if (pending[i].lo > s_max) continue;
+            ShapeHit hit;
+            if (!this->hits_triangle(pending[i].id, hit)) continue;
+            stats.primitive_hits(1);
+            offer(hit, pending[i].id, ray, best);
+            shrink();
+        }
+        pending_count = 0;
+    }
+    /// Fetches what the last tests need, level by level, then makes them.
+    template <class Stats>
+    HWY_INLINE bool finish_step(Stats stats) {
+        switch (step++) {
+            case 0: {
+                std::uint32_t left = 0;
+                for (std::uint32_t i = 0; i < pending_count; ++i) {
+                    if (!(pending[i].lo > s_max)) pending[left++] = pending[i];
+                }
+                pending_count = left;
+                for (std::uint32_t i = 0; i < left; ++i) {
+                    hwy::Prefetch(scene.table->triangle_corners(this->triangle(pending[i].id)));
+                }
+                return left == 0;
+            }
+            case 1:
+                for (std::uint32_t i = 0; i < pending_count; ++i) {
+                    const auto corners =
+                        scene.table->corner_positions(this->triangle(pending[i].id));
+                    for (const Vec3* corner : corners) {
+                        hwy::Prefetch(corner);
+                        hwy::Prefetch(&corner->z);
+                    }
+                }
+                return false;
+            default:
+                finish(stats);
+                return true;
+        }
+    }
+
+  private:
+    HWY_INLINE void shrink() {
+        const float s = slabs.local_max(in_group, ray.t_max);
+        if (s < s_max) s_max = s;
+    }
+};
+
+/// Whether there is any hit.
+template <std::size_t N>
+struct OccludedQuery : LeafQuery<OccludedQuery<N>, N> {
+    using Base = LeafQuery<OccludedQuery<N>, N>;
+    using Base::ray, Base::scene;
+    static constexpr bool kOrdered = false;
+    bool& occluded;
+
+    HWY_INLINE OccludedQuery(const WideBvhScene& s, const RayGroup<N>& group, std::size_t i,
+                             const Ray& r, bool& result)
+        : Base(s, group, i, r), occluded(result) {}
+
+    template <class Stats>
+    HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
+                              Stats stats) {
+        // The lanes not in use are never in the ray's range.
+        if (found.sure != 0) {
+            stats.primitive_hits(1);
+            return occluded = true;
+        }
+        for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            ShapeHit hit;
+            if (!block.ids[lane].used() || !this->hits_triangle(block.ids[lane].id(), hit))
+                continue;
+            stats.primitive_hits(1);
+            return occluded = true;
+        }
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool sphere(BlockId id, Stats stats) {
+        return other(id.id(), stats);
+    }
+    template <class Stats>
+    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
+        return occluded = scene.table->occluded(id, ray, this->shear(), stats);
+    }
+    template <class Stats>
+    HWY_INLINE bool finish_step(Stats) {
+        return true;
+    }
+};
+
+/// All hits; with `kStopAtOpaque` up to the first opaque one.
+template <bool kStopAtOpaque>
+struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, 1> {
+    using Base = LeafQuery<CollectQuery<kStopAtOpaque>, 1>;
+    using Base::ray, Base::scene, Base::shear;
+    static constexpr bool kOrdered = false;
+    std::vector<Hit>& hits;
+
+    HWY_INLINE CollectQuery(const WideBvhScene& s, const RayGroup<1>& group, const Ray& r,
+                            std::vector<Hit>& found)
+        : Base(s, group, 0, r), hits(found) {}
+
+    template <class Stats>
+    HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
+                              Stats stats) {
+        for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            const BlockId id = block.ids[lane];
+            ShapeHit hit;
+            if (!id.used() || !this->hits_triangle(id.id(), hit)) continue;
+            stats.primitive_hits(1);
+            if (kStopAtOpaque) {
+                if (id.opaque()) return true;
+                const auto effect = scene.table->shadow_effect(id.id(), ray);
+                if (effect == PrimitiveTable::ShadowEffect::Blocks) return true;
+                if (effect == PrimitiveTable::ShadowEffect::None) continue;
+            }
+            append_hit(hits, hit, id.id());
+        }
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool sphere(BlockId id, Stats stats) {
+        if (kStopAtOpaque && id.opaque())
+            return scene.table->occluded(id.id(), ray, this->shear(), stats);
+        scene.table->all_hits(id.id(), ray, this->shear(), hits, stats);
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
+        if (kStopAtOpaque) return scene.table->shadowed(id, ray, this->shear(), hits, stats);
+        scene.table->all_hits(id, ray, this->shear(), hits, stats);
+        return false;
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

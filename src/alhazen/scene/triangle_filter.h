@@ -1,0 +1,40 @@
+#pragma once
+/// Rays made ready for the triangle filter: a test of a block of triangles in float that never
+/// loses a triangle which the test in double (geometry/watertight_triangle.h) would hit, and that
+/// knows of most hits that they are sure. The test in double decides; it runs on the winner, and
+/// on the few triangles of which float cannot tell.
+///
+/// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (shear
+/// and edge functions); Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
+/// Geometric Predicates", Discrete & Computational Geometry 18, 1997 (the idea of a filter).
+/// Differs: the bound of the error is per ray and triangle, and the position along the ray is an
+/// interval.
+/// All in the local frame of the tree, where scene coordinates are at most 1. With e = 2^-24 and R
+/// the reach of the ray (no vertex is farther from its origin in any coordinate):
+/// - a sheared coordinate (v_x - o_x) - S_x (v_z - o_z), |S_x| <= 1, is off by at most 9 e R:
+///   rounding of v and o, two differences, S, the product and the sum; and by 2 delta for what
+///   the test in double rounds (SlabRay::delta). E is that sum.
+/// - an edge function a_x b_y - a_y b_x of coordinates that are off by E and at most L in magnitude
+///   is off by 4 E L + 2 E^2, and by 4 e L^2 <= E L of its own rounding: within 5.1 E L + 2.1 E^2.
+/// - a weight of the hit is an edge function over their sum, so the place of the hit on the ray
+///   moves by at most 24 err w / |sum| within the extent w of the triangle along the ray.
+/// All of it holds for fused and unfused multiplication alike, so the decision, not its cost, is
+/// the same on every instruction set.
+
+#include "alhazen/accel/wide_bvh/slab_ray.h"
+
+namespace alhazen {
+
+/// N rays, the same number of each side by side: [axis][ray] or [ray].
+template <std::size_t N>
+struct alignas(64) TriangleFilterRays {
+    float origin[3][N];              ///< along the axes below
+    float sx[N], sy[N], sz[N];       ///< as in RayShear, for local parameters
+    std::uint32_t axis[3][N];        ///< kx, ky, kz of RayShear
+    float edge_slack[N];             ///< 5.1 E
+    float edge_slack_min[N];         ///< 2.1 E^2
+    float s_slack[N];                ///< error of a local parameter beside that of the weights
+    float sure_min[N], sure_max[N];  ///< within these it is in the ray's range for sure
+};
+
+}  // namespace alhazen
