@@ -66,6 +66,13 @@ void flake(TriangleMesh& mesh, const TriangleMesh& ball, const Vec3& center, dou
     }
 }
 
+/// So that a kernel in float has the same triangles.
+void round_to_float(TriangleMesh& mesh) {
+    for (Vec3& p : mesh.positions) {
+        for (int k = 0; k < 3; ++k) p[k] = static_cast<double>(static_cast<float>(p[k]));
+    }
+}
+
 }  // namespace
 
 KernelScene mesh_scene(const std::string& name, const std::filesystem::path& file) {
@@ -74,6 +81,7 @@ KernelScene mesh_scene(const std::string& name, const std::filesystem::path& fil
     diagnostics.throw_if_errors();
     scene.mesh.normals.clear();
     scene.mesh.uvs.clear();
+    round_to_float(scene.mesh);
     const Box3 box = scene.mesh.box();
     scene.look_at = box.center();
     scene.eye = box.center() + 1.2 * length(box.size()) * normalize(Vec3{0.3, 0.2, 1});
@@ -89,6 +97,7 @@ KernelScene tessellated_balls(int depth, int splits) {
     }
     scene.mesh.triangles.insert(scene.mesh.triangles.end(),
                                 {{first, first + 2, first + 3}, {first, first + 3, first + 1}});
+    round_to_float(scene.mesh);
     return scene;
 }
 

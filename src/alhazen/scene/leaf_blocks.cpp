@@ -70,8 +70,8 @@ class Packer final : public LeafSink {
             for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
                 if (lane < count) {
                     const PrimitiveId id = ids_[i + lane];
-                    fill(block, lane, id);
-                    block.ids[lane] = {id, table_.is_opaque(id)};
+                    const bool exact = fill(block, lane, id);
+                    block.ids[lane] = {id, table_.is_opaque(id), exact};
                 } else {
                     leave_free(block, lane);
                     block.ids[lane] = BlockId::none();
@@ -81,14 +81,23 @@ class Packer final : public LeafSink {
         return reference(kind, offset, blocks.size() - offset);
     }
 
-    void fill(TriangleBlock& block, std::size_t lane, PrimitiveId id) const {
+    /// Both return true when the block holds the very primitive.
+    bool fill(TriangleBlock& block, std::size_t lane, PrimitiveId id) const {
         const auto corners = table_.triangle_vertices(table_.index(id));
+        bool exact = true;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const Vec3 local = layout_.frame.local(corners[corner]);
             for (int axis = 0; axis < 3; ++axis) {
                 block.vertex[corner][axis][lane] = static_cast<float>(local[axis]);
             }
+            exact = exact &&
+                    same_bits(layout_.frame.world(block.corner(corner, lane)), corners[corner]);
         }
+        return exact;
+    }
+    static bool same_bits(const Vec3& a, const Vec3& b) {
+        const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+        return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
     }
     /// Rays that come near it have left the scene, and the filter sees it from the edge by chance
     /// only.
@@ -100,12 +109,13 @@ class Packer final : public LeafSink {
             }
         }
     }
-    void fill(SphereBlock& block, std::size_t lane, PrimitiveId id) const {
+    bool fill(SphereBlock& block, std::size_t lane, PrimitiveId id) const {
         const Sphere& sphere =
             std::get<ShapeColumn<Sphere>>(table_.columns).shapes[table_.index(id)];
         for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
         block.radius[lane] = sphere.radius;
         block.lanes |= 1u << lane;
+        return true;
     }
     static void leave_free(SphereBlock& block, std::size_t lane) {
         for (auto& center : block.center) center[lane] = center[0];

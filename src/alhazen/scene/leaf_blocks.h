@@ -36,21 +36,26 @@ enum class LeafType : std::uint32_t { Triangles, Spheres, Others };
 class BlockId {
   public:
     BlockId() = default;
-    BlockId(PrimitiveId id, bool opaque)
-        : bits_(static_cast<std::uint32_t>(id) | (opaque ? kOpaqueBit : 0u)) {}
+    BlockId(PrimitiveId id, bool opaque, bool exact)
+        : bits_(static_cast<std::uint32_t>(id) | (opaque ? kOpaqueBit : 0u) |
+                (exact ? kExactBit : 0u)) {}
     /// Of the lanes that are not in use.
-    [[nodiscard]] static BlockId none() { return {kNoPrimitive, true}; }
+    [[nodiscard]] static BlockId none() { return {kNoPrimitive, true, true}; }
 
     [[nodiscard]] bool used() const { return bits_ != static_cast<std::uint32_t>(kNoPrimitive); }
-    [[nodiscard]] PrimitiveId id() const { return PrimitiveId{bits_ & ~kOpaqueBit}; }
+    [[nodiscard]] PrimitiveId id() const { return PrimitiveId{bits_ & kLimit}; }
     /// It lets no light through.
     [[nodiscard]] bool opaque() const { return (bits_ & kOpaqueBit) != 0; }
 
+    /// What the block holds of it is all of it, not rounded.
+    [[nodiscard]] bool exact() const { return (bits_ & kExactBit) != 0; }
+
     /// Ids from this on do not fit.
-    static constexpr std::uint32_t kLimit = 0x7FFFFFFFu;
+    static constexpr std::uint32_t kLimit = 0x3FFFFFFFu;
 
   private:
     static constexpr std::uint32_t kOpaqueBit = 1u << 31;
+    static constexpr std::uint32_t kExactBit = 1u << 30;
     std::uint32_t bits_;
 };
 
@@ -58,6 +63,10 @@ class BlockId {
 struct alignas(64) TriangleBlock {
     float vertex[3][3][kBlockWidth];  ///< [corner][axis][lane], in the frame of the tree
     BlockId ids[kBlockWidth];
+
+    [[nodiscard]] Vec3 corner(std::size_t i, std::size_t lane) const {
+        return {vertex[i][0][lane], vertex[i][1][lane], vertex[i][2][lane]};
+    }
 };
 static_assert(sizeof(TriangleBlock) == 320);
 

@@ -120,9 +120,17 @@ struct LeafQuery {
     [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
         return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
     }
-    /// The test in double.
-    HWY_INLINE bool hits_triangle(PrimitiveId id, ShapeHit& hit) const {
-        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id));
+    /// The test in double of a lane in use.
+    HWY_INLINE bool hits_triangle(const TriangleBlock& block, std::size_t lane,
+                                  ShapeHit& hit) const {
+        const BlockId id = block.ids[lane];
+        if (id.exact()) {
+            const LocalFrame& frame = scene.layout->frame;
+            return intersect_triangle(ray, shear(), frame.world(block.corner(0, lane)),
+                                      frame.world(block.corner(1, lane)),
+                                      frame.world(block.corner(2, lane)), hit);
+        }
+        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id.id()));
         return intersect_triangle(ray, shear(), a, b, c, hit);
     }
 };
@@ -140,8 +148,10 @@ struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
     std::uint32_t pending_count = 0;
     std::uint32_t step = 0;  ///< of finishing
     struct {
-        PrimitiveId id;
+        const TriangleBlock* block;
+        std::uint32_t lane;
         float lo;
+        [[nodiscard]] BlockId id() const { return block->ids[lane]; }
     } pending[kMaxPending];
 
     /// `found` may hold a hit found before.
@@ -153,11 +163,10 @@ struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
                               Stats stats) {
         for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const BlockId id = block.ids[lane];
-            if (!id.used()) continue;
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+            if (!block.ids[lane].used()) continue;
             if (pending_count == kMaxPending) finish(stats);
-            pending[pending_count++] = {id.id(), found.lo[lane]};
+            pending[pending_count++] = {&block, lane, found.lo[lane]};
             if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
         }
         return false;
@@ -179,9 +188,9 @@ struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
             // Written so that a NaN is not passed over.
             if (pending[i].lo > s_max) continue;
             ShapeHit hit;
-            if (!this->hits_triangle(pending[i].id, hit)) continue;
+            if (!this->hits_triangle(*pending[i].block, pending[i].lane, hit)) continue;
             stats.primitive_hits(1);
-            offer(hit, pending[i].id, ray, best);
+            offer(hit, pending[i].id().id(), ray, best);
             shrink();
         }
         pending_count = 0;
@@ -191,21 +200,25 @@ struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
     HWY_INLINE bool finish_step(Stats stats) {
         switch (step++) {
             case 0: {
-                std::uint32_t left = 0;
+                std::uint32_t left = 0, elsewhere = 0;
                 for (std::uint32_t i = 0; i < pending_count; ++i) {
-                    if (!(pending[i].lo > s_max)) pending[left++] = pending[i];
+                    if (pending[i].lo > s_max) continue;
+                    const BlockId id = pending[i].id();
+                    pending[left++] = pending[i];
+                    if (id.exact()) continue;
+                    hwy::Prefetch(scene.table->triangle_corners(this->triangle(id.id())));
+                    ++elsewhere;
                 }
                 pending_count = left;
-                for (std::uint32_t i = 0; i < left; ++i) {
-                    hwy::Prefetch(scene.table->triangle_corners(this->triangle(pending[i].id)));
-                }
-                return left == 0;
+                if (elsewhere == 0) finish(stats);
+                return elsewhere == 0;
             }
             case 1:
                 for (std::uint32_t i = 0; i < pending_count; ++i) {
-                    const auto corners =
-                        scene.table->corner_positions(this->triangle(pending[i].id));
-                    for (const Vec3* corner : corners) {
+                    const BlockId id = pending[i].id();
+                    if (id.exact()) continue;
+                    for (const Vec3* corner :
+                         scene.table->corner_positions(this->triangle(id.id()))) {
                         hwy::Prefetch(corner);
                         hwy::Prefetch(&corner->z);
                     }
@@ -247,8 +260,7 @@ struct OccludedQuery : LeafQuery<OccludedQuery<N>, N> {
         for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             ShapeHit hit;
-            if (!block.ids[lane].used() || !this->hits_triangle(block.ids[lane].id(), hit))
-                continue;
+            if (!block.ids[lane].used() || !this->hits_triangle(block, lane, hit)) continue;
             stats.primitive_hits(1);
             return occluded = true;
         }
@@ -287,7 +299,7 @@ struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, 1> {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             const BlockId id = block.ids[lane];
             ShapeHit hit;
-            if (!id.used() || !this->hits_triangle(id.id(), hit)) continue;
+            if (!id.used() || !this->hits_triangle(block, lane, hit)) continue;
             stats.primitive_hits(1);
             if (kStopAtOpaque) {
                 if (id.opaque()) return true;

@@ -3,6 +3,8 @@
 /// scaled by a power of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps
 /// the full resolution of float.
 ///
+/// A scene that has the origin near its middle is only scaled: coordinates that are float stay so,
+/// exactly.
 /// Conventions: local = (world - center) * scale, computed in double. The rounding of that and of
 /// the exact tests is covered once per ray (`SlabRay`), not in the boxes; boxes carry only the
 /// rounding to float.
@@ -33,6 +35,7 @@ inline float round_up(double x) {
 struct LocalFrame {
     Vec3 center;
     double scale = 1;
+    double inverse_scale = 1;
     /// Largest coordinate of the center, in local units: how much of a double the offset uses up.
     double offset = 0;
 
@@ -41,15 +44,23 @@ struct LocalFrame {
     explicit LocalFrame(const Box3& box) {
         if (box.empty()) return;
         center = box.center();
-        const Vec3 half = 0.5 * box.size();
-        const double far = max_component(abs(center));
+        double half = 0.5 * max_component(box.size());
+        double far = max_component(abs(center));
+        if (far <= 2.0 * half) {
+            center = {};
+            half = std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+            far = 0;
+        }
         // Not finer than the rounding of the coordinates themselves.
-        const double reach = std::max({max_component(half), far * 0x1p-30, 0x1p-500});
+        const double reach = std::max({half, far * 0x1p-30, 0x1p-500});
         scale = std::ldexp(1.0, -std::ilogb(reach) - 1);
+        inverse_scale = 1.0 / scale;
         offset = far * scale;
     }
 
     [[nodiscard]] Vec3 local(const Vec3& p) const { return scale * (p - center); }
+    /// The point whose local coordinates these are, rounded.
+    [[nodiscard]] Vec3 world(const Vec3& local) const { return inverse_scale * local + center; }
     [[nodiscard]] FloatBox local(const Box3& box) const {
         const Vec3 lo = local(box.lo);
         const Vec3 hi = local(box.hi);

@@ -32,19 +32,20 @@ namespace HWY_NAMESPACE {
 /// Rays on their way at a time.
 inline constexpr std::size_t kStreamSlots = 8;
 
-/// Subtrees yet to visit, entries and references apart so that both are stored by lanes.
+/// Subtrees yet to visit, entries and references apart so that both are stored by lanes. Its height
+/// is kept outside: in a register.
 struct StreamStack {
     static constexpr std::size_t kSize = kTraversalStackSize + kWideNodeWidth;
-    std::size_t height;
     float entry[kSize];
     std::uint32_t child[kSize];
 
     /// Puts the children that are hit on top, the farthest first by the order of the octant.
     template <std::size_t kRegisters = kParts<float>>
-    HWY_INLINE void push(const WideNode& node, const Floats& entries, const LaneMask<float>& hit,
-                         std::uint32_t octant) {
+    [[nodiscard]] HWY_INLINE std::size_t push(std::size_t height, const WideNode& node,
+                                              const Floats& entries, const LaneMask<float>& hit,
+                                              std::uint32_t octant) {
         if constexpr (kRegisters == 1) {
-            push_lanes(node, entries, hit, octant);
+            return push_lanes(height, node, entries, hit, octant);
         } else {
             HWY_ALIGN float near[kWideNodeWidth];
             store_lanes(entries, near);
@@ -56,13 +57,15 @@ struct StreamStack {
                 child[height] = node.child[slot].bits();
                 height += bits >> slot & 1;
             }
+            return height;
         }
     }
 
   private:
     template <class = void>
-    HWY_INLINE void push_lanes(const WideNode& node, const Floats& entries,
-                               const LaneMask<float>& hit, std::uint32_t octant) {
+    HWY_INLINE std::size_t push_lanes(std::size_t height, const WideNode& node,
+                                      const Floats& entries, const LaneMask<float>& hit,
+                                      std::uint32_t octant) {
         const LaneTag<float> d;
         const hn::RebindToSigned<LaneTag<float>> di;
         const hn::RebindToUnsigned<LaneTag<float>> du;
@@ -79,7 +82,7 @@ struct StreamStack {
         const auto mask = hn::Lt(near, missed);
         hn::StoreU(hn::Compress(near, mask), d, entry + height);
         hn::StoreU(hn::Compress(refs, mask), d, reinterpret_cast<float*>(child + height));
-        height += hn::CountTrue(d, mask);
+        return height + hn::CountTrue(d, mask);
     }
 };
 
@@ -88,6 +91,7 @@ struct StreamSlot {
     Query* query;
     NodeRef ref;
     std::uint32_t octant;
+    std::size_t height;
     alignas(64) std::byte place[sizeof(Query)];
     StreamStack stack;
 };
@@ -97,6 +101,7 @@ template <class Query, class Stats>
 HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, Stats stats) {
     Query& query = *slot.query;
     StreamStack& stack = slot.stack;
+    std::size_t height = slot.height;
     if (slot.ref.is_leaf()) {
         if (query.visit(slot.ref, stats)) return false;
     } else {
@@ -106,13 +111,14 @@ HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, Stats st
         Floats entries;
         const LaneMask<float> hit =
             meet_children(node, query.slabs, query.in_group, query.s_max, entries);
-        stack.push(node, entries, hit, slot.octant);
+        height = stack.push(height, node, entries, hit, slot.octant);
     }
     do {
-        if (stack.height == 0) return false;
-        --stack.height;
-    } while (stack.entry[stack.height] > query.s_max);
-    slot.ref = NodeRef::from_bits(stack.child[stack.height]);
+        if (height == 0) return false;
+        --height;
+    } while (stack.entry[height] > query.s_max);
+    slot.height = height;
+    slot.ref = NodeRef::from_bits(stack.child[height]);
     if (slot.ref.is_leaf()) {
         query.prefetch(slot.ref);
     } else {
@@ -132,7 +138,7 @@ HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, Source& sou
         slot.query = source.start(slot.place);
         if (slot.query == nullptr) return false;
         slot.octant = slot.query->slabs.octant[slot.query->in_group];
-        slot.stack.height = 0;
+        slot.height = 0;
         slot.ref = root;
         return true;
     };
@@ -147,7 +153,7 @@ HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, Source& sou
             if (advance(slot, nodes, stats)) continue;
             if (!slot.query->finish_step(stats)) {
                 slot.ref = NodeRef::none();
-                slot.stack.height = 0;
+                slot.height = 0;
             } else {
                 source.release(*slot.query);
                 if (!start(slot)) active[i--] = active[--count];
