@@ -10,6 +10,7 @@
 #endif
 
 #include "alhazen/geometry/sphere_roots.h"
+#include "alhazen/geometry/ray.h"
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/simd/lanes-inl.h"
 
