@@ -99,8 +99,7 @@ class Packer final : public LeafSink {
         const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
         return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
     }
-    /// Rays that come near it have left the scene, and the filter sees it from the edge by chance
-    /// only.
+    /// A triangle that few rays come near; those that do are told by the lane's id.
     static void leave_free(TriangleBlock& block, std::size_t lane) {
         constexpr float kFar[3][3] = {{40, 47, 53}, {41, 45, 52}, {42, 48, 50}};
         for (std::size_t corner = 0; corner < 3; ++corner) {

@@ -21,14 +21,6 @@ class PrimitiveTable;
 
 inline constexpr std::size_t kBlockWidth = 8;
 
-/// Lanes of a block that are in use.
-template <class Block>
-[[nodiscard]] std::uint32_t used_lanes(const Block& block) {
-    std::uint32_t count = 0;
-    for (const auto& id : block.ids) count += id.used();
-    return count;
-}
-
 /// Kinds of leaf, as NodeRef::kind.
 enum class LeafType : std::uint32_t { Triangles, Spheres, Others };
 
@@ -47,7 +39,7 @@ class BlockId {
     /// It lets no light through.
     [[nodiscard]] bool opaque() const { return (bits_ & kOpaqueBit) != 0; }
 
-    /// What the block holds of it is all of it, not rounded.
+    /// What a block of triangles holds of it is all of it, not rounded.
     [[nodiscard]] bool exact() const { return (bits_ & kExactBit) != 0; }
 
     /// Ids from this on do not fit.
@@ -69,6 +61,13 @@ struct alignas(64) TriangleBlock {
     }
 };
 static_assert(sizeof(TriangleBlock) == 320);
+
+/// How many lanes of a block are in use.
+[[nodiscard]] inline std::uint32_t used_lanes(const TriangleBlock& block) {
+    std::uint32_t count = 0;
+    for (const BlockId& id : block.ids) count += id.used();
+    return count;
+}
 
 /// Spheres that stand in the frame of the aggregate.
 struct alignas(64) SphereBlock {

@@ -252,8 +252,8 @@ struct OccludedQuery : LeafQuery<OccludedQuery<N>, N> {
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
                               Stats stats) {
-        // The lanes not in use are never in the ray's range.
-        if (found.sure != 0) {
+        for (std::uint32_t rest = found.sure; rest != 0; rest &= rest - 1) {
+            if (!block.ids[static_cast<std::size_t>(std::countr_zero(rest))].used()) continue;
             stats.primitive_hits(1);
             return occluded = true;
         }

@@ -9,8 +9,8 @@
 #define ALHAZEN_SCENE_SPHERE_BLOCK_INL_H_
 #endif
 
-#include "alhazen/geometry/sphere_roots.h"
 #include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/sphere_roots.h"
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/simd/lanes-inl.h"
 

@@ -3,7 +3,8 @@
 /// leaves blocks of eight triangles or spheres.
 ///
 /// Source: see the headers of accel/wide_bvh/.
-/// Differs: boxes are float but conservative with respect to tests in double, so the hits are
+/// Differs: boxes and the triangle filter are float but conservative with respect to tests in
+/// double (scene/triangle_filter.h), so the hits are
 /// those of brute force, bit for bit.
 /// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside
 /// the tree.

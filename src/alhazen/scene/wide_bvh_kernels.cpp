@@ -1,6 +1,6 @@
 #include "alhazen/scene/wide_bvh_kernels.h"
 
-#include <memory>
+#include <new>
 
 // Compiles the rest of this file once per target.
 #undef HWY_TARGET_INCLUDE

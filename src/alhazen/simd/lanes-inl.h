@@ -1,11 +1,11 @@
-/// Eight (or N) lanes of float or double with the operators of a scalar: what the templates of
-/// geometry/ need to run on a block of eight primitives, and the node test on eight children.
+/// Eight (or N) lanes of float or double with the operators of a scalar: for blocks of eight
+/// primitives, the eight children of a node, and rays made ready together.
 ///
 /// A block of double is one AVX-512 register of double, two of AVX, four of SSE. Every operation is
-/// the correctly rounded IEEE one and nothing is fused unless `mul_add` is called, so each lane has
-/// the bits of the scalar form on every target.
-/// Conventions: included once per target, by the pattern of Highway's foreach_target.h;
-/// everything is in HWY_NAMESPACE and must not escape from it.
+/// the correctly rounded IEEE one, so each lane has the bits of the scalar form on every target;
+/// only mul_add and its kind are fused where the target can. Conventions: included once per target,
+/// by the pattern of Highway's foreach_target.h; everything is in HWY_NAMESPACE and must not escape
+/// from it.
 
 #if defined(ALHAZEN_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SIMD_LANES_INL_H_
@@ -70,16 +70,6 @@ HWY_INLINE Lanes<T, N> load_lanes(const T* values) {
     const LaneTag<T, N> d;
     for (std::size_t i = 0; i < kParts<T, N>; ++i) {
         r.part[i] = hn::Load(d, values + i * hn::Lanes(d));
-    }
-    return r;
-}
-/// `values` is anywhere.
-template <std::size_t N = kLaneCount, class T>
-HWY_INLINE Lanes<T, N> load_unaligned_lanes(const T* values) {
-    Lanes<T, N> r;
-    const LaneTag<T, N> d;
-    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
-        r.part[i] = hn::LoadU(d, values + i * hn::Lanes(d));
     }
     return r;
 }

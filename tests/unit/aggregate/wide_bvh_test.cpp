@@ -310,6 +310,54 @@ TEST(WideBvh, FindsTheHitsOfBruteForceAmongNestedScales) {
         compare("nested", table, random_rays(reach), 500);
 }
 
+TEST(WideBvh, TheTriangleThatFillsFreeLanesOccludesNothing) {
+    TableBuilder builder;
+    builder.add_triangle({-0.9, -0.9, -0.9}, {0.9, 0.9, 0.9}, {-0.9, 0.9, -0.9});
+    const PrimitiveTable table = builder.finish();
+    const auto rays = [](Random& random) {
+        // Half of them towards it, from the scene and from outside.
+        Ray ray{uniform_point(random, random() % 2 == 0 ? 1 : 40),
+                {},
+                0,
+                std::numeric_limits<double>::infinity()};
+        const Vec3 far{uniform(random, 40, 42), uniform(random, 45, 48), uniform(random, 50, 53)};
+        ray.direction =
+            random() % 2 == 0 ? far - ray.origin : uniform_point(random, 1) - ray.origin;
+        if (random() % 4 == 0) ray.t_max = 100;
+        return ray;
+    };
+    compare("one triangle", table, rays, 4000);
+    Ray ray{{0.1, 0, 0}, {41, 140.0 / 3, 155.0 / 3}, 0, std::numeric_limits<double>::infinity()};
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        EXPECT_FALSE(make_aggregate("wide_bvh", table)->occluded(ray, nullptr)) << target;
+    }
+}
+
+TEST(WideBvh, FindsTheHitsOfBruteForceWhereExponentsRunOut) {
+    for (const double scale : {1e-149, 1e-120, 1e-104, 1e-61, 1e61, 1e103, 1e120, 1e149}) {
+        Random random(33);
+        TableBuilder builder;
+        for (int i = 0; i < 40; ++i) {
+            const Vec3 a = uniform_point(random, scale);
+            builder.add_triangle(a, a + uniform_point(random, scale),
+                                 a + uniform_point(random, scale), random() % 2 == 0);
+        }
+        const PrimitiveTable table = builder.finish();
+        const auto list = make_aggregate("list", table);
+        const auto tested = make_aggregate("wide_bvh", table);
+        for (int i = 0; i < 2000; ++i) {
+            Ray ray{2 * uniform_point(random, scale), {}, 0, 0};
+            ray.direction = uniform_point(random, scale) - ray.origin;
+            ray.t_max = random() % 2 == 0 ? std::numeric_limits<double>::infinity() : 1.0;
+            if (random() % 2 == 0) ray.t_min = 1e-9;
+            if (!is_valid(ray)) continue;
+            ASSERT_EQ(difference(ask(*list, ray), ask(*tested, ray)), "")
+                << "at a scale of " << scale << ": " << show(ray);
+        }
+    }
+}
+
 TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
     for (const double distance : {1e3, 1e6, 1e9, 1e12, 1e15, 1e30}) {
         const auto rays = [distance](Random& random) {

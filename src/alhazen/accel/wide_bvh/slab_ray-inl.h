@@ -9,6 +9,7 @@
 #define ALHAZEN_WIDE_BVH_SLAB_RAY_INL_H_
 #endif
 
+#include <array>
 #include <bit>
 
 #include "alhazen/accel/wide_bvh/slab_ray.h"
@@ -26,8 +27,7 @@ struct RayLanes {
     alignas(64) double component[8][N];
 
     HWY_INLINE void set(std::size_t lane, const Ray& ray) {
-        static_assert(sizeof(Ray) == 8 * sizeof(double));
-        const double* values = &ray.origin.x;
+        const auto values = std::bit_cast<std::array<double, 8>>(ray);
         for (std::size_t i = 0; i < 8; ++i) component[i][lane] = values[i];
     }
     [[nodiscard]] HWY_INLINE Lanes<double, N> get(std::size_t i) const {
@@ -105,10 +105,13 @@ HWY_INLINE void make_slab_rays(const LocalFrame& frame, const RayLanes<N>& rays,
     D power, inverse_power;
     powers_of_two(length, power, inverse_power);
     LocalParameters<N> local{power * D(frame.scale), D(0.0)};
-    // Outside these limits (never in a real scene) exponents would leave the range of double.
+    // Outside these limits (never in a real scene) exponents could leave the range of double: here,
+    // or in the test in double, whose products have the third power of a length.
+    const bool scene_regular = frame.scale >= 0x1p-200 && frame.scale <= 0x1p200;
     const std::uint32_t regular =
-        bits_of((distance <= D(0x1p40)) & (length >= D(0x1p-400)) & (length <= D(0x1p400)) &
-                (local.scale >= D(0x1p-900)) & (local.scale <= D(0x1p900)));
+        scene_regular
+            ? bits_of((distance <= D(0x1p40)) & (length >= D(0x1p-200)) & (length <= D(0x1p200)))
+            : 0;
     for (std::size_t k = 0; k < 3; ++k) d[k] = d[k] * inverse_power;
     const auto far = distance > D(2.0);
     if (bits_of(far) != 0) {
