@@ -5,6 +5,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/image_difference.h"
 #include "alhazen/imaging/image_io.h"
+#include "alhazen/session/scene_files.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
@@ -73,7 +74,13 @@ void add_diff(CLI::App& app, int& exit_status) {
     args->limits.add_to(*command);
     command->callback([args, &exit_status] {
         const Metric& metric = find_metric(args->metric);
-        if (!args->output.empty()) check_image_suffix(args->output);
+        if (!args->output.empty()) {
+            check_image_suffix(args->output);
+            if (is_same_file(args->output, args->a) || is_same_file(args->output, args->b)) {
+                throw Error(ErrorKind::Usage,
+                            "-o: " + args->output + " is one of the pictures that are compared");
+            }
+        }
         ImageLimits limits = args->limits.limits();
         const Image a = read_image(args->a, limits);
         limits.max_bytes -= a.samples.size() * sizeof(float);

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "alhazen/importers/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/accelerator_table.h"
+#include "alhazen/session/scene_files.h"
 #include "alhazen/session/verify.h"
 #include "commands.h"
 #include "messages.h"
@@ -83,6 +86,10 @@ void add_verify(CLI::App& app, int& exit_status) {
         Diagnostics diagnostics;
         const SceneDescription description =
             load_description(args->scene.scene, args->scene.load_options(), diagnostics);
+        if (!args->json.empty() && args->json != "-") {
+            const std::filesystem::path output = args->json;
+            check_spares_scene(description, std::span(&output, 1));
+        }
         if (!args->quiet) print_warnings(diagnostics);
         ProgressDisplay progress(args->quiet);
         json reports = json::array();

@@ -3,8 +3,11 @@
 
 import json
 import os
+import pathlib
+import random
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -411,6 +414,48 @@ mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 
             self.assertEqual(result.returncode, status, arguments)
             self.assertIn(message, result.stderr)
         self.assertEqual(self.read("scene with space.alhazen").decode(), SPHERES)
+
+    def test_reports_and_difference_pictures_spare_what_was_read(self):
+        self.assertEqual(run("render", self.scene, "-q", "-o", self.path("a.png"), "--size", "8x8").returncode, 0)
+        before = self.read("a.png")
+        result = run("diff", self.path("a.png"), self.path("a.png"), "-o", self.path("a.png"))
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("is one of the pictures", result.stderr)
+        self.assertEqual(self.read("a.png"), before)
+        result = run("verify", self.scene, "-q", "--rays", "10", "--json", self.scene)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(self.read("scene with space.alhazen").decode(), SPHERES)
+
+    def test_a_conversion_that_fails_leaves_the_one_before_as_it_was(self):
+        def textured(name, seed):
+            with open(self.path(name + ".bmp"), "wb") as file:
+                pixels = random.Random(seed).randbytes(3 * 64 * 64)
+                file.write(b"BM" + struct.pack("<IIIIiiHHIIiiII", 54 + len(pixels), 0, 54, 40, 64, 64, 1, 24, 0, 0, 0, 0, 0, 0))
+                file.write(pixels)
+            with open(self.path(name + ".alhazen"), "w", encoding="utf-8") as file:
+                file.write('alhazen 1\ntexture "t" { file = "%s.bmp" }\n'
+                           'rectangle { material = { diffuse = texture("t") } }\n' % name)
+            return self.path(name + ".alhazen")
+
+        def files():
+            folder = self.path("out_files")
+            return {name: pathlib.Path(folder, name).read_bytes() for name in os.listdir(folder)}
+
+        self.assertEqual(run("convert", textured("first", 1), self.path("out.alhazen")).returncode, 0)
+        before, scene = files(), self.read("out.alhazen")
+        self.assertTrue(before)
+        second = textured("second", 2)
+        with open(second, "a", encoding="utf-8") as file:
+            file.write("".join(f"sphere {{ center = ({i}, 5, 0); radius = 0.1 }}\n" for i in range(2000)))
+
+        def limit():  # the texture fits, the scene does not
+            resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
+
+        self.assertEqual(run("convert", second, self.path("out.alhazen"), preexec_fn=limit).returncode, 4)
+        self.assertTrue(files() == before and self.read("out.alhazen") == scene)
+        self.assertEqual(run("convert", second, self.path("out.alhazen")).returncode, 0)
+        self.assertTrue(files() != before)
+        self.assertEqual(sorted(files()), sorted(before))
 
     def test_interrupted_rendering_writes_what_is_done_and_exits_75(self):
         process = subprocess.Popen([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "--size", "2000x2000",

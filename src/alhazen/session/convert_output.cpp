@@ -59,6 +59,9 @@ bool holds_bytes(const fs::path& path, std::span<const std::byte> bytes) {
 ConvertOutput::~ConvertOutput() {
     if (finished_) return;
     std::error_code ignored;
+    for (const Staged& file : staged_) {
+        if (!file.moved) fs::remove(file.from, ignored);
+    }
     for (const fs::path& file : made_) fs::remove(file, ignored);
     if (made_folder_) fs::remove(*made_folder_, ignored);  // only when it is empty
 }
@@ -87,16 +90,17 @@ std::string ConvertOutput::write_beside(const std::string& name, std::span<const
     const fs::path path = path_.parent_path() / name;
     make_folder(path.parent_path());
     const fs::path free = free_name(path, bytes);
-    write(free, bytes);
+    stage(free, bytes);
     return (fs::path(name).parent_path() / free.filename()).string();
 }
 
 void ConvertOutput::write_sibling(const fs::path& name, std::span<const std::byte> bytes) {
-    write(path_.parent_path() / name, bytes);
+    stage(path_.parent_path() / name, bytes);
 }
 
 ConvertReport ConvertOutput::finish(std::span<const std::byte> bytes) {
-    write(path_, bytes);
+    stage(path_, bytes);
+    move_staged();
     finished_ = true;
     return std::move(report_);
 }
@@ -148,13 +152,36 @@ bool ConvertOutput::is_named_by_others(const std::string& file_name) {
     return may_name_anything_ || named_by_others_->contains(file_name);
 }
 
-void ConvertOutput::write(const fs::path& path, std::span<const std::byte> bytes) {
-    std::error_code failed;
-    const bool fresh = !fs::exists(fs::symlink_status(path, failed));
-    write_file_atomically(path, bytes);
-    if (fresh) made_.push_back(path);
+void ConvertOutput::stage(const fs::path& path, std::span<const std::byte> bytes) {
+    fs::path from = path;
+    from += ".new";
+    write_file_atomically(from, bytes);
+    staged_.push_back({from, path});
+    count(path, bytes.size());
+}
+
+void ConvertOutput::move_staged() {
+    for (const Staged& file : staged_) {
+        if (fs::is_directory(file.to)) {
+            throw Error(ErrorKind::File, "is a folder", {file.to.string(), 0, 0});
+        }
+    }
+    for (Staged& file : staged_) {
+        std::error_code failed;
+        const bool fresh = !fs::exists(fs::symlink_status(file.to, failed));
+        fs::rename(file.from, file.to, failed);
+        if (failed) {
+            throw Error(ErrorKind::File, "cannot be replaced: " + failed.message(),
+                        {file.to.string(), 0, 0});
+        }
+        file.moved = true;
+        if (fresh) made_.push_back(file.to);
+    }
+}
+
+void ConvertOutput::count(const fs::path& path, std::size_t bytes) {
     report_.files.push_back(path);
-    report_.bytes += bytes.size();
+    report_.bytes += bytes;
 }
 
 }  // namespace alhazen

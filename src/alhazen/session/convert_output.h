@@ -1,9 +1,11 @@
 #pragma once
 /// The files that a conversion writes: OUT, and those beside it that OUT names.
 ///
-/// Conventions: OUT is written last. What belongs to another scene is not replaced: where a file of
-/// OUT_files/ has other bytes and a scene file beside OUT names it, the new one gets another name.
-/// Without `finish`, files and folders that were not there before are taken away again.
+/// Conventions: all is written under other names first and moved to its place in `finish`, OUT
+/// last: a conversion that fails or is stopped leaves an earlier one as it was. What belongs to
+/// another scene is not replaced: where a file of OUT_files/ has other bytes and a scene file
+/// beside OUT names it, the new one gets another name. Without `finish`, files and folders that
+/// were not there before are taken away again.
 
 #include <filesystem>
 #include <optional>
@@ -48,11 +50,20 @@ class ConvertOutput {
     std::filesystem::path free_name(const std::filesystem::path& path,
                                     std::span<const std::byte> bytes);
     bool is_named_by_others(const std::string& file_name);
-    void write(const std::filesystem::path& path, std::span<const std::byte> bytes);
+    /// Writes it under another name, to be moved.
+    void stage(const std::filesystem::path& path, std::span<const std::byte> bytes);
+    void move_staged();
+    void count(const std::filesystem::path& path, std::size_t bytes);
+
+    struct Staged {
+        std::filesystem::path from, to;
+        bool moved = false;
+    };
 
     std::filesystem::path path_;
     std::string suffix_;
     ConvertReport report_;
+    std::vector<Staged> staged_;
     std::vector<std::filesystem::path> made_;  ///< files that were not there before
     std::optional<std::filesystem::path> made_folder_;
     bool finished_ = false;
