@@ -99,8 +99,20 @@ void ConvertOutput::write_sibling(const fs::path& name, std::span<const std::byt
 }
 
 ConvertReport ConvertOutput::finish(std::span<const std::byte> bytes) {
-    stage(path_, bytes);
+    if (fs::exists(path_) && !fs::is_regular_file(path_)) {
+        throw Error(ErrorKind::File, "exists and is not a regular file", {path_.string(), 0, 0});
+    }
+    // Whether there is room for OUT is known before anything is replaced; it is written anew for
+    // its permissions and links.
+    fs::path room = path_;
+    room += ".new";
+    staged_.push_back({room, path_, false});
+    write_file_atomically(room, bytes);
+    fs::remove(room);
+    staged_.pop_back();
     move_staged();
+    write_file_atomically(path_, bytes);
+    count(path_, bytes.size());
     finished_ = true;
     return std::move(report_);
 }
