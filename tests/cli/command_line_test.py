@@ -499,7 +499,7 @@ mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 
             if ends[-1] == 75:
                 break
         self.assertEqual(ends[-1], 75, ends)
-        self.assertIn("nothing was written", messages)
+        self.assertIn("no result was written", messages)
         self.assertFalse(os.path.exists(self.path("big.png")))
 
     def test_bounds_are_those_of_the_vertices(self):
