@@ -19,9 +19,9 @@
 /// - a weight of the hit is an edge function over their sum, so the place of the hit on the ray
 ///   moves by at most 24 err w / |sum| (25 are taken, for the rounding of that) within the extent w
 ///   of the triangle along the ray.
-/// - the rest of the place's error: z is off by 2 e R and its scale by e, three products, two sums
-/// and
-///   a quotient of parts of one sign round e R each: 12 e R, and 4 delta for the test in double.
+/// - the rest of the place's error: z is off by 2 e R and its scale by e; three products,
+///   two sums and a quotient of parts of one sign round e R each: 12 e R, and 4 delta for the test in
+///   double.
 /// Free lanes may lie farther off than R; who reads a result looks at the lane's id.
 /// The test in double must not leave the range of exponents: rays of which that is not sure have an
 /// infinite slack (see `make_slab_rays`), pass every triangle and are sure of none.
