@@ -4,28 +4,14 @@
 #include <cmath>
 #include <vector>
 
+#include "alhazen/shading/texture_inputs.h"
+
 namespace alhazen {
 
 namespace {
 
 /// Steeper slopes are those of a wall anyway; products of them stay finite.
 constexpr double kMaxSlope = 1e6;
-
-double value_of(const Rgba& texel, Channel channel) {
-    switch (channel) {
-        case Channel::Red:
-            return texel.r;
-        case Channel::Green:
-            return texel.g;
-        case Channel::Blue:
-            return texel.b;
-        case Channel::Alpha:
-            return texel.a;
-        case Channel::Mean:
-            break;
-    }
-    return (texel.r + texel.g + texel.b) / 3.0;
-}
 
 bool is_direction(const Rgba& texel) {
     if (!(texel.b >= texel.r && texel.b >= texel.g)) return false;
@@ -44,7 +30,7 @@ std::vector<double> row_of(const StoredImage& picture, int y, Channel channel) {
     std::vector<double> row(std::size_t(picture.width));
     const std::size_t first = std::size_t(y) * row.size();
     for (std::size_t x = 0; x < row.size(); ++x) {
-        const double height = value_of(picture.pixel(first + x, false), channel);
+        const double height = channel_of(picture.pixel(first + x, false), channel);
         row[x] = std::isfinite(height) ? height : 0.0;
     }
     return row;
