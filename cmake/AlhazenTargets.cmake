@@ -46,17 +46,18 @@ if(ALHAZEN_SANITIZE)
 endif()
 
 # alhazen_library(NAME SOURCES file... DEPENDS folder... LIBRARIES target... PRIVATE_LIBRARIES target...)
-# makes the target alhazen_NAME of one folder of src/alhazen. Without sources it is header-only.
+# makes the target alhazen_NAME of one folder of src/alhazen. Without sources it is header-only. Our flags stay
+# inside of this build: who uses an installed library has the few of AlhazenInstall.cmake.
 function(alhazen_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
     if(ARG_SOURCES)
         add_library(alhazen_${name} STATIC ${ARG_SOURCES})
-        target_link_libraries(alhazen_${name} PUBLIC alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES}
+        target_link_libraries(alhazen_${name} PUBLIC $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES}
                               PRIVATE ${ARG_PRIVATE_LIBRARIES})
     else()
         add_library(alhazen_${name} INTERFACE)
-        target_link_libraries(alhazen_${name} INTERFACE alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES})
+        target_link_libraries(alhazen_${name} INTERFACE $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES})
     endif()
 endfunction()
 

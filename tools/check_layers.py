@@ -29,6 +29,7 @@ TABLE = {
     "shapes": ["geometry"],
     "accel": ["geometry", "simd", "parallel"],
     "scene": ["shading", "shapes", "accel"],
+    "tracer": ["scene"],
     "renderers": ["scene"],
     "importers": ["scene"],
     "session": ["renderers", "importers"],

@@ -1,0 +1,33 @@
+# `cmake --install`: the command line, the library with its headers, and the package that makes
+# find_package(alhazen) and alhazen::tracer work elsewhere (docs/library.md).
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+# What alhazen_tracer is made of, in the order of who may include whom.
+set(alhazen_installed base math simd parallel geometry shapes accel imaging shading scene tracer)
+
+foreach(folder ${alhazen_installed})
+    set_target_properties(alhazen_${folder} PROPERTIES EXPORT_NAME ${folder})
+    install(TARGETS alhazen_${folder} EXPORT alhazenTargets
+            ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+            INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/alhazen/${folder}"
+            DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/alhazen"
+            FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+# Inline functions of the headers must compute in other programs what they compute in the library:
+# the linker keeps one copy of each, whoever compiled it.
+target_compile_options(alhazen_base INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
+target_compile_features(alhazen_base INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
+
+set(alhazen_package "${CMAKE_INSTALL_LIBDIR}/cmake/alhazen")
+install(EXPORT alhazenTargets NAMESPACE alhazen:: DESTINATION "${alhazen_package}")
+configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/alhazenConfig.cmake.in"
+    "${PROJECT_BINARY_DIR}/alhazenConfig.cmake" INSTALL_DESTINATION "${alhazen_package}")
+# Before 1.0 every minor version may change the interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/alhazenConfigVersion.cmake"
+    COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/alhazenConfig.cmake"
+              "${PROJECT_BINARY_DIR}/alhazenConfigVersion.cmake"
+        DESTINATION "${alhazen_package}")

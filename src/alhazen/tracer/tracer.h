@@ -1,0 +1,91 @@
+#pragma once
+/// Traces rays through geometry for programs that want hits and no renderer.
+///
+/// Conventions: points are origin + t * direction with t in [t_min, t_max]; the direction need not
+/// be of unit length, and t is in units of it. An invalid ray (`is_valid`) hits nothing. Every
+/// accelerator gives the same hits, bit for bit. At equal t the lower primitive wins: analytic
+/// shapes before triangles before instances, each kind in the order in which it was added.
+/// Complexity and threads: built in parallel, about O(n log n). Const functions may be called from
+/// many threads at once, and give a batch to one thread each. A copy shares what was built.
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/ray.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/aggregate.h"
+#include "alhazen/scene/surface.h"
+#include "alhazen/tracer/tracer_scene.h"
+
+namespace alhazen {
+
+struct TracerOptions {
+    /// One of `accelerator_table()`; another name throws Error (Usage) with the valid ones.
+    std::string accelerator = kDefaultAccelerator;
+};
+
+/// What a `Hit` of a tracer means, in the coordinates of the tracer: the point, the normals, the
+/// texture coordinates and what else a `Surface` holds. The materials in it mean nothing.
+struct HitDetails : Surface {
+    /// What was hit; inside of instances the id it has in the scene of the innermost.
+    GeometryId geometry{};
+    std::uint32_t primitive = 0;  ///< which triangle of a mesh; 0 of a shape
+    /// The instances around it as ids, the outermost first; each in the scene of the one before.
+    InlineVector<GeometryId, kMaxInstanceDepth> instances;
+};
+
+/// All hits of a batch of rays, ray after ray.
+struct HitLists {
+    std::vector<Hit> hits;
+    std::vector<std::size_t> ends;  ///< [ray] where its hits end; they begin where those before end
+
+    [[nodiscard]] std::span<const Hit> of(std::size_t ray) const {
+        const std::size_t begin = ray == 0 ? 0 : ends[ray - 1];
+        return std::span(hits).subspan(begin, ends[ray] - begin);
+    }
+};
+
+class Tracer {
+  public:
+    /// Builds over all of the scene; it may be empty.
+    explicit Tracer(TracerScene scene, const TracerOptions& options = {});
+
+    /// The nearest hit: t, and u and v, the weights of the second and third vertex of a triangle or
+    /// the parameters of a shape. True when there is one; else `hit.found()` is false.
+    bool intersect(const Ray& ray, Hit& hit) const;
+    /// True when there is any hit: cheaper than the nearest one.
+    [[nodiscard]] bool occluded(const Ray& ray) const;
+    /// Replaces `hits` by every hit, the nearest first.
+    void all_hits(const Ray& ray, std::vector<Hit>& hits) const;
+
+    // ---- The same for many rays of any kind and in any order: faster from about ten rays on.
+    // Throws Error (Usage) where two spans differ in length.
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
+    void occluded(std::span<const Ray> rays, std::span<bool> occluded) const;
+    void all_hits(std::span<const Ray> rays, HitLists& lists) const;
+
+    /// Where a hit of this very tracer lies and what it belongs to. `leaving_ray` (scene/surface.h)
+    /// begins the next ray there. Throws Error (Usage) when nothing was hit.
+    [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
+
+    /// Holds all geometry; empty for an empty scene, infinite with planes in it.
+    [[nodiscard]] Box3 box() const { return aggregate_->box(); }
+    [[nodiscard]] std::size_t geometry_count() const { return geometry_count_; }
+    /// Bytes of the acceleration structure, without those of instanced tracers.
+    [[nodiscard]] std::size_t memory_bytes() const { return aggregate_->memory_bytes(); }
+    /// For code that counts steps or asks for more than this class offers.
+    [[nodiscard]] const Aggregate& aggregate() const { return *aggregate_; }
+
+  private:
+    friend class TracerScene;
+
+    std::shared_ptr<const Aggregate> aggregate_;
+    std::size_t geometry_count_ = 0;
+    std::size_t depth_ = 0;  ///< levels of instances
+};
+
+}  // namespace alhazen

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""Installs the library, builds the example against what was installed, and runs it.
+
+Usage: library_install_test.py BUILD_FOLDER SOURCE_FOLDER TRACE_RAYS COMPILER FLAGS CONFIG
+
+Nothing of the library is built anew. TRACE_RAYS is the example as this build has it: the one against the
+installed library must print the same.
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+
+def run(*command):
+    """What a command prints; ends the test when it fails."""
+    command = [str(word) for word in command]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)}\nfailed with {done.returncode}:\n{done.stdout}")
+    return done.stdout
+
+
+def check_picture(picture, expected):
+    rows = picture.splitlines()
+    assert len(rows) == 20 and all(len(row) == 64 for row in rows), picture
+    assert set(picture) == set(" -#oO\n"), picture
+    # The eye stands on the ball's plane of symmetry, and the light to the right of it.
+    assert rows[8][31] in "oO" and rows[8][32] in "oO", picture
+    assert sum(row[:32].count("#") for row in rows) > sum(row[32:].count("#") for row in rows), picture
+    assert picture == expected, f"{picture}differs from that of the build:\n{expected}"
+
+
+def main():
+    build, source, trace_rays, compiler, flags, config = sys.argv[1:]
+    with tempfile.TemporaryDirectory(prefix="alhazen_install_") as folder:
+        folder = pathlib.Path(folder)
+        run("cmake", "--install", build, "--prefix", folder / "first", "--config", config)
+        # What is installed must not know where it was installed to.
+        (folder / "first").rename(folder / "moved")
+        example = folder / "example"
+        run("cmake", "-S", pathlib.Path(source) / "examples" / "trace_rays", "-B", example,
+            f"-DCMAKE_PREFIX_PATH={folder / 'moved'}", f"-DCMAKE_CXX_COMPILER={compiler}",
+            f"-DCMAKE_CXX_FLAGS={flags}", f"-DCMAKE_BUILD_TYPE={config}")
+        run("cmake", "--build", example, "--config", config)
+        check_picture(run(example / "trace_rays"), run(trace_rays))
+        run(folder / "moved" / "bin" / "alhazen", "--version")
+        for name in folder.rglob("alhazen*.cmake"):
+            assert source not in name.read_text(encoding="utf-8"), f"{name} knows {source}"
+
+
+if __name__ == "__main__":
+    main()
