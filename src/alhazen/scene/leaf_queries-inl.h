@@ -21,38 +21,31 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// N rays with all that the tests of their nodes and leaves need.
-template <std::size_t N>
-struct RayGroup {
-    SlabRays<N> slabs;
-    TriangleFilterRays<N> filter;
-
-    HWY_INLINE void make(const LocalFrame& frame, const RayLanes<N>& rays) {
-        make_slab_rays(frame, rays, slabs);
-        make_triangle_filter_rays(rays, slabs, filter);
-    }
-};
-
-/// The part of a query on one ray of a group that is the same for all. `Derived` offers
+/// The part of a query on one ray that is the same for all. `Derived` offers
 /// `bool triangles(block, found, stats)`, `bool sphere(block, lane, stats)` and
 /// `bool other(id, stats)`, true to stop.
-template <class Derived, std::size_t N>
+template <class Derived>
 struct LeafQuery {
-    const WideBvhScene& scene;
-    const SlabRays<N>& slabs;
-    const TriangleFilterRays<N>& filter;
-    std::size_t in_group;  ///< the ray's place
-    float s_max;
+    SlabRay slabs;
+    TriangleFilterRay filter;
     Ray ray;
+    LocalParameter parameter;
+    const WideBvhScene& scene;
+    float s_max;
+    bool valid;  ///< false: the ray cannot be traced
 
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const RayGroup<N>& group, std::size_t i,
-                         const Ray& r)
-        : scene(s),
-          slabs(group.slabs),
-          filter(group.filter),
-          in_group(i),
-          s_max(group.slabs.s_max[i]),
-          ray(r) {}
+    /// The ray up to `t_max`. Made from the caller's ray, not from the copy: it could not be loaded
+    /// by the lane before it is in the cache.
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, double t_max) : ray(r), scene(s) {
+        ray.t_max = t_max;
+        LocalRay local;
+        make_slab_ray(s.layout->frame, r, t_max, slabs, local);
+        valid = local.valid;
+        if (!valid) return;
+        make_triangle_filter_ray(slabs, local, filter);
+        parameter = local.parameter;
+        s_max = slabs.s_max;
+    }
 
     template <class Stats>
     HWY_INLINE bool visit(NodeRef ref, Stats stats) {
@@ -64,8 +57,7 @@ struct LeafQuery {
                 for (std::uint32_t i = 0; i < count; ++i) {
                     stats.primitives(used_lanes(blocks[i]));
                     FilteredTriangles found;
-                    if (filter_triangles(blocks[i], filter, in_group, slabs.s_min[in_group], s_max,
-                                         found) &&
+                    if (filter_triangles(blocks[i], filter, slabs.s_min, s_max, found) &&
                         query.triangles(blocks[i], found, stats)) {
                         return true;
                     }
@@ -98,23 +90,6 @@ struct LeafQuery {
         return false;
     }
 
-    HWY_INLINE void prefetch(NodeRef ref) const {
-        const char* lines;
-        switch (static_cast<LeafType>(ref.kind())) {
-            case LeafType::Triangles:
-                lines = reinterpret_cast<const char*>(&scene.layout->triangles[ref.offset()]);
-                break;
-            case LeafType::Spheres:
-                lines = reinterpret_cast<const char*>(&scene.layout->spheres[ref.offset()]);
-                break;
-            default:
-                return hwy::Prefetch(&scene.layout->others[ref.offset()]);
-        }
-        static_assert(sizeof(TriangleBlock) == 320 && sizeof(SphereBlock) == 320);
-        HWY_UNROLL(5)
-        for (int i = 0; i < 5; ++i) hwy::Prefetch(lines + 64 * i);
-    }
-
     /// Made anew for the few tests that need it.
     [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
     [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
@@ -137,10 +112,7 @@ struct LeafQuery {
 
 /// The nearest hit. Triangles are remembered as the filter finds them, each that is sure ends the
 /// search behind it, and the test in double decides among the few that are left in the end.
-template <std::size_t N>
-struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
-    using Base = LeafQuery<ClosestQuery<N>, N>;
-    using Base::in_group, Base::ray, Base::s_max, Base::scene, Base::slabs;
+struct ClosestQuery : LeafQuery<ClosestQuery> {
     static constexpr bool kOrdered = true;
     static constexpr std::uint32_t kMaxPending = 8;
 
@@ -155,9 +127,8 @@ struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
     } pending[kMaxPending];
 
     /// `found` may hold a hit found before.
-    HWY_INLINE ClosestQuery(const WideBvhScene& s, const RayGroup<N>& group, std::size_t i,
-                            const Ray& r, Hit& found)
-        : Base(s, group, i, r), best(found) {}
+    HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
+        : LeafQuery(s, r, found.found() ? found.t : r.t_max), best(found) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
@@ -232,22 +203,18 @@ struct ClosestQuery : LeafQuery<ClosestQuery<N>, N> {
 
   private:
     HWY_INLINE void shrink() {
-        const float s = slabs.local_max(in_group, ray.t_max);
+        const float s = parameter.above(ray.t_max);
         if (s < s_max) s_max = s;
     }
 };
 
 /// Whether there is any hit.
-template <std::size_t N>
-struct OccludedQuery : LeafQuery<OccludedQuery<N>, N> {
-    using Base = LeafQuery<OccludedQuery<N>, N>;
-    using Base::ray, Base::scene;
+struct OccludedQuery : LeafQuery<OccludedQuery> {
     static constexpr bool kOrdered = false;
     bool& occluded;
 
-    HWY_INLINE OccludedQuery(const WideBvhScene& s, const RayGroup<N>& group, std::size_t i,
-                             const Ray& r, bool& result)
-        : Base(s, group, i, r), occluded(result) {}
+    HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
+        : LeafQuery(s, r, r.t_max), occluded(result) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
@@ -282,15 +249,14 @@ struct OccludedQuery : LeafQuery<OccludedQuery<N>, N> {
 
 /// All hits; with `kStopAtOpaque` up to the first opaque one.
 template <bool kStopAtOpaque>
-struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, 1> {
-    using Base = LeafQuery<CollectQuery<kStopAtOpaque>, 1>;
+struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>> {
+    using Base = LeafQuery<CollectQuery<kStopAtOpaque>>;
     using Base::ray, Base::scene, Base::shear;
     static constexpr bool kOrdered = false;
     std::vector<Hit>& hits;
 
-    HWY_INLINE CollectQuery(const WideBvhScene& s, const RayGroup<1>& group, const Ray& r,
-                            std::vector<Hit>& found)
-        : Base(s, group, 0, r), hits(found) {}
+    HWY_INLINE CollectQuery(const WideBvhScene& s, const Ray& r, std::vector<Hit>& found)
+        : Base(s, r, r.t_max), hits(found) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,

@@ -26,63 +26,43 @@ struct FilteredTriangles {
     HWY_ALIGN float hi[kBlockWidth];
 };
 
-template <std::size_t N>
-HWY_INLINE void make_triangle_filter_rays(const RayLanes<N>& rays, const SlabRays<N>& slabs,
-                                          TriangleFilterRays<N>& filter) {
-    using D = Lanes<double, N>;
-    D o[3], d[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-        o[k] = load_lanes<N>(slabs.origin[k]);
-        d[k] = load_lanes<N>(slabs.direction[k]);
-    }
-    const D ax = abs(d[0]), ay = abs(d[1]), az = abs(d[2]);
-    const auto x_first = (ax >= ay) & (ax >= az);
-    const auto y_second = ay >= az;
-    // kx, ky, kz are y, z, x or z, x, y or x, y, z.
-    const auto turned = [&](const D(&v)[3], std::size_t k) HWY_ATTR {
-        return select(x_first, v[(k + 1) % 3], select(y_second, v[(k + 2) % 3], v[k]));
-    };
-    for (std::size_t k = 0; k < 3; ++k) store_as_floats(turned(o, k), filter.origin[k]);
-    const D inverse = D(1.0) / turned(d, 2);
-    store_as_floats(turned(d, 0) * inverse, filter.sx);
-    store_as_floats(turned(d, 1) * inverse, filter.sy);
-    store_as_floats(inverse, filter.sz);
-    const std::uint32_t x = bits_of(x_first), y = bits_of(y_second);
-    for (std::size_t i = 0; i < N; ++i) {
-        const std::uint32_t kz = (x >> i & 1) != 0 ? 0 : 2 - (y >> i & 1);
-        filter.axis[0][i] = 0x021 >> 4 * kz & 3;  // 1, 2, 0
-        filter.axis[1][i] = 0x102 >> 4 * kz & 3;  // 2, 0, 1
-        filter.axis[2][i] = kz;
-    }
-    const D delta = load_lanes<N>(slabs.delta), reach = load_lanes<N>(slabs.reach);
-    const D error = D(0x1p-24 * 9.0) * reach + delta + delta;
-    store_as_floats(D(5.11) * error, filter.edge_slack);
-    store_as_floats(D(2.11) * error * error, filter.edge_slack_min);
-    store_as_floats(D(0x1p-24 * 13.0) * reach + D(4.0) * delta, filter.s_slack);
-    const LocalParameters<N> local{load_lanes<N>(slabs.t_scale), load_lanes<N>(slabs.t_shift)};
-    const D infinite(std::numeric_limits<double>::infinity());
-    const D t_max = rays.t_max();
-    store_as_floats(local.above(rays.t_min()), filter.sure_min);
-    store_as_floats(select(t_max < infinite, local.below(t_max), infinite), filter.sure_max);
-    for (std::size_t i = 0; i < N; ++i) {
-        // Nothing is known of such a ray.
-        if (slabs.t_scale[i] == 0) {
-            filter.edge_slack[i] = std::numeric_limits<float>::infinity();
-        }
+/// `slabs` and `local` are of the same ray.
+HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& local,
+                                         TriangleFilterRay& filter) {
+    static constexpr std::uint8_t kNext[4] = {1, 2, 0, 1};
+    const std::uint32_t kz = local.main_axis;
+    const std::uint32_t kx = kNext[kz], ky = kNext[kz + 1];
+    filter.kx = kx;
+    filter.ky = ky;
+    filter.kz = kz;
+    filter.origin[0] = local.origin[kx];
+    filter.origin[1] = local.origin[ky];
+    filter.origin[2] = local.origin[kz];
+    const float sz = slabs.reciprocal[kz];
+    filter.sx = local.direction[kx] * sz;
+    filter.sy = local.direction[ky] * sz;
+    filter.sz = sz;
+    constexpr float e = 0x1p-24f;
+    const float error = 13.2f * e * local.reach + 4.0f * local.delta;
+    filter.edge_slack = 5.12f * error;
+    filter.edge_slack_min = 2.12f * error * error;
+    filter.s_slack = (14.2f * e * local.reach + 4.0f * local.delta) * std::abs(sz);
+    filter.sure_min = local.sure_min;
+    filter.sure_max = local.sure_max;
+    if (HWY_UNLIKELY(!local.regular)) {
+        filter.edge_slack = std::numeric_limits<float>::infinity();
     }
 }
 
 /// False when no triangle of the block is hit up to `s_max`: then `out` is not set.
-template <std::size_t N>
-HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilterRays<N>& rays,
-                                 std::size_t ray, float s_min, float s_max,
-                                 FilteredTriangles& out) {
+HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilterRay& ray,
+                                 float s_min, float s_max, FilteredTriangles& out) {
     struct {
         Floats x, y, z;
     } v[3];
-    const Floats ox(rays.origin[0][ray]), oy(rays.origin[1][ray]), oz(rays.origin[2][ray]);
-    const Floats sx(rays.sx[ray]), sy(rays.sy[ray]);
-    const std::size_t kx = rays.axis[0][ray], ky = rays.axis[1][ray], kz = rays.axis[2][ray];
+    const Floats ox(ray.origin[0]), oy(ray.origin[1]), oz(ray.origin[2]);
+    const Floats sx(ray.sx), sy(ray.sy);
+    const std::size_t kx = ray.kx, ky = ray.ky, kz = ray.kz;
     HWY_UNROLL(3)
     for (int i = 0; i < 3; ++i) {
         v[i].z = load_lanes(block.vertex[i][kz]) - oz;
@@ -94,14 +74,13 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     const Floats eu = edge(v[1], v[2]), ev = edge(v[2], v[0]), ew = edge(v[0], v[1]);
     const auto reach = [](const auto& a) HWY_ATTR { return max_lanes(abs(a.x), abs(a.y)); };
     const Floats far = max_lanes(max_lanes(reach(v[0]), reach(v[1])), reach(v[2]));
-    const Floats error =
-        mul_add(far, Floats(rays.edge_slack[ray]), Floats(rays.edge_slack_min[ray]));
+    const Floats error = mul_add(far, Floats(ray.edge_slack), Floats(ray.edge_slack_min));
     const Floats least = min_lanes(min_lanes(eu, ev), ew);
     const Floats most = max_lanes(max_lanes(eu, ev), ew);
     std::uint32_t candidates = kAllLanes & ~bits_of((least < -error) & (most > error));
     if (candidates == 0) return false;
 
-    const Floats sz(rays.sz[ray]);
+    const Floats sz(ray.sz);
     const Floats sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
     const Floats det = eu + ev + ew;
     const Floats first = min_lanes(min_lanes(sa, sb), sc);
@@ -111,14 +90,13 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     const Floats place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
     const Floats s = min_lanes(max_lanes(place, first), last);
     const Floats slack =
-        mul_add(Floats(25.0f) * error * (last - first), abs(inverse), Floats(rays.s_slack[ray]));
+        mul_add(Floats(25.0f) * error * (last - first), abs(inverse), Floats(ray.s_slack));
     const Floats lo = s - slack, hi = s + slack;
     candidates &= ~bits_of((lo > Floats(s_max)) | (hi < Floats(s_min)));
     if (candidates == 0) return false;
     out.candidates = candidates;
-    out.sure = candidates &
-               bits_of(((least > error) | (most < -error)) & (lo >= Floats(rays.sure_min[ray])) &
-                       (hi <= Floats(rays.sure_max[ray])));
+    out.sure = candidates & bits_of(((least > error) | (most < -error)) &
+                                    (lo >= Floats(ray.sure_min)) & (hi <= Floats(ray.sure_max)));
     store_lanes(lo, out.lo);
     store_lanes(hi, out.hi);
     return true;

@@ -11,17 +11,18 @@
 /// interval.
 /// All in the local frame of the tree, where scene coordinates are at most 1. With e = 2^-24 and R
 /// the reach of the ray (no vertex is farther from its origin in any coordinate):
-/// - a sheared coordinate (v_x - o_x) - S_x (v_z - o_z), |S_x| <= 1, is off by at most 9 e R:
-///   rounding of v and o, two differences, S, the product and the sum; and by 2 delta for what
-///   the test in double rounds (SlabRay::delta). E is that sum.
+/// - a sheared coordinate (v_x - o_x) - S_x (v_z - o_z), |S_x| <= 1, is off by at most 13 e R:
+///   rounding of v and o, two differences, S (from a direction and its reciprocal in float), the
+///   product and the sum; and by 4 delta for what the test in double rounds (LocalRay::delta),
+///   which may shear along another axis of the same length. E is that sum.
 /// - an edge function a_x b_y - a_y b_x of coordinates that are off by E and at most L in magnitude
 ///   is off by 4 E L + 2 E^2, and by 4 e L^2 <= E L of its own rounding: within 5.1 E L + 2.1 E^2.
 /// - a weight of the hit is an edge function over their sum, so the place of the hit on the ray
 ///   moves by at most 24 err w / |sum| (25 are taken, for the rounding of that) within the extent w
 ///   of the triangle along the ray.
-/// - the rest of the place's error: z is off by 2 e R and its scale by e; three products,
-///   two sums and a quotient of parts of one sign round e R each: 12 e R, and 4 delta for the test in
-///   double.
+/// - the rest of the place's error, in parameters of the ray (R |S_z| is the reach): z is off by
+///   2 e R and its scale by 3 e; three products, two sums and a quotient of parts of one sign round
+///   9 e R: 14 e R, and 4 delta for the test in double.
 /// Free lanes may lie farther off than R; who reads a result looks at the lane's id.
 /// The test in double must not leave the range of exponents: rays of which that is not sure have an
 /// infinite slack (see `make_slab_rays`), pass every triangle and are sure of none.
@@ -32,16 +33,16 @@
 
 namespace alhazen {
 
-/// N rays, the same number of each side by side: [axis][ray] or [ray].
-template <std::size_t N>
-struct alignas(64) TriangleFilterRays {
-    float origin[3][N];              ///< along the axes below
-    float sx[N], sy[N], sz[N];       ///< as in RayShear, for local parameters
-    std::uint32_t axis[3][N];        ///< kx, ky, kz of RayShear
-    float edge_slack[N];             ///< 5.1 E
-    float edge_slack_min[N];         ///< 2.1 E^2
-    float s_slack[N];                ///< error of a local parameter beside that of the weights
-    float sure_min[N], sure_max[N];  ///< within these it is in the ray's range for sure
+/// A ray made ready, one cache line.
+struct alignas(64) TriangleFilterRay {
+    float origin[3];           ///< along the axes below
+    float sx, sy, sz;          ///< as in RayShear, for local parameters
+    float edge_slack;          ///< 5.1 E
+    float edge_slack_min;      ///< 2.1 E^2
+    float s_slack;             ///< error of a local parameter beside that of the weights
+    float sure_min, sure_max;  ///< within these it is in the ray's range for sure
+    std::uint32_t kx, ky, kz;  ///< as in RayShear
 };
+static_assert(sizeof(TriangleFilterRay) == 64);
 
 }  // namespace alhazen

@@ -37,25 +37,27 @@ bool WideBvhAggregate::any_unbounded(TraversalStats* stats, Test&& test) const {
 
 bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, TraversalStats* stats) const {
     hit = Hit{};
-    if (!is_valid(ray)) return false;
-    Ray shrinking = ray;
-    const RayShear shear(ray.direction);
-    any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-        table_.closest(id, shrinking, shear, hit, policy);
-        return false;
-    });
-    if (!layout_.tree.empty) kernels_->closest(scene(), shrinking, hit, stats);
+    if (!unbounded_.empty() && is_valid(ray)) {
+        Ray shrinking = ray;
+        const RayShear shear(ray.direction);
+        any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+            table_.closest(id, shrinking, shear, hit, policy);
+            return false;
+        });
+    }
+    if (!layout_.tree.empty) kernels_->closest(scene(), ray, hit, stats);
     return hit.found();
 }
 
 bool WideBvhAggregate::occluded(const Ray& ray, TraversalStats* stats) const {
-    if (!is_valid(ray)) return false;
-    const RayShear shear(ray.direction);
-    const bool found = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-        return table_.occluded(id, ray, shear, policy);
-    });
-    if (found || layout_.tree.empty) return found;
-    return kernels_->occluded(scene(), ray, stats);
+    if (!unbounded_.empty() && is_valid(ray)) {
+        const RayShear shear(ray.direction);
+        const bool found = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
+            return table_.occluded(id, ray, shear, policy);
+        });
+        if (found) return true;
+    }
+    return !layout_.tree.empty && kernels_->occluded(scene(), ray, stats);
 }
 
 void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits,

@@ -16,9 +16,9 @@ struct WideBvhScene {
 };
 
 /// The queries of `Aggregate` on the bounded primitives; the tree is not empty, `stats` may be
-/// null, hits are appended unsorted. Single rays are valid.
+/// null, hits are appended unsorted. An invalid ray hits nothing.
 struct WideBvhKernels {
-    /// `best` may hold a hit found before; ray.t_max is not beyond it.
+    /// `best` may hold a hit found before: farther ones are not looked for.
     void (*closest)(const WideBvhScene&, const Ray&, Hit& best, TraversalStats*);
     bool (*occluded)(const WideBvhScene&, const Ray&, TraversalStats*);
     /// Always false.

@@ -81,51 +81,60 @@ HWY_INLINE void store_lanes(const Lanes<T, N>& a, T* values) {
     }
 }
 
-/// a where the mask is set, else b.
-template <class T, std::size_t N>
-HWY_INLINE Lanes<T, N> select(const LaneMask<T, N>& mask, const Lanes<T, N>& a,
-                              const Lanes<T, N>& b) {
+/// Anywhere in memory.
+template <std::size_t N = kLaneCount, class T>
+HWY_INLINE Lanes<T, N> load_unaligned(const T* values) {
     Lanes<T, N> r;
+    const LaneTag<T, N> d;
     for (std::size_t i = 0; i < kParts<T, N>; ++i) {
-        r.part[i] = hn::IfThenElse(mask.part[i], a.part[i], b.part[i]);
+        r.part[i] = hn::LoadU(d, values + i * hn::Lanes(d));
     }
     return r;
-}
-
-/// 2^floor(log2 a) of normal a > 0, and its reciprocal.
-template <std::size_t N>
-HWY_INLINE void powers_of_two(const Lanes<double, N>& a, Lanes<double, N>& power,
-                              Lanes<double, N>& reciprocal) {
-    const LaneTag<double, N> d;
-    const hn::RebindToUnsigned<LaneTag<double, N>> du;
-    for (std::size_t i = 0; i < kParts<double, N>; ++i) {
-        const auto exponent =
-            hn::And(hn::BitCast(du, a.part[i]), hn::Set(du, std::uint64_t{0x7FF} << 52));
-        power.part[i] = hn::BitCast(d, exponent);
-        reciprocal.part[i] =
-            hn::BitCast(d, hn::Sub(hn::Set(du, std::uint64_t{2046} << 52), exponent));
-    }
 }
 
 /// Rounded to float, the nearest.
 template <std::size_t N>
-HWY_INLINE void store_as_floats(const Lanes<double, N>& a, float* values) {
+HWY_INLINE Lanes<float, N> as_floats(const Lanes<double, N>& a) {
     const LaneTag<double, N> d;
     const hn::Rebind<float, LaneTag<double, N>> df;
-    for (std::size_t i = 0; i < kParts<double, N>; ++i) {
-        hn::Store(hn::DemoteTo(df, a.part[i]), df, values + i * hn::Lanes(d));
+    if constexpr (kParts<double, N> == 1) {
+        Lanes<float, N> r;
+        r.part[0] = hn::DemoteTo(df, a.part[0]);
+        return r;
+    } else {
+        alignas(64) float values[N];
+        for (std::size_t i = 0; i < kParts<double, N>; ++i) {
+            hn::Store(hn::DemoteTo(df, a.part[i]), df, values + i * hn::Lanes(d));
+        }
+        return load_lanes<N>(values);
     }
 }
-/// Rounded to float, as doubles again.
-template <std::size_t N>
-HWY_INLINE Lanes<double, N> rounded_to_float(const Lanes<double, N>& a) {
-    const LaneTag<double, N> d;
-    const hn::Rebind<float, LaneTag<double, N>> df;
-    Lanes<double, N> r;
-    for (std::size_t i = 0; i < kParts<double, N>; ++i) {
-        r.part[i] = hn::PromoteTo(d, hn::DemoteTo(df, a.part[i]));
+
+/// The fourth lane made 0.
+HWY_INLINE Lanes<float, 4> first_three(const Lanes<float, 4>& a) {
+    HWY_ALIGN static constexpr std::uint32_t kKeep[4] = {~0u, ~0u, ~0u, 0};
+    Lanes<float, 4> r;
+    const LaneTag<float, 4> d;
+    const hn::RebindToUnsigned<LaneTag<float, 4>> du;
+    for (std::size_t i = 0; i < kParts<float, 4>; ++i) {
+        const auto keep = hn::Load(du, kKeep + i * hn::Lanes(d));
+        r.part[i] = hn::And(a.part[i], hn::BitCast(d, keep));
     }
     return r;
+}
+/// The largest, in every lane; no NaN.
+HWY_INLINE Lanes<float, 4> largest_of(const Lanes<float, 4>& a) {
+    const LaneTag<float, 4> d;
+    auto most = a.part[0];
+    for (std::size_t i = 1; i < kParts<float, 4>; ++i) most = hn::Max(most, a.part[i]);
+    most = hn::MaxOfLanes(d, most);
+    Lanes<float, 4> r;
+    for (auto& part : r.part) part = most;
+    return r;
+}
+template <class T, std::size_t N>
+HWY_INLINE T first_lane(const Lanes<T, N>& a) {
+    return hn::GetLane(a.part[0]);
 }
 
 #define ALHAZEN_LANES_UNARY(name, expression)                                  \

@@ -22,22 +22,12 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The ray among seven others that must not disturb it.
 std::uint32_t met(const WideNode& node, const LocalFrame& frame, const Ray& ray) {
-    RayLanes<8> lanes;
-    for (std::size_t i = 0; i < 8; ++i) lanes.set(i, Ray{{0.1, 0.2, 0.3}, {1, -1, 1}});
-    lanes.set(5, ray);
-    SlabRays<8> slabs;
-    make_slab_rays(frame, lanes, slabs);
+    SlabRay slabs;
+    LocalRay local;
+    make_slab_ray(frame, ray, ray.t_max, slabs, local);
     Floats entry;
-    const std::uint32_t in_group = bits_of(meet_children(node, slabs, 5, slabs.s_max[5], entry));
-    RayLanes<1> lane;
-    lane.set(0, ray);
-    SlabRays<1> slab;
-    make_slab_rays(frame, lane, slab);
-    const std::uint32_t alone = bits_of(meet_children(node, slab, 0, slab.s_max[0], entry));
-    EXPECT_EQ(in_group, alone);
-    return in_group & alone;
+    return bits_of(meet_children(node, slabs, slabs.s_max, entry));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 /// Makes the rays of the slab test: see slab_ray.h.
 ///
-/// Conventions: included once per target (see simd/lanes-inl.h).
+/// Conventions: included once per target (see simd/lanes-inl.h). The axes are in lanes.
 
 #if defined(ALHAZEN_WIDE_BVH_SLAB_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_WIDE_BVH_SLAB_RAY_INL_H_
@@ -9,152 +9,90 @@
 #define ALHAZEN_WIDE_BVH_SLAB_RAY_INL_H_
 #endif
 
-#include <array>
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 
 #include "alhazen/accel/wide_bvh/slab_ray.h"
-#include "alhazen/accel/wide_bvh/wide_node.h"
-#include "alhazen/geometry/ray.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Rays as they come, turned into lanes: origin, direction, t_min, t_max.
-template <std::size_t N>
-struct RayLanes {
-    alignas(64) double component[8][N];
-
-    HWY_INLINE void set(std::size_t lane, const Ray& ray) {
-        const auto values = std::bit_cast<std::array<double, 8>>(ray);
-        for (std::size_t i = 0; i < 8; ++i) component[i][lane] = values[i];
-    }
-    [[nodiscard]] HWY_INLINE Lanes<double, N> get(std::size_t i) const {
-        return load_lanes<N>(component[i]);
-    }
-    [[nodiscard]] HWY_INLINE Lanes<double, N> t_min() const { return get(6); }
-    [[nodiscard]] HWY_INLINE Lanes<double, N> t_max() const { return get(7); }
+/// A ray with its axes in lanes.
+struct AxisLanes {
+    using F = Lanes<float, 4>;
+    F origin, direction;
+    F length;  ///< the largest component of the direction, in every lane
 };
 
-template <std::size_t N>
-HWY_INLINE Lanes<double, N> largest(const Lanes<double, N> (&v)[3]) {
-    return max_lanes(max_lanes(abs(v[0]), abs(v[1])), abs(v[2]));
-}
-template <std::size_t N>
-HWY_INLINE Lanes<double, N> dot(const Lanes<double, N> (&a)[3], const Lanes<double, N> (&b)[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// The local parameters of t, rounded down and up, still in double: they stay on their side when
-/// rounded to float.
-template <std::size_t N>
-struct LocalParameters {
-    Lanes<double, N> scale, shift;
-
-    [[nodiscard]] HWY_INLINE Lanes<double, N> below(const Lanes<double, N>& t) const {
-        const Lanes<double, N> s = t * scale;
-        const Lanes<double, N> x = s - shift - slack(s);
-        return x - float_step(x);
-    }
-    [[nodiscard]] HWY_INLINE Lanes<double, N> above(const Lanes<double, N>& t) const {
-        const Lanes<double, N> s = t * scale;
-        const Lanes<double, N> x = s - shift + slack(s);
-        return x + float_step(x);
-    }
-
-  private:
-    [[nodiscard]] HWY_INLINE Lanes<double, N> slack(const Lanes<double, N>& s) const {
-        return Lanes<double, N>(kLocalSlack) * (abs(s) + abs(shift));
-    }
-    [[nodiscard]] static HWY_INLINE Lanes<double, N> float_step(const Lanes<double, N>& x) {
-        return abs(x) * Lanes<double, N>(0x1p-23) + Lanes<double, N>(0x1p-100);
-    }
-};
-
-/// Every box is met; a free slot still is not: its planes are infinite.
-template <std::size_t N>
-HWY_INLINE void pass_everything(SlabRays<N>& slabs, std::size_t ray) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        slabs.origin[k][ray] = 0.0;
-        slabs.direction[k][ray] = 1.0;
-        slabs.reciprocal[k][ray] = 1.0f;
-        slabs.near_offset[k][ray] = -1e30f;
-        slabs.far_offset[k][ray] = 1e30f;
-        slabs.near_plane[k][ray] = static_cast<std::uint32_t>(kWideNodeWidth * k);
-        slabs.far_plane[k][ray] = static_cast<std::uint32_t>(kWideNodeWidth * (k + 3));
-    }
-    slabs.octant[ray] = 0;
-    slabs.s_min[ray] = -std::numeric_limits<float>::infinity();
-    slabs.s_max[ray] = std::numeric_limits<float>::infinity();
-    slabs.t_scale[ray] = slabs.t_shift[ray] = slabs.delta[ray] = slabs.reach[ray] = 0;
+/// The ray as it stands where that is valid, near the scene and of a usual length; else false.
+HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, double t_max,
+                                 LocalRay& local, AxisLanes& axes) {
+    using D = Lanes<double, 4>;
+    using F = AxisLanes::F;
+    static_assert(offsetof(Ray, direction) == 24 && offsetof(LocalFrame, scale) == 24);
+    const D origin =
+        (load_unaligned<4>(&ray.origin.x) - load_unaligned<4>(&frame.center.x)) * D(frame.scale);
+    axes.origin = first_three(as_floats(origin));
+    axes.direction = first_three(as_floats(load_unaligned<4>(&ray.direction.x)));
+    const F across = abs(axes.direction);
+    const F away = abs(axes.origin);
+    axes.length = largest_of(across);
+    // Written so that a NaN is not near.
+    const std::uint32_t usual = bits_of((away <= F(8.0f)) & (across <= F(0x1p40f)));
+    const float length = first_lane(axes.length);
+    if (usual != 15 || !(length >= 0x1p-40f) || !(ray.t_min <= t_max)) return false;
+    const float distance = first_lane(largest_of(away));
+    local.main_axis = static_cast<std::uint32_t>(std::countr_zero(bits_of(across >= axes.length)));
+    const double scale = frame.scale;
+    if (!(scale >= 0x1p-200 && scale <= 0x1p200)) return false;
+    store_lanes(axes.origin, local.origin);
+    store_lanes(axes.direction, local.direction);
+    local.delta =
+        static_cast<float>(kExactTestSlack) * (distance + 1.01f + static_cast<float>(frame.offset));
+    local.reach = distance + 1.0001f + 2.0f * local.delta;
+    local.valid = local.regular = true;
+    local.parameter = {scale, 0.0};
+    constexpr double kEnd = 1e37;  // finite in float, beyond every scene
+    // The scale is a power of two: only the rounding to float counts.
+    const double first = std::min(std::max(ray.t_min * scale, -kEnd), kEnd);
+    const double last = std::min(std::max(t_max * scale, -kEnd), kEnd);
+    const double first_step = std::abs(first) * 0x1p-23 + 0x1p-100;
+    const double last_step = std::abs(last) * 0x1p-23 + 0x1p-100;
+    local.s_min = static_cast<float>(first - first_step);
+    local.sure_min = static_cast<float>(first + first_step);
+    local.sure_max = static_cast<float>(last - last_step);
+    local.s_max = static_cast<float>(last + last_step);
+    return true;
 }
 
-/// The rays must be valid.
-template <std::size_t N>
-HWY_INLINE void make_slab_rays(const LocalFrame& frame, const RayLanes<N>& rays,
-                               SlabRays<N>& slabs) {
-    using D = Lanes<double, N>;
-    D o[3], d[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-        o[k] = (rays.get(k) - D(frame.center[static_cast<int>(k)])) * D(frame.scale);
-        d[k] = rays.get(k + 3);
+/// `t_max` counts in place of the ray's own. `local` is for the tests of leaves; where it is not
+/// valid, `slabs` is not made.
+HWY_INLINE void make_slab_ray(const LocalFrame& frame, const Ray& ray, double t_max, SlabRay& slabs,
+                              LocalRay& local) {
+    using F = AxisLanes::F;
+    AxisLanes axes;
+    if (HWY_UNLIKELY(!local_ray_nearby(frame, ray, t_max, local, axes))) {
+        local = local_ray_from_afar(frame, ray, t_max);
+        if (!local.valid) return;
+        if (!local.regular) return pass_everything(slabs);
+        axes.origin = load_lanes<4>(local.origin);
+        axes.direction = load_lanes<4>(local.direction);
+        axes.length = largest_of(abs(axes.direction));
     }
-    const D distance = largest<N>(o);
-    const D length = largest<N>(d);
-    D power, inverse_power;
-    powers_of_two(length, power, inverse_power);
-    LocalParameters<N> local{power * D(frame.scale), D(0.0)};
-    // Outside these limits (never in a real scene) exponents could leave the range of double: here,
-    // or in the test in double, whose products have the third power of a length.
-    const bool scene_regular = frame.scale >= 0x1p-200 && frame.scale <= 0x1p200;
-    const std::uint32_t regular =
-        scene_regular
-            ? bits_of((distance <= D(0x1p40)) & (length >= D(0x1p-200)) & (length <= D(0x1p200)))
-            : 0;
-    for (std::size_t k = 0; k < 3; ++k) d[k] = d[k] * inverse_power;
-    const auto far = distance > D(2.0);
-    if (bits_of(far) != 0) {
-        local.shift = select(far, -dot<N>(o, d) / dot<N>(d, d), D(0.0));
-        for (std::size_t k = 0; k < 3; ++k) o[k] = o[k] + local.shift * d[k];
-    }
-    const D delta = D(kExactTestSlack) * (distance + D(1.0 + frame.offset));
-    const D reach = largest<N>(o) + D(1.0) + delta + delta;
-    const D constant_slack = D(0x1p-24 * 2.2) * reach;
-    const D slope_slack = D(0x1p-24) + D(0x1p-23) * reach + delta;
-    std::uint32_t down[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-        const D steep = copysign(max_lanes(abs(d[k]), D(0x1p-60)), d[k]);
-        const D reciprocal = rounded_to_float(D(1.0) / steep);
-        const D c = -(o[k] * reciprocal);
-        const D slack = constant_slack + slope_slack * abs(reciprocal);
-        store_as_floats(reciprocal, slabs.reciprocal[k]);
-        store_as_floats(c - slack, slabs.near_offset[k]);
-        store_as_floats(c + slack, slabs.far_offset[k]);
-        store_lanes(o[k], slabs.origin[k]);
-        store_lanes(d[k], slabs.direction[k]);
-        down[k] = bits_of(steep < D(0.0));
-    }
-    for (std::size_t i = 0; i < N; ++i) {
-        std::uint32_t octant = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t sign = down[k] >> i & 1;
-            const auto near = static_cast<std::uint32_t>(kWideNodeWidth * (k + 3 * sign));
-            slabs.near_plane[k][i] = near;
-            slabs.far_plane[k][i] = static_cast<std::uint32_t>(kWideNodeWidth * (2 * k + 3)) - near;
-            octant |= sign << k;
-        }
-        slabs.octant[i] = octant;
-    }
-    store_lanes(local.scale, slabs.t_scale);
-    store_lanes(local.shift, slabs.t_shift);
-    store_lanes(delta, slabs.delta);
-    store_lanes(reach, slabs.reach);
-    store_as_floats(local.below(rays.t_min()), slabs.s_min);
-    store_as_floats(local.above(rays.t_max()), slabs.s_max);
-    for (std::uint32_t rest = ~regular & ((1u << N) - 1); rest != 0; rest &= rest - 1) {
-        pass_everything(slabs, static_cast<std::size_t>(std::countr_zero(rest)));
-    }
+    const F steep =
+        copysign(max_lanes(abs(axes.direction), axes.length * F(0x1p-60f)), axes.direction);
+    const F reciprocal = F(1.0f) / steep;
+    const F c = -(axes.origin * reciprocal);
+    const F slack = F(6.5f * 0x1p-24f * local.reach + 1.001f * local.delta) * abs(reciprocal);
+    store_lanes(reciprocal, slabs.reciprocal);
+    store_lanes(c - slack, slabs.near_offset);
+    store_lanes(c + slack, slabs.far_offset);
+    slabs.s_min = local.s_min;
+    slabs.s_max = local.s_max;
+    slabs.near = kNearRows[bits_of(steep < F(0.0f)) & 7];
 }
 
 }  // namespace HWY_NAMESPACE

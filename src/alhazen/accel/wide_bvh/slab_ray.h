@@ -5,63 +5,111 @@
 /// Source: Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013 (the problem).
 /// Differs: a relative factor on the far distance is not enough for the form p * r + c; all slack
 /// is absolute and folded into the constants c, once per ray.
-/// For a hit at parameter s with |s| <= T, and e = 2^-24:
-/// - plane parameter s_p = (p - o) / d; computed fl(fl(p r) + c), r = (1 / d) (1 + e1), |e1| <= e
-/// - near plane, s_p <= s: computed <= s when c is lowered by 2.2 e T (rounding of r and of the
-///   sum), e |r| (of the product, where multiply-add is not fused) and delta |r|; and by
-///   2 e reach |r| for the rounding of c itself to float
-/// - far plane: the mirror image
-///
-/// `delta` is a displacement in space that covers everything done in double: the local frame, the
-/// shift of the origin, the rounding inside the exact tests (whose computed hit lies that near to
-/// the ray). A direction component below 2^-60 is replaced by that: inside the scene this
-/// displaces the ray by less than delta. An origin that is not near the scene is first moved
-/// along the ray to the point nearest to the scene's center.
-/// Conventions: parameters in the local frame, s = t * t_scale - t_shift, with the largest
-/// direction component in [1, 2). A ray from farther than 2^40 scene sizes passes every box:
-/// doubles say nothing at that distance.
+/// In the local frame let R be the reach of the ray: 1, where the scene ends, and its origin's
+/// largest coordinate; A = 1 / |d| along an axis and e = 2^-24. The parameter of a plane is
+/// (p - o) / d; computed is fl(fl(p r) + c) with c = fl(-fl(o r) -+ slack), |r| <= A (1 + 2.01 e).
+/// It is off by at most
+/// - 2.01 e |p - o| A for r: the direction is rounded to float, and so is the quotient
+/// - e |p| A for the product, where multiply-add is not fused
+/// - 3 e |o| A for the origin, its product and the sum with the slack
+/// - e |p - o| A for the last sum
+/// together 6.01 e R A; 6.5 are taken. `delta` is a displacement in space on top of that, which
+/// covers everything done in double: the local frame, the shift of the origin, the rounding inside
+/// the exact tests (whose computed hit lies that near to the ray). A direction component below
+/// 2^-60 of the largest is replaced by that: inside the scene this displaces the ray by 2^-60 R.
+/// An origin that is not near the scene is first moved along the ray to the point nearest to the
+/// scene's center.
+/// Conventions: parameters in the local frame, s = t * scale - shift (`LocalParameter`). A ray from
+/// farther than 2^40 scene sizes passes every box: doubles say nothing at that distance.
 
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "alhazen/accel/wide_bvh/local_frame.h"
+#include "alhazen/geometry/ray.h"
 
 namespace alhazen {
 
 /// Bound, relative to the distances in play, of how far from the ray a computed hit can be.
 inline constexpr double kExactTestSlack = 0x1p-38;
 
-/// A float not below `x`, by up to two steps more than needed, without a branch: which way a number
-/// is rounded cannot be predicted.
-inline float well_above(double x) {
-    return static_cast<float>(x + (std::abs(x) * 0x1p-23 + 0x1p-100));
-}
-
 /// Rounding of a parameter on its way to the local frame.
 inline constexpr double kLocalSlack = 0x1p-50;
 
-/// N rays, the same number of each side by side: [axis][ray] or [ray].
-template <std::size_t N>
-struct alignas(64) SlabRays {
-    /// In the local frame; the origin moved along the ray by t_shift, the direction scaled by a
-    /// power of two.
-    double origin[3][N], direction[3][N];
-    double t_scale[N];  ///< 0: parameters do not fit, nothing is skipped because of them
-    double t_shift[N];
-    double delta[N];  ///< displacement that covers what is computed in double
-    double reach[N];  ///< no coordinate of the scene is farther from the origin than this
-    float reciprocal[3][N], near_offset[3][N], far_offset[3][N];
-    float s_min[N], s_max[N];
-    /// Distances in floats from WideNode::planes of the rows of the near and the far planes.
-    std::uint32_t near_plane[3][N], far_plane[3][N];
-    std::uint32_t octant[N];  ///< bit k is set when the ray goes down axis k
+/// From the parameter t of a ray to the local one.
+struct LocalParameter {
+    double scale;  ///< 0: parameters do not fit, nothing is skipped because of them
+    double shift;
 
-    /// The local parameter of t, rounded up: boxes that begin beyond it cannot hold a hit at t.
-    [[nodiscard]] float local_max(std::size_t ray, double t) const {
-        if (t_scale[ray] == 0) return std::numeric_limits<float>::infinity();
-        const double s = t * t_scale[ray];
-        const double shift = t_shift[ray];
-        return well_above(s - shift + kLocalSlack * (std::abs(s) + std::abs(shift)));
+    /// Rounded up: boxes that begin beyond it cannot hold a hit at t.
+    [[nodiscard]] float above(double t) const {
+        if (scale == 0) return std::numeric_limits<float>::infinity();
+        const double s = t * scale;
+        const double x = s - shift + kLocalSlack * (std::abs(s) + std::abs(shift));
+        // Up to two steps more than needed, without a branch: which way a number is rounded cannot
+        // be predicted.
+        return static_cast<float>(x + (std::abs(x) * 0x1p-23 + 0x1p-100));
+    }
+    [[nodiscard]] float below(double t) const {
+        const double s = t * scale;
+        const double x = s - shift - kLocalSlack * (std::abs(s) + std::abs(shift));
+        return static_cast<float>(x - (std::abs(x) * 0x1p-23 + 0x1p-100));
     }
 };
+
+/// Which planes of a box a ray meets first.
+struct alignas(8) NearRows {
+    /// Distance in floats from WideNode::planes of the row of the near planes, per axis.
+    std::uint16_t row[3];
+    std::uint16_t octant;  ///< bit k is set when the ray goes down axis k
+
+    /// As `row`, of the far planes.
+    [[nodiscard]] std::size_t far_row(std::size_t axis) const {
+        return kWideNodeWidth * (2 * axis + 3) - row[axis];
+    }
+};
+
+/// [octant]
+inline constexpr std::array<NearRows, 8> kNearRows = [] {
+    std::array<NearRows, 8> table{};
+    for (std::uint16_t octant = 0; octant < 8; ++octant) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t down = octant >> k & 1;
+            table[octant].row[k] = static_cast<std::uint16_t>(kWideNodeWidth * (k + 3 * down));
+        }
+        table[octant].octant = octant;
+    }
+    return table;
+}();
+
+/// What the slab test of a node reads, one cache line.
+struct alignas(64) SlabRay {
+    float reciprocal[4], near_offset[4], far_offset[4];  ///< [axis]; the fourth is not used
+    float s_min, s_max;
+    NearRows near;
+};
+static_assert(sizeof(SlabRay) == 64);
+
+/// A ray in the local frame, and what the tests of leaves in float start from.
+struct alignas(16) LocalRay {
+    float origin[4], direction[4];  ///< moved along the ray by the shift; the fourth is 0
+    float reach;                    ///< no coordinate of the scene is farther from the origin
+    float delta;                    ///< displacement that covers what is computed in double
+    float s_min, s_max;             ///< the range of the ray, rounded outward
+    float sure_min, sure_max;       ///< rounded inward
+    std::uint32_t main_axis;        ///< of the largest component of the direction
+    bool valid;                     ///< false: the ray cannot be traced, nothing else is set
+    bool regular;                   ///< false: nothing is known, every test must pass
+    LocalParameter parameter;
+};
+
+/// Moves a ray that is far off or not of a usual length near to the scene; `t_max` counts in place
+/// of the ray's own.
+[[nodiscard]] LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray, double t_max);
+
+/// Every box is met; a free slot still is not: its planes are infinite.
+void pass_everything(SlabRay& slabs);
 
 }  // namespace alhazen

@@ -8,11 +8,12 @@
 /// Differs: the order of an octant is that of the centers of the boxes along its diagonal.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 ///
+/// What a turn of a ray decides was stored the turn before, so that a wrongly predicted branch is
+/// found out at once and throws little of the other rays' work away.
 /// `Query`: `visit(NodeRef, stats)` tests a leaf, true to stop, as for NodeRef::none();
-/// `finish_step(stats)` after the last, again and again until it is true; `prefetch(NodeRef)` a
-/// leaf; `slabs` and `in_group`, the ray; `s_max`, how far it still needs to go. `Source`:
-/// `start(void* place)` makes the query of the next ray there, null when there is none;
-/// `release(query)`, when it is done.
+/// `finish_step(stats)` after the last, again and again until it is true; `slabs`, the ray;
+/// `s_max`, how far it still needs to go. `Source`: `start(void* place)` makes the query of the
+/// next ray there, false when there is none.
 
 #if defined(ALHAZEN_WIDE_BVH_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_WIDE_BVH_STREAM_INL_H_
@@ -23,6 +24,8 @@
 
 #include <hwy/cache_control.h>
 
+#include <new>
+
 #include "alhazen/accel/wide_bvh/traverse-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,12 +35,51 @@ namespace HWY_NAMESPACE {
 /// Rays on their way at a time.
 inline constexpr std::size_t kStreamSlots = 8;
 
+/// Where in memory a node or a leaf lies, computed without a branch.
+class Places {
+  public:
+    /// Leaf i of kind k is at leaves[k] + i * sizes[k].
+    HWY_INLINE Places(const WideNode* nodes, const void* const (&leaves)[3],
+                      const std::size_t (&sizes)[3]) {
+        for (std::size_t i = 0; i < 4; ++i) place_[i] = {nodes, sizeof(WideNode), ~0u, 0};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::size_t kind = i < 3 ? i : 0;
+            place_[4 + i] = {leaves[kind], sizes[kind], NodeRef::kMaxOffset,
+                             sizes[kind] > 256 ? std::size_t{256} : 0};
+        }
+    }
+    /// Five lines, or what there is.
+    HWY_INLINE void prefetch(std::uint32_t ref) const {
+        const Place& place = place_[ref >> 29];
+        const char* lines = static_cast<const char*>(place.base) + (ref & place.mask) * place.size;
+        hwy::Prefetch(lines);
+        hwy::Prefetch(lines + 64);
+        hwy::Prefetch(lines + 128);
+        hwy::Prefetch(lines + 192);
+        hwy::Prefetch(lines + place.fifth);
+    }
+
+  private:
+    struct Place {
+        const void* base;
+        std::size_t size;
+        std::uint32_t mask;
+        std::size_t fifth;
+    };
+    Place place_[8];
+};
+
 /// Subtrees yet to visit, entries and references apart so that both are stored by lanes. Its height
-/// is kept outside: in a register.
+/// is kept outside: in a register. The lowest says that there are no more.
 struct StreamStack {
-    static constexpr std::size_t kSize = kTraversalStackSize + kWideNodeWidth;
+    static constexpr std::size_t kSize = 1 + kTraversalStackSize + kWideNodeWidth;
     float entry[kSize];
     std::uint32_t child[kSize];
+
+    HWY_INLINE void clear() {
+        entry[0] = -std::numeric_limits<float>::infinity();
+        child[0] = NodeRef::none().bits();
+    }
 
     /// Puts the children that are hit on top, the farthest first by the order of the octant.
     template <std::size_t kRegisters = kParts<float>>
@@ -88,58 +130,53 @@ struct StreamStack {
 
 template <class Query>
 struct StreamSlot {
-    Query* query;
-    NodeRef ref;
-    std::uint32_t octant;
-    std::size_t height;
     alignas(64) std::byte place[sizeof(Query)];
+    std::size_t height;
     StreamStack stack;
+
+    [[nodiscard]] HWY_INLINE Query& query() {
+        return *std::launder(reinterpret_cast<Query*>(place));
+    }
 };
 
 /// One node or leaf of one ray; false when the ray is done.
 template <class Query, class Stats>
-HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, Stats stats) {
-    Query& query = *slot.query;
+HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, const Places& places,
+                        Stats stats) {
+    Query& query = slot.query();
     StreamStack& stack = slot.stack;
     std::size_t height = slot.height;
-    if (slot.ref.is_leaf()) {
-        if (query.visit(slot.ref, stats)) return false;
+    do {
+        --height;
+    } while (stack.entry[height] > query.s_max);
+    const NodeRef ref = NodeRef::from_bits(stack.child[height]);
+    if (ref.is_leaf()) {
+        if (query.visit(ref, stats)) return false;
     } else {
-        const WideNode& node = nodes[slot.ref.index()];
+        const WideNode& node = nodes[ref.index()];
         stats.nodes(1);
         stats.boxes(node.child_count());
         Floats entries;
-        const LaneMask<float> hit =
-            meet_children(node, query.slabs, query.in_group, query.s_max, entries);
-        height = stack.push(height, node, entries, hit, slot.octant);
+        const LaneMask<float> hit = meet_children(node, query.slabs, query.s_max, entries);
+        height = stack.push(height, node, entries, hit, query.slabs.near.octant);
     }
-    do {
-        if (height == 0) return false;
-        --height;
-    } while (stack.entry[height] > query.s_max);
     slot.height = height;
-    slot.ref = NodeRef::from_bits(stack.child[height]);
-    if (slot.ref.is_leaf()) {
-        query.prefetch(slot.ref);
-    } else {
-        const auto* lines = reinterpret_cast<const char*>(&nodes[slot.ref.index()]);
-        HWY_UNROLL(4)
-        for (int i = 0; i < 4; ++i) hwy::Prefetch(lines + 64 * i);
-    }
+    places.prefetch(stack.child[height - 1]);
     return true;
 }
 
 /// Takes every ray of `source` through the tree.
 template <class Query, class Source, class Stats>
-HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, Source& source, Stats stats) {
+HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, const Places& places,
+                                Source& source, Stats stats) {
     StreamSlot<Query> slots[kStreamSlots];
     StreamSlot<Query>* active[kStreamSlots];
     const auto start = [&](StreamSlot<Query>& slot) HWY_ATTR {
-        slot.query = source.start(slot.place);
-        if (slot.query == nullptr) return false;
-        slot.octant = slot.query->slabs.octant[slot.query->in_group];
-        slot.height = 0;
-        slot.ref = root;
+        if (!source.start(slot.place)) return false;
+        slot.stack.clear();
+        slot.stack.entry[1] = -std::numeric_limits<float>::infinity();
+        slot.stack.child[1] = root.bits();
+        slot.height = 2;
         return true;
     };
     std::size_t count = 0;
@@ -150,13 +187,11 @@ HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, Source& sou
     while (count > 0) {
         for (std::size_t i = 0; i < count; ++i) {
             StreamSlot<Query>& slot = *active[i];
-            if (advance(slot, nodes, stats)) continue;
-            if (!slot.query->finish_step(stats)) {
-                slot.ref = NodeRef::none();
-                slot.height = 0;
-            } else {
-                source.release(*slot.query);
-                if (!start(slot)) active[i--] = active[--count];
+            if (advance(slot, nodes, places, stats)) continue;
+            if (!slot.query().finish_step(stats)) {
+                slot.height = 1;
+            } else if (!start(slot)) {
+                active[i--] = active[--count];
             }
         }
     }

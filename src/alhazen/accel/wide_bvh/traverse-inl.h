@@ -24,19 +24,18 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The children whose boxes the ray meets; `entry` is where.
-template <std::size_t N>
-HWY_INLINE LaneMask<float> meet_children(const WideNode& node, const SlabRays<N>& rays,
-                                         std::size_t ray, float s_max, Floats& entry) {
+HWY_INLINE LaneMask<float> meet_children(const WideNode& node, const SlabRay& ray, float s_max,
+                                         Floats& entry) {
     const float* planes = node.planes[0];
-    Floats nearest(rays.s_min[ray]);
+    Floats nearest(ray.s_min);
     Floats farthest(s_max);
     HWY_UNROLL(3)
-    for (int k = 0; k < 3; ++k) {
-        const Floats reciprocal(rays.reciprocal[k][ray]);
-        const Floats near = mul_add(load_lanes(planes + rays.near_plane[k][ray]), reciprocal,
-                                    Floats(rays.near_offset[k][ray]));
-        const Floats far = mul_add(load_lanes(planes + rays.far_plane[k][ray]), reciprocal,
-                                   Floats(rays.far_offset[k][ray]));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Floats reciprocal(ray.reciprocal[k]);
+        const Floats near =
+            mul_add(load_lanes(planes + ray.near.row[k]), reciprocal, Floats(ray.near_offset[k]));
+        const Floats far = mul_add(load_lanes(planes + ray.near.far_row(k)), reciprocal,
+                                   Floats(ray.far_offset[k]));
         nearest = max_lanes(nearest, near);
         farthest = min_lanes(farthest, far);
     }
@@ -69,7 +68,7 @@ HWY_INLINE std::size_t push_sorted(const WideNode& node, std::uint32_t hit, cons
 /// Visits the leaves the ray meets, nearest first if `kOrdered`, until `leaf` says stop; true when
 /// it did.
 template <bool kOrdered, class Leaf, class Stats>
-HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRays<1>& ray, Leaf& leaf,
+HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRay& ray, Leaf& leaf,
                          Stats stats) {
     StackEntry stack[kTraversalStackSize];
     std::size_t height = 0;
@@ -82,7 +81,7 @@ HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRays<1>&
             stats.nodes(1);
             stats.boxes(node.child_count());
             Floats entries;
-            std::uint32_t hit = bits_of(meet_children(node, ray, 0, leaf.s_max, entries));
+            std::uint32_t hit = bits_of(meet_children(node, ray, leaf.s_max, entries));
             if (hit != 0) {
                 const auto first = static_cast<std::size_t>(std::countr_zero(hit));
                 hit &= hit - 1;

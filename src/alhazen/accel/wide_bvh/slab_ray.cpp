@@ -1,0 +1,57 @@
+#include "alhazen/accel/wide_bvh/slab_ray.h"
+
+#include <algorithm>
+
+namespace alhazen {
+
+LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray, double t_max) {
+    LocalRay local{};
+    local.valid = is_valid({ray.origin, ray.direction, ray.t_min, t_max});
+    if (!local.valid) return local;
+    const Vec3 origin = frame.local(ray.origin);
+    const double distance = max_component(abs(origin));
+    const double length = max_component(abs(ray.direction));
+    // Outside these limits (never in a real scene) exponents could leave the range of double: here,
+    // or in the test in double, whose products have the third power of a length.
+    local.regular = frame.scale >= 0x1p-200 && frame.scale <= 0x1p200 && distance <= 0x1p40 &&
+                    length >= 0x1p-200 && length <= 0x1p200;
+    if (!local.regular) {
+        local.s_min = -std::numeric_limits<float>::infinity();
+        local.s_max = std::numeric_limits<float>::infinity();
+        return local;
+    }
+    const int exponent = std::ilogb(length);
+    const Vec3 d = std::ldexp(1.0, -exponent) * ray.direction;
+    const double shift = distance > 2.0 ? -dot(origin, d) / dot(d, d) : 0.0;
+    const Vec3 o = origin + shift * d;
+    for (int k = 0; k < 3; ++k) {
+        local.origin[k] = static_cast<float>(o[k]);
+        local.direction[k] = static_cast<float>(d[k]);
+    }
+    local.main_axis = static_cast<std::uint32_t>(dominant_axis(ray.direction));
+    const double delta = kExactTestSlack * (distance + 1.0 + frame.offset);
+    local.delta = static_cast<float>(delta);
+    local.reach = static_cast<float>(max_component(abs(o)) + 1.0 + 2.0 * delta);
+    local.parameter = {std::ldexp(frame.scale, exponent), shift};
+    constexpr double kEnd = 1e37;  // finite in float, beyond every scene
+    const double first = std::max(ray.t_min, (shift - kEnd) / local.parameter.scale);
+    const double last = std::min(t_max, (shift + kEnd) / local.parameter.scale);
+    local.s_min = local.parameter.below(first);
+    local.s_max = local.parameter.above(last);
+    local.sure_min = local.parameter.above(first);
+    local.sure_max = local.parameter.below(last);
+    return local;
+}
+
+void pass_everything(SlabRay& slabs) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        slabs.reciprocal[k] = 1.0f;
+        slabs.near_offset[k] = -1e30f;
+        slabs.far_offset[k] = 1e30f;
+    }
+    slabs.near = kNearRows[0];
+    slabs.s_min = -std::numeric_limits<float>::infinity();
+    slabs.s_max = std::numeric_limits<float>::infinity();
+}
+
+}  // namespace alhazen
