@@ -7,17 +7,11 @@
 #include "alhazen/math/random.h"
 #include "alhazen/scene/camera.h"
 #include "alhazen/scene/surface.h"
+#include "mesh_makers.h"
 
 namespace alhazen::bench {
 
 namespace {
-
-double to_float(double x) {
-    return static_cast<double>(static_cast<float>(x));
-}
-Vec3 to_float(const Vec3& v) {
-    return {to_float(v.x), to_float(v.y), to_float(v.z)};
-}
 
 Ray float_ray(const Vec3& origin, const Vec3& direction, double t_min, double t_max) {
     return {to_float(origin), to_float(direction), to_float(t_min), to_float(t_max)};
@@ -35,13 +29,12 @@ Vec3 cosine_direction(const Vec3& normal, RandomStream& random) {
 
 std::vector<RaySet> ray_sets(const KernelScene& scene, const Aggregate& aggregate, int side) {
     RandomStream random(1);
-    const Box3 box = scene.mesh.box();
+    const Box3 box = scene.box();
     const double size = length(box.size());
-    const double start = 1e-4 * size;  // beyond float rounding of the origins
+    const double start = scene.ray_start;
     const Camera camera = look_along(scene.eye, scene.look_at - scene.eye, {0, 1, 0.01}, 0.7, 1.0);
-    const Vec3 light = scene.eye + Vec3{0.3 * size, 0.8 * size, 0};
-
-    RaySet eye{"eye", false, {}}, shadow{"shadow", true, {}}, bounce{"bounce", false, {}};
+    RaySet eye{"eye", false, true, {}}, shadow{"shadow", true, true, {}};
+    RaySet bounce{"bounce", false, false, {}};
     for (int ty = 0; ty < side; ty += 8) {
         for (int tx = 0; tx < side; tx += 8) {
             for (int i = 0; i < 64; ++i) {
@@ -51,18 +44,18 @@ std::vector<RaySet> ray_sets(const KernelScene& scene, const Aggregate& aggregat
                 if (!aggregate.closest(eye.rays.back(), hit, nullptr)) continue;
                 const Surface s = surface_at(aggregate, eye.rays.back(), hit);
                 const Vec3 normal = dot(s.normal, r.direction) > 0 ? -s.normal : s.normal;
-                const Vec3 to_light = light - s.point;
+                const Vec3 to_light = scene.light - s.point;
                 shadow.rays.push_back(float_ray(s.point + start * normal, to_light, 0, 1));
                 bounce.rays.push_back(float_ray(s.point + start * normal,
                                                 cosine_direction(normal, random), 0, HUGE_VAL));
             }
         }
     }
-    RaySet shuffled{"shuffled", false, bounce.rays};
+    RaySet shuffled{"shuffled", false, false, bounce.rays};
     for (std::size_t i = shuffled.rays.size(); i > 1; --i) {
         std::swap(shuffled.rays[i - 1], shuffled.rays[random.below(i)]);
     }
-    RaySet lines{"lines", false, {}};
+    RaySet lines{"lines", false, false, {}};
     const auto point = [&] {
         return Vec3{random.uniform(box.lo.x, box.hi.x), random.uniform(box.lo.y, box.hi.y),
                     random.uniform(box.lo.z, box.hi.z)};

@@ -12,6 +12,7 @@ namespace alhazen::bench {
 struct RaySet {
     std::string name;
     bool any_hit = false;
+    bool coherent = false;  ///< neighbours in the list go nearly the same way
     std::vector<Ray> rays;
 };
 

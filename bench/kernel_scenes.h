@@ -1,10 +1,13 @@
 #pragma once
-/// Triangle scenes for the kernel benchmark.
+/// Scenes for the kernel benchmarks: triangles, spheres and cylinders with all numbers rounded to
+/// float, so that a kernel in float has the same things.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "alhazen/shapes/cylinder.h"
+#include "alhazen/shapes/sphere.h"
 #include "alhazen/shapes/triangle_mesh.h"
 
 namespace alhazen::bench {
@@ -12,15 +15,37 @@ namespace alhazen::bench {
 struct KernelScene {
     std::string name;
     TriangleMesh mesh;
-    Vec3 eye, look_at;
+    std::vector<Sphere> spheres;
+    std::vector<Cylinder> cylinders;  ///< with caps
+    Vec3 eye, look_at, light;
+    double ray_start = 0;  ///< distance of secondary rays from the surface that they leave
+
+    [[nodiscard]] Box3 box() const;
+    [[nodiscard]] std::size_t size() const {
+        return mesh.triangles.size() + spheres.size() + cylinders.size();
+    }
+    /// As "69 451 triangles, 820 spheres".
+    [[nodiscard]] std::string contents() const;
 };
+
+/// What the command line calls a scene:
+///   FILE                a mesh file seen from the front
+///   FILE@N              the same, every triangle split into four N times
+///   interior:FILE       seen from within, along its longest side, the light inside too
+///   balls:DEPTH:SPLITS  spheres around spheres (below) tessellated, 20 4^SPLITS triangles each
+///   spheres:DEPTH       the same as exact spheres (and the floor, two triangles)
+///   mixed:DEPTH         triangles, exact spheres and cylinders: every other ball is tessellated,
+///                       balls stand apart and cylinders join them
+/// Throws Error (Usage, File).
+[[nodiscard]] KernelScene make_scene(const std::string& spec);
+
+inline constexpr const char* kSceneSpecs =
+    "FILE, FILE@N, interior:FILE, balls:DEPTH:SPLITS, spheres:DEPTH, mixed:DEPTH";
 
 /// A mesh file seen from the front.
 [[nodiscard]] KernelScene mesh_scene(const std::string& name, const std::filesystem::path& file);
 
-/// Haines' sphereflake of 1 + 9 + ... + 9^depth spheres, each an icosahedron split `splits` times,
-/// and its floor. Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11),
-/// 1987. Differs: the children's directions are our own; what matters here is the clustering.
-[[nodiscard]] KernelScene tessellated_balls(int depth, int splits);
+/// 820 spheres around spheres, each of about triangles / 820 triangles: one shape, ever finer.
+[[nodiscard]] KernelScene growing_balls(std::size_t triangles);
 
 }  // namespace alhazen::bench

@@ -1,0 +1,158 @@
+#include "check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "alhazen/parallel/parallel.h"
+#include "embree_packets.h"
+
+namespace alhazen::bench {
+
+namespace {
+
+constexpr std::size_t kFaultsShown = 10;
+constexpr std::size_t kSamples = 64;
+
+/// What wide_bvh says: t, or for any hit 0, infinite for none; single rays.
+std::vector<double> our_answers(const Aggregate& aggregate, const RaySet& set) {
+    std::vector<double> t(set.rays.size(), HUGE_VAL);
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+        if (set.any_hit) {
+            if (aggregate.occluded(set.rays[i], nullptr)) t[i] = 0;
+            continue;
+        }
+        Hit hit;
+        if (aggregate.closest(set.rays[i], hit, nullptr)) t[i] = hit.t;
+    }
+    return t;
+}
+
+std::size_t count_batch_differences(const Aggregate& aggregate, const RaySet& set) {
+    const auto occluded = std::make_unique<bool[]>(kBatch);
+    std::vector<Hit> hits(kBatch);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < set.rays.size(); i += kBatch) {
+        const std::size_t n = std::min(kBatch, set.rays.size() - i);
+        const std::span<const Ray> rays(&set.rays[i], n);
+        if (set.any_hit) {
+            aggregate.occluded_batch(rays, {occluded.get(), n}, nullptr);
+        } else {
+            aggregate.closest_batch(rays, std::span(hits).first(n), nullptr);
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            if (set.any_hit) {
+                count += occluded[k] != aggregate.occluded(rays[k], nullptr);
+                continue;
+            }
+            Hit hit;
+            (void)aggregate.closest(rays[k], hit, nullptr);
+            const Hit& other = hits[k];
+            count += hit.primitive != other.primitive || hit.t != other.t || hit.u != other.u ||
+                     hit.v != other.v;
+        }
+    }
+    return count;
+}
+
+std::string describe(const Ray& r, double ours, double peer, const Verdict& verdict) {
+    return fmt::format(
+        "origin {:a} {:a} {:a} direction {:a} {:a} {:a} t [{:a}, {:a}]: ours {}, Embree {}, "
+        "truth {}",
+        r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z, r.t_min,
+        r.t_max, ours, peer, verdict.true_t);
+}
+
+void decide_all(const Judge& judge, const RaySet& set, const std::vector<double>& ours,
+                const EmbreePackets& peer, CheckResult& result) {
+    std::vector<std::size_t> doubtful;
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+        if (judge.disagree(set.rays[i], set.any_hit, ours[i], peer.t(i))) doubtful.push_back(i);
+    }
+    std::vector<Verdict> verdicts(doubtful.size());
+    parallel_for(doubtful.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const std::size_t i = doubtful[k];
+            verdicts[k] = judge.decide(set.rays[i], set.any_hit, ours[i], peer.t(i));
+        }
+    });
+    result.disagreements = doubtful.size();
+    for (std::size_t k = 0; k < doubtful.size(); ++k) {
+        const Verdict& v = verdicts[k];
+        const std::size_t i = doubtful[k];
+        result.peer_wrong += v.peer_wrong;
+        result.both_right += !v.peer_wrong && !v.ours_wrong;
+        if (!v.ours_wrong) continue;
+        ++result.ours_wrong;
+        if (result.our_faults.size() < kFaultsShown) {
+            result.our_faults.push_back(describe(set.rays[i], ours[i], peer.t(i), v));
+        }
+    }
+}
+
+/// Judges our answers to some rays of the set, and wrong ones.
+void judge_samples(const Judge& judge, const RaySet& set, const std::vector<double>& ours,
+                   CheckResult& result) {
+    const std::size_t step = std::max<std::size_t>(1, set.rays.size() / kSamples);
+    for (std::size_t i = 0; i < set.rays.size(); i += step) {
+        const Ray& ray = set.rays[i];
+        const bool hit = std::isfinite(ours[i]);
+        // A miss where there is a hit, a hit where there is none.
+        const double flipped = hit ? HUGE_VAL : 0.5 * (length(ray.origin) + 1);
+        const Verdict verdict = judge.decide(ray, set.any_hit, ours[i], flipped);
+        ++result.samples;
+        result.ours_wrong += verdict.ours_wrong;
+        result.planted_unseen += !verdict.peer_wrong;
+        if (hit && !set.any_hit) {
+            const Verdict farther = judge.decide(ray, false, ours[i], 1.01 * ours[i]);
+            result.planted_unseen += !farther.peer_wrong;
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<CheckResult> check(const KernelScene& scene, const Aggregate& aggregate,
+                               const RaySet& set, const std::vector<PeerScene>& peers) {
+    const Judge judge(scene);
+    const std::vector<double> ours = our_answers(aggregate, set);
+    const std::size_t batch_differs = count_batch_differences(aggregate, set);
+    std::vector<CheckResult> results;
+    for (const PeerScene& peer : peers) {
+        for (const int width : {1, 16}) {
+            const auto packets = make_embree_packets(set, width);
+            packets->trace(peer.scene->handle(), set.coherent);
+            CheckResult result;
+            result.scene = scene.name;
+            result.rays = set.name;
+            result.peer = fmt::format("{} {}{}", peer.group, width, peer.suffix);
+            result.count = set.rays.size();
+            result.batch_differs = batch_differs;
+            decide_all(judge, set, ours, *packets, result);
+            if (results.empty()) judge_samples(judge, set, ours, result);
+            results.push_back(std::move(result));
+        }
+    }
+    return results;
+}
+
+std::string as_markdown(const std::vector<CheckResult>& results) {
+    std::string text =
+        "| scene | rays | Embree | number | disagreements | Embree wrong | ours wrong | both right "
+        "| batch not single |\n|---|---|---|---|---|---|---|---|---|\n";
+    std::size_t samples = 0, unseen = 0;
+    for (const CheckResult& r : results) {
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", r.scene, r.rays,
+                            r.peer, r.count, r.disagreements, r.peer_wrong, r.ours_wrong,
+                            r.both_right, r.batch_differs);
+        samples += r.samples;
+        unseen += r.planted_unseen;
+    }
+    return text + fmt::format(
+                      "\nBesides, {} answers of ours were judged though nobody disagreed "
+                      "(those found wrong are in the table), and wrong answers put in "
+                      "their place: {} of those were not seen.\n",
+                      samples, unseen);
+}
+
+}  // namespace alhazen::bench

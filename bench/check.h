@@ -1,0 +1,40 @@
+#pragma once
+/// Where Embree and wide_bvh say different things about the same rays, and who is wrong.
+
+#include <string>
+#include <vector>
+
+#include "disagreements.h"
+#include "embree_scene.h"
+
+namespace alhazen::bench {
+
+struct PeerScene {
+    std::string group;   ///< "embree robust", "embree fast"
+    std::string suffix;  ///< of the names of its tracers; empty where there is one scene per group
+    const EmbreeScene* scene;
+};
+
+/// One ray set beside one way to trace it in Embree.
+struct CheckResult {
+    std::string scene, rays, peer;
+    std::size_t count = 0;
+    std::size_t disagreements = 0;
+    std::size_t ours_wrong = 0, peer_wrong = 0;
+    std::size_t both_right = 0;     ///< the ray passes through an edge or grazes
+    std::size_t batch_differs = 0;  ///< rays whose batch hit is not the single one, bit for bit
+    /// Of some rays our answer is judged although nobody disagrees; and so is a wrong answer put in
+    /// its place, which the judge must see.
+    std::size_t samples = 0, planted_unseen = 0;
+    std::vector<std::string> our_faults;  ///< the first few, to be looked at
+};
+
+/// Traces the set by `closest` or `occluded`, by the batch, and by each peer with packets of 1 and
+/// 16.
+[[nodiscard]] std::vector<CheckResult> check(const KernelScene& scene, const Aggregate& aggregate,
+                                             const RaySet& set,
+                                             const std::vector<PeerScene>& peers);
+
+[[nodiscard]] std::string as_markdown(const std::vector<CheckResult>& results);
+
+}  // namespace alhazen::bench

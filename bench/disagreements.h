@@ -1,0 +1,43 @@
+#pragma once
+/// Decides between two tracers that say different things about a ray: brute force over the whole
+/// scene in extended precision (113 bits where the compiler has them, else long double).
+///
+/// Differs from the tracers: edge functions are triple products without a shear; nothing is
+/// culled but what a test in double with a wide margin excludes. A triangle whose edge function is
+/// zero, or too near to zero even for extended precision, is *touched*: the ray passes through an
+/// edge or a vertex, and both to count it and to leave it out is right. Spheres and capped
+/// cylinders by their intervals; one that is grazed within the rounding of double is touched too.
+/// Conventions: t is compared up to a tolerance in units of the distances in play.
+
+#include <vector>
+
+#include "our_tracer.h"
+
+namespace alhazen::bench {
+
+/// Which tracers are not right about a ray.
+struct Verdict {
+    bool ours_wrong = false, peer_wrong = false;
+    double true_t = 0;  ///< nearest sure crossing; infinite: none
+};
+
+class Judge {
+  public:
+    /// Refers to the scene.
+    explicit Judge(const KernelScene& scene);
+
+    /// `ours` and `peer` are the t that each tracer reports, infinite for a miss; with `any_hit`
+    /// any finite number stands for a hit. O(size of the scene).
+    [[nodiscard]] Verdict decide(const Ray& ray, bool any_hit, double ours, double peer) const;
+    /// True when two answers differ by more than the noise of float.
+    [[nodiscard]] bool disagree(const Ray& ray, bool any_hit, double ours, double peer) const;
+
+  private:
+    /// The distances in play on the way to t, in units of t: what tolerances refer to.
+    [[nodiscard]] double noise_unit(const Ray& ray, double t) const;
+
+    const KernelScene& scene_;
+    double reach_;  ///< of the scene from the origin
+};
+
+}  // namespace alhazen::bench

@@ -1,0 +1,70 @@
+#include "measure.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alhazen::bench {
+
+double processor_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Spread spread_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto quantile = [&](double q) {
+        const double place = q * static_cast<double>(values.size() - 1);
+        const auto i = static_cast<std::size_t>(place);
+        const double next = values[std::min(i + 1, values.size() - 1)];
+        return std::lerp(values[i], next, place - static_cast<double>(i));
+    };
+    return {values.front(), quantile(0.25), quantile(0.5), quantile(0.75), values.back()};
+}
+
+std::vector<Measured> measure(const std::vector<Tracer>& tracers, std::size_t rays, int rounds) {
+    std::vector<Measured> results;
+    for (const Tracer& t : tracers) results.push_back({t.group, t.name, {}, 0});
+    for (int round = 0; round <= rounds; ++round) {
+        for (std::size_t i = 0; i < tracers.size(); ++i) {
+            if (tracers[i].prepare) tracers[i].prepare();
+            const double begin = processor_seconds();
+            results[i].hits = tracers[i].trace();
+            const double seconds = processor_seconds() - begin;
+            if (round > 0) results[i].rates.push_back(1e-6 * static_cast<double>(rays) / seconds);
+            if (round == rounds && tracers[i].count_hits) results[i].hits = tracers[i].count_hits();
+        }
+    }
+    return results;
+}
+
+const Measured* best_of(const std::vector<Measured>& list, const std::string& group) {
+    const Measured* best = nullptr;
+    for (const Measured& m : list) {
+        const auto hits = static_cast<double>(m.hits);
+        const auto expected = static_cast<double>(list.front().hits);
+        if (m.group != group || std::abs(hits - expected) > 0.005 * expected) continue;
+        if (best == nullptr || m.spread().median > best->spread().median) best = &m;
+    }
+    return best;
+}
+
+const Measured* find(const std::vector<Measured>& list, const std::string& group,
+                     const std::string& name) {
+    const auto place = std::find_if(list.begin(), list.end(), [&](const Measured& m) {
+        return m.group == group && m.name == name;
+    });
+    return place == list.end() ? nullptr : &*place;
+}
+
+Spread ratio_by_round(const Measured& a, const Measured& b) {
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < std::min(a.rates.size(), b.rates.size()); ++i) {
+        ratios.push_back(a.rates[i] / b.rates[i]);
+    }
+    return spread_of(std::move(ratios));
+}
+
+}  // namespace alhazen::bench

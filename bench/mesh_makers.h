@@ -1,0 +1,29 @@
+#pragma once
+/// Meshes made by rule, for benchmarks: spheres of any fineness and finer copies of a mesh.
+
+#include <cstdint>
+
+#include "alhazen/shapes/triangle_mesh.h"
+
+namespace alhazen::bench {
+
+/// Unit sphere: an icosahedron whose triangles are split into four `splits` times. Closed.
+[[nodiscard]] TriangleMesh icosphere(int splits);
+
+/// Unit sphere of `rings` circles of `sectors` vertices between two poles, 2 rings sectors
+/// triangles, with bumps of the height `bump`. Closed; `rings` >= 1, `sectors` >= 3.
+[[nodiscard]] TriangleMesh latitude_ball(std::uint32_t rings, std::uint32_t sectors, double bump);
+
+/// Every triangle split into four at the middles of its edges, which neighbours share: what was
+/// closed stays closed.
+void split_triangles(TriangleMesh& mesh);
+
+/// Appends `part` scaled and moved.
+void append(TriangleMesh& mesh, const TriangleMesh& part, const Vec3& center, double radius);
+
+/// Coordinates as a kernel in float has them.
+[[nodiscard]] double to_float(double x);
+[[nodiscard]] Vec3 to_float(const Vec3& v);
+void round_to_float(TriangleMesh& mesh);
+
+}  // namespace alhazen::bench

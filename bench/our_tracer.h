@@ -1,0 +1,27 @@
+#pragma once
+/// wide_bvh over a scene of the benchmarks, and its rays one by one and in batches.
+
+#include <memory>
+
+#include "alhazen/scene/aggregate.h"
+#include "kernel_rays.h"
+
+namespace alhazen::bench {
+
+/// Rays of one call of the batch: as many as a renderer's tile has.
+inline constexpr std::size_t kBatch = 1024;
+
+[[nodiscard]] std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene);
+
+/// Traces all rays of the set, `closest` or `occluded`; the number that hit.
+[[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set);
+/// The same by `closest_batch` or `occluded_batch`, kBatch rays a call.
+[[nodiscard]] std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set);
+
+/// What a ray of the set costs on average, counted.
+struct WorkPerRay {
+    double node_visits = 0, primitive_tests = 0, primitive_hits = 0;
+};
+[[nodiscard]] WorkPerRay count_work(const Aggregate& aggregate, const RaySet& set);
+
+}  // namespace alhazen::bench

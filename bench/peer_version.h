@@ -1,0 +1,20 @@
+#pragma once
+/// Which Embree the program was linked with.
+
+#include <string>
+
+#ifdef ALHAZEN_HAVE_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+namespace alhazen::bench {
+
+[[nodiscard]] inline std::string peer_version() {
+#ifdef ALHAZEN_HAVE_EMBREE
+    return "Embree " RTC_VERSION_STRING;
+#else
+    return "no Embree";
+#endif
+}
+
+}  // namespace alhazen::bench

@@ -1,0 +1,44 @@
+#pragma once
+/// The results of the kernel benchmark as text, JSON and tables of Markdown.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "measure.h"
+#include "our_tracer.h"
+
+namespace alhazen::bench {
+
+inline constexpr const char* kOurs = "alhazen";
+inline constexpr const char* kRobust = "embree robust";
+inline constexpr const char* kFast = "embree fast";
+
+struct SetResult {
+    std::string rays;
+    std::size_t count = 0;
+    WorkPerRay work;
+    std::vector<Measured> tracers;
+};
+
+struct SceneResult {
+    std::string name, contents;
+    std::vector<SetResult> sets;
+};
+
+/// What was run, for the head of a table.
+struct RunFacts {
+    std::string command;
+    std::string machine;  ///< processor, cores, versions
+    int rounds = 0;
+};
+[[nodiscard]] RunFacts run_facts(int argc, char** argv, int rounds);
+
+/// One line of text per tracer of the set.
+[[nodiscard]] std::string as_text(const SetResult& set);
+[[nodiscard]] nlohmann::ordered_json as_json(const RunFacts& facts,
+                                             const std::vector<SceneResult>& scenes);
+/// Three tables: medians and ratios, their spread, and the numbers of hits where they differ.
+[[nodiscard]] std::string as_markdown(const RunFacts& facts,
+                                      const std::vector<SceneResult>& scenes);
+
+}  // namespace alhazen::bench
