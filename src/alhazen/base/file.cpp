@@ -153,6 +153,11 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
 }
 
 void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+    write_file_atomically(path, std::span(&bytes, 1));
+}
+
+void write_file_atomically(const fs::path& path,
+                           std::span<const std::span<const std::byte>> pieces) {
     check_path(path);
     const fs::path target = target_of(path);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
@@ -168,7 +173,7 @@ void write_file_atomically(const fs::path& path, std::span<const std::byte> byte
     // Keep the permissions that the user gave the old file; not being allowed to is no reason to
     // stop.
     if (exists) (void)!::fchmod(fd.get(), old.st_mode & 07777);
-    write_all(fd.get(), bytes, path);
+    for (const std::span<const std::byte> bytes : pieces) write_all(fd.get(), bytes, path);
     if (!synced(fd.get())) fail(path, "cannot write the file", errno);
     if (fd.close() != 0) fail(path, "cannot write the file", errno);
     if (::rename(temporary.path().c_str(), target.c_str()) != 0) {

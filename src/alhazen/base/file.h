@@ -25,6 +25,9 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 /// Throws Error (File) and leaves the old file as it was when anything fails.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+/// The same for bytes that lie in several places, in this order.
+void write_file_atomically(const std::filesystem::path& path,
+                           std::span<const std::span<const std::byte>> pieces);
 /// The same for text.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 

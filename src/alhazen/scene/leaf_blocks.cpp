@@ -56,13 +56,13 @@ class Packer final : public LeafSink {
                 break;
         }
         const std::size_t offset = layout_.others.size();
-        layout_.others.insert(layout_.others.end(), ids_.begin(), ids_.end());
+        layout_.others.append(ids_);
         return reference(kind, offset, ids_.size());
     }
 
   private:
     template <class Block>
-    NodeRef add_blocks(std::uint32_t kind, HugeVector<Block>& blocks) {
+    NodeRef add_blocks(std::uint32_t kind, MappableVector<Block>& blocks) {
         const std::size_t offset = blocks.size();
         for (std::size_t i = 0; i < ids_.size(); i += kBlockWidth) {
             const std::size_t count = std::min(kBlockWidth, ids_.size() - i);
@@ -165,16 +165,14 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
     const BinaryBvh binary = build_binary(references, kLeafKindTable);
     Packer packer(table, layout);
     layout.tree = collapse(binary, references, kLeafKindTable, packer);
-    layout.tree.nodes.shrink_to_fit();
-    layout.triangles.shrink_to_fit();
-    layout.spheres.shrink_to_fit();
-    layout.others.shrink_to_fit();
+    for_each_array(layout, [](auto& array) { array.shrink_to_fit(); });
     return layout;
 }
 
 std::size_t WideBvhLayout::memory_bytes() const {
-    const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return bytes(tree.nodes) + bytes(triangles) + bytes(spheres) + bytes(others);
+    std::size_t bytes = 0;
+    for_each_array(*this, [&](const auto& array) { bytes += array.capacity() * sizeof(array[0]); });
+    return bytes;
 }
 
 }  // namespace alhazen

@@ -7,7 +7,6 @@
 /// Conventions: lanes are in ascending order of id; the used ones come first.
 
 #include <cstdint>
-#include <vector>
 
 #include "alhazen/accel/wide_bvh/collapse.h"
 #include "alhazen/accel/wide_bvh/local_frame.h"
@@ -82,12 +81,22 @@ static_assert(sizeof(SphereBlock) == 320);
 struct WideBvhLayout {
     LocalFrame frame;
     WideBvh tree;
-    HugeVector<TriangleBlock> triangles;
-    HugeVector<SphereBlock> spheres;
-    std::vector<PrimitiveId> others;
+    MappableVector<TriangleBlock> triangles;
+    MappableVector<SphereBlock> spheres;
+    MappableVector<PrimitiveId> others;
 
     [[nodiscard]] std::size_t memory_bytes() const;
 };
+
+/// Calls `f` with every array of a layout. ADD AN ARRAY HERE: it is then measured, stored and
+/// loaded.
+template <class Layout, class F>
+void for_each_array(Layout& layout, F&& f) {
+    f(layout.tree.nodes);
+    f(layout.triangles);
+    f(layout.spheres);
+    f(layout.others);
+}
 
 /// Builds over the bounded primitives; parallel, the same for every number of threads.
 [[nodiscard]] WideBvhLayout build_wide_bvh(const PrimitiveTable& table,

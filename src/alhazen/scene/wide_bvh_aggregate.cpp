@@ -5,6 +5,7 @@
 #include "alhazen/base/huge_pages.h"
 #include "alhazen/scene/aggregate_of.h"
 #include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/scene/wide_bvh_file.h"
 
 namespace alhazen {
 
@@ -14,6 +15,28 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table)
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
     layout_ = build_wide_bvh(table_, bounded);
+    prepare_meshes();
+}
+
+WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file)
+    : table_(std::move(table)), kernels_(&wide_bvh_kernels()) {
+    StoredWideBvh stored = load_wide_bvh(file, table_);
+    box_ = stored.box;
+    unbounded_ = std::move(stored.unbounded);
+    layout_ = std::move(stored.layout);
+    prepare_meshes();
+}
+
+std::shared_ptr<const WideBvhAggregate> WideBvhAggregate::load(PrimitiveTable table,
+                                                               const std::filesystem::path& file) {
+    return std::shared_ptr<const WideBvhAggregate>(new WideBvhAggregate(std::move(table), file));
+}
+
+void WideBvhAggregate::save(const std::filesystem::path& file) const {
+    save_wide_bvh(file, layout_, box_, unbounded_, table_);
+}
+
+void WideBvhAggregate::prepare_meshes() const {
     for (const PlacedMesh& placed : table_.meshes) {
         collapse_to_huge_pages(std::span(placed.mesh->triangles));
         collapse_to_huge_pages(std::span(placed.mesh->positions));

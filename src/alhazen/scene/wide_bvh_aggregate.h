@@ -11,6 +11,8 @@
 /// Complexity and threads: built in parallel; const functions may be called from many threads; no
 /// allocation per ray, except for the hits that are asked for.
 
+#include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "alhazen/scene/aggregate.h"
@@ -27,6 +29,12 @@ class WideBvhAggregate final : public Aggregate {
         "bounding volume hierarchy, eight children per node, SIMD: the fastest";
 
     explicit WideBvhAggregate(PrimitiveTable table);
+    /// With a tree that was stored (scene/wide_bvh_file.h) over a table like this one, which is
+    /// finished. Throws Error (File) where the tree does not fit, saying why.
+    [[nodiscard]] static std::shared_ptr<const WideBvhAggregate> load(
+        PrimitiveTable table, const std::filesystem::path& file);
+    /// Stores the tree. Throws Error (File) when that fails.
+    void save(const std::filesystem::path& file) const;
 
     [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
     [[nodiscard]] Box3 box() const override { return box_; }
@@ -44,6 +52,10 @@ class WideBvhAggregate final : public Aggregate {
                         TraversalStats* stats) const override;
 
   private:
+    WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file);
+
+    /// What nobody else prepares for rays that come from everywhere.
+    void prepare_meshes() const;
     [[nodiscard]] WideBvhScene scene() const { return {&table_, &layout_}; }
     /// Calls test(id, policy) for the primitives outside the tree until it returns true.
     template <class Test>

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "alhazen/base/error.h"
+#include "alhazen/scene/wide_bvh_aggregate.h"
 
 namespace alhazen {
 namespace {
@@ -31,8 +32,21 @@ void check_id(const PrimitiveTable& table, PrimitiveId id, bool instance) {
 }  // namespace
 
 Tracer::Tracer(TracerScene scene, const TracerOptions& options)
-    : geometry_count_(scene.geometry_count()), depth_(scene.depth_) {
-    aggregate_ = make_aggregate(options.accelerator, finished(std::move(scene.table_)));
+    : Tracer(make_aggregate(options.accelerator, finished(std::move(scene.table_))), scene.count_,
+             scene.depth_) {}
+
+Tracer Tracer::load(TracerScene scene, const std::filesystem::path& file) {
+    return {WideBvhAggregate::load(finished(std::move(scene.table_)), file), scene.count_,
+            scene.depth_};
+}
+
+void Tracer::save(const std::filesystem::path& file) const {
+    const auto* wide = dynamic_cast<const WideBvhAggregate*>(aggregate_.get());
+    if (wide == nullptr) {
+        throw Error(ErrorKind::Usage, std::string("only the accelerator ") +
+                                          WideBvhAggregate::kName + " can be stored");
+    }
+    wide->save(file);
 }
 
 bool Tracer::intersect(const Ray& ray, Hit& hit) const {

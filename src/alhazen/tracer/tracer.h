@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "alhazen/geometry/hit.h"
@@ -53,6 +54,13 @@ class Tracer {
   public:
     /// Builds over all of the scene; it may be empty.
     explicit Tracer(TracerScene scene, const TracerOptions& options = {});
+    /// With a tree that `save` stored for the same scene, mapped into memory instead of built. The
+    /// hits are the same. Throws Error (File) when the file is damaged or of other geometry, or of
+    /// another version of the library: then build. Instances are loaded or built on their own.
+    [[nodiscard]] static Tracer load(TracerScene scene, const std::filesystem::path& file);
+    /// Stores the tree, not the geometry, as one step. Throws Error: Usage for an accelerator other
+    /// than `wide_bvh`, File when the file cannot be written.
+    void save(const std::filesystem::path& file) const;
 
     /// The nearest hit: t, and u and v, the weights of the second and third vertex of a triangle or
     /// the parameters of a shape. True when there is one; else `hit.found()` is false.
@@ -82,10 +90,13 @@ class Tracer {
 
   private:
     friend class TracerScene;
+    Tracer(std::shared_ptr<const Aggregate> aggregate, std::size_t geometry_count,
+           std::size_t depth)
+        : aggregate_(std::move(aggregate)), geometry_count_(geometry_count), depth_(depth) {}
 
     std::shared_ptr<const Aggregate> aggregate_;
-    std::size_t geometry_count_ = 0;
-    std::size_t depth_ = 0;  ///< levels of instances
+    std::size_t geometry_count_;
+    std::size_t depth_;  ///< levels of instances
 };
 
 }  // namespace alhazen

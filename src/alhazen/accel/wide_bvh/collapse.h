@@ -10,7 +10,7 @@
 #include <span>
 
 #include "alhazen/accel/wide_bvh/binary_builder.h"
-#include "alhazen/base/huge_pages.h"
+#include "alhazen/base/mappable_vector.h"
 
 namespace alhazen {
 
@@ -24,7 +24,7 @@ class LeafSink {
 };
 
 struct WideBvh {
-    HugeVector<WideNode> nodes;
+    MappableVector<WideNode> nodes;
     NodeRef root{};  ///< may be a leaf
     bool empty = true;
     int depth = 0;  ///< levels of inner nodes

@@ -1,0 +1,98 @@
+#pragma once
+/// A vector whose values are its own, in large pages, or lie in memory of another, as of a mapped
+/// file. Reading costs the same either way.
+///
+/// Conventions: whatever may change the values makes them its own first, by a copy. So does a
+/// reference that is not const: read through const ones.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "alhazen/base/huge_pages.h"
+
+namespace alhazen {
+
+template <class T>
+class MappableVector {
+  public:
+    using value_type = T;
+
+    MappableVector() = default;
+    /// Values that `owner` keeps alive.
+    MappableVector(std::span<const T> values, std::shared_ptr<const void> owner)
+        : values_(values), owner_(std::move(owner)) {}
+    MappableVector(const MappableVector& other) : own_(other.own_), owner_(other.owner_) {
+        values_ = other.is_mapped() ? other.values_ : std::span<const T>(own_);
+    }
+    MappableVector(MappableVector&& other) noexcept
+        : own_(std::move(other.own_)),
+          values_(std::exchange(other.values_, {})),
+          owner_(std::move(other.owner_)) {}
+    MappableVector& operator=(MappableVector other) noexcept {
+        std::swap(own_, other.own_);
+        std::swap(values_, other.values_);
+        std::swap(owner_, other.owner_);
+        return *this;
+    }
+    ~MappableVector() = default;
+
+    [[nodiscard]] bool is_mapped() const { return owner_ != nullptr; }
+
+    // ---- reading
+    [[nodiscard]] std::size_t size() const { return values_.size(); }
+    [[nodiscard]] bool empty() const { return values_.empty(); }
+    [[nodiscard]] const T* data() const { return values_.data(); }
+    [[nodiscard]] const T& operator[](std::size_t i) const { return values_.data()[i]; }
+    [[nodiscard]] const T* begin() const { return values_.data(); }
+    [[nodiscard]] const T* end() const { return values_.data() + values_.size(); }
+    /// Of its own memory, or as many as are mapped.
+    [[nodiscard]] std::size_t capacity() const { return is_mapped() ? size() : own_.capacity(); }
+
+    // ---- changing
+    [[nodiscard]] T* data() { return own().data(); }
+    [[nodiscard]] T& operator[](std::size_t i) { return own()[i]; }
+    [[nodiscard]] T* begin() { return own().data(); }
+    [[nodiscard]] T* end() { return own().data() + own_.size(); }
+    template <class... Arguments>
+    T& emplace_back(Arguments&&... arguments) {
+        T& value = own().emplace_back(std::forward<Arguments>(arguments)...);
+        values_ = own_;
+        return value;
+    }
+    void push_back(const T& value) { emplace_back(value); }
+    void append(std::span<const T> values) {
+        change([&](auto& own) { own.insert(own.end(), values.begin(), values.end()); });
+    }
+    void reserve(std::size_t n) {
+        change([&](auto& own) { own.reserve(n); });
+    }
+    void resize(std::size_t n) {
+        change([&](auto& own) { own.resize(n); });
+    }
+    void shrink_to_fit() {
+        change([](auto& own) { own.shrink_to_fit(); });
+    }
+
+  private:
+    HugeVector<T>& own() {
+        if (is_mapped()) {
+            own_.assign(values_.begin(), values_.end());
+            values_ = own_;
+            owner_.reset();
+        }
+        return own_;
+    }
+    template <class Change>
+    void change(Change&& apply) {
+        apply(own());
+        values_ = own_;
+    }
+
+    HugeVector<T> own_;
+    std::span<const T> values_;  ///< those of `own_`, or of the owner
+    std::shared_ptr<const void> owner_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,60 @@
+#include "alhazen/scene/table_fingerprint.h"
+
+#include "alhazen/base/checksum.h"
+
+namespace alhazen {
+namespace {
+
+void add(Checksum& sum, const Vec3& v) {
+    for (int k = 0; k < 3; ++k) sum.add(v[k]);
+}
+void add(Checksum& sum, const Box3& box) {
+    add(sum, box.lo);
+    add(sum, box.hi);
+}
+
+void add_meshes(Checksum& sum, const PrimitiveTable& table) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double) &&
+                  sizeof(table.meshes[0].mesh->triangles[0]) == 12);
+    for (const PlacedMesh& placed : table.meshes) {
+        const TriangleMesh& mesh = *placed.mesh;
+        sum.add(std::span(mesh.positions));
+        sum.add(std::span(mesh.triangles));
+        const std::uint32_t first = table.first(kTriangleKind) + placed.first_triangle;
+        // One answer for all, where the vertices do not differ in it.
+        const std::size_t answers = mesh.vertex_materials.empty()
+                                        ? std::min<std::size_t>(1, mesh.triangles.size())
+                                        : mesh.triangles.size();
+        for (std::uint32_t i = 0; i < answers; ++i) {
+            sum.add(std::uint64_t{table.is_opaque(PrimitiveId{first + i})});
+        }
+    }
+}
+
+}  // namespace
+
+std::uint64_t table_fingerprint(const PrimitiveTable& table) {
+    Checksum sum;
+    for (std::uint32_t kind = 0; kind <= kKindCount; ++kind) {
+        sum.add(std::uint64_t{table.first(kind)});
+    }
+    // Analytic shapes and instances; the boxes of spheres do not tell all of their digits.
+    const auto add_boxes = [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t i = begin; i < end; ++i) {
+            add(sum, table.box(i));
+            sum.add(std::uint64_t{table.is_opaque(PrimitiveId{i})});
+        }
+    };
+    add_boxes(0, table.first(kTriangleKind));
+    add_boxes(table.first(kInstanceKind), table.first(kInstanceKind + 1));
+    const auto& spheres = std::get<ShapeColumn<Sphere>>(table.columns);
+    for (std::size_t i = 0; i < spheres.shapes.size(); ++i) {
+        add(sum, spheres.shapes[i].center);
+        sum.add(spheres.shapes[i].radius);
+        sum.add(std::uint64_t{spheres.placements[i] == kNoPlacement});
+    }
+    add_meshes(sum, table);
+    return sum.value();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,119 @@
+#include "alhazen/scene/wide_bvh_check.h"
+
+#include <bit>
+#include <cmath>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+namespace {
+
+bool leads_to_leaf(const WideBvhLayout& layout, NodeRef ref) {
+    const auto lies_in = [&](const auto& array) {
+        return std::size_t{ref.offset()} + ref.count() <= array.size();
+    };
+    switch (static_cast<LeafType>(ref.kind())) {
+        case LeafType::Triangles:
+            return lies_in(layout.triangles);
+        case LeafType::Spheres:
+            return lies_in(layout.spheres);
+        case LeafType::Others:
+            return lies_in(layout.others);
+    }
+    return false;
+}
+
+/// A slot that no ray enters.
+bool is_free(const WideNode& node, std::size_t slot) {
+    return node.box(slot) == FloatBox{};
+}
+
+/// Every octant's order names every slot once.
+bool is_ordered(const WideNode& node) {
+    for (const std::uint32_t order : node.order) {
+        std::uint32_t seen = order >> 24;
+        for (std::uint32_t i = 0; i < kWideNodeWidth; ++i) seen |= 1u << (order >> 3 * i & 7);
+        if (seen != (1u << kWideNodeWidth) - 1 || order >> 24 != 0) return false;
+    }
+    return true;
+}
+
+/// A frame as one is made for some box: rays in it are then what the kernels expect.
+bool is_sound(const LocalFrame& frame) {
+    const double reach = max_component(abs(frame.center));
+    return is_finite(frame.center) && reach <= 2e150 && frame.scale >= 0x1p-502 &&
+           frame.scale <= 0x1p502 && frame.scale == std::ldexp(1.0, std::ilogb(frame.scale)) &&
+           frame.inverse_scale == 1.0 / frame.scale && frame.offset == reach * frame.scale &&
+           frame.offset <= 0x1p32;
+}
+
+const char* check_nodes(const WideBvhLayout& layout) {
+    const WideBvh& tree = layout.tree;
+    if (tree.empty) return nullptr;
+    if (tree.root.is_leaf()) {
+        return leads_to_leaf(layout, tree.root) ? nullptr : "the root leads out of the leaves";
+    }
+    if (tree.root.index() >= tree.nodes.size()) return "the root leads out of the nodes";
+    std::vector<std::uint8_t> depth(tree.nodes.size(), 0);  // 0: not met so far
+    depth[tree.root.index()] = 1;
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const WideNode& node = tree.nodes[i];
+        if (!is_ordered(node)) return "the order of some children is none";
+        for (std::size_t slot = 0; slot < kWideNodeWidth; ++slot) {
+            const NodeRef child = node.child[slot];
+            if (is_free(node, slot)) continue;
+            if (child.is_leaf()) {
+                if (!leads_to_leaf(layout, child)) return "a node leads out of the leaves";
+                continue;
+            }
+            if (child.index() >= tree.nodes.size()) return "a node leads out of the nodes";
+            if (child.index() <= i || depth[child.index()] != 0 || depth[i] == 0) {
+                return "the nodes make no tree";
+            }
+            if (depth[i] >= kMaxWideDepth) return "the tree is too deep";
+            depth[child.index()] = static_cast<std::uint8_t>(depth[i] + 1);
+        }
+    }
+    return nullptr;
+}
+
+bool names_kind(const PrimitiveTable& table, BlockId id, std::uint32_t kind) {
+    const auto i = static_cast<std::uint32_t>(id.id());
+    return table.first(kind) <= i && i < table.first(kind + 1);
+}
+
+const char* check_leaves(const WideBvhLayout& layout, const PrimitiveTable& table) {
+    constexpr const char* kMessage = "a leaf names a primitive that is not there";
+    for (const TriangleBlock& block : layout.triangles) {
+        for (const BlockId id : block.ids) {
+            if (id.used() && !names_kind(table, id, kTriangleKind)) return kMessage;
+        }
+    }
+    constexpr std::uint32_t kSphereKind = 0;
+    static_assert(std::is_same_v<std::tuple_element_t<kSphereKind, decltype(table.columns)>,
+                                 ShapeColumn<Sphere>>);
+    for (const SphereBlock& block : layout.spheres) {
+        if (block.lanes >> kBlockWidth != 0) return kMessage;
+        for (std::uint32_t rest = block.lanes; rest != 0; rest &= rest - 1) {
+            const BlockId id = block.ids[std::countr_zero(rest)];
+            if (!id.used() || !names_kind(table, id, kSphereKind)) return kMessage;
+        }
+    }
+    for (const PrimitiveId id : layout.others) {
+        if (static_cast<std::uint32_t>(id) >= table.size()) return kMessage;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+const char* find_unsound(const WideBvhLayout& layout, const PrimitiveTable& table) {
+    if (!is_sound(layout.frame)) return "its frame is none";
+    if (const char* message = check_nodes(layout)) return message;
+    return check_leaves(layout, table);
+}
+
+}  // namespace alhazen
