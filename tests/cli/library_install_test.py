@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Installs the library, builds the example against what was installed, and runs it.
 
-Usage: library_install_test.py BUILD_FOLDER SOURCE_FOLDER TRACE_RAYS COMPILER FLAGS CONFIG
+Usage: library_install_test.py BUILD_FOLDER SOURCE_FOLDER TRACE_RAYS CONFIG PREFIXES [CMAKE_OPTION...]
 
 Nothing of the library is built anew. TRACE_RAYS is the example as this build has it: the one against the
-installed library must print the same.
+installed library must print the same. PREFIXES is where this build found its packages; CMAKE_OPTIONs say
+how it compiles.
 """
 
 import pathlib
@@ -33,7 +34,7 @@ def check_picture(picture, expected):
 
 
 def main():
-    build, source, trace_rays, compiler, flags, config = sys.argv[1:]
+    build, source, trace_rays, config, prefixes = sys.argv[1:6]
     with tempfile.TemporaryDirectory(prefix="alhazen_install_") as folder:
         folder = pathlib.Path(folder)
         run("cmake", "--install", build, "--prefix", folder / "first", "--config", config)
@@ -41,8 +42,7 @@ def main():
         (folder / "first").rename(folder / "moved")
         example = folder / "example"
         run("cmake", "-S", pathlib.Path(source) / "examples" / "trace_rays", "-B", example,
-            f"-DCMAKE_PREFIX_PATH={folder / 'moved'}", f"-DCMAKE_CXX_COMPILER={compiler}",
-            f"-DCMAKE_CXX_FLAGS={flags}", f"-DCMAKE_BUILD_TYPE={config}")
+            f"-DCMAKE_PREFIX_PATH={folder / 'moved'};{prefixes}", f"-DCMAKE_BUILD_TYPE={config}", *sys.argv[6:])
         run("cmake", "--build", example, "--config", config)
         check_picture(run(example / "trace_rays"), run(trace_rays))
         run(folder / "moved" / "bin" / "alhazen", "--version")

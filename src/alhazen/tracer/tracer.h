@@ -70,8 +70,8 @@ class Tracer {
     /// Replaces `hits` by every hit, the nearest first.
     void all_hits(const Ray& ray, std::vector<Hit>& hits) const;
 
-    // ---- The same for many rays of any kind and in any order: faster from about ten rays on.
-    // Throws Error (Usage) where two spans differ in length.
+    // ---- The same for many rays of any kind and in any order. From about ten rays on the first
+    // two are faster than ray by ray. Throws Error (Usage) where two spans differ in length.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
     void occluded(std::span<const Ray> rays, std::span<bool> occluded) const;
     void all_hits(std::span<const Ray> rays, HitLists& lists) const;
