@@ -14,6 +14,7 @@
 #include <bit>
 
 #include "alhazen/scene/sphere_block-inl.h"
+#include "alhazen/scene/triangle_decider-inl.h"
 #include "alhazen/scene/triangle_filter-inl.h"
 #include "alhazen/scene/wide_bvh_kernels.h"
 
@@ -29,21 +30,19 @@ struct LeafQuery {
     SlabRay slabs;
     TriangleFilterRay filter;
     Ray ray;
+    const Ray* source;  ///< the caller's
     LocalParameter parameter;
     const WideBvhScene& scene;
     float s_max;
     bool valid;  ///< false: the ray cannot be traced
 
-    /// The ray up to `t_max`. Made from the caller's ray, not from the copy: it could not be loaded
-    /// by the lane before it is in the cache.
-    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r, double t_max) : ray(r), scene(s) {
-        ray.t_max = t_max;
-        LocalRay local;
-        make_slab_ray(s.layout->frame, r, t_max, slabs, local);
-        valid = local.valid;
-        if (!valid) return;
-        make_triangle_filter_ray(slabs, local, filter);
-        parameter = local.parameter;
+    HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r) : ray(r), source(&r), scene(s) {
+        // From the caller's ray, not from the copy: that could not be loaded by the lane before it
+        // is in the cache.
+        valid = make_ray(s.layout->frame, r, slabs, [&](const LocalRay& local) HWY_ATTR {
+            make_triangle_filter_ray(slabs, local, filter);
+            parameter = local.parameter;
+        });
         s_max = slabs.s_max;
     }
 
@@ -118,7 +117,6 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
 
     Hit& best;
     std::uint32_t pending_count = 0;
-    std::uint32_t step = 0;  ///< of finishing
     struct {
         const TriangleBlock* block;
         std::uint32_t lane;
@@ -128,7 +126,11 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
 
     /// `found` may hold a hit found before.
     HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
-        : LeafQuery(s, r, found.found() ? found.t : r.t_max), best(found) {}
+        : LeafQuery(s, r), best(found) {
+        if (!best.found()) return;
+        ray.t_max = best.t;
+        shrink();
+    }
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
@@ -166,38 +168,12 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
         }
         pending_count = 0;
     }
-    /// Fetches what the last tests need, level by level, then makes them.
+    /// As `finish`, by and by.
     template <class Stats>
-    HWY_INLINE bool finish_step(Stats stats) {
-        switch (step++) {
-            case 0: {
-                std::uint32_t left = 0, elsewhere = 0;
-                for (std::uint32_t i = 0; i < pending_count; ++i) {
-                    if (pending[i].lo > s_max) continue;
-                    const BlockId id = pending[i].id();
-                    pending[left++] = pending[i];
-                    if (id.exact()) continue;
-                    hwy::Prefetch(scene.table->triangle_corners(this->triangle(id.id())));
-                    ++elsewhere;
-                }
-                pending_count = left;
-                if (elsewhere == 0) finish(stats);
-                return elsewhere == 0;
-            }
-            case 1:
-                for (std::uint32_t i = 0; i < pending_count; ++i) {
-                    const BlockId id = pending[i].id();
-                    if (id.exact()) continue;
-                    for (const Vec3* corner :
-                         scene.table->corner_positions(this->triangle(id.id()))) {
-                        hwy::Prefetch(corner);
-                        hwy::Prefetch(&corner->z);
-                    }
-                }
-                return false;
-            default:
-                finish(stats);
-                return true;
+    HWY_INLINE void finish_later(TriangleDecider& decider, Stats stats) {
+        for (std::uint32_t i = 0; i < pending_count; ++i) {
+            if (pending[i].lo > s_max) continue;
+            decider.add(*source, best, *pending[i].block, pending[i].lane, stats);
         }
     }
 
@@ -214,7 +190,7 @@ struct OccludedQuery : LeafQuery<OccludedQuery> {
     bool& occluded;
 
     HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
-        : LeafQuery(s, r, r.t_max), occluded(result) {}
+        : LeafQuery(s, r), occluded(result) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
@@ -241,10 +217,6 @@ struct OccludedQuery : LeafQuery<OccludedQuery> {
     HWY_INLINE bool other(PrimitiveId id, Stats stats) {
         return occluded = scene.table->occluded(id, ray, this->shear(), stats);
     }
-    template <class Stats>
-    HWY_INLINE bool finish_step(Stats) {
-        return true;
-    }
 };
 
 /// All hits; with `kStopAtOpaque` up to the first opaque one.
@@ -256,7 +228,7 @@ struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>> {
     std::vector<Hit>& hits;
 
     HWY_INLINE CollectQuery(const WideBvhScene& s, const Ray& r, std::vector<Hit>& found)
-        : Base(s, r, r.t_max), hits(found) {}
+        : Base(s, r), hits(found) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,

@@ -47,8 +47,8 @@ HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& l
     filter.edge_slack = 5.12f * error;
     filter.edge_slack_min = 2.12f * error * error;
     filter.s_slack = (14.2f * e * local.reach + 4.0f * local.delta) * std::abs(sz);
-    filter.sure_min = local.sure_min;
-    filter.sure_max = local.sure_max;
+    filter.sure_min = local.above[0];
+    filter.sure_max = local.below[1];
     if (HWY_UNLIKELY(!local.regular)) {
         filter.edge_slack = std::numeric_limits<float>::infinity();
     }

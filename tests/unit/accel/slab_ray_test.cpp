@@ -24,8 +24,7 @@ namespace {
 
 std::uint32_t met(const WideNode& node, const LocalFrame& frame, const Ray& ray) {
     SlabRay slabs;
-    LocalRay local;
-    make_slab_ray(frame, ray, ray.t_max, slabs, local);
+    if (!make_ray(frame, ray, slabs, [](const LocalRay&) {})) return 0;
     Floats entry;
     return bits_of(meet_children(node, slabs, slabs.s_max, entry));
 }

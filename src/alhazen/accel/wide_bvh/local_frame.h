@@ -32,12 +32,45 @@ inline float round_up(double x) {
     return -round_down(-x);
 }
 
+/// Bound, relative to the distances in play, of how far from the ray a computed hit can be.
+inline constexpr double kExactTestSlack = 0x1p-38;
+
+/// A bound that grows with the distance of a ray's origin, its largest local coordinate.
+struct DistanceBound {
+    float slope, constant;
+    [[nodiscard]] float at(float distance) const { return slope * distance + constant; }
+};
+
+/// What the slack of the rays of one frame is made of (see SlabRay). All are a little more than the
+/// sums in real numbers, for their own rounding.
+struct FrameSlack {
+    DistanceBound delta;  ///< displacement that covers what is computed in double
+    DistanceBound reach;  ///< no coordinate of the scene is farther from the origin
+    DistanceBound slab;   ///< of the slab test, for a direction of 1
+    float least_length;   ///< directions below this take the careful way
+
+    /// Of a frame with the offset `offset`; `usual` is LocalFrame::usual.
+    explicit FrameSlack(double offset = 0, bool usual = true)
+        : delta{kMore * static_cast<float>(kExactTestSlack),
+                kMore * static_cast<float>(kExactTestSlack * (1.0 + offset))},
+          reach{kMore + 2.0f * delta.slope, kMore + 2.0f * delta.constant},
+          slab{6.5f * 0x1p-24f * reach.slope + kMore * delta.slope,
+               6.5f * 0x1p-24f * reach.constant + kMore * delta.constant},
+          least_length(usual ? 0x1p-40f : std::numeric_limits<float>::infinity()) {}
+
+  private:
+    static constexpr float kMore = 1.0001f;
+};
+
 struct LocalFrame {
     Vec3 center;
     double scale = 1;
     double inverse_scale = 1;
     /// Largest coordinate of the center, in local units: how much of a double the offset uses up.
     double offset = 0;
+    /// False where exponents could leave the range of double in the exact tests.
+    bool usual = true;
+    FrameSlack slack;
 
     LocalFrame() = default;
     /// `box` is finite or empty, with coordinates up to 1e150.
@@ -56,6 +89,8 @@ struct LocalFrame {
         scale = std::ldexp(1.0, -std::ilogb(reach) - 1);
         inverse_scale = 1.0 / scale;
         offset = far * scale;
+        usual = scale >= 0x1p-200 && scale <= 0x1p200;
+        slack = FrameSlack(offset, usual);
     }
 
     [[nodiscard]] Vec3 local(const Vec3& p) const { return scale * (p - center); }

@@ -24,12 +24,12 @@ namespace HWY_NAMESPACE {
 struct AxisLanes {
     using F = Lanes<float, 4>;
     F origin, direction;
-    F length;  ///< the largest component of the direction, in every lane
+    F length, distance;  ///< the largest of direction and origin, in every lane
 };
 
 /// The ray as it stands where that is valid, near the scene and of a usual length; else false.
-HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, double t_max,
-                                 LocalRay& local, AxisLanes& axes) {
+HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalRay& local,
+                                 AxisLanes& axes) {
     using D = Lanes<double, 4>;
     using F = AxisLanes::F;
     static_assert(offsetof(Ray, direction) == 24 && offsetof(LocalFrame, scale) == 24);
@@ -40,59 +40,82 @@ HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, double
     const F across = abs(axes.direction);
     const F away = abs(axes.origin);
     axes.length = largest_of(across);
+    axes.distance = largest_of(away);
     // Written so that a NaN is not near.
     const std::uint32_t usual = bits_of((away <= F(8.0f)) & (across <= F(0x1p40f)));
-    const float length = first_lane(axes.length);
-    if (usual != 15 || !(length >= 0x1p-40f) || !(ray.t_min <= t_max)) return false;
-    const float distance = first_lane(largest_of(away));
+    if (usual != 15 || !(first_lane(axes.length) >= frame.slack.least_length) ||
+        !(ray.t_min <= ray.t_max)) {
+        return false;
+    }
     local.main_axis = static_cast<std::uint32_t>(std::countr_zero(bits_of(across >= axes.length)));
-    const double scale = frame.scale;
-    if (!(scale >= 0x1p-200 && scale <= 0x1p200)) return false;
     store_lanes(axes.origin, local.origin);
     store_lanes(axes.direction, local.direction);
-    local.delta =
-        static_cast<float>(kExactTestSlack) * (distance + 1.01f + static_cast<float>(frame.offset));
-    local.reach = distance + 1.0001f + 2.0f * local.delta;
+    local.delta = frame.slack.delta.at(first_lane(axes.distance));
+    local.reach = frame.slack.reach.at(first_lane(axes.distance));
     local.valid = local.regular = true;
-    local.parameter = {scale, 0.0};
-    constexpr double kEnd = 1e37;  // finite in float, beyond every scene
-    // The scale is a power of two: only the rounding to float counts.
-    const double first = std::min(std::max(ray.t_min * scale, -kEnd), kEnd);
-    const double last = std::min(std::max(t_max * scale, -kEnd), kEnd);
-    const double first_step = std::abs(first) * 0x1p-23 + 0x1p-100;
-    const double last_step = std::abs(last) * 0x1p-23 + 0x1p-100;
-    local.s_min = static_cast<float>(first - first_step);
-    local.sure_min = static_cast<float>(first + first_step);
-    local.sure_max = static_cast<float>(last - last_step);
-    local.s_max = static_cast<float>(last + last_step);
+    local.parameter = {frame.scale, 0.0};
+    // The scale is a power of two: only the rounding to float counts. The ends are finite in float
+    // and beyond every scene.
+    using D2 = Lanes<double, 2>;
+    static_assert(offsetof(Ray, t_max) == offsetof(Ray, t_min) + sizeof(double));
+    const D2 range =
+        min_lanes(max_lanes(load_unaligned<2>(&ray.t_min) * D2(frame.scale), D2(-1e37)), D2(1e37));
+    const D2 step = abs(range) * D2(0x1p-23) + D2(0x1p-100);
+    store_lanes(as_floats(range - step), local.below);
+    store_lanes(as_floats(range + step), local.above);
     return true;
 }
 
-/// `t_max` counts in place of the ray's own. `local` is for the tests of leaves; where it is not
-/// valid, `slabs` is not made.
-HWY_INLINE void make_slab_ray(const LocalFrame& frame, const Ray& ray, double t_max, SlabRay& slabs,
-                              LocalRay& local) {
+/// `slack` is what the slab test needs for a direction of 1, in every lane.
+HWY_INLINE void make_slab_ray(const AxisLanes& axes, const AxisLanes::F& slack,
+                              const LocalRay& local, SlabRay& slabs) {
     using F = AxisLanes::F;
-    AxisLanes axes;
-    if (HWY_UNLIKELY(!local_ray_nearby(frame, ray, t_max, local, axes))) {
-        local = local_ray_from_afar(frame, ray, t_max);
-        if (!local.valid) return;
-        if (!local.regular) return pass_everything(slabs);
-        axes.origin = load_lanes<4>(local.origin);
-        axes.direction = load_lanes<4>(local.direction);
-        axes.length = largest_of(abs(axes.direction));
-    }
     const F steep =
         copysign(max_lanes(abs(axes.direction), axes.length * F(0x1p-60f)), axes.direction);
     const F reciprocal = F(1.0f) / steep;
     const F c = -(axes.origin * reciprocal);
-    const F slack = F(6.5f * 0x1p-24f * local.reach + 1.001f * local.delta) * abs(reciprocal);
+    const F aside = slack * abs(reciprocal);
     store_lanes(reciprocal, slabs.reciprocal);
-    store_lanes(c - slack, slabs.near_offset);
-    store_lanes(c + slack, slabs.far_offset);
-    slabs.s_min = local.s_min;
-    slabs.s_max = local.s_max;
+    store_lanes(c - aside, slabs.near_offset);
+    store_lanes(c + aside, slabs.far_offset);
+    slabs.s_min = local.below[0];
+    slabs.s_max = local.above[1];
     slabs.near = kNearRows[bits_of(steep < F(0.0f)) & 7];
+}
+
+/// As `make_ray` below, for a ray that needs care.
+HWY_NOINLINE inline void make_ray_from_afar(const LocalFrame& frame, const Ray& ray, SlabRay& slabs,
+                                            LocalRay& local) {
+    local = local_ray_from_afar(frame, ray);
+    if (!local.valid) return;
+    if (!local.regular) return pass_everything(slabs);
+    AxisLanes axes;
+    axes.origin = load_lanes<4>(local.origin);
+    axes.direction = load_lanes<4>(local.direction);
+    axes.length = largest_of(abs(axes.direction));
+    const float slack = 6.5f * 0x1p-24f * local.reach + 1.001f * local.delta;
+    make_slab_ray(axes, AxisLanes::F(slack), local, slabs);
+}
+
+/// Makes a ray ready for nodes, and calls `then(local)` to make it ready for leaves; false, without
+/// that, when it is not valid.
+template <class Then>
+HWY_INLINE bool make_ray(const LocalFrame& frame, const Ray& ray, SlabRay& slabs, Then&& then) {
+    {
+        LocalRay local;
+        AxisLanes axes;
+        if (HWY_LIKELY(local_ray_nearby(frame, ray, local, axes))) {
+            using F = AxisLanes::F;
+            const DistanceBound& bound = frame.slack.slab;
+            make_slab_ray(axes, axes.distance * F(bound.slope) + F(bound.constant), local, slabs);
+            then(local);
+            return true;
+        }
+    }
+    LocalRay local;
+    make_ray_from_afar(frame, ray, slabs, local);
+    if (local.valid) then(local);
+    return local.valid;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,20 +4,19 @@
 
 namespace alhazen {
 
-LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray, double t_max) {
+LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray) {
     LocalRay local{};
-    local.valid = is_valid({ray.origin, ray.direction, ray.t_min, t_max});
+    local.valid = is_valid(ray);
     if (!local.valid) return local;
     const Vec3 origin = frame.local(ray.origin);
     const double distance = max_component(abs(origin));
     const double length = max_component(abs(ray.direction));
     // Outside these limits (never in a real scene) exponents could leave the range of double: here,
     // or in the test in double, whose products have the third power of a length.
-    local.regular = frame.scale >= 0x1p-200 && frame.scale <= 0x1p200 && distance <= 0x1p40 &&
-                    length >= 0x1p-200 && length <= 0x1p200;
+    local.regular = frame.usual && distance <= 0x1p40 && length >= 0x1p-200 && length <= 0x1p200;
     if (!local.regular) {
-        local.s_min = -std::numeric_limits<float>::infinity();
-        local.s_max = std::numeric_limits<float>::infinity();
+        local.below[0] = -std::numeric_limits<float>::infinity();
+        local.above[1] = std::numeric_limits<float>::infinity();
         return local;
     }
     const int exponent = std::ilogb(length);
@@ -35,11 +34,11 @@ LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray, double t_m
     local.parameter = {std::ldexp(frame.scale, exponent), shift};
     constexpr double kEnd = 1e37;  // finite in float, beyond every scene
     const double first = std::max(ray.t_min, (shift - kEnd) / local.parameter.scale);
-    const double last = std::min(t_max, (shift + kEnd) / local.parameter.scale);
-    local.s_min = local.parameter.below(first);
-    local.s_max = local.parameter.above(last);
-    local.sure_min = local.parameter.above(first);
-    local.sure_max = local.parameter.below(last);
+    const double last = std::min(ray.t_max, (shift + kEnd) / local.parameter.scale);
+    local.below[0] = local.parameter.below(first);
+    local.below[1] = local.parameter.below(last);
+    local.above[0] = local.parameter.above(first);
+    local.above[1] = local.parameter.above(last);
     return local;
 }
 

@@ -32,9 +32,6 @@
 
 namespace alhazen {
 
-/// Bound, relative to the distances in play, of how far from the ray a computed hit can be.
-inline constexpr double kExactTestSlack = 0x1p-38;
-
 /// Rounding of a parameter on its way to the local frame.
 inline constexpr double kLocalSlack = 0x1p-50;
 
@@ -95,19 +92,17 @@ static_assert(sizeof(SlabRay) == 64);
 /// A ray in the local frame, and what the tests of leaves in float start from.
 struct alignas(16) LocalRay {
     float origin[4], direction[4];  ///< moved along the ray by the shift; the fourth is 0
-    float reach;                    ///< no coordinate of the scene is farther from the origin
-    float delta;                    ///< displacement that covers what is computed in double
-    float s_min, s_max;             ///< the range of the ray, rounded outward
-    float sure_min, sure_max;       ///< rounded inward
-    std::uint32_t main_axis;        ///< of the largest component of the direction
-    bool valid;                     ///< false: the ray cannot be traced, nothing else is set
-    bool regular;                   ///< false: nothing is known, every test must pass
+    float reach, delta;             ///< as in FrameSlack
+    /// The two ends of the ray's range, rounded down and up.
+    alignas(8) float below[2], above[2];
+    std::uint32_t main_axis;  ///< of the largest component of the direction
+    bool valid;               ///< false: the ray cannot be traced, nothing else is set
+    bool regular;             ///< false: nothing is known, every test must pass
     LocalParameter parameter;
 };
 
-/// Moves a ray that is far off or not of a usual length near to the scene; `t_max` counts in place
-/// of the ray's own.
-[[nodiscard]] LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray, double t_max);
+/// Moves a ray that is far off or not of a usual length near to the scene.
+[[nodiscard]] LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray);
 
 /// Every box is met; a free slot still is not: its planes are infinite.
 void pass_everything(SlabRay& slabs);

@@ -43,9 +43,13 @@ class Places {
                       const std::size_t (&sizes)[3]) {
         for (std::size_t i = 0; i < 4; ++i) place_[i] = {nodes, sizeof(WideNode), ~0u, 0};
         for (std::size_t i = 0; i < 4; ++i) {
-            const std::size_t kind = i < 3 ? i : 0;
-            place_[4 + i] = {leaves[kind], sizes[kind], NodeRef::kMaxOffset,
-                             sizes[kind] > 256 ? std::size_t{256} : 0};
+            // Nothing is to be fetched for NodeRef::none().
+            if (i == 3) {
+                place_[4 + i] = {nodes, 0, 0, 0};
+                continue;
+            }
+            place_[4 + i] = {leaves[i], sizes[i], NodeRef::kMaxOffset,
+                             sizes[i] > 256 ? std::size_t{256} : 0};
         }
     }
     /// Five lines, or what there is.
@@ -140,7 +144,7 @@ struct StreamSlot {
 };
 
 /// One node or leaf of one ray; false when the ray is done.
-template <class Query, class Stats>
+template <bool kPrefetch, class Query, class Stats>
 HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, const Places& places,
                         Stats stats) {
     Query& query = slot.query();
@@ -161,12 +165,13 @@ HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, const Pl
         height = stack.push(height, node, entries, hit, query.slabs.near.octant);
     }
     slot.height = height;
-    places.prefetch(stack.child[height - 1]);
+    if (kPrefetch) places.prefetch(stack.child[height - 1]);
     return true;
 }
 
-/// Takes every ray of `source` through the tree.
-template <class Query, class Source, class Stats>
+/// Takes every ray of `source` through the tree. Prefetching pays where the tree is much larger
+/// than the caches near the core; else it only takes time.
+template <class Query, bool kPrefetch, class Source, class Stats>
 HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, const Places& places,
                                 Source& source, Stats stats) {
     StreamSlot<Query> slots[kStreamSlots];
@@ -187,12 +192,9 @@ HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, const Place
     while (count > 0) {
         for (std::size_t i = 0; i < count; ++i) {
             StreamSlot<Query>& slot = *active[i];
-            if (advance(slot, nodes, places, stats)) continue;
-            if (!slot.query().finish_step(stats)) {
-                slot.height = 1;
-            } else if (!start(slot)) {
-                active[i--] = active[--count];
-            }
+            if (advance<kPrefetch>(slot, nodes, places, stats)) continue;
+            source.finish(slot.query(), stats);
+            if (!start(slot)) active[i--] = active[--count];
         }
     }
 }
