@@ -15,6 +15,7 @@
 #include "alhazen/session/stopwatch.h"
 #include "command_line.h"
 #include "leak_mesh.h"
+#include "measure.h"
 #include "mesh_makers.h"
 #include "our_tracer.h"
 #include "peer_version.h"
@@ -35,33 +36,33 @@ constexpr std::size_t kShown = 5;
 /// Counts the rays of the list that hit nothing.
 struct LeakTracer {
     std::string name;
-    std::function<std::size_t(const RaySet&)> count_misses;
+    std::function<std::size_t(RaySet&)> count_misses;
     bool is_ours = false;
 };
 
 struct LeakRow {
     std::string mesh;
     LeakKind kind;
-    std::vector<std::atomic<std::uint64_t>> rays, misses;  ///< [tracer]
+    std::vector<std::atomic<std::uint64_t>> rays, misses, nanoseconds;  ///< [tracer]
 
     LeakRow(std::string name, LeakKind k, std::size_t tracers)
-        : mesh(std::move(name)), kind(k), rays(tracers), misses(tracers) {}
+        : mesh(std::move(name)), kind(k), rays(tracers), misses(tracers), nanoseconds(tracers) {}
 };
 
 std::vector<LeakTracer> our_tracers(const Aggregate& aggregate) {
-    const auto batch = [&aggregate](const RaySet& set) {
-        return set.rays.size() - trace_batches(aggregate, set);
+    const auto batch = [&aggregate](bool any_hit) {
+        return [&aggregate, any_hit](RaySet& set) {
+            set.any_hit = any_hit;
+            return set.rays.size() - trace_batches(aggregate, set);
+        };
     };
-    const auto any = [batch](const RaySet& set) {
-        return batch({set.name, true, false, set.rays});
-    };
-    return {{"wide_bvh closest", batch, true}, {"wide_bvh occluded", any, true}};
+    return {{"wide_bvh closest", batch(false), true}, {"wide_bvh occluded", batch(true), true}};
 }
 
 #ifdef ALHAZEN_HAVE_EMBREE
 LeakTracer embree_tracer(const EmbreeScene& scene, const char* mode, int width) {
-    return {fmt::format("Embree {}, rtcIntersect{}", mode, width),
-            [&scene, width](const RaySet& s) {
+    return {fmt::format("Embree {}, rtcIntersect{}", mode, width), [&scene, width](RaySet& s) {
+                s.any_hit = false;
                 const auto packets = make_embree_packets(s, width);
                 packets->trace(scene.handle(), false);
                 return s.rays.size() - packets->count_hits();
@@ -92,7 +93,9 @@ void run_block(const LeakMesh& mesh, const Aggregate& aggregate, std::uint64_t b
     for (std::size_t i = 0; i < kBlock; ++i) set.rays.push_back(mesh.ray(row.kind, random));
     for (std::size_t t = 0; t < tracers.size(); ++t) {
         if (!tracers[t].is_ours && !peers_too) continue;
+        const double begin = processor_seconds();
         const std::size_t misses = tracers[t].count_misses(set);
+        row.nanoseconds[t] += static_cast<std::uint64_t>(1e9 * (processor_seconds() - begin));
         row.rays[t] += set.rays.size();
         row.misses[t] += misses;
         if (misses > 0 && tracers[t].is_ours) show_leaks(aggregate, set);
@@ -118,6 +121,22 @@ std::string cells(const LeakRow& row) {
         text += " |";
     }
     return text + "\n";
+}
+
+/// Rays per second of one thread's processor time; Embree's packets are made in that time too.
+std::string rates(const std::vector<LeakTracer>& tracers,
+                  const std::vector<std::unique_ptr<LeakRow>>& rows) {
+    std::string text;
+    for (std::size_t t = 0; t < tracers.size(); ++t) {
+        double rays = 0, nanoseconds = 1;
+        for (const auto& row : rows) {
+            rays += static_cast<double>(row->rays[t].load());
+            nanoseconds += static_cast<double>(row->nanoseconds[t].load());
+        }
+        text += fmt::format("  {}: {:.2f} million rays per second and thread\n", tracers[t].name,
+                            1e3 * rays / nanoseconds);
+    }
+    return text;
 }
 
 LeakMesh read_leak_mesh(const std::string& spec) {
@@ -174,6 +193,7 @@ void run(const std::string& spec, std::size_t rays, std::size_t embree_rays, Out
             if (tracers[t].is_ours) outcome.our_misses += row->misses[t];
         }
     }
+    fmt::print("{}", rates(tracers, rows));
     std::fflush(stdout);
 }
 

@@ -1,0 +1,192 @@
+/// Building beside Embree: seconds with one thread and with two, bytes and cost of the tree.
+/// Usage: alhazen_build_table SCENE... [--rounds N] [--threads N] [--markdown FILE]
+/// SCENE: see kernel_scenes.h; triangles only. Builders take turns; --threads is the greater of the
+/// two numbers of threads.
+
+#include <fmt/format.h>
+
+#include "alhazen/base/file.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/scene/leaf_blocks.h"
+#include "alhazen/session/stopwatch.h"
+#include "command_line.h"
+#include "kernel_scenes.h"
+#include "measure.h"
+#include "peer_version.h"
+#ifdef ALHAZEN_HAVE_EMBREE
+#include "embree_scene.h"
+#include "embree_tree_cost.h"
+#endif
+
+namespace {
+
+using namespace alhazen;
+using namespace alhazen::bench;
+
+// A block of triangles of wide_bvh and its cost, by which all trees are judged.
+constexpr std::size_t kBlockWidth = 8;
+constexpr double kBlockCost = 1.5;
+
+struct Built {
+    double seconds = 0;
+    double bytes = 0;
+};
+
+struct Builder {
+    std::string name;
+    std::function<Built(int threads)> build;
+    std::function<double()> cost;
+};
+
+PrimitiveTable table_of(const KernelScene& scene) {
+    PrimitiveTable table;
+    table.meshes.push_back({std::make_shared<TriangleMesh>(scene.mesh), MaterialId{0}, 0, false});
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    return table;
+}
+
+#if __has_include("alhazen/accel/wide_bvh/build_options.h")
+
+/// What has to be built anew for every tree: the boxes of the primitives are part of building.
+WideBvhLayout build_layout(const PrimitiveTable& table, BuildQuality quality) {
+    const BoundedPrimitives bounded(table);
+    return build_wide_bvh(table, bounded, {quality});
+}
+
+Builder our_builder(const PrimitiveTable& table, const BuildQualityEntry& entry) {
+    const BuildQuality quality = entry.quality;
+    return {fmt::format("wide_bvh {}", entry.name),
+            [&table, quality](int threads) {
+                WideBvhLayout layout;
+                double seconds = 0;
+                ThreadLimit(threads).run([&] {
+                    const Stopwatch time;
+                    layout = build_layout(table, quality);
+                    seconds = time.seconds();
+                });
+                return Built{seconds, static_cast<double>(layout.memory_bytes())};
+            },
+            [&table, quality] { return build_layout(table, quality).sah_cost(); }};
+}
+
+std::vector<Builder> our_builders(const PrimitiveTable& table) {
+    std::vector<Builder> builders;
+    for (const BuildQualityEntry& e : build_quality_table()) {
+        builders.push_back(our_builder(table, e));
+    }
+    return builders;
+}
+
+#else  // one quality, and no measure of its cost
+
+std::vector<Builder> our_builders(const PrimitiveTable& table) {
+    const auto build = [&table](int threads) {
+        WideBvhLayout layout;
+        double seconds = 0;
+        ThreadLimit(threads).run([&] {
+            const Stopwatch time;
+            const BoundedPrimitives bounded(table);
+            layout = build_wide_bvh(table, bounded);
+            seconds = time.seconds();
+        });
+        return Built{seconds, static_cast<double>(layout.memory_bytes())};
+    };
+    return {{"wide_bvh", build, [] { return 0.0; }}};
+}
+
+#endif
+
+#ifdef ALHAZEN_HAVE_EMBREE
+Builder embree_builder(const KernelScene& scene, RTCBuildQuality quality, bool robust,
+                       const char* name) {
+    return {name,
+            [&scene, quality, robust](int threads) {
+                EmbreeOptions options;
+                options.quality = quality;
+                options.robust = robust;
+                options.threads = threads;
+                const EmbreeScene built(scene, options);
+                return Built{built.build_seconds(), static_cast<double>(built.memory_bytes())};
+            },
+            [&scene, quality] {
+                return embree_tree_cost(scene.mesh, quality, kBlockWidth, kBlockCost);
+            }};
+}
+#endif
+
+std::string row(const KernelScene& scene, const Builder& builder, const Spread& one,
+                const Spread& many, double bytes) {
+    const auto triangles = static_cast<double>(scene.mesh.triangles.size());
+    return fmt::format(
+        "| {}: {} | {} | {:.3f} ({:.3f} to {:.3f}) | {:.3f} ({:.3f} to {:.3f}) | "
+        "{:.2f} | {:.1f} | {:.2f} |\n",
+        scene.name, scene.contents(), builder.name, one.median, one.min, one.max, many.median,
+        many.min, many.max, 1e-6 * triangles / many.median, bytes / triangles, builder.cost());
+}
+
+std::string run(const KernelScene& scene, int rounds, int threads) {
+    if (scene.mesh.triangles.empty()) throw Error(ErrorKind::Usage, scene.name + ": no triangles");
+    const PrimitiveTable table = table_of(scene);
+    std::vector<Builder> builders = our_builders(table);
+#ifdef ALHAZEN_HAVE_EMBREE
+    builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_LOW, true, "Embree low"));
+    builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_MEDIUM, true, "Embree medium"));
+    builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_HIGH, true, "Embree high"));
+#endif
+    std::vector<std::array<std::vector<double>, 2>> seconds(builders.size());
+    std::vector<double> bytes(builders.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < builders.size(); ++i) {
+            for (const std::size_t many : {0, 1}) {
+                const Built built = builders[i].build(many == 0 ? 1 : threads);
+                seconds[i][many].push_back(built.seconds);
+                bytes[i] = built.bytes;
+            }
+        }
+    }
+    std::string text;
+    for (std::size_t i = 0; i < builders.size(); ++i) {
+        text +=
+            row(scene, builders[i], spread_of(seconds[i][0]), spread_of(seconds[i][1]), bytes[i]);
+    }
+    return text;
+}
+
+std::string head(int rounds, int threads) {
+    return fmt::format(
+        "{}, robust; medians of {} rounds in turn (least to greatest). Bytes are those of the "
+        "tree and its leaves, without vertices and indices on either side. The cost is expected "
+        "visits of a node, a leaf of up to {} triangles as {}; Embree's by its builder called "
+        "through rtcBuildBVH.\n\n"
+        "| scene | builder | s, 1 thread | s, {} threads | million triangles / s | bytes / "
+        "triangle "
+        "| cost |\n|---|---|---|---|---|---|---|\n",
+        peer_version(), rounds, kBlockWidth, kBlockCost, threads);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const CommandLine line(argc, argv, {"--rounds", "--threads", "--markdown"});
+    if (line.rest.empty()) {
+        throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
+    }
+    const auto rounds = static_cast<int>(line.count("--rounds", 5));
+    const auto threads = static_cast<int>(line.count("--threads", 2));
+    const std::string file = line.text("--markdown", "");
+    std::string text = head(rounds, threads);
+    fmt::print("{}", text);
+    for (const std::string& spec : line.rest) {
+        const std::string rows = run(make_scene(spec), rounds, threads);
+        fmt::print("{}", rows);
+        std::fflush(stdout);
+        text += rows;
+        if (!file.empty()) write_file_atomically(file, text);
+    }
+    return 0;
+} catch (const std::exception& error) {
+    fmt::print(stderr, "build_table: {}\n", error.what());
+    return 1;
+}
