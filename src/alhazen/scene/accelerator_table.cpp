@@ -12,8 +12,12 @@ namespace alhazen {
 namespace {
 
 template <class A>
-std::shared_ptr<const Aggregate> make(PrimitiveTable table) {
-    return std::make_shared<const A>(std::move(table));
+std::shared_ptr<const Aggregate> make(PrimitiveTable table, const BuildOptions& options) {
+    if constexpr (std::is_constructible_v<A, PrimitiveTable, const BuildOptions&>) {
+        return std::make_shared<const A>(std::move(table), options);
+    } else {
+        return std::make_shared<const A>(std::move(table));
+    }
 }
 
 /// Entries of the wide BVH and of all scalar accelerators.
@@ -51,8 +55,8 @@ void check_accelerator_name(const std::string& name) {
 }
 
 std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,
-                                                PrimitiveTable table) {
-    return find_accelerator(accelerator_name).make(std::move(table));
+                                                PrimitiveTable table, const BuildOptions& options) {
+    return find_accelerator(accelerator_name).make(std::move(table), options);
 }
 
 }  // namespace alhazen

@@ -5,10 +5,13 @@
 #include <tuple>
 
 #include "alhazen/accel/wide_bvh/binary_builder.h"
+#include "alhazen/accel/wide_bvh/reinsertion.h"
+#include "alhazen/accel/wide_bvh/sah_cost.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/bounded_primitives.h"
 #include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/triangle_splitter.h"
 
 namespace alhazen {
 namespace {
@@ -43,42 +46,45 @@ class Packer final : public LeafSink {
   public:
     Packer(const PrimitiveTable& table, WideBvhLayout& layout) : table_(table), layout_(layout) {}
 
-    NodeRef add_leaf(std::uint32_t kind, std::span<const BuildReference> references) override {
-        ids_.clear();
-        for (const BuildReference& r : references) ids_.push_back(PrimitiveId{r.id});
-        std::sort(ids_.begin(), ids_.end());
+    void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
+        layout_.triangles.resize(blocks[static_cast<std::size_t>(LeafType::Triangles)]);
+        layout_.spheres.resize(blocks[static_cast<std::size_t>(LeafType::Spheres)]);
+        layout_.others.resize(blocks[static_cast<std::size_t>(LeafType::Others)]);
+    }
+
+    void pack(std::uint32_t kind, std::size_t offset,
+              std::span<const BuildReference> references) override {
+        std::array<PrimitiveId, kBlockWidth * NodeRef::kMaxBlocks> sorted;
+        const std::span ids = std::span(sorted).first(references.size());
+        std::transform(references.begin(), references.end(), ids.begin(),
+                       [](const BuildReference& r) { return PrimitiveId{r.id}; });
+        std::sort(ids.begin(), ids.end());
         switch (static_cast<LeafType>(kind)) {
             case LeafType::Triangles:
-                return add_blocks(kind, layout_.triangles);
+                return fill_blocks(&layout_.triangles[offset], ids);
             case LeafType::Spheres:
-                return add_blocks(kind, layout_.spheres);
+                return fill_blocks(&layout_.spheres[offset], ids);
             case LeafType::Others:
-                break;
+                std::copy(ids.begin(), ids.end(), &layout_.others[offset]);
         }
-        const std::size_t offset = layout_.others.size();
-        layout_.others.append(ids_);
-        return reference(kind, offset, ids_.size());
     }
 
   private:
     template <class Block>
-    NodeRef add_blocks(std::uint32_t kind, MappableVector<Block>& blocks) {
-        const std::size_t offset = blocks.size();
-        for (std::size_t i = 0; i < ids_.size(); i += kBlockWidth) {
-            const std::size_t count = std::min(kBlockWidth, ids_.size() - i);
-            Block& block = blocks.emplace_back();
+    void fill_blocks(Block* block, std::span<const PrimitiveId> ids) const {
+        for (std::size_t i = 0; i < ids.size(); i += kBlockWidth, ++block) {
+            const std::size_t count = std::min(kBlockWidth, ids.size() - i);
             for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
                 if (lane < count) {
-                    const PrimitiveId id = ids_[i + lane];
-                    const bool exact = fill(block, lane, id);
-                    block.ids[lane] = {id, table_.is_opaque(id), exact};
+                    const PrimitiveId id = ids[i + lane];
+                    const bool exact = fill(*block, lane, id);
+                    block->ids[lane] = {id, table_.is_opaque(id), exact};
                 } else {
-                    leave_free(block, lane);
-                    block.ids[lane] = BlockId::none();
+                    leave_free(*block, lane);
+                    block->ids[lane] = BlockId::none();
                 }
             }
         }
-        return reference(kind, offset, blocks.size() - offset);
     }
 
     /// Both return true when the block holds the very primitive.
@@ -121,17 +127,8 @@ class Packer final : public LeafSink {
         block.radius[lane] = block.radius[0];
     }
 
-    static NodeRef reference(std::uint32_t kind, std::size_t offset, std::size_t count) {
-        if (offset > NodeRef::kMaxOffset) {
-            throw Error(ErrorKind::Resource, "too many primitives for one wide BVH");
-        }
-        return NodeRef::leaf(kind, static_cast<std::uint32_t>(offset),
-                             static_cast<std::uint32_t>(count));
-    }
-
     const PrimitiveTable& table_;
     WideBvhLayout& layout_;
-    std::vector<PrimitiveId> ids_;
 };
 
 constexpr std::size_t kGrain = 16384;
@@ -146,9 +143,20 @@ Box3 box_of_all(const BoundedPrimitives& bounded) {
     return box;
 }
 
+BinaryBvh build_binary_of(BuildQuality quality, std::vector<BuildReference>& references,
+                          const LocalFrame& frame, const PrimitiveTable& table) {
+    if (quality != BuildQuality::High) return build_binary(references, kLeafKindTable);
+    const TriangleSplitter splitter(table, frame);
+    DraftBvh draft =
+        draft_of(build_with_spatial_splits(references, kLeafKindTable, splitter), kLeafKindTable);
+    reinsert(draft);
+    return linearize(draft, references);
+}
+
 }  // namespace
 
-WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitives& bounded) {
+WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitives& bounded,
+                             const BuildOptions& options) {
     if (table.size() > BlockId::kLimit) {
         throw Error(ErrorKind::Resource, "too many primitives for one wide BVH");
     }
@@ -162,11 +170,14 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
                              static_cast<std::uint32_t>(leaf_type(table, PrimitiveId{id}))};
         }
     });
-    const BinaryBvh binary = build_binary(references, kLeafKindTable);
+    const BinaryBvh binary = build_binary_of(options.quality, references, layout.frame, table);
     Packer packer(table, layout);
     layout.tree = collapse(binary, references, kLeafKindTable, packer);
-    for_each_array(layout, [](auto& array) { array.shrink_to_fit(); });
     return layout;
+}
+
+double WideBvhLayout::sah_cost() const {
+    return alhazen::sah_cost(tree, kLeafKindTable);
 }
 
 std::size_t WideBvhLayout::memory_bytes() const {

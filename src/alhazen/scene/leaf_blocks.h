@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "alhazen/accel/wide_bvh/build_options.h"
 #include "alhazen/accel/wide_bvh/collapse.h"
 #include "alhazen/accel/wide_bvh/local_frame.h"
 #include "alhazen/accel/wide_bvh/wide_node.h"
@@ -86,6 +87,9 @@ struct WideBvhLayout {
     MappableVector<PrimitiveId> others;
 
     [[nodiscard]] std::size_t memory_bytes() const;
+    /// Expected cost of a ray that meets the box, in visits of a node; see
+    /// accel/wide_bvh/sah_cost.h.
+    [[nodiscard]] double sah_cost() const;
 };
 
 /// Calls `f` with every array of a layout. ADD AN ARRAY HERE: it is then measured, stored and
@@ -100,6 +104,7 @@ void for_each_array(Layout& layout, F&& f) {
 
 /// Builds over the bounded primitives; parallel, the same for every number of threads.
 [[nodiscard]] WideBvhLayout build_wide_bvh(const PrimitiveTable& table,
-                                           const BoundedPrimitives& bounded);
+                                           const BoundedPrimitives& bounded,
+                                           const BuildOptions& options = {});
 
 }  // namespace alhazen

@@ -9,12 +9,12 @@
 
 namespace alhazen {
 
-WideBvhAggregate::WideBvhAggregate(PrimitiveTable table)
+WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& options)
     : table_(std::move(table)), kernels_(&wide_bvh_kernels()) {
     const BoundedPrimitives bounded(table_);
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
-    layout_ = build_wide_bvh(table_, bounded);
+    layout_ = build_wide_bvh(table_, bounded, options);
     prepare_meshes();
 }
 
@@ -58,6 +58,22 @@ bool WideBvhAggregate::any_unbounded(TraversalStats* stats, Test&& test) const {
     });
 }
 
+void WideBvhAggregate::finish_hits(std::vector<Hit>& hits, std::size_t before) const {
+    sort_appended(hits, before);
+    // A triangle may lie in several leaves (accel/wide_bvh/spatial_split.h), and is hit once.
+    const auto is_triangle = [&](const Hit& hit) {
+        const auto id = static_cast<std::uint32_t>(hit.primitive);
+        return hit.path.empty() && table_.first(kTriangleKind) <= id &&
+               id < table_.first(kTriangleKind + 1);
+    };
+    const auto last =
+        std::unique(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
+                    [&](const Hit& a, const Hit& b) {
+                        return a.primitive == b.primitive && is_triangle(a) && is_triangle(b);
+                    });
+    hits.erase(last, hits.end());
+}
+
 bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, TraversalStats* stats) const {
     hit = Hit{};
     if (!unbounded_.empty() && is_valid(ray)) {
@@ -93,7 +109,7 @@ void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits,
         return false;
     });
     if (!layout_.tree.empty) (void)kernels_->all_hits(scene(), ray, hits, stats);
-    sort_appended(hits, before);
+    finish_hits(hits, before);
 }
 
 bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings,
@@ -106,7 +122,7 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings,
     });
     if (opaque) return true;
     if (!layout_.tree.empty && kernels_->shadowed(scene(), ray, crossings, stats)) return true;
-    sort_appended(crossings, before);
+    finish_hits(crossings, before);
     return false;
 }
 

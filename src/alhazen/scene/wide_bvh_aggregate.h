@@ -28,7 +28,7 @@ class WideBvhAggregate final : public Aggregate {
     static constexpr const char* kDescription =
         "bounding volume hierarchy, eight children per node, SIMD: the fastest";
 
-    explicit WideBvhAggregate(PrimitiveTable table);
+    explicit WideBvhAggregate(PrimitiveTable table, const BuildOptions& options = {});
     /// With a tree that was stored (scene/wide_bvh_file.h) over a table like this one, which is
     /// finished. Throws Error (File) where the tree does not fit, saying why.
     [[nodiscard]] static std::shared_ptr<const WideBvhAggregate> load(
@@ -57,6 +57,8 @@ class WideBvhAggregate final : public Aggregate {
     /// What nobody else prepares for rays that come from everywhere.
     void prepare_meshes() const;
     [[nodiscard]] WideBvhScene scene() const { return {&table_, &layout_}; }
+    /// Sorts what a query appended, and drops what it found twice.
+    void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
     /// Calls test(id, policy) for the primitives outside the tree until it returns true.
     template <class Test>
     bool any_unbounded(TraversalStats* stats, Test&& test) const;

@@ -1,0 +1,40 @@
+#pragma once
+/// Builds a binary bounding volume hierarchy by the surface area heuristic that may also divide
+/// primitives: where long ones make boxes overlap, the cell is cut by a plane and a primitive that
+/// lies on both sides goes to both.
+///
+/// Source: Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG
+/// 2009. Differs: the number of references is bounded beforehand, in proportion to the size of each
+/// subtree, so that the tree is built in place and in parallel; kinds that cannot be divided stay
+/// whole.
+/// Conventions: a primitive may lie in several leaves; every point of it lies in the box of one.
+/// Complexity and threads: O(n log n), parallel; the result is the same for every number of
+/// threads.
+
+#include <vector>
+
+#include "alhazen/accel/wide_bvh/build_types.h"
+
+namespace alhazen {
+
+/// Divides primitives for the builder, which knows nothing of them.
+class ReferenceSplitter {
+  public:
+    virtual ~ReferenceSplitter() = default;
+    [[nodiscard]] virtual bool can_split(std::uint32_t kind) const = 0;
+    /// Boxes, within that of `reference`, that hold the points of its primitive in there, on this
+    /// side of the plane and on that; empty where there are none. From many threads.
+    virtual void split(const BuildReference& reference, int axis, float plane, FloatBox& below,
+                       FloatBox& above) const = 0;
+};
+
+/// References may become this many times as many.
+inline constexpr double kSpatialSplitBudget = 1.3;
+
+/// As build_binary, but `references` grows, and only nodes that fit into one block hold a range of
+/// them: there are gaps between the others.
+[[nodiscard]] BinaryBvh build_with_spatial_splits(std::vector<BuildReference>& references,
+                                                  const LeafKinds& kinds,
+                                                  const ReferenceSplitter& splitter);
+
+}  // namespace alhazen
