@@ -100,6 +100,7 @@ std::string as_csv(const std::vector<Point>& points) {
 }
 
 void print_slopes(const std::vector<Point>& points) {
+    if (points.front().triangles == points.back().triangles) return;
     for (const Point& p : points) {
         if (p.triangles != points.front().triangles) break;
         fmt::print("slope {:<9} {:<16} {:.3f}: ten times the triangles, {:.2f} times the time\n",
