@@ -1,6 +1,6 @@
 /// Rays per second of wide_bvh beside Embree: same scene, same rays, one thread, in turn, medians.
 /// Usage: alhazen_kernel_bench SCENE... [--side N] [--rounds N] [--only RAYS] [--json FILE]
-///            [--markdown FILE]
+///            [--markdown FILE] [--build fast|default|high]
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
 /// SCENE: see kernel_scenes.h. --check does not measure: it counts the rays that the tracers
 /// disagree about and decides each by brute force in extended precision.
@@ -26,6 +26,7 @@ struct Settings {
     int side = 512;
     int rounds = 5;
     std::string only;  ///< name of a ray set; empty: all
+    BuildQuality quality = BuildQuality::High;
 };
 
 /// Both trees of Embree, and where there are cylinders both ways to have them.
@@ -88,7 +89,7 @@ void add_peers(const Peers& peers, const RaySet& set,
 #endif
 
 SceneResult run(const KernelScene& scene, const Settings& settings) {
-    const auto aggregate = build_ours(scene);
+    const auto aggregate = build_ours(scene, settings.quality);
     const Peers peers(scene);
     SceneResult result{scene.name, scene.contents(), {}};
     fmt::print("{}: {}\n", scene.name, result.contents);
@@ -117,7 +118,7 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
     std::size_t faults = 0;
     for (const std::string& spec : line.rest) {
         const KernelScene scene = make_scene(spec);
-        const auto aggregate = build_ours(scene);
+        const auto aggregate = build_ours(scene, settings.quality);
         const Peers peers(scene);
         for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
             if (set.rays.empty() || (!settings.only.empty() && set.name != settings.only)) continue;
@@ -144,7 +145,8 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
 }
 
 int run_program(int argc, char** argv) {
-    const CommandLine line(argc, argv, {"--side", "--rounds", "--only", "--json", "--markdown"},
+    const CommandLine line(argc, argv,
+                           {"--side", "--rounds", "--only", "--json", "--markdown", "--build"},
                            {"--check"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
@@ -153,6 +155,7 @@ int run_program(int argc, char** argv) {
     settings.side = static_cast<int>(line.count("--side", 512));
     settings.rounds = static_cast<int>(line.count("--rounds", 5));
     settings.only = line.text("--only", "");
+    settings.quality = find_build_quality(line.text("--build", name_of(settings.quality)));
     if (line.has("--check")) {
         const std::size_t faults = run_checks(line, settings);
         fmt::print("{} faults of wide_bvh or of the judge\n", faults);

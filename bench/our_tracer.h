@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "alhazen/accel/wide_bvh/build_options.h"
 #include "alhazen/scene/aggregate.h"
 #include "kernel_rays.h"
 
@@ -11,7 +12,9 @@ namespace alhazen::bench {
 /// Rays of one call of the batch: as many as a renderer's tile has.
 inline constexpr std::size_t kBatch = 1024;
 
-[[nodiscard]] std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene);
+/// With the quality High, as Embree's trees are made here.
+[[nodiscard]] std::shared_ptr<const Aggregate> build_ours(
+    const KernelScene& scene, BuildQuality quality = BuildQuality::High);
 
 /// Traces all rays of the set, `closest` or `occluded`; the number that hit.
 [[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set);
