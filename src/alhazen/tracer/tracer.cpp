@@ -32,8 +32,8 @@ void check_id(const PrimitiveTable& table, PrimitiveId id, bool instance) {
 }  // namespace
 
 Tracer::Tracer(TracerScene scene, const TracerOptions& options)
-    : Tracer(make_aggregate(options.accelerator, finished(std::move(scene.table_))), scene.count_,
-             scene.depth_) {}
+    : Tracer(make_aggregate(options.accelerator, finished(std::move(scene.table_)), options.build),
+             scene.count_, scene.depth_) {}
 
 Tracer Tracer::load(TracerScene scene, const std::filesystem::path& file) {
     return {WideBvhAggregate::load(finished(std::move(scene.table_)), file), scene.count_,

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "alhazen/accel/wide_bvh/build_options.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
 #include "alhazen/scene/accelerator_table.h"
@@ -27,6 +28,8 @@ namespace alhazen {
 struct TracerOptions {
     /// One of `accelerator_table()`; another name throws Error (Usage) with the valid ones.
     std::string accelerator = kDefaultAccelerator;
+    /// How much work goes into the build: {.build = {.quality = BuildQuality::High}}.
+    BuildOptions build{};
 };
 
 /// What a `Hit` of a tracer means, in the coordinates of the tracer: the point, the normals, the

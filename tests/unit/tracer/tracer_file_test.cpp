@@ -46,6 +46,22 @@ TEST(TracerFile, ALoadedTreeGivesTheSameHits) {
     EXPECT_GT(found, rays.size() / 4);
 }
 
+TEST(TracerFile, TreesOfEveryQualityAreStored) {
+    const ScratchFolder folder;
+    const TracerScene scene = mixed_scene(9, 3000);
+    const Tracer list(scene, {.accelerator = "list"});
+    for (const BuildQualityEntry& entry : build_quality_table()) {
+        Tracer(scene, {.build = {.quality = entry.quality}}).save(folder.path() / entry.name);
+        const Tracer loaded = Tracer::load(scene, folder.path() / entry.name);
+        for (const Ray& ray : random_rays(10, 300)) {
+            Hit one, other;
+            list.intersect(ray, one);
+            loaded.intersect(ray, other);
+            ASSERT_TRUE(same_hit(one, other)) << entry.name;
+        }
+    }
+}
+
 TEST(TracerFile, ALoadedTracerIsAnInstanceLikeAnother) {
     const ScratchFolder folder;
     Tracer(mixed_scene(5)).save(folder.path() / "inner");
