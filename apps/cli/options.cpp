@@ -88,6 +88,11 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                     "Accelerator by name; see `alhazen list accelerators`")
         ->capture_default_str();
     command
+        .add_option("--build", build_quality,
+                    "Work that goes into the accelerator: fast, default or high")
+        ->type_name("QUALITY")
+        ->capture_default_str();
+    command
         .add_option("--allow-path", allow_paths,
                     "Another folder that files named by the scene may lie in; may be repeated")
         ->type_name("DIR")
@@ -112,6 +117,10 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->envname("ALHAZEN_THREADS");
 }
 
+BuildOptions SceneArguments::build_options() const {
+    return {find_build_quality(build_quality)};
+}
+
 LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
     options.import.allowed_folders.assign(allow_paths.begin(), allow_paths.end());
@@ -126,6 +135,7 @@ LoadOptions SceneArguments::load_options() const {
         options.import.time = time;
     }
     options.compile.accelerator = accelerator;
+    options.compile.build = build_options();
     options.threads = threads;
     return options;
 }

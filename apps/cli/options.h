@@ -34,6 +34,7 @@ struct ImageLimitArguments {
 struct SceneArguments {
     std::string scene;
     std::string accelerator;
+    std::string build_quality = "default";
     std::vector<std::string> allow_paths;
     std::optional<double> time;
     std::string animation;
@@ -42,6 +43,8 @@ struct SceneArguments {
     int threads = 0;
 
     void add_to(CLI::App& command, const std::string& default_accelerator);
+    /// Throws Error (Usage) for an unknown quality.
+    [[nodiscard]] BuildOptions build_options() const;
     [[nodiscard]] LoadOptions load_options() const;
 };
 

@@ -97,6 +97,7 @@ void add_verify(CLI::App& app, int& exit_status) {
         const auto check = [&](const std::string& accelerator) {
             VerifyOptions options = args->verify;
             options.accelerator = accelerator;
+            options.build = args->scene.build_options();
             options.progress = &progress;
             VerifyReport report;
             ThreadLimit(args->scene.threads).run([&] { report = verify(description, options); });

@@ -174,7 +174,8 @@ class Compiler {
         Built built = std::move(draft.built);
         built.effective_primitives =
             saturating_add(built.effective_primitives, draft.table.first(kInstanceKind));
-        built.aggregate = make_aggregate(options_.accelerator, std::move(draft.table));
+        built.aggregate =
+            make_aggregate(options_.accelerator, std::move(draft.table), options_.build);
         census_.accelerator_bytes += built.aggregate->memory_bytes();
         return built;
     }

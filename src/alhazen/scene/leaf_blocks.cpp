@@ -1,15 +1,16 @@
 #include "alhazen/scene/leaf_blocks.h"
 
 #include <algorithm>
-#include <bit>
 #include <tuple>
 
 #include "alhazen/accel/wide_bvh/binary_builder.h"
+#include "alhazen/accel/wide_bvh/clustering.h"
 #include "alhazen/accel/wide_bvh/reinsertion.h"
 #include "alhazen/accel/wide_bvh/sah_cost.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/scene/leaf_fill.h"
 #include "alhazen/scene/primitive_table.h"
 #include "alhazen/scene/triangle_splitter.h"
 
@@ -73,58 +74,9 @@ class Packer final : public LeafSink {
     template <class Block>
     void fill_blocks(Block* block, std::span<const PrimitiveId> ids) const {
         for (std::size_t i = 0; i < ids.size(); i += kBlockWidth, ++block) {
-            const std::size_t count = std::min(kBlockWidth, ids.size() - i);
-            for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
-                if (lane < count) {
-                    const PrimitiveId id = ids[i + lane];
-                    const bool exact = fill(*block, lane, id);
-                    block->ids[lane] = {id, table_.is_opaque(id), exact};
-                } else {
-                    leave_free(*block, lane);
-                    block->ids[lane] = BlockId::none();
-                }
-            }
+            fill_block(*block, ids.subspan(i, std::min(kBlockWidth, ids.size() - i)), table_,
+                       layout_.frame);
         }
-    }
-
-    /// Both return true when the block holds the very primitive.
-    bool fill(TriangleBlock& block, std::size_t lane, PrimitiveId id) const {
-        const auto corners = table_.triangle_vertices(table_.index(id));
-        bool exact = true;
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            const Vec3 local = layout_.frame.local(corners[corner]);
-            for (int axis = 0; axis < 3; ++axis) {
-                block.vertex[corner][axis][lane] = static_cast<float>(local[axis]);
-            }
-            exact = exact &&
-                    same_bits(layout_.frame.world(block.corner(corner, lane)), corners[corner]);
-        }
-        return exact;
-    }
-    static bool same_bits(const Vec3& a, const Vec3& b) {
-        const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-        return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
-    }
-    /// A triangle that few rays come near; those that do are told by the lane's id.
-    static void leave_free(TriangleBlock& block, std::size_t lane) {
-        constexpr float kFar[3][3] = {{40, 47, 53}, {41, 45, 52}, {42, 48, 50}};
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                block.vertex[corner][axis][lane] = kFar[corner][axis];
-            }
-        }
-    }
-    bool fill(SphereBlock& block, std::size_t lane, PrimitiveId id) const {
-        const Sphere& sphere =
-            std::get<ShapeColumn<Sphere>>(table_.columns).shapes[table_.index(id)];
-        for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
-        block.radius[lane] = sphere.radius;
-        block.lanes |= 1u << lane;
-        return true;
-    }
-    static void leave_free(SphereBlock& block, std::size_t lane) {
-        for (auto& center : block.center) center[lane] = center[0];
-        block.radius[lane] = block.radius[0];
     }
 
     const PrimitiveTable& table_;
@@ -133,7 +85,10 @@ class Packer final : public LeafSink {
 
 constexpr std::size_t kGrain = 16384;
 
-Box3 box_of_all(const BoundedPrimitives& bounded) {
+}  // namespace
+
+Box3 box_of_bounded(const BoundedPrimitives& bounded) {
+    if (bounded.unbounded().empty()) return bounded.all();
     std::vector<Box3> parts((bounded.size() + kGrain - 1) / kGrain);
     parallel_for(bounded.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) parts[begin / kGrain].include(bounded.box(i));
@@ -143,9 +98,12 @@ Box3 box_of_all(const BoundedPrimitives& bounded) {
     return box;
 }
 
+namespace {
+
 BinaryBvh build_binary_of(BuildQuality quality, std::vector<BuildReference>& references,
                           const LocalFrame& frame, const PrimitiveTable& table) {
-    if (quality != BuildQuality::High) return build_binary(references, kLeafKindTable);
+    if (quality == BuildQuality::Fast) return build_by_clustering(references, kLeafKindTable);
+    if (quality == BuildQuality::Default) return build_binary(references, kLeafKindTable);
     const TriangleSplitter splitter(table, frame);
     DraftBvh draft =
         draft_of(build_with_spatial_splits(references, kLeafKindTable, splitter), kLeafKindTable);
@@ -161,7 +119,7 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
         throw Error(ErrorKind::Resource, "too many primitives for one wide BVH");
     }
     WideBvhLayout layout;
-    layout.frame = LocalFrame(box_of_all(bounded));
+    layout.frame = LocalFrame(box_of_bounded(bounded));
     std::vector<BuildReference> references(bounded.size());
     parallel_for(bounded.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -102,6 +102,9 @@ void for_each_array(Layout& layout, F&& f) {
     f(layout.others);
 }
 
+/// Of the primitives that a tree is built over: what its frame is made for.
+[[nodiscard]] Box3 box_of_bounded(const BoundedPrimitives& bounded);
+
 /// Builds over the bounded primitives; parallel, the same for every number of threads.
 [[nodiscard]] WideBvhLayout build_wide_bvh(const PrimitiveTable& table,
                                            const BoundedPrimitives& bounded,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "alhazen/accel/wide_bvh/build_options.h"
 #include "alhazen/scene/aggregate.h"
 #include "alhazen/scene/scene_description.h"
 
@@ -39,6 +40,7 @@ struct Scene {
 
 struct CompileOptions {
     std::string accelerator = "wide_bvh";
+    BuildOptions build{};
 };
 
 /// Builds the scene. The description must have passed `validate`. Throws Error: Usage for an

@@ -1,6 +1,7 @@
 #include "alhazen/scene/triangle_splitter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/scene/primitive_table.h"
@@ -8,13 +9,15 @@
 namespace alhazen {
 namespace {
 
-/// In float, rounded outward.
+/// In float, outward by a step or two: cheaper than to the very next one, and what was tight before
+/// is cut down to that again.
 FloatBox rounded(const Box3& box) {
     FloatBox out;
     if (box.empty()) return out;
     for (int k = 0; k < 3; ++k) {
-        out.lo[k] = round_down(box.lo[k]);
-        out.hi[k] = round_up(box.hi[k]);
+        const auto step = [](double x) { return std::abs(x) * 0x1p-23 + 0x1p-140; };
+        out.lo[k] = static_cast<float>(box.lo[k] - step(box.lo[k]));
+        out.hi[k] = static_cast<float>(box.hi[k] + step(box.hi[k]));
     }
     return out;
 }

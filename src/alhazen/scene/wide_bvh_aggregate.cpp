@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "alhazen/base/error.h"
 #include "alhazen/base/huge_pages.h"
 #include "alhazen/scene/aggregate_of.h"
 #include "alhazen/scene/bounded_primitives.h"
@@ -15,6 +16,7 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& opt
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
     layout_ = build_wide_bvh(table_, bounded, options);
+    built_cost_ = layout_.sah_cost();
     prepare_meshes();
 }
 
@@ -24,6 +26,7 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::
     box_ = stored.box;
     unbounded_ = std::move(stored.unbounded);
     layout_ = std::move(stored.layout);
+    built_cost_ = layout_.sah_cost();
     prepare_meshes();
 }
 
@@ -34,6 +37,21 @@ std::shared_ptr<const WideBvhAggregate> WideBvhAggregate::load(PrimitiveTable ta
 
 void WideBvhAggregate::save(const std::filesystem::path& file) const {
     save_wide_bvh(file, layout_, box_, unbounded_, table_);
+}
+
+RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
+    const BoundedPrimitives bounded(moved);
+    if (moved.size() != table_.size() || bounded.unbounded() != unbounded_) {
+        throw Error(ErrorKind::Usage, "the tree was built over other primitives");
+    }
+    alhazen::refit(layout_, moved, bounded);
+    box_ = bounded.all();
+    table_ = std::move(moved);
+    prepare_meshes();
+    RefitReport report;
+    report.cost = layout_.sah_cost();
+    if (built_cost_ > 0) report.growth = report.cost / built_cost_;
+    return report;
 }
 
 void WideBvhAggregate::prepare_meshes() const {

@@ -18,6 +18,7 @@
 #include "alhazen/scene/aggregate.h"
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/refit.h"
 #include "alhazen/scene/wide_bvh_kernels.h"
 
 namespace alhazen {
@@ -35,6 +36,10 @@ class WideBvhAggregate final : public Aggregate {
         PrimitiveTable table, const std::filesystem::path& file);
     /// Stores the tree. Throws Error (File) when that fails.
     void save(const std::filesystem::path& file) const;
+
+    /// Fits the tree to the same primitives in other places (scene/refit.h): no query may run
+    /// meanwhile. Throws Error(Usage) where it must be built anew, and changes nothing then.
+    RefitReport refit(PrimitiveTable moved);
 
     [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
     [[nodiscard]] Box3 box() const override { return box_; }
@@ -67,6 +72,7 @@ class WideBvhAggregate final : public Aggregate {
     Box3 box_;
     std::vector<PrimitiveId> unbounded_;
     WideBvhLayout layout_;
+    double built_cost_ = 0;  ///< of the tree before any refit
     const WideBvhKernels* kernels_;
 };
 

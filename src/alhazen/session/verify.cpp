@@ -176,7 +176,8 @@ void count_all_crossings(const SceneDescription& description, const VerifyOption
         if (!surface.closed) continue;
         surface.table.material_opacity.assign(1, Opacity::Opaque);
         surface.table.finish();
-        const auto aggregate = make_aggregate(options.accelerator, std::move(surface.table));
+        const auto aggregate =
+            make_aggregate(options.accelerator, std::move(surface.table), options.build);
         VerifyRays rays(aggregate->box(), nullptr, aggregate->primitives(), options.seed + 1);
         verifier.count_crossings(*aggregate, rays, lines);
     }
@@ -188,7 +189,8 @@ VerifyReport verify(const SceneDescription& description, const VerifyOptions& op
     VerifyReport report;
     report.accelerator = options.accelerator;
     Verifier verifier(options, report);
-    const Scene fast = compile(description, {.accelerator = options.accelerator});
+    const Scene fast =
+        compile(description, {.accelerator = options.accelerator, .build = options.build});
     const Scene brute = compile(description, {.accelerator = "list"});
     const Camera* camera =
         fast.cameras.empty() ? nullptr : &find_camera(fast, options.camera).camera;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "alhazen/accel/wide_bvh/build_options.h"
 #include "alhazen/base/progress.h"
 #include "alhazen/scene/scene_description.h"
 
@@ -13,6 +14,7 @@ namespace alhazen {
 
 struct VerifyOptions {
     std::string accelerator = "wide_bvh";
+    BuildOptions build{};
     std::uint64_t rays = 20000;  ///< in all, over the kinds below
     std::uint64_t seed = 1;
     std::string camera;

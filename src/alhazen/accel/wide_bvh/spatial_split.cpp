@@ -9,7 +9,11 @@
 namespace alhazen {
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kMaxBins = 16;
+/// Bins for a set of so many.
+int bins_for(std::size_t size) {
+    return size < 2048 ? 8 : kMaxBins;
+}
 /// Boxes that overlap by less than this share of the root's surface are left alone.
 constexpr float kAlpha = 1e-5f;
 
@@ -51,15 +55,18 @@ struct SpatialSplit {
 
 /// Planes at equal distances along an axis of a box.
 struct Planes {
+    int bins;
     float lo, step;
 
-    Planes(const Box4& box, int axis)
-        : lo(box.lo[axis]), step((box.hi[axis] - box.lo[axis]) / static_cast<float>(kBins)) {}
+    Planes(const Box4& box, int axis, int count)
+        : bins(count),
+          lo(box.lo[axis]),
+          step((box.hi[axis] - box.lo[axis]) / static_cast<float>(count)) {}
     /// The plane below bin i.
     [[nodiscard]] float operator()(int i) const { return lo + static_cast<float>(i) * step; }
     [[nodiscard]] int bin(float x) const {
         const float place = (x - lo) / step;
-        return place < static_cast<float>(kBins - 1) ? static_cast<int>(place) : kBins - 1;
+        return place < static_cast<float>(bins - 1) ? static_cast<int>(place) : bins - 1;
     }
     [[nodiscard]] bool usable() const { return lo + step > lo && step > 1e-30f; }
 };
@@ -89,15 +96,15 @@ void add(KindCounts& a, const KindCounts& b) {
 
 void best_plane(const SpatialBin* bins, int axis, const Planes& planes, const LeafKinds& kinds,
                 SpatialSplit& best) {
-    Side rights[kBins];
+    Side rights[kMaxBins];
     Side right;
-    for (int b = kBins - 1; b > 0; --b) {
+    for (int b = planes.bins - 1; b > 0; --b) {
         right.box.include(bins[b].box);
         add(right.count, bins[b].leave);
         rights[b] = right;
     }
     Side left;
-    for (int b = 0; b + 1 < kBins; ++b) {
+    for (int b = 0; b + 1 < planes.bins; ++b) {
         left.box.include(bins[b].box);
         add(left.count, bins[b].enter);
         const Side& other = rights[b + 1];
@@ -217,9 +224,9 @@ class Builder {
         const auto search = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const int axis = static_cast<int>(i);
-                const Planes planes(all.box, axis);
+                const Planes planes(all.box, axis, bins_for(range.size()));
                 if (!planes.usable()) continue;
-                SpatialBin bins[kBins];
+                SpatialBin bins[kMaxBins];
                 for (const BuildReference& r : range) add(bins, r, axis, planes, splitter_);
                 best_plane(bins, axis, planes, kinds_, best_of[axis]);
             }

@@ -1,0 +1,16 @@
+#pragma once
+/// Writes primitives into the blocks of leaves.
+
+#include <span>
+
+#include "alhazen/scene/leaf_blocks.h"
+
+namespace alhazen {
+
+/// Up to kBlockWidth primitives, in the order of their ids; the other lanes are left free.
+void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+
+}  // namespace alhazen

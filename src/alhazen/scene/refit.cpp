@@ -1,0 +1,144 @@
+#include "alhazen/scene/refit.h"
+
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/scene/leaf_fill.h"
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+namespace {
+
+constexpr std::size_t kGrain = 1024;  // nodes of one task
+
+class Refit {
+  public:
+    Refit(WideBvhLayout& layout, const PrimitiveTable& table)
+        : layout_(layout), table_(table), nodes_(layout.tree.nodes.data()) {
+        // Asked for once: asking may copy what is mapped.
+        triangles_ = layout.triangles.data();
+        spheres_ = layout.spheres.data();
+    }
+
+    void run() {
+        WideBvh& tree = layout_.tree;
+        if (tree.root.is_leaf()) {
+            (void)refit_leaf(tree.root);
+            return;
+        }
+        parallel_for(tree.nodes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t n = begin; n < end; ++n) refit_leaves(nodes_[n]);
+        });
+        // Children come behind their parents.
+        for (std::size_t n = tree.nodes.size(); n-- > 0;) refit_inner(nodes_[n]);
+        parallel_for(tree.nodes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t n = begin; n < end; ++n) nodes_[n].set_order();
+        });
+    }
+
+  private:
+    void refit_leaves(WideNode& node) {
+        const std::uint32_t count = node.child_count();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (node.child[i].is_leaf()) node.set_box(i, refit_leaf(node.child[i]));
+        }
+    }
+    void refit_inner(WideNode& node) {
+        const std::uint32_t count = node.child_count();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (node.child[i].is_leaf()) continue;
+            const WideNode& child = nodes_[node.child[i].index()];
+            FloatBox box;
+            const std::uint32_t inner_count = child.child_count();
+            for (std::uint32_t k = 0; k < inner_count; ++k) box.include(child.box(k));
+            node.set_box(i, box);
+        }
+    }
+
+    FloatBox refit_leaf(NodeRef leaf) {
+        FloatBox box;
+        switch (static_cast<LeafType>(leaf.kind())) {
+            case LeafType::Triangles:
+                refit_blocks(triangles_ + leaf.offset(), leaf.count(), box);
+                break;
+            case LeafType::Spheres:
+                refit_blocks(spheres_ + leaf.offset(), leaf.count(), box);
+                break;
+            case LeafType::Others:
+                for (std::uint32_t i = 0; i < leaf.count(); ++i) {
+                    include(box, std::as_const(layout_).others[leaf.offset() + i]);
+                }
+        }
+        return box;
+    }
+    template <class Block>
+    void refit_blocks(Block* block, std::uint32_t count, FloatBox& box) const {
+        for (const Block* end = block + count; block < end; ++block) {
+            std::array<PrimitiveId, kBlockWidth> ids;
+            std::size_t used = 0;
+            for (const BlockId id : block->ids) {
+                if (id.used()) ids[used++] = id.id();
+            }
+            for (std::size_t i = 0; i < used; ++i) include(box, ids[i]);
+            fill_block(*block, std::span(ids).first(used), table_, layout_.frame);
+        }
+    }
+    void include(FloatBox& box, PrimitiveId id) const {
+        Box3 its = table_.box(static_cast<std::uint32_t>(id));
+        if (its.empty() && table_.kind(id) == kTriangleKind) {
+            // Two vertices met: it cannot be hit, but the leaf needs a box.
+            for (const Vec3& p : table_.triangle_vertices(table_.index(id))) its.include(p);
+        }
+        if (its.empty()) its.include(layout_.frame.center);
+        box.include(layout_.frame.local(its));
+    }
+
+    WideBvhLayout& layout_;
+    const PrimitiveTable& table_;
+    WideNode* nodes_;
+    TriangleBlock* triangles_;
+    SphereBlock* spheres_;
+};
+
+/// Whether every primitive that has bounds now is in the tree, and every one in the tree has.
+void check(const WideBvhLayout& layout, const PrimitiveTable& moved,
+           const BoundedPrimitives& bounded) {
+    std::vector<bool> in_tree(moved.size(), false);
+    bool known = true;
+    const auto note = [&](PrimitiveId id) {
+        const auto i = static_cast<std::uint32_t>(id);
+        known = known && i < moved.size();
+        if (known) in_tree[i] = true;
+    };
+    for (const TriangleBlock& block : layout.triangles) {
+        for (const BlockId id : block.ids) {
+            if (id.used()) note(id.id());
+        }
+    }
+    for (const SphereBlock& block : layout.spheres) {
+        for (const BlockId id : block.ids) {
+            if (id.used()) note(id.id());
+        }
+    }
+    for (const PrimitiveId id : layout.others) note(id);
+    for (std::size_t i = 0; known && i < bounded.size(); ++i) known = in_tree[bounded.id(i)];
+    for (const PrimitiveId id : bounded.unbounded()) {
+        known = known && !in_tree[static_cast<std::uint32_t>(id)];
+    }
+    if (!known) {
+        throw Error(ErrorKind::Usage,
+                    "the tree was built over other primitives than are to be hit now");
+    }
+}
+
+}  // namespace
+
+void refit(WideBvhLayout& layout, const PrimitiveTable& moved, const BoundedPrimitives& bounded) {
+    check(layout, moved, bounded);
+    if (layout.tree.empty) return;
+    layout.frame = LocalFrame(box_of_bounded(bounded));
+    Refit(layout, moved).run();
+}
+
+}  // namespace alhazen
