@@ -147,11 +147,11 @@ class Builder {
         nodes_[index] = {all.box.box(), room.begin, room.end, 0, all.kind()};
         if (all.indivisible(kinds_)) return;
         RangeSummary left, right;
-        const auto [left_room, right_room] = divide_room(room, all, level, left, right);
-        const std::uint32_t right_index = index + 2 * left_room.capacity();
+        const auto rooms = divide_room(room, all, level, left, right);
+        const std::uint32_t right_index = index + 2 * rooms.first.capacity();
         nodes_[index].right = right_index;
-        const auto build_left = [&] { build(left_room, left, index + 1, level + 1); };
-        const auto build_right = [&] { build(right_room, right, right_index, level + 1); };
+        const auto build_left = [&] { build(rooms.first, left, index + 1, level + 1); };
+        const auto build_right = [&] { build(rooms.second, right, right_index, level + 1); };
         if (room.size() >= kParallelBuildSize) {
             parallel_invoke(build_left, build_right);
         } else {
