@@ -57,9 +57,12 @@ class Peers {
 #endif
 };
 
-std::vector<Tracer> our_tracers(const Aggregate& aggregate, const RaySet& set) {
+std::vector<Tracer> our_tracers(const Aggregate& aggregate, const Aggregate& fast,
+                                const RaySet& set) {
     return {{kOurs, "single", {}, [&] { return trace_single(aggregate, set); }, {}},
-            {kOurs, "batch", {}, [&] { return trace_batches(aggregate, set); }, {}}};
+            {kOurs, "batch", {}, [&] { return trace_batches(aggregate, set); }, {}},
+            {kOursFast, "single", {}, [&] { return trace_single(fast, set); }, {}},
+            {kOursFast, "batch", {}, [&] { return trace_batches(fast, set); }, {}}};
 }
 
 #ifdef ALHAZEN_HAVE_EMBREE
@@ -89,14 +92,15 @@ void add_peers(const Peers& peers, const RaySet& set,
 #endif
 
 SceneResult run(const KernelScene& scene, const Settings& settings) {
-    const auto aggregate = build_ours(scene, settings.quality);
+    const auto aggregate = build_ours(scene, {settings.quality});
+    const auto fast = build_ours(scene, {settings.quality, Precision::Fast});
     const Peers peers(scene);
     SceneResult result{scene.name, scene.contents(), {}};
     fmt::print("{}: {}\n", scene.name, result.contents);
     for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
         if (!settings.only.empty() && set.name != settings.only) continue;
         if (set.rays.empty()) continue;
-        std::vector<Tracer> tracers = our_tracers(*aggregate, set);
+        std::vector<Tracer> tracers = our_tracers(*aggregate, *fast, set);
 #ifdef ALHAZEN_HAVE_EMBREE
         std::vector<std::unique_ptr<EmbreePackets>> packets;
         add_peers(peers, set, packets, tracers);
@@ -118,7 +122,7 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
     std::size_t faults = 0;
     for (const std::string& spec : line.rest) {
         const KernelScene scene = make_scene(spec);
-        const auto aggregate = build_ours(scene, settings.quality);
+        const auto aggregate = build_ours(scene, {settings.quality});
         const Peers peers(scene);
         for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
             if (set.rays.empty() || (!settings.only.empty() && set.name != settings.only)) continue;

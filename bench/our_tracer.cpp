@@ -20,14 +20,14 @@ void add_shapes(PrimitiveTable& table, const std::vector<S>& shapes) {
 
 }  // namespace
 
-std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene, BuildQuality quality) {
+std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene, const BuildOptions& options) {
     PrimitiveTable table;
     add_shapes(table, scene.spheres);
     add_shapes(table, scene.cylinders);
     table.meshes.push_back({std::make_shared<TriangleMesh>(scene.mesh), MaterialId{0}, 0, false});
     table.material_opacity = {Opacity::Opaque};
     table.finish();
-    return make_aggregate("wide_bvh", std::move(table), {quality});
+    return make_aggregate("wide_bvh", std::move(table), options);
 }
 
 std::size_t trace_single(const Aggregate& aggregate, const RaySet& set) {

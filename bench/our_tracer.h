@@ -13,8 +13,9 @@ namespace alhazen::bench {
 inline constexpr std::size_t kBatch = 1024;
 
 /// With the quality High, as Embree's trees are made here.
-[[nodiscard]] std::shared_ptr<const Aggregate> build_ours(
-    const KernelScene& scene, BuildQuality quality = BuildQuality::High);
+[[nodiscard]] std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene,
+                                                          const BuildOptions& options = {
+                                                              BuildQuality::High});
 
 /// Traces all rays of the set, `closest` or `occluded`; the number that hit.
 [[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set);

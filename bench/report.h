@@ -10,6 +10,7 @@
 namespace alhazen::bench {
 
 inline constexpr const char* kOurs = "alhazen";
+inline constexpr const char* kOursFast = "alhazen fast";
 inline constexpr const char* kRobust = "embree robust";
 inline constexpr const char* kFast = "embree fast";
 

@@ -23,8 +23,8 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The part of a query on one ray that is the same for all. `Derived` offers
-/// `bool triangles(block, found, stats)`, `bool sphere(block, lane, stats)` and
-/// `bool other(id, stats)`, true to stop.
+/// `bool block(triangle_block, stats)`, `bool sphere(id, stats)` and `bool other(id, stats)`, true
+/// to stop; and `DistanceBound slab_slack(frame)`, the slack of its slab test.
 template <class Derived>
 struct LeafQuery {
     SlabRay slabs;
@@ -39,10 +39,12 @@ struct LeafQuery {
     HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r) : ray(r), source(&r), scene(s) {
         // From the caller's ray, not from the copy: that could not be loaded by the lane before it
         // is in the cache.
-        valid = make_ray(s.layout->frame, r, slabs, [&](const LocalRay& local) HWY_ATTR {
-            make_triangle_filter_ray(slabs, local, filter);
-            parameter = local.parameter;
-        });
+        const LocalFrame& frame = s.layout->frame;
+        valid = make_ray(frame, Derived::slab_slack(frame), r, slabs,
+                         [&](const LocalRay& local) HWY_ATTR {
+                             make_triangle_filter_ray(slabs, local, filter);
+                             parameter = local.parameter;
+                         });
         s_max = slabs.s_max;
     }
 
@@ -55,11 +57,7 @@ struct LeafQuery {
                 const TriangleBlock* blocks = &scene.layout->triangles[ref.offset()];
                 for (std::uint32_t i = 0; i < count; ++i) {
                     stats.primitives(used_lanes(blocks[i]));
-                    FilteredTriangles found;
-                    if (filter_triangles(blocks[i], filter, slabs.s_min, s_max, found) &&
-                        query.triangles(blocks[i], found, stats)) {
-                        return true;
-                    }
+                    if (query.block(blocks[i], stats)) return true;
                 }
                 return false;
             }
@@ -91,6 +89,26 @@ struct LeafQuery {
 
     /// Made anew for the few tests that need it.
     [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
+};
+
+/// The queries whose answers are those of the tests in double: the filter goes before. `Derived`
+/// offers `bool triangles(block, found, stats)`.
+template <class Derived>
+struct RobustQuery : LeafQuery<Derived> {
+    using Base = LeafQuery<Derived>;
+    using Base::filter, Base::ray, Base::s_max, Base::scene, Base::slabs;
+
+    HWY_INLINE RobustQuery(const WideBvhScene& s, const Ray& r) : Base(s, r) {}
+
+    static HWY_INLINE const DistanceBound& slab_slack(const LocalFrame& frame) {
+        return frame.slack.slab;
+    }
+    template <class Stats>
+    HWY_INLINE bool block(const TriangleBlock& triangles, Stats stats) {
+        FilteredTriangles found;
+        return filter_triangles(triangles, filter, slabs.s_min, s_max, found) &&
+               static_cast<Derived&>(*this).triangles(triangles, found, stats);
+    }
     [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
         return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
     }
@@ -100,18 +118,18 @@ struct LeafQuery {
         const BlockId id = block.ids[lane];
         if (id.exact()) {
             const LocalFrame& frame = scene.layout->frame;
-            return intersect_triangle(ray, shear(), frame.world(block.corner(0, lane)),
+            return intersect_triangle(ray, this->shear(), frame.world(block.corner(0, lane)),
                                       frame.world(block.corner(1, lane)),
                                       frame.world(block.corner(2, lane)), hit);
         }
         const auto [a, b, c] = scene.table->triangle_vertices(triangle(id.id()));
-        return intersect_triangle(ray, shear(), a, b, c, hit);
+        return intersect_triangle(ray, this->shear(), a, b, c, hit);
     }
 };
 
 /// The nearest hit. Triangles are remembered as the filter finds them, each that is sure ends the
 /// search behind it, and the test in double decides among the few that are left in the end.
-struct ClosestQuery : LeafQuery<ClosestQuery> {
+struct ClosestQuery : RobustQuery<ClosestQuery> {
     static constexpr bool kOrdered = true;
     static constexpr std::uint32_t kMaxPending = 8;
 
@@ -126,7 +144,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
 
     /// `found` may hold a hit found before.
     HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
-        : LeafQuery(s, r), best(found) {
+        : RobustQuery(s, r), best(found) {
         if (!best.found()) return;
         ray.t_max = best.t;
         shrink();
@@ -137,10 +155,16 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
                               Stats stats) {
         for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
-            if (!block.ids[lane].used()) continue;
+            // Written so that a NaN is not passed over.
+            if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
+            if ((found.sure >> lane & 1) == 0) {
+                // It ends the search as well, if it is hit.
+                decide(block, lane, stats);
+                continue;
+            }
             if (pending_count == kMaxPending) finish(stats);
             pending[pending_count++] = {&block, lane, found.lo[lane]};
-            if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
+            if (found.hi[lane] < s_max) s_max = found.hi[lane];
         }
         return false;
     }
@@ -158,13 +182,8 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
         for (std::uint32_t i = 0; i < pending_count; ++i) {
-            // Written so that a NaN is not passed over.
             if (pending[i].lo > s_max) continue;
-            ShapeHit hit;
-            if (!this->hits_triangle(*pending[i].block, pending[i].lane, hit)) continue;
-            stats.primitive_hits(1);
-            offer(hit, pending[i].id().id(), ray, best);
-            shrink();
+            decide(*pending[i].block, pending[i].lane, stats);
         }
         pending_count = 0;
     }
@@ -178,6 +197,15 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
     }
 
   private:
+    /// The test in double.
+    template <class Stats>
+    HWY_NOINLINE void decide(const TriangleBlock& block, std::size_t lane, Stats stats) {
+        ShapeHit hit;
+        if (!this->hits_triangle(block, lane, hit)) return;
+        stats.primitive_hits(1);
+        offer(hit, block.ids[lane].id(), ray, best);
+        shrink();
+    }
     HWY_INLINE void shrink() {
         const float s = parameter.above(ray.t_max);
         if (s < s_max) s_max = s;
@@ -185,12 +213,12 @@ struct ClosestQuery : LeafQuery<ClosestQuery> {
 };
 
 /// Whether there is any hit.
-struct OccludedQuery : LeafQuery<OccludedQuery> {
+struct OccludedQuery : RobustQuery<OccludedQuery> {
     static constexpr bool kOrdered = false;
     bool& occluded;
 
     HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
-        : LeafQuery(s, r), occluded(result) {}
+        : RobustQuery(s, r), occluded(result) {}
 
     template <class Stats>
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
@@ -221,8 +249,8 @@ struct OccludedQuery : LeafQuery<OccludedQuery> {
 
 /// All hits; with `kStopAtOpaque` up to the first opaque one.
 template <bool kStopAtOpaque>
-struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>> {
-    using Base = LeafQuery<CollectQuery<kStopAtOpaque>>;
+struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
+    using Base = RobustQuery<CollectQuery<kStopAtOpaque>>;
     using Base::ray, Base::scene, Base::shear;
     static constexpr bool kOrdered = false;
     std::vector<Hit>& hits;

@@ -54,24 +54,39 @@ HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& l
     }
 }
 
-/// False when no triangle of the block is hit up to `s_max`: then `out` is not set.
-HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilterRay& ray,
-                                 float s_min, float s_max, FilteredTriangles& out) {
+/// The corners of the triangles of a block, sheared so that the ray is the z axis.
+struct ShearedCorners {
     struct {
         Floats x, y, z;
-    } v[3];
+    } corner[3];
+};
+HWY_INLINE ShearedCorners sheared_corners(const TriangleBlock& block,
+                                          const TriangleFilterRay& ray) {
+    ShearedCorners v;
     const Floats ox(ray.origin[0]), oy(ray.origin[1]), oz(ray.origin[2]);
     const Floats sx(ray.sx), sy(ray.sy);
     const std::size_t kx = ray.kx, ky = ray.ky, kz = ray.kz;
     HWY_UNROLL(3)
     for (int i = 0; i < 3; ++i) {
-        v[i].z = load_lanes(block.vertex[i][kz]) - oz;
-        v[i].x = neg_mul_add(sx, v[i].z, load_lanes(block.vertex[i][kx]) - ox);
-        v[i].y = neg_mul_add(sy, v[i].z, load_lanes(block.vertex[i][ky]) - oy);
+        auto& p = v.corner[i];
+        p.z = load_lanes(block.vertex[i][kz]) - oz;
+        p.x = neg_mul_add(sx, p.z, load_lanes(block.vertex[i][kx]) - ox);
+        p.y = neg_mul_add(sy, p.z, load_lanes(block.vertex[i][ky]) - oy);
     }
-    const auto edge = [](const auto& a, const auto& b)
-                          HWY_ATTR { return mul_sub(a.x, b.y, a.y * b.x); };
-    const Floats eu = edge(v[1], v[2]), ev = edge(v[2], v[0]), ew = edge(v[0], v[1]);
+    return v;
+}
+/// The edge function of two of them.
+template <class Corner>
+HWY_INLINE Floats edge_of(const Corner& a, const Corner& b) {
+    return mul_sub(a.x, b.y, a.y * b.x);
+}
+
+/// False when no triangle of the block is hit up to `s_max`: then `out` is not set.
+HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilterRay& ray,
+                                 float s_min, float s_max, FilteredTriangles& out) {
+    const ShearedCorners sheared = sheared_corners(block, ray);
+    const auto& v = sheared.corner;
+    const Floats eu = edge_of(v[1], v[2]), ev = edge_of(v[2], v[0]), ew = edge_of(v[0], v[1]);
     const auto reach = [](const auto& a) HWY_ATTR { return max_lanes(abs(a.x), abs(a.y)); };
     const Floats far = max_lanes(max_lanes(reach(v[0]), reach(v[1])), reach(v[2]));
     const Floats error = mul_add(far, Floats(ray.edge_slack), Floats(ray.edge_slack_min));

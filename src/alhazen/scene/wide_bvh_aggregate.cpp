@@ -11,7 +11,9 @@
 namespace alhazen {
 
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& options)
-    : table_(std::move(table)), kernels_(&wide_bvh_kernels()) {
+    : table_(std::move(table)),
+      kernels_(options.precision == Precision::Fast ? &wide_bvh_fast_kernels()
+                                                    : &wide_bvh_kernels()) {
     const BoundedPrimitives bounded(table_);
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();

@@ -37,5 +37,7 @@ void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id);
 
 /// Those for the best instruction set of this machine, or the one that is forced (simd/targets.h).
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels();
+/// The same, but that float decides about triangles in the first two queries and their batches.
+[[nodiscard]] const WideBvhKernels& wide_bvh_fast_kernels();
 
 }  // namespace alhazen

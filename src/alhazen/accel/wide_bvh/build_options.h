@@ -1,6 +1,5 @@
 #pragma once
-/// How much work goes into building an accelerator. The hits are the same for all; what changes is
-/// how long building and tracing take.
+/// How an accelerator is built, and how exactly it answers.
 
 #include <cstdint>
 #include <span>
@@ -8,14 +7,23 @@
 
 namespace alhazen {
 
+/// How much work goes into building. The hits are the same for all; what changes is how long
+/// building and tracing take.
 enum class BuildQuality : std::uint8_t {
     Fast,     ///< for what changes from picture to picture: clustering along a space-filling curve
     Default,  ///< binned surface area heuristic
     High,     ///< for what is traced for long: spatial splits, reinsertion
 };
 
+/// Which arithmetic decides whether a ray hits a triangle.
+enum class Precision : std::uint8_t {
+    Robust,  ///< double with exact signs: no leaks, the same bits as every other accelerator
+    Fast,    ///< float where an accelerator has it: may leak at edges, parameters carry its rounding
+};
+
 struct BuildOptions {
     BuildQuality quality = BuildQuality::Default;
+    Precision precision = Precision::Robust;
 };
 
 struct BuildQualityEntry {

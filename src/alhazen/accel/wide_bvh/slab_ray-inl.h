@@ -98,15 +98,16 @@ HWY_NOINLINE inline void make_ray_from_afar(const LocalFrame& frame, const Ray& 
 }
 
 /// Makes a ray ready for nodes, and calls `then(local)` to make it ready for leaves; false, without
-/// that, when it is not valid.
+/// that, when it is not valid. `bound` is the slack of the slab test: frame.slack.slab, but for
+/// those who would rather be wrong at times than wait.
 template <class Then>
-HWY_INLINE bool make_ray(const LocalFrame& frame, const Ray& ray, SlabRay& slabs, Then&& then) {
+HWY_INLINE bool make_ray(const LocalFrame& frame, const DistanceBound& bound, const Ray& ray,
+                         SlabRay& slabs, Then&& then) {
     {
         LocalRay local;
         AxisLanes axes;
         if (HWY_LIKELY(local_ray_nearby(frame, ray, local, axes))) {
             using F = AxisLanes::F;
-            const DistanceBound& bound = frame.slack.slab;
             make_slab_ray(axes, axes.distance * F(bound.slope) + F(bound.constant), local, slabs);
             then(local);
             return true;

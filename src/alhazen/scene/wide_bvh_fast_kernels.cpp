@@ -1,0 +1,70 @@
+#include "alhazen/scene/wide_bvh_kernels.h"
+
+// Compiles the rest of this file once per target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "alhazen/scene/wide_bvh_fast_kernels.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
+#include "alhazen/scene/fast_queries-inl.h"
+#include "alhazen/scene/run_queries-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Those of wide_bvh_kernels.cpp, for the same target.
+const WideBvhKernels& kernels();
+
+namespace {
+
+void fast_closest(const WideBvhScene& scene, const Ray& ray, Hit& best, TraversalStats* stats) {
+    FastClosestQuery query(scene, ray, best);
+    run(query, stats);
+}
+
+bool fast_occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
+    bool result = false;
+    FastOccludedQuery query(scene, ray, result);
+    return run(query, stats);
+}
+
+void fast_closest_batch(const WideBvhScene& scene, std::span<const Ray> rays, std::span<Hit> best,
+                        TraversalStats* stats) {
+    run_batch<FastClosestQuery>(scene, rays, best, stats);
+}
+
+void fast_occluded_batch(const WideBvhScene& scene, std::span<const Ray> rays,
+                         std::span<bool> occluded, TraversalStats* stats) {
+    run_batch<FastOccludedQuery>(scene, rays, occluded, stats);
+}
+
+}  // namespace
+
+const WideBvhKernels& fast_kernels() {
+    static const WideBvhKernels table = [] {
+        WideBvhKernels fast = kernels();
+        fast.closest = &fast_closest;
+        fast.occluded = &fast_occluded;
+        fast.closest_batch = &fast_closest_batch;
+        fast.occluded_batch = &fast_occluded_batch;
+        return fast;
+    }();
+    return table;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+
+HWY_EXPORT(fast_kernels);
+
+const WideBvhKernels& wide_bvh_fast_kernels() {
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    return HWY_DYNAMIC_DISPATCH(fast_kernels)();
+}
+
+}  // namespace alhazen
+#endif
