@@ -48,32 +48,33 @@ PrimitiveTable table_of(const KernelScene& scene) {
 }
 
 /// What has to be built anew for every tree: the boxes of the primitives are part of building.
-WideBvhLayout build_layout(const PrimitiveTable& table, BuildQuality quality) {
+WideBvhLayout build_layout(const PrimitiveTable& table, const BuildOptions& options) {
     const BoundedPrimitives bounded(table);
-    return build_wide_bvh(table, bounded, {quality});
+    return build_wide_bvh(table, bounded, options);
 }
 
-Builder our_builder(const PrimitiveTable& table, const BuildQualityEntry& entry) {
-    const BuildQuality quality = entry.quality;
-    return {fmt::format("wide_bvh {}", entry.name),
-            [&table, quality](int threads) {
+Builder our_builder(const PrimitiveTable& table, const char* name, const BuildOptions& options) {
+    return {fmt::format("wide_bvh {}", name),
+            [&table, options](int threads) {
                 WideBvhLayout layout;
                 double seconds = 0;
                 ThreadLimit(threads).run([&] {
                     const Stopwatch time;
-                    layout = build_layout(table, quality);
+                    layout = build_layout(table, options);
                     seconds = time.seconds();
                 });
                 return Built{seconds, static_cast<double>(layout.memory_bytes())};
             },
-            [&table, quality] { return build_layout(table, quality).sah_cost(); }};
+            [&table, options] { return build_layout(table, options).sah_cost(); }};
 }
 
 std::vector<Builder> our_builders(const PrimitiveTable& table) {
     std::vector<Builder> builders;
     for (const BuildQualityEntry& e : build_quality_table()) {
-        builders.push_back(our_builder(table, e));
+        builders.push_back(our_builder(table, e.name, {e.quality}));
     }
+    builders.push_back(our_builder(table, "default, indices",
+                                   {BuildQuality::Default, Precision::Robust, Leaves::Indices}));
     return builders;
 }
 

@@ -1,6 +1,6 @@
 /// Rays per second of wide_bvh beside Embree: same scene, same rays, one thread, in turn, medians.
 /// Usage: alhazen_kernel_bench SCENE... [--side N] [--rounds N] [--only RAYS] [--json FILE]
-///            [--markdown FILE] [--build fast|default|high]
+///            [--markdown FILE] [--build fast|default|high] [--compact]
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
 /// SCENE: see kernel_scenes.h. --check does not measure: it counts the rays that the tracers
 /// disagree about and decides each by brute force in extended precision.
@@ -26,7 +26,7 @@ struct Settings {
     int side = 512;
     int rounds = 5;
     std::string only;  ///< name of a ray set; empty: all
-    BuildQuality quality = BuildQuality::High;
+    BuildOptions build{BuildQuality::High};
 };
 
 /// Both trees of Embree, and where there are cylinders both ways to have them.
@@ -92,8 +92,10 @@ void add_peers(const Peers& peers, const RaySet& set,
 #endif
 
 SceneResult run(const KernelScene& scene, const Settings& settings) {
-    const auto aggregate = build_ours(scene, {settings.quality});
-    const auto fast = build_ours(scene, {settings.quality, Precision::Fast});
+    const auto aggregate = build_ours(scene, settings.build);
+    BuildOptions fast_options = settings.build;
+    fast_options.precision = Precision::Fast;
+    const auto fast = build_ours(scene, fast_options);
     const Peers peers(scene);
     SceneResult result{scene.name, scene.contents(), {}};
     fmt::print("{}: {}\n", scene.name, result.contents);
@@ -122,7 +124,7 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
     std::size_t faults = 0;
     for (const std::string& spec : line.rest) {
         const KernelScene scene = make_scene(spec);
-        const auto aggregate = build_ours(scene, {settings.quality});
+        const auto aggregate = build_ours(scene, settings.build);
         const Peers peers(scene);
         for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
             if (set.rays.empty() || (!settings.only.empty() && set.name != settings.only)) continue;
@@ -151,7 +153,7 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
 int run_program(int argc, char** argv) {
     const CommandLine line(argc, argv,
                            {"--side", "--rounds", "--only", "--json", "--markdown", "--build"},
-                           {"--check"});
+                           {"--check", "--compact"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
     }
@@ -159,7 +161,9 @@ int run_program(int argc, char** argv) {
     settings.side = static_cast<int>(line.count("--side", 512));
     settings.rounds = static_cast<int>(line.count("--rounds", 5));
     settings.only = line.text("--only", "");
-    settings.quality = find_build_quality(line.text("--build", name_of(settings.quality)));
+    settings.build.quality =
+        find_build_quality(line.text("--build", name_of(settings.build.quality)));
+    if (line.has("--compact")) settings.build.leaves = Leaves::Indices;
     if (line.has("--check")) {
         const std::size_t faults = run_checks(line, settings);
         fmt::print("{} faults of wide_bvh or of the judge\n", faults);

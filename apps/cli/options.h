@@ -35,6 +35,7 @@ struct SceneArguments {
     std::string scene;
     std::string accelerator;
     std::string build_quality = "default";
+    bool compact = false;
     std::vector<std::string> allow_paths;
     std::optional<double> time;
     std::string animation;

@@ -90,6 +90,11 @@ struct FastClosestQuery : FastQuery<FastClosestQuery> {
         ray.t_max = best.t;
         return false;
     }
+    HWY_INLINE bool crossing(BlockId id, const ShapeHit& hit) {
+        offer(hit, id.id(), ray, best);
+        shrink();
+        return false;
+    }
     template <class Stats>
     HWY_INLINE bool sphere(BlockId id, Stats stats) {
         return other(id.id(), stats);
@@ -126,6 +131,7 @@ struct FastOccludedQuery : FastQuery<FastOccludedQuery> {
         }
         return false;
     }
+    HWY_INLINE bool crossing(BlockId, const ShapeHit&) { return occluded = true; }
     template <class Stats>
     HWY_INLINE bool sphere(BlockId id, Stats stats) {
         return other(id.id(), stats);

@@ -45,10 +45,16 @@ LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id) {
 /// Copies primitives into blocks, leaf by leaf.
 class Packer final : public LeafSink {
   public:
-    Packer(const PrimitiveTable& table, WideBvhLayout& layout) : table_(table), layout_(layout) {}
+    Packer(const PrimitiveTable& table, Leaves leaves, WideBvhLayout& layout)
+        : table_(table), leaves_(leaves), layout_(layout) {}
 
     void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
-        layout_.triangles.resize(blocks[static_cast<std::size_t>(LeafType::Triangles)]);
+        const std::size_t triangles = blocks[static_cast<std::size_t>(LeafType::Triangles)];
+        if (leaves_ == Leaves::Indices) {
+            layout_.indices.resize(triangles);
+        } else {
+            layout_.triangles.resize(triangles);
+        }
         layout_.spheres.resize(blocks[static_cast<std::size_t>(LeafType::Spheres)]);
         layout_.others.resize(blocks[static_cast<std::size_t>(LeafType::Others)]);
     }
@@ -62,7 +68,8 @@ class Packer final : public LeafSink {
         std::sort(ids.begin(), ids.end());
         switch (static_cast<LeafType>(kind)) {
             case LeafType::Triangles:
-                return fill_blocks(&layout_.triangles[offset], ids);
+                return leaves_ == Leaves::Indices ? fill_blocks(&layout_.indices[offset], ids)
+                                                  : fill_blocks(&layout_.triangles[offset], ids);
             case LeafType::Spheres:
                 return fill_blocks(&layout_.spheres[offset], ids);
             case LeafType::Others:
@@ -80,6 +87,7 @@ class Packer final : public LeafSink {
     }
 
     const PrimitiveTable& table_;
+    Leaves leaves_;
     WideBvhLayout& layout_;
 };
 
@@ -129,7 +137,7 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
         }
     });
     const BinaryBvh binary = build_binary_of(options.quality, references, layout.frame, table);
-    Packer packer(table, layout);
+    Packer packer(table, options.leaves, layout);
     layout.tree = collapse(binary, references, kLeafKindTable, packer);
     return layout;
 }

@@ -62,8 +62,14 @@ struct alignas(64) TriangleBlock {
 };
 static_assert(sizeof(TriangleBlock) == 320);
 
+/// In place of a TriangleBlock where memory counts: the vertices are read from the mesh.
+struct alignas(32) IndexBlock {
+    BlockId ids[kBlockWidth];
+};
+
 /// How many lanes of a block are in use.
-[[nodiscard]] inline std::uint32_t used_lanes(const TriangleBlock& block) {
+template <class Block>
+[[nodiscard]] std::uint32_t used_lanes(const Block& block) {
     std::uint32_t count = 0;
     for (const BlockId& id : block.ids) count += id.used();
     return count;
@@ -83,9 +89,13 @@ struct WideBvhLayout {
     LocalFrame frame;
     WideBvh tree;
     MappableVector<TriangleBlock> triangles;
+    /// In place of `triangles` in a tree with Leaves::Indices.
+    MappableVector<IndexBlock> indices;
     MappableVector<SphereBlock> spheres;
     MappableVector<PrimitiveId> others;
 
+    /// The triangles are in `indices`.
+    [[nodiscard]] bool is_indexed() const { return !indices.empty(); }
     [[nodiscard]] std::size_t memory_bytes() const;
     /// Expected cost of a ray that meets the box, in visits of a node; see
     /// accel/wide_bvh/sah_cost.h.
@@ -98,6 +108,7 @@ template <class Layout, class F>
 void for_each_array(Layout& layout, F&& f) {
     f(layout.tree.nodes);
     f(layout.triangles);
+    f(layout.indices);
     f(layout.spheres);
     f(layout.others);
 }

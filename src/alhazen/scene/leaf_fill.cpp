@@ -50,6 +50,14 @@ void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const Pr
     for (std::size_t lane = ids.size(); lane < kBlockWidth; ++lane) leave_free(block, lane);
 }
 
+void fill_block(IndexBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame&) {
+    for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
+        block.ids[lane] = lane < ids.size() ? BlockId{ids[lane], table.is_opaque(ids[lane]), false}
+                                            : BlockId::none();
+    }
+}
+
 void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame&) {
     const auto& spheres = std::get<ShapeColumn<Sphere>>(table.columns).shapes;

@@ -10,6 +10,9 @@ namespace alhazen {
 /// Up to kBlockWidth primitives, in the order of their ids; the other lanes are left free.
 void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);
+/// The lanes are not exact: the mesh is asked.
+void fill_block(IndexBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
 void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);
 

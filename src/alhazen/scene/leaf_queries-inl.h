@@ -23,8 +23,9 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The part of a query on one ray that is the same for all. `Derived` offers
-/// `bool block(triangle_block, stats)`, `bool sphere(id, stats)` and `bool other(id, stats)`, true
-/// to stop; and `DistanceBound slab_slack(frame)`, the slack of its slab test.
+/// `bool block(triangle_block, stats)`, `bool sphere(id, stats)`, `bool other(id, stats)` and `bool
+/// crossing(id, hit)`, for a triangle that is hit for certain, true to stop; and `DistanceBound
+/// slab_slack(frame)`, the slack of its slab test.
 template <class Derived>
 struct LeafQuery {
     SlabRay slabs;
@@ -54,6 +55,7 @@ struct LeafQuery {
         const std::uint32_t count = ref.count();
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles: {
+                if (HWY_UNLIKELY(scene.layout->is_indexed())) return visit_indices(ref, stats);
                 const TriangleBlock* blocks = &scene.layout->triangles[ref.offset()];
                 for (std::uint32_t i = 0; i < count; ++i) {
                     stats.primitives(used_lanes(blocks[i]));
@@ -89,6 +91,44 @@ struct LeafQuery {
 
     /// Made anew for the few tests that need it.
     [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
+    [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
+        return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
+    }
+
+  private:
+    /// Triangles of which the leaf has the numbers only: all are tested in double, eight at a time.
+    template <class Stats>
+    HWY_NOINLINE bool visit_indices(NodeRef ref, Stats stats) {
+        const IndexBlock* blocks = &scene.layout->indices[ref.offset()];
+        for (std::uint32_t i = 0; i < ref.count(); ++i) {
+            if (visit_indices(blocks[i], stats)) return true;
+        }
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool visit_indices(const IndexBlock& block, Stats stats) {
+        const std::uint32_t used = used_lanes(block);
+        stats.primitives(used);
+        TrianglePairs pairs{};
+        for (std::size_t lane = 0; lane < used; ++lane) {
+            const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
+            pairs.set(lane, ray, {a, b, c});
+        }
+        const TrianglePairs::Verdict verdict = pairs.decide();
+        for (std::uint32_t rest = (verdict.hit | verdict.unsure) & ((1u << used) - 1); rest != 0;
+             rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            const BlockId id = block.ids[lane];
+            ShapeHit hit = pairs.hit(lane);
+            if ((verdict.unsure >> lane & 1) != 0) {
+                const auto [a, b, c] = scene.table->triangle_vertices(triangle(id.id()));
+                if (!intersect_triangle(ray, shear(), a, b, c, hit)) continue;
+            }
+            stats.primitive_hits(1);
+            if (static_cast<Derived&>(*this).crossing(id, hit)) return true;
+        }
+        return false;
+    }
 };
 
 /// The queries whose answers are those of the tests in double: the filter goes before. `Derived`
@@ -109,9 +149,6 @@ struct RobustQuery : LeafQuery<Derived> {
         return filter_triangles(triangles, filter, slabs.s_min, s_max, found) &&
                static_cast<Derived&>(*this).triangles(triangles, found, stats);
     }
-    [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
-        return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
-    }
     /// The test in double of a lane in use.
     HWY_INLINE bool hits_triangle(const TriangleBlock& block, std::size_t lane,
                                   ShapeHit& hit) const {
@@ -122,7 +159,7 @@ struct RobustQuery : LeafQuery<Derived> {
                                       frame.world(block.corner(1, lane)),
                                       frame.world(block.corner(2, lane)), hit);
         }
-        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id.id()));
+        const auto [a, b, c] = scene.table->triangle_vertices(this->triangle(id.id()));
         return intersect_triangle(ray, this->shear(), a, b, c, hit);
     }
 };
@@ -178,6 +215,11 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
         shrink();
         return false;
     }
+    HWY_INLINE bool crossing(BlockId id, const ShapeHit& hit) {
+        offer(hit, id.id(), ray, best);
+        shrink();
+        return false;
+    }
     /// Decides what is pending.
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
@@ -203,8 +245,7 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
         ShapeHit hit;
         if (!this->hits_triangle(block, lane, hit)) return;
         stats.primitive_hits(1);
-        offer(hit, block.ids[lane].id(), ray, best);
-        shrink();
+        crossing(block.ids[lane], hit);
     }
     HWY_INLINE void shrink() {
         const float s = parameter.above(ray.t_max);
@@ -237,6 +278,7 @@ struct OccludedQuery : RobustQuery<OccludedQuery> {
         }
         return false;
     }
+    HWY_INLINE bool crossing(BlockId, const ShapeHit&) { return occluded = true; }
     template <class Stats>
     HWY_INLINE bool sphere(BlockId id, Stats stats) {
         return other(id.id(), stats);
@@ -267,14 +309,18 @@ struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
             ShapeHit hit;
             if (!id.used() || !this->hits_triangle(block, lane, hit)) continue;
             stats.primitive_hits(1);
-            if (kStopAtOpaque) {
-                if (id.opaque()) return true;
-                const auto effect = scene.table->shadow_effect(id.id(), ray);
-                if (effect == PrimitiveTable::ShadowEffect::Blocks) return true;
-                if (effect == PrimitiveTable::ShadowEffect::None) continue;
-            }
-            append_hit(hits, hit, id.id());
+            if (crossing(id, hit)) return true;
         }
+        return false;
+    }
+    HWY_INLINE bool crossing(BlockId id, const ShapeHit& hit) {
+        if (kStopAtOpaque) {
+            if (id.opaque()) return true;
+            const auto effect = scene.table->shadow_effect(id.id(), ray);
+            if (effect == PrimitiveTable::ShadowEffect::Blocks) return true;
+            if (effect == PrimitiveTable::ShadowEffect::None) return false;
+        }
+        append_hit(hits, hit, id.id());
         return false;
     }
     template <class Stats>

@@ -18,6 +18,7 @@ class Refit {
         : layout_(layout), table_(table), nodes_(layout.tree.nodes.data()) {
         // Asked for once: asking may copy what is mapped.
         triangles_ = layout.triangles.data();
+        indices_ = layout.is_indexed() ? layout.indices.data() : nullptr;
         spheres_ = layout.spheres.data();
     }
 
@@ -60,7 +61,11 @@ class Refit {
         FloatBox box;
         switch (static_cast<LeafType>(leaf.kind())) {
             case LeafType::Triangles:
-                refit_blocks(triangles_ + leaf.offset(), leaf.count(), box);
+                if (indices_ != nullptr) {
+                    refit_blocks(indices_ + leaf.offset(), leaf.count(), box);
+                } else {
+                    refit_blocks(triangles_ + leaf.offset(), leaf.count(), box);
+                }
                 break;
             case LeafType::Spheres:
                 refit_blocks(spheres_ + leaf.offset(), leaf.count(), box);
@@ -98,6 +103,7 @@ class Refit {
     const PrimitiveTable& table_;
     WideNode* nodes_;
     TriangleBlock* triangles_;
+    IndexBlock* indices_;  ///< null: the triangles are in blocks of their own
     SphereBlock* spheres_;
 };
 
@@ -111,16 +117,16 @@ void check(const WideBvhLayout& layout, const PrimitiveTable& moved,
         known = known && i < moved.size();
         if (known) in_tree[i] = true;
     };
-    for (const TriangleBlock& block : layout.triangles) {
-        for (const BlockId id : block.ids) {
-            if (id.used()) note(id.id());
+    const auto note_blocks = [&](const auto& blocks) {
+        for (const auto& block : blocks) {
+            for (const BlockId id : block.ids) {
+                if (id.used()) note(id.id());
+            }
         }
-    }
-    for (const SphereBlock& block : layout.spheres) {
-        for (const BlockId id : block.ids) {
-            if (id.used()) note(id.id());
-        }
-    }
+    };
+    note_blocks(layout.triangles);
+    note_blocks(layout.indices);
+    note_blocks(layout.spheres);
     for (const PrimitiveId id : layout.others) note(id);
     for (std::size_t i = 0; known && i < bounded.size(); ++i) known = in_tree[bounded.id(i)];
     for (const PrimitiveId id : bounded.unbounded()) {

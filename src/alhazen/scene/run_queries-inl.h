@@ -92,9 +92,12 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
     BatchSource<Query, Result> source(scene, rays, results);
     const WideBvh& tree = scene.layout->tree;
     const WideBvhLayout& layout = *scene.layout;
-    const Places places(tree.nodes.data(),
-                        {layout.triangles.data(), layout.spheres.data(), layout.others.data()},
-                        {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(PrimitiveId)});
+    const bool indexed = layout.is_indexed();
+    const void* triangles = layout.triangles.data();
+    if (indexed) triangles = layout.indices.data();
+    const Places places(tree.nodes.data(), {triangles, layout.spheres.data(), layout.others.data()},
+                        {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
+                         sizeof(PrimitiveId)});
     with_policy(stats, [&](auto policy) HWY_ATTR {
         if (layout.memory_bytes() > kCachedBytes) {
             traverse_stream<Query, true>(tree.nodes.data(), tree.root, places, source, policy);

@@ -50,6 +50,8 @@ struct TrianglePairs {
         t_max[lane] = ray.t_max;
     }
 
+    [[nodiscard]] ShapeHit hit(std::size_t lane) const { return {t[lane], u[lane], v[lane], 0}; }
+
     struct Verdict {
         std::uint32_t hit, unsure;
     };
@@ -166,7 +168,7 @@ class TriangleDecider {
              rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             const Pair& pair = pair_[lane];
-            ShapeHit hit{pairs_.t[lane], pairs_.u[lane], pairs_.v[lane], 0};
+            ShapeHit hit = pairs_.hit(lane);
             if ((verdict.unsure >> lane & 1) != 0 && !decide_alone(pair, hit)) continue;
             stats.primitive_hits(1);
             Ray ray = *pair.ray;

@@ -17,7 +17,7 @@ bool leads_to_leaf(const WideBvhLayout& layout, NodeRef ref) {
     };
     switch (static_cast<LeafType>(ref.kind())) {
         case LeafType::Triangles:
-            return lies_in(layout.triangles);
+            return layout.is_indexed() ? lies_in(layout.indices) : lies_in(layout.triangles);
         case LeafType::Spheres:
             return lies_in(layout.spheres);
         case LeafType::Others:
@@ -47,7 +47,8 @@ bool is_sound(const LocalFrame& frame) {
     return is_finite(frame.center) && reach <= 2e150 && frame.scale >= 0x1p-502 &&
            frame.scale <= 0x1p502 && frame.scale == std::ldexp(1.0, std::ilogb(frame.scale)) &&
            frame.inverse_scale == 1.0 / frame.scale && frame.offset == reach * frame.scale &&
-           frame.offset <= 0x1p32;
+           frame.offset <= 0x1p32 && frame.usual == LocalFrame::is_usual(frame.scale) &&
+           frame.slack == FrameSlack(frame.offset, frame.usual);
 }
 
 const char* check_nodes(const WideBvhLayout& layout) {
@@ -87,11 +88,15 @@ bool names_kind(const PrimitiveTable& table, BlockId id, std::uint32_t kind) {
 
 const char* check_leaves(const WideBvhLayout& layout, const PrimitiveTable& table) {
     constexpr const char* kMessage = "a leaf names a primitive that is not there";
-    for (const TriangleBlock& block : layout.triangles) {
-        for (const BlockId id : block.ids) {
-            if (id.used() && !names_kind(table, id, kTriangleKind)) return kMessage;
+    const auto name_triangles = [&](const auto& blocks) {
+        for (const auto& block : blocks) {
+            for (const BlockId id : block.ids) {
+                if (id.used() && !names_kind(table, id, kTriangleKind)) return false;
+            }
         }
-    }
+        return true;
+    };
+    if (!name_triangles(layout.triangles) || !name_triangles(layout.indices)) return kMessage;
     constexpr std::uint32_t kSphereKind = 0;
     static_assert(std::is_same_v<std::tuple_element_t<kSphereKind, decltype(table.columns)>,
                                  ShapeColumn<Sphere>>);

@@ -18,12 +18,19 @@ enum class BuildQuality : std::uint8_t {
 /// Which arithmetic decides whether a ray hits a triangle.
 enum class Precision : std::uint8_t {
     Robust,  ///< double with exact signs: no leaks, the same bits as every other accelerator
-    Fast,    ///< float where an accelerator has it: may leak at edges, parameters carry its rounding
+    Fast,  ///< float where an accelerator has it: may leak at edges, parameters carry its rounding
+};
+
+/// What the leaves hold of a triangle.
+enum class Leaves : std::uint8_t {
+    Vertices,  ///< its vertices in float, eight triangles in five cache lines
+    Indices,   ///< its number only: a fifth of the memory, and slower to trace
 };
 
 struct BuildOptions {
     BuildQuality quality = BuildQuality::Default;
     Precision precision = Precision::Robust;
+    Leaves leaves = Leaves::Vertices;
 };
 
 struct BuildQualityEntry {

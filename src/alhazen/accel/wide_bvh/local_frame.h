@@ -39,6 +39,7 @@ inline constexpr double kExactTestSlack = 0x1p-38;
 struct DistanceBound {
     float slope, constant;
     [[nodiscard]] float at(float distance) const { return slope * distance + constant; }
+    friend bool operator==(const DistanceBound&, const DistanceBound&) = default;
 };
 
 /// What the slack of the rays of one frame is made of (see SlabRay). All are a little more than the
@@ -57,6 +58,8 @@ struct FrameSlack {
           slab{6.5f * 0x1p-24f * reach.slope + kMore * delta.slope,
                6.5f * 0x1p-24f * reach.constant + kMore * delta.constant},
           least_length(usual ? 0x1p-40f : std::numeric_limits<float>::infinity()) {}
+
+    friend bool operator==(const FrameSlack&, const FrameSlack&) = default;
 
   private:
     static constexpr float kMore = 1.0001f;
@@ -89,10 +92,13 @@ struct LocalFrame {
         scale = std::ldexp(1.0, -std::ilogb(reach) - 1);
         inverse_scale = 1.0 / scale;
         offset = far * scale;
-        usual = scale >= 0x1p-200 && scale <= 0x1p200;
+        usual = is_usual(scale);
         slack = FrameSlack(offset, usual);
     }
 
+    [[nodiscard]] static bool is_usual(double scale) {
+        return scale >= 0x1p-200 && scale <= 0x1p200;
+    }
     [[nodiscard]] Vec3 local(const Vec3& p) const { return scale * (p - center); }
     /// The point whose local coordinates these are, rounded.
     [[nodiscard]] Vec3 world(const Vec3& local) const { return inverse_scale * local + center; }
