@@ -64,6 +64,10 @@ class AovSet {
     [[nodiscard]] bool has_tests() const {
         return has(AovKind::NodeVisits) || has(AovKind::PrimitiveTests);
     }
+    /// One of them needs to know what each pixel cost.
+    [[nodiscard]] bool has_costs() const {
+        return has_tests() || has(AovKind::Rays) || has(AovKind::Time);
+    }
     friend bool operator==(const AovSet&, const AovSet&) = default;
 
   private:

@@ -82,9 +82,6 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
     return {in_set(surface.dpdu, surface.dpdv), in_set(surface.dpdu2, surface.dpdv2)};
 }
 
-namespace {
-
-/// Fills in all of `point`: it is large, and not copied.
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
                        double width, ShadingPoint& point) {
     point.inside = inside;
@@ -115,15 +112,6 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
         const bool from_inside = inside && !point.entering && !m.transmissive.is_black();
         turn_to_view(m, dot(point.view, point.normal), from_inside);
     }
-}
-
-}  // namespace
-
-ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
-                           double width) {
-    ShadingPoint point;
-    set_shading_point(scene, ray, hit, inside, width, point);
-    return point;
 }
 
 bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,

@@ -31,12 +31,13 @@ struct ShadingPoint {
 [[nodiscard]] std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
                                                       double width);
 
-/// `ray.direction` must be unit. Whether the ray came through the inside is known from its history,
-/// not from the normal: an open surface has a back but no inside. `width` is that of the ray's cone
-/// at the hit. The material is as the ray sees it: textures filtered, Fresnel's share for its
-/// angle, coverage 0 where a single-sided surface turns its back.
-[[nodiscard]] ShadingPoint shading_point(const Scene& scene, const Ray& ray, const Hit& hit,
-                                         bool inside, double width = 0);
+/// Fills in all of `point`: it is large, and not copied. `ray.direction` must be unit. Whether the
+/// ray came through the inside is known from its history, not from the normal: an open surface has
+/// a back but no inside. `width` is that of the ray's cone at the hit. The material is as the ray
+/// sees it: textures filtered, Fresnel's share for its angle, coverage 0 where a single-sided
+/// surface turns its back.
+void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
+                       double width, ShadingPoint& point);
 
 /// A surface that a ray sees.
 struct VisibleHit {

@@ -1,42 +1,101 @@
 #pragma once
 /// The loop over the pixels and samples of a tile that renderers share.
 
+#include <span>
+#include <vector>
+
 #include "alhazen/renderers/aov.h"
 #include "alhazen/renderers/eye_samples.h"
 #include "alhazen/renderers/renderer.h"
 
 namespace alhazen {
 
-/// Calls `radiance(const Ray& eye_ray)` -> Rgb for each sample and writes the mean of the finite
-/// ones to the film. Returns early when the job is to stop; no pixel is left half done.
-template <class Radiance>
-void render_pixels(const RenderJob& job, const PixelBox& tile, Film& film, RayCounters& counters,
-                   Radiance&& radiance) {
-    const int width = film.frame_width();
-    const int height = film.frame_height();
-    AovRecorder aovs(job, counters);
-    for (int j = tile.y0; j < tile.y1; ++j) {
-        for (int i = tile.x0; i < tile.x1; ++i) {
-            if (job.stop_requested()) return;
-            aovs.begin_pixel();
-            Rgb sum;
-            int finite = 0;
-            for (int s = 0; s < job.samples_per_pixel; ++s) {
-                const Vec2 p = eye_sample(job, i, j, width, height, s);
-                const Rgb c = radiance(eye_ray(job.camera, p.x, p.y));
-                // The pixel is given up: its last sample may be cut short.
-                if (job.stop_requested()) return;
-                if (c.is_finite()) {
-                    sum += c;
-                    ++finite;
-                } else {
-                    ++counters.non_finite;
+/// Gathers eye rays in the order of the pixels and gives their light back to the pixels.
+class PixelLoop {
+  public:
+    PixelLoop(const RenderJob& job, const PixelBox& tile, Film& film, RayCounters& counters)
+        : job_(job),
+          tile_(tile),
+          film_(film),
+          counters_(counters),
+          aovs_(job, counters),
+          i_(tile.x0),
+          j_(tile.y0) {}
+
+    /// As `render_pixels`.
+    template <class Radiance>
+    void run(std::size_t at_once, Radiance&& radiance) {
+        // What a pixel costs is known where its rays are alone.
+        const bool alone = job_.aovs != nullptr && job_.aovs->wanted().has_costs();
+        for (int j = tile_.y0; j < tile_.y1; ++j) {
+            for (int i = tile_.x0; i < tile_.x1; ++i) {
+                aovs_.begin_pixel();
+                for (int s = 0; s < job_.samples_per_pixel; ++s) {
+                    const Vec2 p =
+                        eye_sample(job_, i, j, film_.frame_width(), film_.frame_height(), s);
+                    rays_.push_back(eye_ray(job_.camera, p.x, p.y));
+                    if (rays_.size() == at_once && !trace(radiance)) return;
                 }
+                if (alone && !trace(radiance)) return;
             }
-            film.set(i, j, finite == 1 ? sum : finite > 1 ? (1.0 / finite) * sum : Rgb{});
-            aovs.end_pixel(i, j, width, height);
+        }
+        trace(radiance);
+    }
+
+  private:
+    /// False when the job is to stop.
+    template <class Radiance>
+    bool trace(Radiance& radiance) {
+        if (job_.stop_requested()) return false;
+        radiance_.assign(rays_.size(), Rgb{});
+        radiance(std::span<const Ray>(rays_), std::span<Rgb>(radiance_));
+        // What was cut short is given up.
+        if (job_.stop_requested()) return false;
+        for (const Rgb& c : radiance_) take(c);
+        rays_.clear();
+        return true;
+    }
+
+    void take(const Rgb& c) {
+        if (c.is_finite()) {
+            sum_ += c;
+            ++finite_;
+        } else {
+            ++counters_.non_finite;
+        }
+        if (++samples_ == job_.samples_per_pixel) end_pixel();
+    }
+
+    void end_pixel() {
+        film_.set(i_, j_, finite_ == 1 ? sum_ : finite_ > 1 ? (1.0 / finite_) * sum_ : Rgb{});
+        aovs_.end_pixel(i_, j_, film_.frame_width(), film_.frame_height());
+        sum_ = {};
+        finite_ = samples_ = 0;
+        if (++i_ == tile_.x1) {
+            i_ = tile_.x0;
+            ++j_;
         }
     }
+
+    const RenderJob& job_;
+    const PixelBox& tile_;
+    Film& film_;
+    RayCounters& counters_;
+    AovRecorder aovs_;
+    std::vector<Ray> rays_;
+    std::vector<Rgb> radiance_;
+    int i_, j_;  ///< pixel that the next light belongs to
+    int samples_ = 0, finite_ = 0;
+    Rgb sum_;
+};
+
+/// Calls `radiance(std::span<const Ray> eye_rays, std::span<Rgb> radiance)` for at most `at_once`
+/// samples after the other, until it has all, and writes the mean of a pixel's finite ones to the
+/// film. Returns early when the job is to stop; no pixel is left half done.
+template <class Radiance>
+void render_pixels(const RenderJob& job, const PixelBox& tile, Film& film, RayCounters& counters,
+                   std::size_t at_once, Radiance&& radiance) {
+    PixelLoop(job, tile, film, counters).run(at_once, radiance);
 }
 
 }  // namespace alhazen

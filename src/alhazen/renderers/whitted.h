@@ -7,7 +7,10 @@
 ///   I(Q,T).
 /// Differs: secondary rays start outside the error bound of the hit point instead of at a global
 /// epsilon; shadow rays count every surface they cross once, in one query; what formats do
-/// otherwise is read from ShadingConventions.
+/// otherwise is read from ShadingConventions; many rays of a generation are traced together
+/// (wavefront.h), with the result of the recursion, bit for bit.
+
+#include <cstddef>
 
 #include "alhazen/renderers/renderer.h"
 
@@ -15,8 +18,15 @@ namespace alhazen {
 
 class Whitted final : public Renderer {
   public:
+    /// `rays_at_once`: of a generation, at least 1; the picture does not depend on it.
+    explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
+
     void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
                      RayCounters& counters) const override;
+
+  private:
+    static constexpr std::size_t kRaysAtOnce = 256;
+    std::size_t rays_at_once_;
 };
 
 }  // namespace alhazen

@@ -1,0 +1,77 @@
+#pragma once
+/// The first surface of which something is there along each of many rays: `first_visible_hit` for
+/// all of them, in batches.
+///
+/// Conventions: surfaces are told one at a time, in any order of the rays; what is told of a
+/// surface is gone with the next: it is large.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/renderers/local_shading.h"
+
+namespace alhazen {
+
+class VisibleBatch {
+  public:
+    VisibleBatch(const Scene& scene, TraversalStats* stats) : scene_(scene), stats_(stats) {}
+
+    /// `path(k)` gives `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for each ray: a
+    /// null pointer where nothing is seen, else what is seen and its distance from the ray's
+    /// origin. `tell` must not change rays or paths that have not been told yet.
+    template <class PathOf, class Tell>
+    void find(std::span<const Ray> rays, PathOf&& path, Tell&& tell) {
+        behind_.clear();
+        for (std::size_t k = 0; const Hit& hit : closest(rays)) {
+            meet(k, rays[k], {rays[k], k, 0.0}, hit, path(k), tell);
+            ++k;
+        }
+        for (int passed = 0; passed < kMaxPassedSurfaces && !behind_.empty(); ++passed) {
+            on_way_.swap(behind_);
+            behind_.clear();
+            rest_.clear();
+            for (const Passed& p : on_way_) rest_.push_back(p.rest);
+            for (std::size_t i = 0; const Hit& hit : closest(rest_)) {
+                const Passed& p = on_way_[i++];
+                meet(p.ray, rays[p.ray], p, hit, path(p.ray), tell);
+            }
+        }
+        for (const Passed& p : behind_) tell(p.ray, static_cast<const ShadingPoint*>(nullptr), 0.0);
+    }
+
+  private:
+    /// A ray behind surfaces of which nothing is there.
+    struct Passed {
+        Ray rest;
+        std::size_t ray;
+        double distance;  ///< from the origin of the ray asked for
+    };
+
+    [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays);
+
+    template <class Path, class Tell>
+    void meet(std::size_t k, const Ray& whole, const Passed& on_way, const Hit& hit,
+              const Path& path, Tell&& tell) {
+        if (!hit.found()) {
+            tell(k, static_cast<const ShadingPoint*>(nullptr), 0.0);
+            return;
+        }
+        const double t = on_way.distance + hit.t;
+        set_shading_point(scene_, on_way.rest, hit, path.inside, path.cone.width_at(t), point_);
+        if (point_.material.coverage > 0.0) {
+            tell(k, static_cast<const ShadingPoint*>(&point_), t);
+            return;
+        }
+        behind_.push_back({leaving_ray(point_.surface, whole.direction, whole.t_max - t), k, t});
+    }
+
+    const Scene& scene_;
+    TraversalStats* stats_;
+    ShadingPoint point_;
+    std::vector<Hit> hits_;
+    std::vector<Ray> rest_;
+    std::vector<Passed> behind_, on_way_;
+};
+
+}  // namespace alhazen
