@@ -2,6 +2,7 @@
 /// Usage: alhazen_leak_bench MESH... [--rays N] [--embree-rays N] [--markdown FILE]
 /// MESH: a closed mesh file, or sphere:SPLITS. --rays counts over all meshes (1e9 may be written);
 /// --embree-rays limits those that Embree traces too (default: all). All cores are used.
+/// --first-block N begins with other rays: a long run can be made of short ones.
 
 #include <fmt/format.h>
 
@@ -154,7 +155,8 @@ struct Outcome {
     std::uint64_t our_misses = 0;
 };
 
-void run(const std::string& spec, std::size_t rays, std::size_t embree_rays, Outcome& outcome) {
+void run(const std::string& spec, std::size_t rays, std::size_t embree_rays,
+         std::size_t first_block, Outcome& outcome) {
     const LeakMesh mesh = read_leak_mesh(spec);
     KernelScene scene;
     scene.mesh = mesh.mesh();
@@ -179,7 +181,7 @@ void run(const std::string& spec, std::size_t rays, std::size_t embree_rays, Out
     const Stopwatch time;
     parallel_for(blocks, 8, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
-            run_block(mesh, *aggregate, b, b < embree_blocks, tracers, rows);
+            run_block(mesh, *aggregate, first_block + b, b < embree_blocks, tracers, rows);
         }
     });
     const double rate = 1e-6 * static_cast<double>(blocks * kBlock) / time.seconds();
@@ -200,14 +202,15 @@ void run(const std::string& spec, std::size_t rays, std::size_t embree_rays, Out
 }  // namespace
 
 int main(int argc, char** argv) try {
-    const CommandLine line(argc, argv, {"--rays", "--embree-rays", "--markdown"});
+    const CommandLine line(argc, argv, {"--rays", "--embree-rays", "--first-block", "--markdown"});
     if (line.rest.empty()) throw Error(ErrorKind::Usage, "no mesh given");
     const std::size_t rays = line.count("--rays", 10'000'000) / line.rest.size();
     const std::size_t embree_rays = line.count("--embree-rays", rays * line.rest.size());
+    const std::size_t first_block = line.has("--first-block") ? line.count("--first-block", 1) : 0;
     Outcome outcome;
     const std::string file = line.text("--markdown", "");
     for (const std::string& spec : line.rest) {
-        run(spec, rays, embree_rays / line.rest.size(), outcome);
+        run(spec, rays, embree_rays / line.rest.size(), first_block, outcome);
         if (!file.empty()) write_file_atomically(file, outcome.markdown);
     }
     fmt::print("{} rays got out of wide_bvh\n", outcome.our_misses);
