@@ -1,6 +1,6 @@
 #include "alhazen/scene/wide_bvh_check.h"
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <type_traits>
@@ -63,9 +63,15 @@ const char* check_nodes(const WideBvhLayout& layout) {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
         const WideNode& node = tree.nodes[i];
         if (!is_ordered(node)) return "the order of some children is none";
+        bool ended = false;
         for (std::size_t slot = 0; slot < kWideNodeWidth; ++slot) {
             const NodeRef child = node.child[slot];
-            if (is_free(node, slot)) continue;
+            if (is_free(node, slot)) {
+                ended = true;
+                continue;
+            }
+            // Who counts the slots takes the first ones.
+            if (ended) return "a node has a free slot before one in use";
             if (child.is_leaf()) {
                 if (!leads_to_leaf(layout, child)) return "a node leads out of the leaves";
                 continue;
@@ -86,25 +92,33 @@ bool names_kind(const PrimitiveTable& table, BlockId id, std::uint32_t kind) {
     return table.first(kind) <= i && i < table.first(kind + 1);
 }
 
+/// The lanes in use are the first, and hold primitives of the kind.
+bool names_kind(const PrimitiveTable& table, const BlockId (&ids)[kBlockWidth],
+                std::uint32_t kind) {
+    bool ended = false;
+    for (const BlockId id : ids) {
+        if (id.used() && (ended || !names_kind(table, id, kind))) return false;
+        ended = ended || !id.used();
+    }
+    return true;
+}
+
 const char* check_leaves(const WideBvhLayout& layout, const PrimitiveTable& table) {
-    constexpr const char* kMessage = "a leaf names a primitive that is not there";
+    constexpr const char* kMessage = "a leaf has a gap or names a primitive that is not there";
     const auto name_triangles = [&](const auto& blocks) {
-        for (const auto& block : blocks) {
-            for (const BlockId id : block.ids) {
-                if (id.used() && !names_kind(table, id, kTriangleKind)) return false;
-            }
-        }
-        return true;
+        return std::all_of(blocks.begin(), blocks.end(), [&](const auto& block) {
+            return names_kind(table, block.ids, kTriangleKind);
+        });
     };
     if (!name_triangles(layout.triangles) || !name_triangles(layout.indices)) return kMessage;
     constexpr std::uint32_t kSphereKind = 0;
     static_assert(std::is_same_v<std::tuple_element_t<kSphereKind, decltype(table.columns)>,
                                  ShapeColumn<Sphere>>);
     for (const SphereBlock& block : layout.spheres) {
-        if (block.lanes >> kBlockWidth != 0) return kMessage;
-        for (std::uint32_t rest = block.lanes; rest != 0; rest &= rest - 1) {
-            const BlockId id = block.ids[std::countr_zero(rest)];
-            if (!id.used() || !names_kind(table, id, kSphereKind)) return kMessage;
+        const std::uint32_t used = used_lanes(block);
+        if (used == 0 || block.lanes != (1u << used) - 1 ||
+            !names_kind(table, block.ids, kSphereKind)) {
+            return kMessage;
         }
     }
     for (const PrimitiveId id : layout.others) {

@@ -206,11 +206,12 @@ TEST(WideBvhFile, OtherGeometryIsRefused) {
 }
 
 /// A tree that someone forges: saved as it is, so that its checksum is right.
-std::string forged(const std::function<void(StoredWideBvh&)>& forge) {
+std::string forged(const std::function<void(StoredWideBvh&)>& forge,
+                   const BuildOptions& options = {}) {
     const ScratchFolder folder;
     const PrimitiveTable table = table_of(200, 20, 10, 1);
     const auto path = folder.path() / "tree";
-    WideBvhAggregate(table).save(path);
+    WideBvhAggregate(table, options).save(path);
     StoredWideBvh tree = load_wide_bvh(path, table);
     forge(tree);
     save_wide_bvh(path, tree.layout, tree.box, tree.unbounded, table);
@@ -255,6 +256,9 @@ TEST(WideBvhFile, ReferencesThatLeadNowhereAreRefused) {
             t.layout.spheres[0].ids[0] = {PrimitiveId{30}, true, false};
         },
         [](auto& t) { t.layout.spheres[0].lanes |= 1u << 20; },
+        [](auto& t) { t.layout.spheres[0].lanes = 0; },
+        [](auto& t) { t.layout.triangles[1].ids[0] = BlockId::none(); },
+        [](auto& t) { t.layout.tree.nodes[0].set_box(0, FloatBox{}); },
         [](auto& t) { t.layout.others[0] = PrimitiveId{5000}; },
         [](auto& t) { t.unbounded[0] = PrimitiveId{5000}; },
         [&](auto& t) { t.layout.frame.scale = nan; },
@@ -266,6 +270,13 @@ TEST(WideBvhFile, ReferencesThatLeadNowhereAreRefused) {
         EXPECT_NE(forged(forge).find("not sound"), std::string::npos) << number;
         ++number;
     }
+}
+
+TEST(WideBvhFile, FreeLanesBeforeOthersAreRefusedInLeavesOfNumbers) {
+    const BuildOptions options{.leaves = Leaves::Indices};
+    EXPECT_EQ(forged([](auto&) {}, options), "");
+    const auto free_first = [](auto& t) { t.layout.indices[1].ids[0] = BlockId::none(); };
+    EXPECT_NE(forged(free_first, options).find("not sound"), std::string::npos);
 }
 
 TEST(WideBvhFile, CountsThatAreTooLargeAreRefused) {
