@@ -54,14 +54,55 @@ bool TriangleSplitter::can_split(std::uint32_t kind) const {
     return kind == static_cast<std::uint32_t>(LeafType::Triangles);
 }
 
+std::array<Vec3, 3> TriangleSplitter::corners(const BuildReference& reference) const {
+    std::array<Vec3, 3> corners =
+        table_.triangle_vertices(reference.id - table_.first(kTriangleKind));
+    for (Vec3& p : corners) p = frame_.local(p);
+    return corners;
+}
+
 void TriangleSplitter::split(const BuildReference& reference, int axis, float plane,
                              FloatBox& below, FloatBox& above) const {
-    const std::uint32_t triangle = reference.id - table_.first(kTriangleKind);
-    std::array<Vec3, 3> corners = table_.triangle_vertices(triangle);
-    for (Vec3& p : corners) p = frame_.local(p);
-    split_triangle(corners, axis, static_cast<double>(plane), below, above);
+    split_triangle(corners(reference), axis, static_cast<double>(plane), below, above);
     intersect(below, reference);
     intersect(above, reference);
+}
+
+void TriangleSplitter::slice(const BuildReference& reference, const BinPlanes& planes, int first,
+                             int last, Box4* slices) const {
+    const int axis = planes.axis;
+    Float4 p[3];
+    for (int i = 0; const Vec3& corner : corners(reference)) {
+        p[i++] = Float4{static_cast<float>(corner.x), static_cast<float>(corner.y),
+                        static_cast<float>(corner.z), 0};
+    }
+    std::fill_n(slices, last - first + 1, Box4());
+    // A corner goes to its bin, a cut to both that it parts.
+    const auto include = [&](int bin, Float4 point) {
+        if (first <= bin && bin <= last) slices[bin - first].include_point(point);
+    };
+    for (int i = 0; i < 3; ++i) {
+        const Float4 a = p[i], b = p[(i + 1) % 3];
+        const int from = planes.bin(a[axis]), to = planes.bin(b[axis]);
+        include(from, a);
+        if (from == to) continue;
+        const Float4 along = (b - a) * (1 / (b[axis] - a[axis]));
+        const int end = std::min(std::max(from, to), last + 1);
+        for (int k = std::max(std::min(from, to) + 1, first); k <= end; ++k) {
+            const Float4 cut = a + along * (planes(k) - a[axis]);
+            include(k - 1, cut);
+            include(k, cut);
+        }
+    }
+    const Box4 all(reference);
+    for (int i = 0; i <= last - first; ++i) {
+        Box4& slice = slices[i];
+        slice.lo = slice.lo < all.lo ? all.lo : slice.lo;
+        slice.hi = slice.hi > all.hi ? all.hi : slice.hi;
+        if (slice.lo[0] > slice.hi[0] || slice.lo[1] > slice.hi[1] || slice.lo[2] > slice.hi[2]) {
+            slice = Box4();
+        }
+    }
 }
 
 }  // namespace alhazen

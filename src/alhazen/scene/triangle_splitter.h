@@ -23,8 +23,13 @@ class TriangleSplitter final : public ReferenceSplitter {
     [[nodiscard]] bool can_split(std::uint32_t kind) const override;
     void split(const BuildReference& reference, int axis, float plane, FloatBox& below,
                FloatBox& above) const override;
+    void slice(const BuildReference& reference, const BinPlanes& planes, int first, int last,
+               Box4* slices) const override;
 
   private:
+    /// In the frame of the tree.
+    [[nodiscard]] std::array<Vec3, 3> corners(const BuildReference& reference) const;
+
     const PrimitiveTable& table_;
     const LocalFrame& frame_;
 };

@@ -168,5 +168,54 @@ TEST(BuildQuality, PartsOfATriangleOnBothSidesOfAPlaneHoldAllOfIt) {
     }
 }
 
+TEST(BuildQuality, SlicesOfATriangleHoldItsPointsAndAreNoLargerThanByRepeatedSplits) {
+    const PrimitiveTable table = random_triangles(2000, 1, 1, 50);
+    const LocalFrame frame(Box3{{-2, -2, -2}, {2, 2, 2}});
+    const TriangleSplitter splitter(table, frame);
+    Random random(51);
+    constexpr float kRounding = 1e-6f;
+    for (std::uint32_t id = 0; id < table.size(); ++id) {
+        std::array<Vec3, 3> t = table.triangle_vertices(id);
+        for (Vec3& p : t) p = frame.local(p);
+        // Of every other triangle a part only.
+        FloatBox box = frame.local(table.box(id)), rest;
+        const int axis = uniform_int(random, 0, 2);
+        BuildReference r(box, id, 0);
+        if (id % 2 == 0) {
+            const int other = uniform_int(random, 0, 2);
+            splitter.split(r, other, 0.25f * r.lo[other] + 0.75f * r.hi[other], box, rest);
+            r.set_box(box);
+        }
+        const BinPlanes planes(Box4(frame.local(Box3{{-2, -2, -2}, {2, 2, 2}})), axis, 16);
+        const int first = planes.bin(r.lo[axis]), last = planes.bin(r.hi[axis]);
+        Box4 slices[16], split[16];
+        splitter.slice(r, planes, first, last, slices);
+        splitter.ReferenceSplitter::slice(r, planes, first, last, split);
+        for (int i = 0; i <= last - first; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                if (slices[i].lo[0] > slices[i].hi[0]) continue;
+                ASSERT_GE(slices[i].lo[k], split[i].lo[k] - kRounding) << id;
+                ASSERT_LE(slices[i].hi[k], split[i].hi[k] + kRounding) << id;
+            }
+        }
+        for (int n = 0; n < 50; ++n) {
+            double u = uniform(random, 0, 1), v = uniform(random, 0, 1);
+            if (u + v > 1) u = 1 - u, v = 1 - v;
+            const Vec3 p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+            bool inside = true;
+            for (int k = 0; k < 3; ++k) {
+                const auto x = static_cast<float>(p[k]);
+                inside = inside && r.lo[k] <= x && x <= r.hi[k];
+            }
+            if (!inside) continue;
+            const Box4& slice = slices[planes.bin(static_cast<float>(p[axis])) - first];
+            for (int k = 0; k < 3; ++k) {
+                ASSERT_LE(slice.lo[k], static_cast<float>(p[k]) + kRounding) << id;
+                ASSERT_GE(slice.hi[k], static_cast<float>(p[k]) - kRounding) << id;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace alhazen

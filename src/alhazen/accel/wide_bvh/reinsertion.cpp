@@ -8,8 +8,8 @@ namespace alhazen {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-/// Nodes that one search looks at.
-constexpr int kMaxVisits = 512;
+/// Nodes that one search looks at: five times as many as it does on the average in a mesh.
+constexpr int kMaxVisits = 96;
 constexpr std::size_t kGrain = 512;
 
 struct Move {
@@ -70,7 +70,7 @@ class Optimizer {
             float saved = nodes[pivot].box.weight();
             FloatBox rest;  // the box of the pivot without x
             int visits = 0;
-            for (bool first = true; visits < kMaxVisits; first = false) {
+            for (bool first = true; visits < kMaxVisits; first = false, ++visits) {
                 const std::uint32_t sibling = tree_.sibling(below);
                 descend(sibling, saved, box, area, best, visits, first);
                 rest.include(nodes[sibling].box);
@@ -176,19 +176,25 @@ class Optimizer {
         nodes_[p].right = x;
         parent_[target] = parent_[x] = p;
         refit_from(g);
-        refit_from(p);
+        (void)refit(p);
+        refit_from(q);
     }
     void replace_child(std::uint32_t parent, std::uint32_t from, std::uint32_t to) {
         DraftNode& node = nodes_[parent];
         (node.left == from ? node.left : node.right) = to;
         parent_[to] = parent;
     }
+    /// From a node whose children are others now up to where nothing changes.
     void refit_from(std::uint32_t i) {
-        for (; i != kNone; i = parent_[i]) {
-            FloatBox box = nodes_[nodes_[i].left].box;
-            box.include(nodes_[nodes_[i].right].box);
-            nodes_[i].box = box;
-        }
+        while (i != kNone && refit(i)) i = parent_[i];
+    }
+    /// True when the box is another one then.
+    bool refit(std::uint32_t i) {
+        FloatBox box = nodes_[nodes_[i].left].box;
+        box.include(nodes_[nodes_[i].right].box);
+        const bool changed = !(box == nodes_[i].box);
+        nodes_[i].box = box;
+        return changed;
     }
 
     std::vector<DraftNode>& nodes_;

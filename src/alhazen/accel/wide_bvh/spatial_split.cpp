@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/accel/wide_bvh/sah_split.h"
 #include "alhazen/parallel/parallel.h"
 
 namespace alhazen {
@@ -53,48 +52,25 @@ struct SpatialSplit {
     Side left, right;
 };
 
-/// Planes at equal distances along an axis of a box.
-struct Planes {
-    int bins;
-    float lo, step;
-
-    Planes(const Box4& box, int axis, int count)
-        : bins(count),
-          lo(box.lo[axis]),
-          step((box.hi[axis] - box.lo[axis]) / static_cast<float>(count)) {}
-    /// The plane below bin i.
-    [[nodiscard]] float operator()(int i) const { return lo + static_cast<float>(i) * step; }
-    [[nodiscard]] int bin(float x) const {
-        const float place = (x - lo) / step;
-        return place < static_cast<float>(bins - 1) ? static_cast<int>(place) : bins - 1;
-    }
-    [[nodiscard]] bool usable() const { return lo + step > lo && step > 1e-30f; }
-};
-
-void add(SpatialBin* bins, const BuildReference& r, int axis, const Planes& planes,
+void add(SpatialBin* bins, const BuildReference& r, const BinPlanes& planes,
          const ReferenceSplitter& splitter) {
+    const int axis = planes.axis;
     const bool whole = !splitter.can_split(r.kind);
-    const float center = 0.5f * r.center2(axis);
-    const int first = planes.bin(whole ? center : r.lo[axis]);
+    const int first = planes.bin(whole ? 0.5f * r.center2(axis) : r.lo[axis]);
     const int last = whole ? first : planes.bin(r.hi[axis]);
     ++bins[first].enter[r.kind];
     ++bins[last].leave[r.kind];
-    BuildReference rest = r;
-    for (int i = first; i < last; ++i) {
-        FloatBox below, above;
-        splitter.split(rest, axis, planes(i + 1), below, above);
-        if (!is_empty(below)) bins[i].box.include(Box4(below));
-        if (is_empty(above)) return;
-        rest.set_box(above);
-    }
-    bins[last].box.include(Box4(rest));
+    if (first == last) return bins[first].box.include(Box4(r));
+    Box4 slices[kMaxBins];
+    splitter.slice(r, planes, first, last, slices);
+    for (int i = first; i <= last; ++i) bins[i].box.include(slices[i - first]);
 }
 
 void add(KindCounts& a, const KindCounts& b) {
     for (std::size_t k = 0; k < kLeafKinds; ++k) a[k] += b[k];
 }
 
-void best_plane(const SpatialBin* bins, int axis, const Planes& planes, const LeafKinds& kinds,
+void best_plane(const SpatialBin* bins, const BinPlanes& planes, const LeafKinds& kinds,
                 SpatialSplit& best) {
     Side rights[kMaxBins];
     Side right;
@@ -111,7 +87,7 @@ void best_plane(const SpatialBin* bins, int axis, const Planes& planes, const Le
         if (total(left.count) == 0 || total(other.count) == 0) continue;
         const float cost = left.box.weight() * blocks_cost(left.count, kinds) +
                            other.box.weight() * blocks_cost(other.count, kinds);
-        if (cost < best.cost) best = {cost, axis, planes(b + 1), left, other};
+        if (cost < best.cost) best = {cost, planes.axis, planes(b + 1), left, other};
     }
 }
 
@@ -121,6 +97,28 @@ struct Room {
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
     [[nodiscard]] std::uint32_t capacity() const { return limit - begin; }
+};
+
+/// Whether to look for a spatial split on the way down. Where several in a row brought nothing,
+/// more and more levels are passed over: a search looks at all references, and there are many
+/// levels.
+class Patience {
+  public:
+    /// Asked once on each level.
+    [[nodiscard]] bool tries() {
+        if (wait_ == 0) return true;
+        --wait_;
+        return false;
+    }
+    void note(bool found) {
+        failures_ = found ? 0 : failures_ + 1;
+        wait_ = failures_ < kInARow ? 0 : 1 << std::min(failures_ - kInARow, 8);
+    }
+
+  private:
+    static constexpr int kInARow = 4;
+    int failures_ = 0;
+    int wait_ = 0;  ///< levels to pass over
 };
 
 class Builder {
@@ -137,21 +135,24 @@ class Builder {
         references_.resize(std::max(count, limit));
         nodes_ = std::make_unique_for_overwrite<BinaryNode[]>(2 * references_.size());
         least_overlap_ = kAlpha * half_area(all.box.box());
-        build({0, count, static_cast<std::uint32_t>(references_.size())}, all, 0, 0);
+        build({0, count, static_cast<std::uint32_t>(references_.size())}, all, 0, 0, {});
         return {std::move(nodes_), static_cast<std::uint32_t>(2 * references_.size()), false};
     }
 
   private:
     /// Subtrees with room for n references live in 2 n - 1 consecutive nodes.
-    void build(const Room& room, const RangeSummary& all, std::uint32_t index, int level) {
+    void build(const Room& room, const RangeSummary& all, std::uint32_t index, int level,
+               Patience patience) {
         nodes_[index] = {all.box.box(), room.begin, room.end, 0, all.kind()};
         if (all.indivisible(kinds_)) return;
         RangeSummary left, right;
-        const auto rooms = divide_room(room, all, level, left, right);
+        const auto rooms = divide_room(room, all, level, patience, left, right);
         const std::uint32_t right_index = index + 2 * rooms.first.capacity();
         nodes_[index].right = right_index;
-        const auto build_left = [&] { build(rooms.first, left, index + 1, level + 1); };
-        const auto build_right = [&] { build(rooms.second, right, right_index, level + 1); };
+        const auto build_left = [&] { build(rooms.first, left, index + 1, level + 1, patience); };
+        const auto build_right = [&] {
+            build(rooms.second, right, right_index, level + 1, patience);
+        };
         if (room.size() >= kParallelBuildSize) {
             parallel_invoke(build_left, build_right);
         } else {
@@ -161,13 +162,17 @@ class Builder {
     }
 
     std::pair<Room, Room> divide_room(const Room& room, const RangeSummary& all, int level,
-                                      RangeSummary& left, RangeSummary& right) {
+                                      Patience& patience, RangeSummary& left, RangeSummary& right) {
         const std::span<BuildReference> range = span_of(room);
         ObjectSplit object;
         if (level < kMaxSahLevel) {
             object = best_object_split(range, all, kinds_);
             std::pair<Room, Room> rooms;
-            if (try_spatial(room, all, object, left, right, rooms)) return rooms;
+            if (patience.tries() && is_worth_a_try(room, all, object)) {
+                const bool found = try_spatial(room, all, object, left, right, rooms);
+                patience.note(found);
+                if (found) return rooms;
+            }
         }
         const std::uint32_t middle = object.axis >= 0 ? divide(range, all, object, left, right)
                                                       : divide_evenly(range, all, left, right);
@@ -192,12 +197,14 @@ class Builder {
         return {{room.begin, room.begin + left, middle}, {middle, middle + right, room.limit}};
     }
 
+    [[nodiscard]] bool is_worth_a_try(const Room& room, const RangeSummary& all,
+                                      const ObjectSplit& object) const {
+        if (room.capacity() == room.size() || fits_one_block(all)) return false;
+        return object.axis < 0 || overlap(object.left, object.right) > least_overlap_;
+    }
+
     bool try_spatial(const Room& room, const RangeSummary& all, const ObjectSplit& object,
                      RangeSummary& left, RangeSummary& right, std::pair<Room, Room>& rooms) {
-        if (room.capacity() == room.size() || fits_one_block(all)) return false;
-        if (object.axis >= 0 && !(overlap(object.left, object.right) > least_overlap_)) {
-            return false;
-        }
         const SpatialSplit split = best_spatial_split(span_of(room), all);
         if (!(split.cost < object.cost)) return false;
         std::vector<BuildReference> sides[2];
@@ -224,11 +231,11 @@ class Builder {
         const auto search = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const int axis = static_cast<int>(i);
-                const Planes planes(all.box, axis, bins_for(range.size()));
+                const BinPlanes planes(all.box, axis, bins_for(range.size()));
                 if (!planes.usable()) continue;
                 SpatialBin bins[kMaxBins];
-                for (const BuildReference& r : range) add(bins, r, axis, planes, splitter_);
-                best_plane(bins, axis, planes, kinds_, best_of[axis]);
+                for (const BuildReference& r : range) add(bins, r, planes, splitter_);
+                best_plane(bins, planes, kinds_, best_of[axis]);
             }
         };
         if (range.size() >= kParallelBuildSize) {
@@ -303,6 +310,21 @@ class Builder {
 };
 
 }  // namespace
+
+void ReferenceSplitter::slice(const BuildReference& reference, const BinPlanes& planes, int first,
+                              int last, Box4* slices) const {
+    BuildReference rest = reference;
+    bool more = true;
+    for (int i = first; i <= last; ++i, ++slices) {
+        *slices = Box4();
+        if (!more) continue;
+        FloatBox below = rest.box(), above;
+        if (i < last) split(rest, planes.axis, planes(i + 1), below, above);
+        if (!is_empty(below)) *slices = Box4(below);
+        more = !is_empty(above);
+        if (more) rest.set_box(above);
+    }
+}
 
 BinaryBvh build_with_spatial_splits(std::vector<BuildReference>& references, const LeafKinds& kinds,
                                     const ReferenceSplitter& splitter) {

@@ -13,9 +13,31 @@
 
 #include <vector>
 
-#include "alhazen/accel/wide_bvh/build_types.h"
+#include "alhazen/accel/wide_bvh/sah_split.h"
 
 namespace alhazen {
+
+/// Planes at equal distances along an axis of a box, and the bins between them.
+struct BinPlanes {
+    int axis, bins;
+    float lo, step, per_step;
+
+    BinPlanes(const Box4& box, int of_axis, int count)
+        : axis(of_axis),
+          bins(count),
+          lo(box.lo[of_axis]),
+          step((box.hi[of_axis] - box.lo[of_axis]) / static_cast<float>(count)),
+          per_step(1 / step) {}
+    /// The plane below bin i.
+    [[nodiscard]] float operator()(int i) const { return lo + static_cast<float>(i) * step; }
+    [[nodiscard]] int bin(float x) const {
+        const float place = (x - lo) * per_step;
+        // Written so that a NaN is in the first.
+        if (!(place > 0)) return 0;
+        return place < static_cast<float>(bins - 1) ? static_cast<int>(place) : bins - 1;
+    }
+    [[nodiscard]] bool usable() const { return lo + step > lo && step > 1e-30f; }
+};
 
 /// Divides primitives for the builder, which knows nothing of them.
 class ReferenceSplitter {
@@ -26,6 +48,10 @@ class ReferenceSplitter {
     /// side of the plane and on that; empty where there are none. From many threads.
     virtual void split(const BuildReference& reference, int axis, float plane, FloatBox& below,
                        FloatBox& above) const = 0;
+    /// About the boxes of its parts in the bins from `first` to `last`, one of them each; empty
+    /// ones where it is not. For costs only, so rounding does not matter. From many threads.
+    virtual void slice(const BuildReference& reference, const BinPlanes& planes, int first,
+                       int last, Box4* slices) const;
 };
 
 /// References may become this many times as many.
