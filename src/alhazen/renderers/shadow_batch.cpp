@@ -1,5 +1,6 @@
 #include "alhazen/renderers/shadow_batch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/renderers/attenuation.h"
@@ -14,6 +15,8 @@ using ShadowTint = ShadingConventions::ShadowTint;
 /// Rays that are cast together: enough to keep the stream kernel busy, few enough to stay near the
 /// core with what belongs to them.
 constexpr std::size_t kMostRays = 512;
+/// Where more than one of so many rays meets something, every ray is asked what it meets.
+constexpr std::uint64_t kFewMeet = 4;
 
 }  // namespace
 
@@ -22,7 +25,7 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
       count_(counters[RayKind::Shadow]),
       stats_(stats),
       opaque_(scene.all_opaque || scene.conventions.shadow_tint == ShadowTint::Opaque),
-      blocked_(std::make_unique<bool[]>(kMostRays)) {
+      met_(std::make_unique<bool[]>(kMostRays)) {
     rays_.reserve(kMostRays);
     waiting_.reserve(kMostRays);
 }
@@ -40,19 +43,29 @@ void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rg
 
 void ShadowBatch::finish() {
     if (rays_.empty()) return;
-    const std::span<bool> blocked(blocked_.get(), rays_.size());
-    scene_.aggregate->occluded_batch(rays_, blocked, stats_);
+    const std::span<bool> met(met_.get(), rays_.size());
+    if (asks_first()) {
+        scene_.aggregate->occluded_batch(rays_, met, stats_);
+    } else {
+        std::fill(met.begin(), met.end(), true);
+    }
     count_.cast += rays_.size();
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         const Waiting& w = waiting_[i];
-        const Rgb through = let_through(rays_[i], *w.path, blocked[i]);
+        const Rgb through = let_through(rays_[i], *w.path, met[i]);
         if (!through.is_black()) *w.sum += through * w.intensity * w.fraction;
     }
     rays_.clear();
     waiting_.clear();
 }
 
-/// What is left of the light; `met`: there is something on the way.
+/// Whether it pays to find out which rays meet anything at all, and to ask only those what it is.
+/// What is counted must not depend on the rays before.
+bool ShadowBatch::asks_first() const {
+    return opaque_ || (stats_ == nullptr && kFewMeet * count_.hit <= count_.cast);
+}
+
+/// What is left of the light; `met`: there may be something on the way.
 Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     if (opaque_) {
         count_.hit += met;

@@ -2,8 +2,9 @@
 /// Light on its way to many points: shadow rays are gathered, then cast together.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (shadow rays); UW CSE
-/// 457, Trace project (light through transparent surfaces). Differs: only rays that meet anything
-/// are asked what they meet; what that does is as ShadingConventions::ShadowTint says.
+/// 457, Trace project (light through transparent surfaces). Differs: where few rays meet
+/// anything, only those are asked what they meet; what that does is as
+/// ShadingConventions::ShadowTint says.
 
 #include <memory>
 #include <span>
@@ -35,6 +36,7 @@ class ShadowBatch {
         Rgb intensity, fraction;
     };
 
+    [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
     /// What the transparent surfaces in `crossings_` leave of light along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
@@ -49,7 +51,7 @@ class ShadowBatch {
     bool opaque_;  ///< whatever is in between ends the light
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
-    std::unique_ptr<bool[]> blocked_;
+    std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
     std::vector<Rgb> media_;  ///< absorption of the volumes that a shadow ray is inside of
 };

@@ -24,7 +24,7 @@ class VisibleBatch {
     void find(std::span<const Ray> rays, PathOf&& path, Tell&& tell) {
         behind_.clear();
         for (std::size_t k = 0; const Hit& hit : closest(rays)) {
-            meet(k, rays[k], {rays[k], k, 0.0}, hit, path(k), tell);
+            meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
             ++k;
         }
         for (int passed = 0; passed < kMaxPassedSurfaces && !behind_.empty(); ++passed) {
@@ -34,7 +34,7 @@ class VisibleBatch {
             for (const Passed& p : on_way_) rest_.push_back(p.rest);
             for (std::size_t i = 0; const Hit& hit : closest(rest_)) {
                 const Passed& p = on_way_[i++];
-                meet(p.ray, rays[p.ray], p, hit, path(p.ray), tell);
+                meet(p.ray, rays[p.ray], p.rest, p.distance, hit, path(p.ray), tell);
             }
         }
         for (const Passed& p : behind_) tell(p.ray, static_cast<const ShadingPoint*>(nullptr), 0.0);
@@ -50,15 +50,16 @@ class VisibleBatch {
 
     [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays);
 
+    /// `rest`: ray k from the last surface on, `distance` behind the origin of `whole`.
     template <class Path, class Tell>
-    void meet(std::size_t k, const Ray& whole, const Passed& on_way, const Hit& hit,
+    void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
               const Path& path, Tell&& tell) {
         if (!hit.found()) {
             tell(k, static_cast<const ShadingPoint*>(nullptr), 0.0);
             return;
         }
-        const double t = on_way.distance + hit.t;
-        set_shading_point(scene_, on_way.rest, hit, path.inside, path.cone.width_at(t), point_);
+        const double t = distance + hit.t;
+        set_shading_point(scene_, rest, hit, path.inside, path.cone.width_at(t), point_);
         if (point_.material.coverage > 0.0) {
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;
