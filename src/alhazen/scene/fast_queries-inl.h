@@ -50,6 +50,22 @@ struct FastQuery : LeafQuery<Derived> {
     HWY_INLINE FastQuery(const WideBvhScene& s, const Ray& r) : LeafQuery<Derived>(s, r) {}
 
     static HWY_INLINE DistanceBound slab_slack(const LocalFrame&) { return {0.0f, 0.0f}; }
+
+    /// The ray does not fit into float (LocalRay::regular): its triangles are tested in double.
+    [[nodiscard]] HWY_INLINE bool is_beyond_float() const { return this->parameter.scale == 0; }
+    template <class Stats>
+    HWY_NOINLINE bool block_in_double(const TriangleBlock& triangles, Stats stats) {
+        const std::uint32_t used = used_lanes(triangles);
+        for (std::size_t lane = 0; lane < used; ++lane) {
+            const BlockId id = triangles.ids[lane];
+            const auto [a, b, c] = this->scene.table->triangle_vertices(this->triangle(id.id()));
+            ShapeHit hit;
+            if (!intersect_triangle(this->ray, this->shear(), a, b, c, hit)) continue;
+            stats.primitive_hits(1);
+            if (static_cast<Derived&>(*this).crossing(id, hit)) return true;
+        }
+        return false;
+    }
 };
 
 struct FastClosestQuery : FastQuery<FastClosestQuery> {
@@ -65,6 +81,7 @@ struct FastClosestQuery : FastQuery<FastClosestQuery> {
 
     template <class Stats>
     HWY_INLINE bool block(const TriangleBlock& triangles, Stats stats) {
+        if (HWY_UNLIKELY(is_beyond_float())) return block_in_double(triangles, stats);
         const FastTriangles found = test_triangles(triangles, filter, slabs.s_min, s_max);
         std::uint32_t rest = found.hit;
         if (rest == 0) return false;
@@ -122,6 +139,7 @@ struct FastOccludedQuery : FastQuery<FastOccludedQuery> {
 
     template <class Stats>
     HWY_INLINE bool block(const TriangleBlock& triangles, Stats stats) {
+        if (HWY_UNLIKELY(is_beyond_float())) return block_in_double(triangles, stats);
         std::uint32_t rest = test_triangles(triangles, filter, slabs.s_min, s_max).hit;
         for (; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));

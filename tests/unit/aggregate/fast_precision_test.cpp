@@ -83,6 +83,36 @@ TEST(FastPrecision, AllHitsAndShadowsStayExact) {
     EXPECT_GT(several, 100u);
 }
 
+TEST(FastPrecision, RaysThatDoNotFitIntoFloatHaveTheHitsOfTheList) {
+    for (const double scale : {1.0, 1e-65}) {
+        TableBuilder builder;
+        Random random(59);
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 p = uniform_point(random, scale);
+            const auto near = [&] { return p + uniform_point(random, 0.5 * scale); };
+            builder.add_triangle(near(), near(), near());
+        }
+        const PrimitiveTable table = builder.finish();
+        const auto list = make_aggregate("list", table);
+        const auto fast = fast_tree(table);
+        std::size_t found = 0;
+        for (int i = 0; i < 1000; ++i) {
+            // In an ordinary scene: from too far away, aimed at it or not, or in too small steps.
+            const double away = scale == 1.0 && i % 3 != 0 ? 0x1p42 : 2 * scale;
+            const double step = scale == 1.0 && i % 3 == 0 ? 0x1p-210 : 1;
+            Ray ray{uniform_point(random, away), {}};
+            if (away > 2) ray.origin.y = away;
+            const Vec3 target = uniform_point(random, scale);
+            ray.direction = i % 2 == 0 ? step * (target - ray.origin) : uniform_point(random, step);
+            const Answer exact = ask(*list, ray);
+            const Answer quick = ask(*fast, ray);
+            ASSERT_EQ(difference(exact, quick), "") << show(ray);
+            found += exact.found;
+        }
+        EXPECT_GT(found, 50u) << scale;
+    }
+}
+
 TEST(FastPrecision, TheListKnowsNoOther) {
     const PrimitiveTable table = random_triangles(50, 1, 0.5, 57);
     const auto list = make_aggregate("list", table);
