@@ -1,5 +1,6 @@
 #include "alhazen/scene/refit.h"
 
+#include <cmath>
 #include <vector>
 
 #include "alhazen/base/error.h"
@@ -90,13 +91,23 @@ class Refit {
         }
     }
     void include(FloatBox& box, PrimitiveId id) const {
-        Box3 its = table_.box(static_cast<std::uint32_t>(id));
-        if (its.empty() && table_.kind(id) == kTriangleKind) {
-            // Two vertices met: it cannot be hit, but the leaf needs a box.
-            for (const Vec3& p : table_.triangle_vertices(table_.index(id))) its.include(p);
+        const Box3 its = table_.box(static_cast<std::uint32_t>(id));
+        box.include(its.empty() ? point_of(id) : layout_.frame.local(its));
+    }
+    /// A point for what cannot be hit: the leaf needs a box, and one within the frame, wherever the
+    /// vertices are that met.
+    [[nodiscard]] FloatBox point_of(PrimitiveId id) const {
+        FloatBox point;
+        Vec3 p{};
+        if (table_.kind(id) == kTriangleKind) {
+            p = layout_.frame.local(table_.triangle_vertices(table_.index(id))[0]);
         }
-        if (its.empty()) its.include(layout_.frame.center);
-        box.include(layout_.frame.local(its));
+        for (int k = 0; k < 3; ++k) {
+            // Written so that a NaN becomes 0.
+            const double x = std::abs(p[k]) <= 1 ? p[k] : p[k] > 0 ? 1.0 : p[k] < 0 ? -1.0 : 0.0;
+            point.lo[k] = point.hi[k] = static_cast<float>(x);
+        }
+        return point;
     }
 
     WideBvhLayout& layout_;

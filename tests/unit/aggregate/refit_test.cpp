@@ -73,6 +73,32 @@ TEST(Refit, ATriangleWhoseVerticesMeetIsNotHitUntilTheyPart) {
     compare(without, met, 1);
 }
 
+TEST(Refit, TrianglesThatVanishFarAwayTakeNothingWithThem) {
+    for (const double far : {10.0, 1e30, 1e100, std::numeric_limits<double>::infinity()}) {
+        const auto scattered = [far](int alive) {
+            Random random(53);
+            TableBuilder builder;
+            for (int i = 0; i < 400; ++i) {
+                const Vec3 a = uniform_point(random, 1), b = a + uniform_point(random, 0.3);
+                const Vec3 c = a + uniform_point(random, 0.3);
+                const Vec3 gone{far, -far, far};
+                if (i % 20 < alive) {
+                    builder.add_triangle(a, b, c);
+                } else {
+                    builder.add_triangle(gone, gone, c);
+                }
+            }
+            return builder.finish();
+        };
+        for (const int alive : {19, 10, 1}) {
+            WideBvhAggregate tree(scattered(20));
+            const PrimitiveTable some = scattered(alive);
+            EXPECT_TRUE(std::isfinite(tree.refit(some).cost)) << far;
+            compare(tree, some, 1);
+        }
+    }
+}
+
 TEST(Refit, RefusesOtherPrimitives) {
     WideBvhAggregate tree(moving(1, 0, 1));
     EXPECT_THROW((void)tree.refit(random_triangles(10, 1, 0.3, 1)), Error);
