@@ -1,6 +1,7 @@
 #include "alhazen/scene/wide_bvh_file.h"
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -172,6 +173,10 @@ void save_wide_bvh(const std::filesystem::path& path, const WideBvhLayout& layou
     header.empty = layout.tree.empty;
     header.depth = layout.tree.depth;
     header.frame = layout.frame;
+    // The gap behind the flag was copied with whatever it held.
+    constexpr std::size_t kGap = offsetof(LocalFrame, usual) + sizeof(LocalFrame::usual);
+    std::memset(reinterpret_cast<std::byte*>(&header.frame) + kGap, 0,
+                offsetof(LocalFrame, slack) - kGap);
     header.box = box;
     std::vector<std::span<const std::byte>> arrays;
     const auto add = [&](const auto& array) {
