@@ -32,13 +32,14 @@ std::size_t count_batch_differences(const Aggregate& aggregate, const RaySet& se
     const auto occluded = std::make_unique<bool[]>(kBatch);
     std::vector<Hit> hits(kBatch);
     std::size_t count = 0;
+    const Coherence coherence = set.coherent ? Coherence::Coherent : Coherence::Any;
     for (std::size_t i = 0; i < set.rays.size(); i += kBatch) {
         const std::size_t n = std::min(kBatch, set.rays.size() - i);
         const std::span<const Ray> rays(&set.rays[i], n);
         if (set.any_hit) {
-            aggregate.occluded_batch(rays, {occluded.get(), n}, nullptr);
+            aggregate.occluded_batch(rays, {occluded.get(), n}, nullptr, coherence);
         } else {
-            aggregate.closest_batch(rays, std::span(hits).first(n), nullptr);
+            aggregate.closest_batch(rays, std::span(hits).first(n), nullptr, coherence);
         }
         for (std::size_t k = 0; k < n; ++k) {
             if (set.any_hit) {

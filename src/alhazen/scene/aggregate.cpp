@@ -2,13 +2,13 @@
 
 namespace alhazen {
 
-void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
-                              TraversalStats* stats) const {
+void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, TraversalStats* stats,
+                              Coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) (void)closest(rays[i], hits[i], stats);
 }
 
 void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result,
-                               TraversalStats* stats) const {
+                               TraversalStats* stats, Coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], stats);
 }
 

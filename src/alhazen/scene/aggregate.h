@@ -18,6 +18,14 @@ namespace alhazen {
 
 class PrimitiveTable;
 
+/// What is known of the rays of a batch: a hint, which never changes a hit.
+enum class Coherence {
+    Any,
+    /// Neighbours in the list go nearly the same way and begin or end near a common point: eye rays
+    /// in tiles, shadow rays towards a point light. On other rays the hint costs time.
+    Coherent,
+};
+
 class Aggregate {
   public:
     virtual ~Aggregate() = default;
@@ -44,10 +52,10 @@ class Aggregate {
     /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
     /// than ray by ray from about ten rays on, whatever their order.
     virtual void closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
-                               TraversalStats* stats) const;
+                               TraversalStats* stats, Coherence coherence = Coherence::Any) const;
     /// Whether there is any hit on every ray.
     virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
-                                TraversalStats* stats) const;
+                                TraversalStats* stats, Coherence coherence = Coherence::Any) const;
 };
 
 /// The order of hits: by t, then by the ids from the outermost aggregate inward. Sorts must be

@@ -147,7 +147,7 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings,
 }
 
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
-                                     TraversalStats* stats) const {
+                                     TraversalStats* stats, Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         hits[i] = Hit{};
         if (unbounded_.empty() || !is_valid(rays[i])) continue;
@@ -158,11 +158,13 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
             return false;
         });
     }
-    if (!layout_.tree.empty) kernels_->closest_batch(scene(), rays, hits, stats);
+    if (layout_.tree.empty) return;
+    const bool coherent = coherence == Coherence::Coherent;
+    (coherent ? kernels_->closest_coherent : kernels_->closest_batch)(scene(), rays, hits, stats);
 }
 
 void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
-                                      TraversalStats* stats) const {
+                                      TraversalStats* stats, Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         occluded[i] = false;
         if (unbounded_.empty() || !is_valid(rays[i])) continue;
@@ -171,7 +173,10 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
             return table_.occluded(id, rays[i], shear, policy);
         });
     }
-    if (!layout_.tree.empty) kernels_->occluded_batch(scene(), rays, occluded, stats);
+    if (layout_.tree.empty) return;
+    const bool coherent = coherence == Coherence::Coherent;
+    (coherent ? kernels_->occluded_coherent : kernels_->occluded_batch)(scene(), rays, occluded,
+                                                                        stats);
 }
 
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id) {

@@ -51,10 +51,10 @@ class WideBvhAggregate final : public Aggregate {
     void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                 TraversalStats* stats) const override;
-    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
-                       TraversalStats* stats) const override;
-    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
-                        TraversalStats* stats) const override;
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, TraversalStats* stats,
+                       Coherence coherence = Coherence::Any) const override;
+    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, TraversalStats* stats,
+                        Coherence coherence = Coherence::Any) const override;
 
   private:
     WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file);

@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "alhazen/scene/wide_bvh_kernels.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
+#include "alhazen/scene/coherent_queries-inl.h"
 #include "alhazen/scene/leaf_queries-inl.h"
 #include "alhazen/scene/run_queries-inl.h"
 
@@ -41,11 +42,33 @@ void occluded_batch(const WideBvhScene& scene, std::span<const Ray> rays, std::s
     run_batch<OccludedQuery>(scene, rays, occluded, stats);
 }
 
+// ---- coherent rays
+
+void closest_coherent(const WideBvhScene& scene, std::span<const Ray> rays, std::span<Hit> best,
+                      TraversalStats* stats) {
+    with_policy(stats, [&](auto policy) HWY_ATTR {
+        run_coherent(scene, rays, best, policy, [&](std::size_t first, std::size_t count) {
+            closest_batch(scene, rays.subspan(first, count), best.subspan(first, count), stats);
+        });
+    });
+}
+
+void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
+                       std::span<bool> occluded, TraversalStats* stats) {
+    with_policy(stats, [&](auto policy) HWY_ATTR {
+        run_coherent(scene, rays, occluded, policy, [&](std::size_t first, std::size_t count) {
+            occluded_batch(scene, rays.subspan(first, count), occluded.subspan(first, count),
+                           stats);
+        });
+    });
+}
+
 }  // namespace
 
 const WideBvhKernels& kernels() {
-    static constexpr WideBvhKernels kernels{&closest,       &occluded,      &collect<false>,
-                                            &collect<true>, &closest_batch, &occluded_batch};
+    static constexpr WideBvhKernels kernels{&closest,          &occluded,         &collect<false>,
+                                            &collect<true>,    &closest_batch,    &occluded_batch,
+                                            &closest_coherent, &occluded_coherent};
     return kernels;
 }
 

@@ -230,7 +230,9 @@ HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
     for (std::size_t i = 0; i < kParts<T, N>; ++i) {
         std::uint8_t byte[8] = {};  // Highway may write a whole word
         hn::StoreMaskBits(d, a.part[i], byte);
-        bits |= static_cast<std::uint32_t>(byte[0]) << (i * hn::Lanes(d));
+        std::uint32_t part = byte[0];
+        if constexpr (hn::MaxLanes(LaneTag<T, N>()) > 8) part |= std::uint32_t{byte[1]} << 8;
+        bits |= part << (i * hn::Lanes(d));
     }
     return bits;
 }

@@ -1,0 +1,368 @@
+/// The coherent kernel of the wide BVH: a packet of rays with a common point, eye rays or shadow
+/// rays of a point light, goes through the tree as one pyramid; rays are told apart in the leaves.
+///
+/// Source: Fuetterling, Lojewski, Pfreundt and Ebert, "Efficient Ray Tracing Kernels for Modern CPU
+/// Architectures", JCGT 4(5), 2015 (large packets, a test of the whole packet per node); Wald,
+/// Boulos and Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies",
+/// ACM TOG 26(1), 2007 (coherent traversal, nodes skipped by a bound of all rays).
+/// Differs: no box is tested for single rays. All slack of `SlabRay`, and the distance of the rays
+/// from a common point, is in the planes of the pyramid, so that it never loses a box in which the
+/// test in double of a ray finds a hit.
+/// Let z be the axis along which all rays go the same way and fastest, D = +-z their depth along
+/// it, P a point near which all rays pass, either where they begin or where they end, k = D - D_P,
+/// and h = k or -k the distance from P, not negative within the rays' ranges. A point of a ray has
+/// x = P_x + T h + r, where T is the ray's slope and |r| at most what it passes P by. A box is met
+/// only if that can be said of one of its points with a slope of the range of all; with products
+/// over h >= 0 monotone, four planes tell. What is computed in float is off by less than 8 e R, the
+/// error of a slope, 3 e, included (e = 2^-24, R the reach, as for SlabRay), and by `delta` for the
+/// test in double; twice 13.2 e R + 4 delta are taken, for h is clamped to 0 as well, and twice the
+/// distance from P.
+/// Conventions: included once per target (see simd/lanes-inl.h). A packet that does not fit (rays
+/// in all directions, or from afar) is refused; statistics count a packet as one ray.
+
+#if defined(ALHAZEN_WIDE_BVH_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_WIDE_BVH_PACKET_INL_H_
+#undef ALHAZEN_WIDE_BVH_PACKET_INL_H_
+#else
+#define ALHAZEN_WIDE_BVH_PACKET_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+#include "alhazen/accel/wide_bvh/ray_group-inl.h"
+#include "alhazen/accel/wide_bvh/stream-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// The rays of a packet and the pyramid around them.
+class RayPacket {
+  public:
+    RayGroup groups[kPacketGroups];
+    /// [origin x, y, z, direction x, y, z, t_min, t_max] as given
+    HWY_ALIGN double raw[8][kPacketRays];
+    std::size_t group_count = 0;
+    std::uint32_t kx = 0, ky = 0, kz = 0;
+    float error = 0;    ///< of a sheared coordinate, as in triangle_filter.h, of any ray
+    float s_error = 0;  ///< of a local parameter, for a slope of 1
+    float point[3];     ///< P, along kx, ky, kz
+    float away[2];      ///< how far the rays pass it by, in x and in y, at most
+    float k_max = 0;    ///< the largest of the groups
+
+    /// False when the rays are too different; then nothing else may be called. `used` has bits for
+    /// the rays that are wanted; those are cleared that do not fit in, and remain to be traced in
+    /// another way.
+    [[nodiscard]] bool make(const LocalFrame& frame, std::span<const Ray> rays,
+                            std::uint64_t& used) {
+        used &= load(frame, rays);
+        if (used == 0 || !keep_one_way(used)) return false;
+        for (std::size_t g = 0; g < group_count; ++g) make_slopes(groups[g]);
+        if (!find_point() || !find_planes()) return false;
+        for (std::size_t g = 0; g < group_count; ++g) {
+            retire(groups[g], 0xFFFF & ~groups[g].used);
+        }
+        shrink_all();
+        return true;
+    }
+    /// Lanes that need not go any further.
+    static HWY_INLINE void retire(RayGroup& group, std::uint32_t lanes) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            group.s_max[std::countr_zero(lanes)] = -std::numeric_limits<float>::infinity();
+        }
+    }
+
+    /// Bits of the children that the pyramid meets; `nearest` orders them.
+    HWY_INLINE std::uint32_t meet_children(const WideNode& node, Floats& nearest) const {
+        const Floats sign(sign_), minus_depth(-depth_of_point_);
+        // Depths of the near and the far plane.
+        nearest = mul_add(load_lanes(node.planes[near_row_]), sign, minus_depth);
+        const Floats farthest = mul_add(load_lanes(node.planes[far_row_]), sign, minus_depth);
+        const Floats zero(0.0f);
+        const Floats h0 = max_lanes(from_start_ ? nearest : -farthest, zero);
+        const Floats h1 = max_lanes(from_start_ ? farthest : -nearest, zero);
+        LaneMask<float> missed = (nearest > Floats(k_max)) | (farthest < Floats(k_min_));
+        HWY_UNROLL(2)
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Floats lo = load_lanes(node.planes[lateral_row_[i]]) - Floats(point_hi_[i]);
+            const Floats hi = load_lanes(node.planes[lateral_row_[i] + 3]) - Floats(point_lo_[i]);
+            const Floats above =
+                neg_mul_add(Floats(hi_up_[i]), h1, neg_mul_add(Floats(hi_down_[i]), h0, lo));
+            const Floats below =
+                neg_mul_add(Floats(lo_up_[i]), h0, neg_mul_add(Floats(lo_down_[i]), h1, hi));
+            missed = missed | (above > zero) | (below < zero);
+        }
+        return kAllLanes & ~bits_of(missed);
+    }
+
+    /// Ray i need not go farther than that.
+    HWY_INLINE void limit(std::size_t i, float s) {
+        float& s_max = groups[i / kGroupRays].s_max[i % kGroupRays];
+        s_max = std::min(s_max, s);
+    }
+    void shrink_all() {
+        for (std::size_t g = 0; g < group_count; ++g) groups[g].shrink(k_slack_);
+        shrink();
+    }
+    /// After a group has changed.
+    HWY_INLINE void shrink(RayGroup& group) {
+        group.shrink(k_slack_);
+        shrink();
+    }
+    HWY_INLINE void shrink() {
+        k_max = groups[0].k_max;
+        for (std::size_t g = 1; g < group_count; ++g) k_max = std::max(k_max, groups[g].k_max);
+    }
+
+  private:
+    static constexpr float kUnit = 0x1p-24f;
+    /// Wider pyramids meet too many boxes that no ray meets.
+    static constexpr float kWidest = 0.5f;
+    static constexpr float kFarthest = 0.25f;
+
+    std::uint64_t load(const LocalFrame& frame, std::span<const Ray> rays);
+    bool keep_one_way(std::uint64_t& used);
+    HWY_INLINE void make_slopes(RayGroup& group) const;
+    bool find_point();
+    bool find_planes();
+
+    float sign_ = 1, depth_of_point_ = 0, k_min_ = 0, k_slack_ = 0, reach_ = 0, delta_ = 0;
+    std::size_t near_row_ = 0, far_row_ = 0, lateral_row_[2];
+    bool from_start_ = true;
+    float point_lo_[2], point_hi_[2];  ///< P with the slack
+    /// Parts of the largest and the smallest slope that are positive and negative.
+    float hi_up_[2], hi_down_[2], lo_up_[2], lo_down_[2];
+};
+
+inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ray> rays) {
+    group_count = (rays.size() + kGroupRays - 1) / kGroupRays;
+    for (std::size_t i = 0; i < group_count * kGroupRays; ++i) {
+        const Ray& ray = rays[std::min(i, rays.size() - 1)];
+        raw[0][i] = ray.origin.x;
+        raw[1][i] = ray.origin.y;
+        raw[2][i] = ray.origin.z;
+        raw[3][i] = ray.direction.x;
+        raw[4][i] = ray.direction.y;
+        raw[5][i] = ray.direction.z;
+        raw[6][i] = ray.t_min;
+        raw[7][i] = ray.t_max;
+    }
+    std::uint64_t used = 0;
+    for (std::size_t i = 0; i < group_count * kGroupRays; i += kLaneCount) {
+        used |= std::uint64_t{load_rays(frame, raw, i, groups[i / kGroupRays])} << i;
+    }
+    const std::uint64_t given = ~std::uint64_t{0} >> (kPacketRays - rays.size());
+    float distance = 0;
+    for (std::size_t g = 0; g < group_count; ++g) {
+        GroupFloats most(0.0f);
+        for (const GroupRow& row : groups[g].origin) {
+            most = max_lanes(most, abs(load_lanes<kGroupRays>(row)));
+        }
+        distance = std::max(distance, RayGroup::most_of(most));
+    }
+    // Unless a ray cannot be used: it may be NaN, and hide another.
+    if ((used & given) != given) distance = 8.0f;
+    reach_ = frame.slack.reach.at(distance);
+    delta_ = frame.slack.delta.at(distance);
+    error = 13.2f * kUnit * reach_ + 4.0f * delta_;
+    s_error = 14.2f * kUnit * reach_ + 4.0f * delta_;
+    return used & given;
+}
+
+/// Keeps the rays that go the way of the first one.
+inline bool RayPacket::keep_one_way(std::uint64_t& used) {
+    const auto first = static_cast<std::size_t>(std::countr_zero(used));
+    const RayGroup& leader = groups[first / kGroupRays];
+    const std::size_t lane = first % kGroupRays;
+    const auto along = [&](std::size_t k) { return leader.direction[k][lane]; };
+    kz = std::abs(along(1)) > std::abs(along(0)) ? 1 : 0;
+    if (std::abs(along(2)) > std::abs(along(kz))) kz = 2;
+    kx = (kz + 1) % 3;
+    ky = (kz + 2) % 3;
+    sign_ = along(kz) < 0.0f ? -1.0f : 1.0f;
+    std::uint64_t same = 0;
+    for (std::size_t g = 0; g < group_count; ++g) {
+        const auto z = load_lanes<kGroupRays>(groups[g].direction[kz]) * GroupFloats(sign_);
+        const auto x = abs(load_lanes<kGroupRays>(groups[g].direction[kx]));
+        const auto y = abs(load_lanes<kGroupRays>(groups[g].direction[ky]));
+        same |= std::uint64_t{bits_of((z >= x) & (z >= y))} << (g * kGroupRays);
+    }
+    used &= same;
+    if (used == 0) return false;
+    const std::uint64_t lanes = group_count == kPacketGroups
+                                    ? ~std::uint64_t{0}
+                                    : (std::uint64_t{1} << (group_count * kGroupRays)) - 1;
+    for (std::uint64_t rest = lanes & ~used; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        RayGroup& group = groups[i / kGroupRays];
+        const std::size_t at = i % kGroupRays;
+        for (std::size_t k = 0; k < 3; ++k) {
+            group.origin[k][at] = leader.origin[k][lane];
+            group.direction[k][at] = leader.direction[k][lane];
+        }
+        group.s_min[at] = leader.s_min[lane];
+        group.s_max[at] = leader.s_max[lane];
+    }
+    for (std::size_t g = 0; g < group_count; ++g) {
+        groups[g].used = static_cast<std::uint32_t>(used >> (g * kGroupRays)) & 0xFFFF;
+    }
+    return true;
+}
+
+HWY_INLINE void RayPacket::make_slopes(RayGroup& group) const {
+    const GroupFloats z = load_lanes<kGroupRays>(group.direction[kz]);
+    const GroupFloats reciprocal = GroupFloats(1.0f) / z;
+    store_lanes(reciprocal, group.reciprocal);
+    store_lanes(z * GroupFloats(sign_), group.rate);
+    const std::uint32_t axes[2] = {kx, ky};
+    HWY_UNROLL(2)
+    for (std::size_t i = 0; i < 2; ++i) {
+        const GroupFloats s = load_lanes<kGroupRays>(group.direction[axes[i]]) * reciprocal;
+        store_lanes(s, group.slope[i]);
+        group.slope_lo[i] = RayGroup::least_of(s);
+        group.slope_hi[i] = RayGroup::most_of(s);
+    }
+}
+
+/// Middle and half the size of the box around points of the rays, one of each.
+struct PacketPoints {
+    GroupFloats lo[3], hi[3];
+    HWY_INLINE void include(std::size_t k, const GroupFloats& x, bool first) {
+        lo[k] = first ? x : min_lanes(lo[k], x);
+        hi[k] = first ? x : max_lanes(hi[k], x);
+    }
+    HWY_INLINE void summarize(float (&middle)[3], float (&half)[3]) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float a = RayGroup::least_of(lo[k]), b = RayGroup::most_of(hi[k]);
+            middle[k] = 0.5f * a + 0.5f * b;
+            half[k] = std::max(middle[k] - a, b - middle[k]);
+        }
+    }
+};
+
+/// Takes as P the middle of where the rays begin or end, whichever lies closer together.
+inline bool RayPacket::find_point() {
+    const std::uint32_t axes[3] = {kx, ky, kz};
+    PacketPoints begins, ends;
+    GroupFloats first(0.0f), last(0.0f);
+    for (std::size_t g = 0; g < group_count; ++g) {
+        const RayGroup& group = groups[g];
+        const GroupFloats s_max = load_lanes<kGroupRays>(group.s_max);
+        const GroupFloats s_min = load_lanes<kGroupRays>(group.s_min);
+        first = g == 0 ? s_min : min_lanes(first, s_min);
+        last = g == 0 ? s_max : max_lanes(last, s_max);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const GroupFloats o = load_lanes<kGroupRays>(group.origin[axes[k]]);
+            const GroupFloats d = load_lanes<kGroupRays>(group.direction[axes[k]]);
+            begins.include(k, o, g == 0);
+            ends.include(k, mul_add(d, s_max, o), g == 0);
+        }
+    }
+    float begin_half[3], end_half[3], end[3];
+    begins.summarize(point, begin_half);
+    const auto sum = [](const float(&h)[3]) { return h[0] + h[1] + h[2]; };
+    float spread = RayGroup::least_of(first) >= -1e-20f ? sum(begin_half)
+                                                        : std::numeric_limits<float>::infinity();
+    from_start_ = true;
+    const float* half = begin_half;
+    float rounding = 0;
+    if (RayGroup::most_of(last) < 1e20f) {
+        ends.summarize(end, end_half);
+        const float far = std::max({std::abs(end[0]) + end_half[0], std::abs(end[1]) + end_half[1],
+                                    std::abs(end[2]) + end_half[2]});
+        if (far <= 64.0f && sum(end_half) < spread) {
+            spread = sum(end_half);
+            from_start_ = false;
+            half = end_half;
+            for (std::size_t k = 0; k < 3; ++k) point[k] = end[k];
+            reach_ = std::max(reach_, 1.001f * (1.0f + far));
+            rounding = 4.0f * kUnit * (far + reach_);
+        }
+    }
+    for (std::size_t i = 0; i < 2; ++i) away[i] = half[i] + half[2] + 2.0f * rounding;
+    return spread <= kFarthest;
+}
+
+inline bool RayPacket::find_planes() {
+    error = 13.2f * kUnit * reach_ + 4.0f * delta_;
+    s_error = 14.2f * kUnit * reach_ + 4.0f * delta_;
+    depth_of_point_ = sign_ * point[2];
+    k_slack_ = 2.0f * error + std::max(away[0], away[1]);
+    near_row_ = sign_ > 0 ? kz : kz + 3;
+    far_row_ = sign_ > 0 ? kz + 3 : kz;
+    lateral_row_[0] = kx;
+    lateral_row_[1] = ky;
+    const float turn = from_start_ ? sign_ : -sign_;
+    for (std::size_t i = 0; i < 2; ++i) {
+        float lo = groups[0].slope_lo[i], hi = groups[0].slope_hi[i];
+        for (std::size_t g = 1; g < group_count; ++g) {
+            lo = std::min(lo, groups[g].slope_lo[i]);
+            hi = std::max(hi, groups[g].slope_hi[i]);
+        }
+        if (!(hi - lo <= kWidest)) return false;
+        const float a = turn > 0 ? lo : -hi, b = turn > 0 ? hi : -lo;
+        lo_up_[i] = std::max(a, 0.0f);
+        lo_down_[i] = std::min(a, 0.0f);
+        hi_up_[i] = std::max(b, 0.0f);
+        hi_down_[i] = std::min(b, 0.0f);
+        const float slack = 2.0f * (error + away[i]);
+        point_lo_[i] = point[i] - slack;
+        point_hi_[i] = point[i] + slack;
+    }
+    GroupFloats least(0.0f);
+    for (std::size_t g = 0; g < group_count; ++g) {
+        RayGroup& group = groups[g];
+        const GroupFloats depth = mul_add(load_lanes<kGroupRays>(group.origin[kz]),
+                                          GroupFloats(sign_), GroupFloats(-depth_of_point_));
+        store_lanes(depth, group.depth);
+        const GroupFloats k =
+            mul_add(load_lanes<kGroupRays>(group.s_min), load_lanes<kGroupRays>(group.rate), depth);
+        least = g == 0 ? k : min_lanes(least, k);
+    }
+    k_min_ = RayGroup::least_of(least) - k_slack_;
+    return true;
+}
+
+/// Takes the packet to every leaf it meets, the nearest first: `leaf.visit(ref, nearest, stats)`
+/// may shrink it, and returns true to stop. False when it gave up: nodes and leaves are more than a
+/// packet is worth, for most of them are met by few of its rays.
+template <class Leaf, class Stats>
+HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root, const Places& places,
+                                const RayPacket& packet, Leaf& leaf, Stats stats) {
+    // Measured: about what the rays cost one by one.
+    constexpr std::uint32_t kMaxWork = 80;
+    std::uint32_t work = 0;
+    StackEntry stack[kTraversalStackSize];
+    std::size_t height = 1;
+    stack[0] = {-std::numeric_limits<float>::infinity(), root};
+    while (height > 0) {
+        const StackEntry top = stack[--height];
+        if (top.entry > packet.k_max) continue;
+        if (top.ref.is_leaf()) {
+            if (leaf.visit(top.ref, top.entry, stats)) return true;
+            work += 2 * top.ref.count();
+            continue;
+        }
+        if (++work > kMaxWork) return false;
+        const WideNode& node = nodes[top.ref.index()];
+        stats.nodes(1);
+        stats.boxes(node.child_count());
+        Floats entries;
+        const std::uint32_t hit = packet.meet_children(node, entries);
+        HWY_ALIGN float entry[kWideNodeWidth];
+        store_lanes(entries, entry);
+        const std::size_t base = height;
+        height = push_sorted(node, hit, entry, stack, height);
+        for (std::size_t i = base; i < height; ++i) places.prefetch(stack[i].ref.bits());
+    }
+    return true;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

@@ -1,0 +1,95 @@
+/// Sixteen rays side by side in lanes: a part of a packet (packet-inl.h).
+///
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_WIDE_BVH_RAY_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_WIDE_BVH_RAY_GROUP_INL_H_
+#undef ALHAZEN_WIDE_BVH_RAY_GROUP_INL_H_
+#else
+#define ALHAZEN_WIDE_BVH_RAY_GROUP_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include "alhazen/accel/wide_bvh/local_frame.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Rays of a packet, and of a group of it whose rays are in the lanes together.
+inline constexpr std::size_t kPacketRays = 64;
+inline constexpr std::size_t kGroupRays = 16;
+inline constexpr std::size_t kPacketGroups = kPacketRays / kGroupRays;
+using GroupFloats = Lanes<float, kGroupRays>;
+using GroupRow = float[kGroupRays];
+
+/// Sixteen rays in the local frame. Lanes that are not used repeat a ray and end before they begin.
+struct alignas(64) RayGroup {
+    GroupRow origin[3], direction[3];  ///< [axis]: of the scene first, then as in TriangleFilterRay
+    GroupRow s_min, s_max;             ///< as in SlabRay
+    GroupRow sure_min, sure_max;       ///< as in TriangleFilterRay
+    GroupRow slope[2], reciprocal;     ///< TriangleFilterRay::sx, sy, sz
+    GroupRow depth, rate;              ///< k at s = 0, and by how much it grows with s
+    float slope_lo[2], slope_hi[2];
+    float k_max;  ///< no ray of the group needs to go deeper
+    std::uint32_t used;
+
+    HWY_INLINE void shrink(float slack) {
+        const GroupFloats k = mul_add(load_lanes<kGroupRays>(s_max), load_lanes<kGroupRays>(rate),
+                                      load_lanes<kGroupRays>(depth));
+        // Finite, so that no free slot is met.
+        k_max = most_of(min_lanes(k, GroupFloats(1e30f))) + slack;
+    }
+    static HWY_INLINE float most_of(const GroupFloats& a) { return -least_of(-a); }
+    static HWY_INLINE float least_of(const GroupFloats& a) {
+        const LaneTag<float, kGroupRays> d;
+        auto least = a.part[0];
+        for (std::size_t i = 1; i < kParts<float, kGroupRays>; ++i) {
+            least = hn::Min(least, a.part[i]);
+        }
+        return hn::GetLane(hn::MinOfLanes(d, least));
+    }
+};
+
+/// Brings eight rays into the local frame, as `local_ray_nearby`; bits of those it could.
+HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const double (&raw)[8][kPacketRays],
+                                   std::size_t first, RayGroup& group) {
+    using D = Doubles;
+    using F = Floats;
+    const std::size_t at = first % kGroupRays;
+    const D scale(frame.scale);
+    const double center[3] = {frame.center.x, frame.center.y, frame.center.z};
+    F away(0.0f), across(0.0f);
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        const F o = as_floats((load_lanes(&raw[k][first]) - D(center[k])) * scale);
+        const F d = as_floats(load_lanes(&raw[3 + k][first]));
+        // In this order a NaN comes through on every target.
+        away = away + abs(o);
+        across = across + abs(d);
+        store_lanes(o, &group.origin[k][at]);
+        store_lanes(d, &group.direction[k][at]);
+    }
+    const D t_min = load_lanes(&raw[6][first]), t_max = load_lanes(&raw[7][first]);
+    const D begin = min_lanes(max_lanes(t_min * scale, D(-1e37)), D(1e37));
+    const D end = min_lanes(max_lanes(t_max * scale, D(-1e37)), D(1e37));
+    const D begin_step = abs(begin) * D(0x1p-23) + D(0x1p-100);
+    const D end_step = abs(end) * D(0x1p-23) + D(0x1p-100);
+    store_lanes(as_floats(begin - begin_step), &group.s_min[at]);
+    store_lanes(as_floats(begin + begin_step), &group.sure_min[at]);
+    store_lanes(as_floats(end - end_step), &group.sure_max[at]);
+    store_lanes(as_floats(end + end_step), &group.s_max[at]);
+    // A sum of three is at most three times the largest.
+    return bits_of((away <= F(8.0f)) & (across <= F(0x1p40f)) &
+                   (across >= F(3.0f * frame.slack.least_length))) &
+           bits_of(t_min <= t_max);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

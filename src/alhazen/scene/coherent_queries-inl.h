@@ -1,0 +1,91 @@
+/// Batches of coherent rays, packet after packet.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_SCENE_COHERENT_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SCENE_COHERENT_QUERIES_INL_H_
+#undef ALHAZEN_SCENE_COHERENT_QUERIES_INL_H_
+#else
+#define ALHAZEN_SCENE_COHERENT_QUERIES_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <bit>
+#include <span>
+
+#include "alhazen/scene/packet_queries-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Of the first rays, those whose result is not there yet.
+HWY_INLINE std::uint64_t wanted_of(std::span<Hit> results) {
+    return ~std::uint64_t{0} >> (kPacketRays - results.size());
+}
+HWY_INLINE std::uint64_t wanted_of(std::span<bool> results) {
+    std::uint64_t wanted = 0;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        wanted |= static_cast<std::uint64_t>(!results[i]) << i;
+    }
+    return wanted;
+}
+
+/// Calls `otherwise(first, count)` for rays that fit in no packet. Rays and results as in
+/// WideBvhKernels::closest_batch or occluded_batch.
+template <class Result, class Stats, class Otherwise>
+HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
+                             std::span<Result> results, Stats stats, Otherwise&& otherwise) {
+    const WideBvhLayout& layout = *scene.layout;
+    // Packets need vertices in the leaves.
+    if (layout.is_indexed() || layout.triangles.size() > PacketDecider::kMaxBlocks) {
+        return otherwise(0, rays.size());
+    }
+    const Places places(layout.tree.nodes.data(),
+                        {layout.triangles.data(), layout.spheres.data(), layout.others.data()},
+                        {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(PrimitiveId)});
+    // Where packets fail they are tried again after a while: the whiles grow.
+    std::size_t failures = 0, skip = 0;
+    for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
+        const std::size_t count = std::min(kPacketRays, rays.size() - i);
+        for (const Ray& next :
+             rays.subspan(i + count).first(std::min(kPacketRays, rays.size() - i - count))) {
+            hwy::Prefetch(&next);
+        }
+        if (skip > 0) {
+            --skip;
+            otherwise(i, count);
+            continue;
+        }
+        RayPacket packet;
+        const std::uint64_t wanted = wanted_of(results.subspan(i, count));
+        std::uint64_t used = wanted;
+        // Packets of few rays are no faster than rays on their own.
+        bool done = packet.make(layout.frame, rays.subspan(i, count), used) &&
+                    std::popcount(used) >= static_cast<int>(kGroupRays);
+        if (done) {
+            PacketLeavesFor<Result> leaves(scene, rays.subspan(i, count), results.subspan(i, count),
+                                           packet);
+            done = traverse_packet(layout.tree.nodes.data(), layout.tree.root, places, packet,
+                                   leaves, stats);
+            if (done) leaves.finish(stats);
+        }
+        if (!done) {
+            failures = std::min<std::size_t>(failures + 1, 4);
+            skip = (std::size_t{1} << failures) - 1;
+            otherwise(i, count);
+            continue;
+        }
+        failures = 0;
+        for (std::uint64_t rest = wanted & ~used; rest != 0; rest &= rest - 1) {
+            otherwise(i + static_cast<std::size_t>(std::countr_zero(rest)), 1);
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
