@@ -24,7 +24,7 @@ struct RenderJob {
         1;  ///< 1: the convention's point of the pixel; more: stratified, jittered
     std::uint64_t seed = 0;
     bool count_tests = false;        ///< fill RayCounters::tests (rays are always counted)
-    const StopFlag* stop = nullptr;  ///< looked at before each ray; may be null
+    const StopFlag* stop = nullptr;  ///< looked at before each batch of rays; may be null
     RayCone cone{};           ///< of each eye ray; zero: textures are not filtered by distance
     AovFilm* aovs = nullptr;  ///< filled besides the film; may be null
 
