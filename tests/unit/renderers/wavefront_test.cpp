@@ -156,11 +156,11 @@ class Watched final : public Aggregate {
                   TraversalStats* stats) const override {
         return inner_->shadowed(ray, crossings, stats);
     }
-    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
-                       TraversalStats* stats) const override {
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, TraversalStats* stats,
+                       Coherence coherence) const override {
         if (stop != nullptr && generations.size() == stop_at) stop->request();
         generations.push_back(rays.size());
-        inner_->closest_batch(rays, hits, stats);
+        inner_->closest_batch(rays, hits, stats, coherence);
     }
 
   private:
