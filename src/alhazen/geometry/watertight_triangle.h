@@ -92,6 +92,12 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
         eu = difference_of_products(vb.x, vc.y, vb.y, vc.x);
         ev = difference_of_products(vc.x, va.y, vc.y, va.x);
         ew = difference_of_products(va.x, vb.y, va.y, vb.x);
+        // Only their ratios count; their products with lengths must not underflow.
+        if (std::max({std::abs(eu), std::abs(ev), std::abs(ew)}) < 0x1p-300) {
+            eu *= 0x1p600;
+            ev *= 0x1p600;
+            ew *= 0x1p600;
+        }
     }
     const TriangleSolution<double> s = solve_triangle(eu, ev, ew, va.z, vb.z, vc.z, shear.sz);
     // A NaN (all edge functions underflowed to zero) is not covered.

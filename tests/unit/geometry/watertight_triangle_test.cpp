@@ -139,6 +139,21 @@ TEST(WatertightTriangle, TheRangeOfTIsRespected) {
     EXPECT_FALSE(hits(1.51, 9));
 }
 
+TEST(WatertightTriangle, TheProductsOfTinyWeightsDoNotUnderflow) {
+    // A small triangle whose plane the ray leaves by 2^-980 of its way only, met in the middle of
+    // an edge: the weights are products of three small numbers.
+    const double size = 0x1p-36;
+    const Vec3 a = size * Vec3{0.5, -0.25, 0}, b = size * Vec3{-0.25, 0, 0.25},
+               c = size * Vec3{0.25, 0.5, -0.25};
+    const Vec3 direction{-1, 1, 0x1p-980};
+    const Ray ray = line(size * Vec3{-0.5, 0.75, 0}, direction);
+    ShapeHit hit;
+    ASSERT_TRUE(intersect_triangle(ray, RayShear(direction), a, b, c, hit));
+    EXPECT_DOUBLE_EQ(hit.t, -0.5 * size);
+    EXPECT_DOUBLE_EQ(hit.u, 0.5);
+    EXPECT_DOUBLE_EQ(hit.v, 0.5);
+}
+
 TEST(EdgeSign, IsAntisymmetricAndNeverZeroForDistinctPoints) {
     Random random(106);
     int ties = 0;
