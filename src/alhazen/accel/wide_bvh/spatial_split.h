@@ -6,7 +6,8 @@
 /// Source: Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG
 /// 2009. Differs: the number of references is bounded beforehand, in proportion to the size of each
 /// subtree, so that the tree is built in place and in parallel; kinds that cannot be divided stay
-/// whole.
+/// whole; planes are weighed with parts cut in float; below a few searches in vain more and more
+/// levels go without one, so that no input is slow.
 /// Conventions: a primitive may lie in several leaves; every point of it lies in the box of one.
 /// Complexity and threads: O(n log n), parallel; the result is the same for every number of
 /// threads.
