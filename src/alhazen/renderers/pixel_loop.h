@@ -10,39 +10,43 @@
 
 namespace alhazen {
 
-/// Gathers eye rays in the order of the pixels and gives their light back to the pixels.
+/// Gathers eye rays, block by block of pixels, and gives their light back to the pixels.
 class PixelLoop {
   public:
     PixelLoop(const RenderJob& job, const PixelBox& tile, Film& film, RayCounters& counters)
-        : job_(job),
-          tile_(tile),
-          film_(film),
-          counters_(counters),
-          aovs_(job, counters),
-          i_(tile.x0),
-          j_(tile.y0) {}
+        : job_(job), film_(film), counters_(counters), aovs_(job, counters) {
+        // Blocks of pixels: rays that follow each other stay near each other.
+        for (const PixelBox& block : tiles_of(tile, kBlock)) {
+            for (int j = block.y0; j < block.y1; ++j) {
+                for (int i = block.x0; i < block.x1; ++i) pixels_.push_back({i, j});
+            }
+        }
+    }
 
     /// As `render_pixels`.
     template <class Radiance>
     void run(std::size_t at_once, Radiance&& radiance) {
         // What a pixel costs is known where its rays are alone.
         const bool alone = job_.aovs != nullptr && job_.aovs->wanted().has_costs();
-        for (int j = tile_.y0; j < tile_.y1; ++j) {
-            for (int i = tile_.x0; i < tile_.x1; ++i) {
-                aovs_.begin_pixel();
-                for (int s = 0; s < job_.samples_per_pixel; ++s) {
-                    const Vec2 p =
-                        eye_sample(job_, i, j, film_.frame_width(), film_.frame_height(), s);
-                    rays_.push_back(eye_ray(job_.camera, p.x, p.y));
-                    if (rays_.size() == at_once && !trace(radiance)) return;
-                }
-                if (alone && !trace(radiance)) return;
+        for (const Pixel& pixel : pixels_) {
+            aovs_.begin_pixel();
+            for (int s = 0; s < job_.samples_per_pixel; ++s) {
+                const Vec2 p = eye_sample(job_, pixel.i, pixel.j, film_.frame_width(),
+                                          film_.frame_height(), s);
+                rays_.push_back(eye_ray(job_.camera, p.x, p.y));
+                if (rays_.size() == at_once && !trace(radiance)) return;
             }
+            if (alone && !trace(radiance)) return;
         }
         trace(radiance);
     }
 
   private:
+    static constexpr int kBlock = 8;
+    struct Pixel {
+        int i, j;
+    };
+
     /// False when the job is to stop.
     template <class Radiance>
     bool trace(Radiance& radiance) {
@@ -67,24 +71,21 @@ class PixelLoop {
     }
 
     void end_pixel() {
-        film_.set(i_, j_, finite_ == 1 ? sum_ : finite_ > 1 ? (1.0 / finite_) * sum_ : Rgb{});
-        aovs_.end_pixel(i_, j_, film_.frame_width(), film_.frame_height());
+        const auto [i, j] = pixels_[done_++];
+        film_.set(i, j, finite_ == 1 ? sum_ : finite_ > 1 ? (1.0 / finite_) * sum_ : Rgb{});
+        aovs_.end_pixel(i, j, film_.frame_width(), film_.frame_height());
         sum_ = {};
         finite_ = samples_ = 0;
-        if (++i_ == tile_.x1) {
-            i_ = tile_.x0;
-            ++j_;
-        }
     }
 
     const RenderJob& job_;
-    const PixelBox& tile_;
     Film& film_;
     RayCounters& counters_;
     AovRecorder aovs_;
     std::vector<Ray> rays_;
     std::vector<Rgb> radiance_;
-    int i_, j_;  ///< pixel that the next light belongs to
+    std::vector<Pixel> pixels_;
+    std::size_t done_ = 0;  ///< pixels that have their light
     int samples_ = 0, finite_ = 0;
     Rgb sum_;
 };

@@ -63,17 +63,19 @@ class Caster {
         behind_.clear();
         rays_behind_.clear();
         const auto path = [&](std::size_t k) -> const OnWay& { return on_way_[k]; };
-        visible_.find(rays_, path, [&](std::size_t k, const ShadingPoint* point, double t) {
-            OnWay& o = on_way_[k];
-            if (point == nullptr) return end(o, radiance);
-            count_.hit += first;
-            const double coverage = point->material.coverage;
-            radiance[o.sample] += (o.left * coverage) * shade(job_.scene, *point);
-            o.left *= 1.0 - coverage;
-            if (!(o.left >= kLeastTransmittance)) return;
-            behind_.push_back({o.sample, o.left, o.cone.from(t)});
-            rays_behind_.push_back(leaving_ray(point->surface, rays_[k].direction));
-        });
+        const Coherence coherence = first ? Coherence::Coherent : Coherence::Any;
+        visible_.find(rays_, coherence, path,
+                      [&](std::size_t k, const ShadingPoint* point, double t) {
+                          OnWay& o = on_way_[k];
+                          if (point == nullptr) return end(o, radiance);
+                          count_.hit += first;
+                          const double coverage = point->material.coverage;
+                          radiance[o.sample] += (o.left * coverage) * shade(job_.scene, *point);
+                          o.left *= 1.0 - coverage;
+                          if (!(o.left >= kLeastTransmittance)) return;
+                          behind_.push_back({o.sample, o.left, o.cone.from(t)});
+                          rays_behind_.push_back(leaving_ray(point->surface, rays_[k].direction));
+                      });
         on_way_.swap(behind_);
         rays_.swap(rays_behind_);
     }

@@ -21,9 +21,9 @@ class VisibleBatch {
     /// null pointer where nothing is seen, else what is seen and its distance from the ray's
     /// origin. `tell` must not change rays or paths that have not been told yet.
     template <class PathOf, class Tell>
-    void find(std::span<const Ray> rays, PathOf&& path, Tell&& tell) {
+    void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
         behind_.clear();
-        for (std::size_t k = 0; const Hit& hit : closest(rays)) {
+        for (std::size_t k = 0; const Hit& hit : closest(rays, coherence)) {
             meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
             ++k;
         }
@@ -32,7 +32,7 @@ class VisibleBatch {
             behind_.clear();
             rest_.clear();
             for (const Passed& p : on_way_) rest_.push_back(p.rest);
-            for (std::size_t i = 0; const Hit& hit : closest(rest_)) {
+            for (std::size_t i = 0; const Hit& hit : closest(rest_, Coherence::Any)) {
                 const Passed& p = on_way_[i++];
                 meet(p.ray, rays[p.ray], p.rest, p.distance, hit, path(p.ray), tell);
             }
@@ -48,7 +48,7 @@ class VisibleBatch {
         double distance;  ///< from the origin of the ray asked for
     };
 
-    [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays);
+    [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays, Coherence coherence);
 
     /// `rest`: ray k from the last surface on, `distance` behind the origin of `whole`.
     template <class Path, class Tell>

@@ -76,30 +76,33 @@ class Tracer {
     /// The next surface along each active ray; `first`: none has been met yet.
     void meet_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
         const std::span<const Ray> rays = first ? part.rays : std::span<const Ray>(front.rays);
+        const Coherence coherence = first && depth == 0 ? Coherence::Coherent : Coherence::Any;
         const auto path_of = [&](std::size_t k) -> const Path& {
             return part.paths[front.active[k]];
         };
-        visible_.find(rays, path_of, [&](std::size_t k, const ShadingPoint* point, double t) {
-            const std::uint32_t i = front.active[k];
-            Rgb& left = front.left[i];
-            if (point == nullptr) {
-                part.radiance[i] = part.radiance[i] + left * scene_.background;
-                return;
-            }
-            Path& path = part.paths[i];
-            counters_[path.kind].hit += first;
-            if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
-            const double coverage = point->material.coverage;
-            MetSurface& met = front.met.emplace_back();
-            met.ray = i;
-            met.share = coverage * left;
-            shade({*point, rays[k], t, path, depth}, met, front.next);
-            left = (1.0 - coverage) * left;
-            if (!(left.max() >= kLeastTransmittance)) return;
-            front.next_active.push_back(i);
-            front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
-            path.cone = path.cone.from(t);
-        });
+        visible_.find(rays, coherence, path_of,
+                      [&](std::size_t k, const ShadingPoint* point, double t) {
+                          const std::uint32_t i = front.active[k];
+                          Rgb& left = front.left[i];
+                          if (point == nullptr) {
+                              part.radiance[i] = part.radiance[i] + left * scene_.background;
+                              return;
+                          }
+                          Path& path = part.paths[i];
+                          counters_[path.kind].hit += first;
+                          if (!path.absorption.is_black())
+                              left = left * transmittance(path.absorption, t);
+                          const double coverage = point->material.coverage;
+                          MetSurface& met = front.met.emplace_back();
+                          met.ray = i;
+                          met.share = coverage * left;
+                          shade({*point, rays[k], t, path, depth}, met, front.next);
+                          left = (1.0 - coverage) * left;
+                          if (!(left.max() >= kLeastTransmittance)) return;
+                          front.next_active.push_back(i);
+                          front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
+                          path.cone = path.cone.from(t);
+                      });
     }
 
     /// The light that comes back to the rays.
