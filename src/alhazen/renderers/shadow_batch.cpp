@@ -41,11 +41,11 @@ void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rg
     waiting_.push_back({&sum, &path, light.intensity, fraction});
 }
 
-void ShadowBatch::finish() {
+void ShadowBatch::finish(Coherence coherence) {
     if (rays_.empty()) return;
     const std::span<bool> met(met_.get(), rays_.size());
     if (asks_first()) {
-        scene_.aggregate->occluded_batch(rays_, met, stats_);
+        scene_.aggregate->occluded_batch(rays_, met, stats_, coherence);
     } else {
         std::fill(met.begin(), met.end(), true);
     }

@@ -27,7 +27,7 @@ class ShadowBatch {
     void add(const Surface& surface, const LightSample& light, const Rgb& fraction,
              const Path& path, Rgb& sum);
     /// Casts what has been gathered.
-    void finish();
+    void finish(Coherence coherence = Coherence::Any);
 
   private:
     struct Waiting {

@@ -20,6 +20,17 @@ namespace {
 constexpr int kDeep = 16;
 constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
+/// Of shadow rays from neighbouring points: where they all go to one place.
+Coherence coherence_of_shadows(std::span<const Light> lights) {
+    std::size_t places = 0, directions = 0;
+    for (const Light& light : lights) {
+        places +=
+            std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light);
+        directions += std::holds_alternative<DirectionalLight>(light);
+    }
+    return places == 1 && directions == 0 ? Coherence::Coherent : Coherence::Any;
+}
+
 /// Traces the rays of one tile; holds what would be allocated per ray otherwise.
 class Tracer {
   public:
@@ -29,6 +40,7 @@ class Tracer {
           conventions_(job.scene.conventions),
           counters_(counters),
           rays_at_once_(rays_at_once),
+          eye_shadows_(coherence_of_shadows(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr) {}
 
@@ -61,7 +73,7 @@ class Tracer {
             if (job_.stop_requested()) return;
             front.begin_surfaces();
             meet_surfaces(part, depth, met == 0, front);
-            shadows_.finish();
+            shadows_.finish(depth == 0 ? eye_shadows_ : Coherence::Any);
             trace_all(front.next, depth + 1);
             gather(front, part.radiance);
             front.go_on();
@@ -222,6 +234,7 @@ class Tracer {
     const ShadingConventions& conventions_;
     RayCounters& counters_;
     std::size_t rays_at_once_;
+    Coherence eye_shadows_;  ///< of the shadow rays from what the eye sees
     VisibleBatch visible_;
     ShadowBatch shadows_;
     Generation eye_;
