@@ -25,7 +25,7 @@
 ///   9 e R: 14 e R, and 4 delta for the test in double.
 /// Free lanes may lie farther off than R; who reads a result looks at the lane's id.
 /// The test in double must not leave the range of exponents: rays of which that is not sure have an
-/// infinite slack (see `make_slab_rays`), pass every triangle and are sure of none.
+/// infinite slack (see `LocalRay::regular`), pass every triangle and are sure of none.
 /// All of it holds for fused and unfused multiplication alike, so the decision, not its cost, is
 /// the same on every instruction set.
 

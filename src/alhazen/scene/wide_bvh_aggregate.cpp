@@ -146,6 +146,19 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings,
     return false;
 }
 
+namespace {
+
+/// Whether packets of coherent rays are faster than the stream: measured for trees of triangles
+/// that lie near the core; spheres and other shapes are tested ray by ray in a packet, and where
+/// triangles are finer than the rays lie apart it gives up.
+bool packets_pay(const WideBvhLayout& layout) {
+    constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
+    return layout.memory_bytes() <= kCachedBytes &&
+           8 * (layout.spheres.size() + layout.others.size()) <= layout.triangles.size();
+}
+
+}  // namespace
+
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
                                      TraversalStats* stats, Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -159,7 +172,7 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
         });
     }
     if (layout_.tree.empty) return;
-    const bool coherent = coherence == Coherence::Coherent;
+    const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
     (coherent ? kernels_->closest_coherent : kernels_->closest_batch)(scene(), rays, hits, stats);
 }
 
@@ -174,7 +187,7 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         });
     }
     if (layout_.tree.empty) return;
-    const bool coherent = coherence == Coherence::Coherent;
+    const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
     (coherent ? kernels_->occluded_coherent : kernels_->occluded_batch)(scene(), rays, occluded,
                                                                         stats);
 }

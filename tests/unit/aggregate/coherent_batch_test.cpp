@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "unit/aggregate/compare_aggregates.h"
 
@@ -17,6 +18,20 @@ using namespace testing;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 using Rays = std::vector<Ray>;
+
+/// The packets themselves, also where the aggregate would not choose them.
+void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
+                     const std::vector<Hit>& expected, const std::string& name) {
+    const WideBvhScene scene{&tested.primitives(), &tested.layout()};
+    std::vector<Hit> hits(rays.size());
+    const auto occluded = std::make_unique<bool[]>(rays.size());
+    wide_bvh_kernels().closest_coherent(scene, rays, hits, nullptr);
+    wide_bvh_kernels().occluded_coherent(scene, rays, {occluded.get(), rays.size()}, nullptr);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(same(hits[i], expected[i])) << name << ", packets, ray " << i;
+        ASSERT_EQ(occluded[i], expected[i].found()) << name << ", packets, ray " << i;
+    }
+}
 
 void compare_with(const Aggregate& list, const Aggregate& tested, const Rays& rays,
                   const std::string& name) {
@@ -35,6 +50,11 @@ void compare_with(const Aggregate& list, const Aggregate& tested, const Rays& ra
             << " became " << show(hits[i]);
         ASSERT_EQ(occluded[i], found) << name << ", ray " << i << ": " << show(rays[i]);
         ASSERT_TRUE(same(counted[i], hits[i])) << name << ", ray " << i;
+    }
+    const auto* tree = dynamic_cast<const WideBvhAggregate*>(&tested);
+    // What has no bounds is not in the tree.
+    if (tree != nullptr && std::isfinite(tree->box().size().x) && !tree->layout().tree.empty) {
+        compare_packets(*tree, rays, hits, name);
     }
 }
 
