@@ -168,6 +168,17 @@ TEST(WideBvhBuild, ManyPointsOnALineGiveAShallowTree) {
     EXPECT_LE(build_and_check(references, "line"), 20);
 }
 
+TEST(WideBvhBuild, AMillionGiveAShallowTreeByDefault) {
+    std::vector<BuildReference> identical, line;
+    for (std::size_t i = 0; i < 1000000; ++i) {
+        identical.push_back(reference(i, 0, 0, 0, 0.5f));
+        line.push_back(reference(i, static_cast<float>(i) * 1e-6f, 0, 0, 0));
+    }
+    const BuildQuality quality = BuildQuality::Default;
+    EXPECT_LE(build_and_check(quality, std::move(identical), "identical").depth, 20);
+    EXPECT_LE(build_and_check(quality, std::move(line), "line").depth, 16);
+}
+
 TEST(WideBvhBuild, NestedScalesAndGeometricSpacingStayWithinTheDepth) {
     std::vector<BuildReference> nested, spaced;
     for (std::size_t i = 0; i < 20000; ++i) {
