@@ -39,10 +39,28 @@ struct Part {
     FileLocation location;
 };
 
+/// What the parts of an object make together.
+enum class Combine : std::uint8_t {
+    Group,         ///< they lie side by side; as an operand of a solid: their union
+    Union,         ///< one solid
+    Intersection,  ///< what all of them share
+    Difference,    ///< the first part without all the others
+};
+
+/// Which material a surface shows that a subtracted part has cut.
+enum class CutMaterial : std::uint8_t {
+    Own,      ///< that of the subtracted part
+    Minuend,  ///< that of the solid that is cut there
+};
+
+/// Anything but a group is a solid: its parts must bound volumes (closed shapes, closed meshes,
+/// objects of such), and it is one of them wherever it is used.
 struct ObjectDescription {
     std::string name;
     std::vector<Part> parts;
     FileLocation location;
+    Combine combine = Combine::Group;
+    CutMaterial cut_material = CutMaterial::Own;  ///< for a difference
 };
 
 struct MeshDescription {
@@ -112,7 +130,8 @@ struct SceneDescription {
 
 /// Adds every finding about `description` to `diagnostics`: values that are not finite, singular
 /// transforms, bad shapes and meshes, ids out of range, objects that contain themselves, nesting
-/// deeper than kMaxInstanceDepth, nothing to see (warning).
+/// deeper than kMaxInstanceDepth, operands of a solid that bound no volume, nothing to see
+/// (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace alhazen

@@ -4,6 +4,7 @@
 
 #include "alhazen/scene/scene_description.h"
 #include "alhazen/scene/validate_materials.h"
+#include "alhazen/scene/validate_solids.h"
 
 namespace alhazen {
 
@@ -27,6 +28,7 @@ class Validator {
             for (const Part& part : object.parts) check_part(part);
         }
         check_nesting();
+        validate_solids(d_, out_);
         check_picture();
     }
 

@@ -81,6 +81,29 @@ TEST(Validate, NestingIsLimitedWithoutRecursion) {
     EXPECT_EQ(errors_in(maker.description()), 1u);
 }
 
+TEST(Validate, OperandsOfSolidsMustBoundVolumes) {
+    SceneMaker maker = good_scene();
+    const ObjectIndex solid = maker.object("solid");
+    const ObjectIndex operand = maker.object("operand");
+    SceneDescription& d = maker.description();
+    d.objects[static_cast<std::size_t>(solid)].combine = Combine::Difference;
+    EXPECT_EQ(errors_in(d), 1u) << "a difference of nothing";
+    maker.add(Sphere{}, MaterialId{0}, {}, solid);
+    maker.add(operand, MaterialId{0}, {}, solid);
+    EXPECT_EQ(errors_in(d), 0u) << "an empty operand";
+    const MeshIndex closed = maker.mesh(testing::tetrahedron());
+    maker.add(closed, MaterialId{0}, {}, operand);
+    EXPECT_EQ(errors_in(d), 0u);
+    TriangleMesh open = testing::tetrahedron();
+    open.triangles.pop_back();
+    maker.add(maker.mesh(open), MaterialId{0}, {}, operand);
+    maker.add(Disc{}, MaterialId{0}, {}, operand);
+    maker.add(Cylinder{.capped = false}, MaterialId{0}, {}, solid);
+    EXPECT_EQ(errors_in(d), 3u);
+    d.objects[static_cast<std::size_t>(solid)].combine = Combine::Group;
+    EXPECT_EQ(errors_in(d), 0u) << "side by side they may be open";
+}
+
 TEST(Validate, CamerasThatCannotMakeAPictureAreErrors) {
     SceneMaker maker = good_scene();
     auto& camera = std::get<PerspectiveCamera>(maker.description().cameras[0].camera);

@@ -1,0 +1,14 @@
+#pragma once
+/// Whether the operands of solids (objects that are no groups) bound volumes.
+///
+/// Internal to `validate`.
+
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen {
+
+/// Adds to `diagnostics` every part of a solid, or of an object that a solid uses, that bounds no
+/// volume, and every intersection or difference of nothing. Objects may contain themselves.
+void validate_solids(const SceneDescription& description, Diagnostics& diagnostics);
+
+}  // namespace alhazen
