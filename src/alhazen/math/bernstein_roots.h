@@ -1,0 +1,336 @@
+#pragma once
+/// All real roots, with certified signs, of a polynomial in Bernstein form on [0, 1].
+///
+/// Source: Lane and Riesenfeld, "Bounds on a polynomial", BIT 21, 1981 (sign variations of
+/// Bernstein coefficients bound the number of roots, de Casteljau's split halves the interval);
+/// Rouillier and Zimmermann, "Efficient isolation of polynomial's real roots", Journal of
+/// Computational and Applied Mathematics 162, 2004.
+/// Differs: the coefficients carry a bound of their error, and a sign within it is unknown: one
+/// counts both what the unknown signs could make of the variations at least and at most. What is
+/// sought are the changes of sign, not the roots: a root of even multiplicity is none, two roots
+/// that cannot be told apart are none, an odd cluster is one, so that the number of crossings
+/// always agrees with the signs at both ends. Split where the coefficients are most unlike the
+/// ends. Conventions: p(u) = sum b[i] C(n, i) (1 - u)^(n - i) u^i. In double the search gives up
+/// where it cannot be certain (about one ray in millions); it is then repeated in double-double,
+/// with coefficients made anew, where it always answers: a value it cannot tell from 0 counts as
+/// positive ("outside") at the ends and as its surroundings between them, and roots closer than
+/// 2^-52 cancel in pairs.
+/// `find_certified_sign_changes` does both.
+/// Complexity: O(n^2) per split; mostly no split for 0 or 1 crossing, one or two for 2.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include "alhazen/math/double_double.h"
+
+namespace alhazen {
+
+/// A polynomial of degree at most N on [0, 1].
+template <class Real, int N>
+struct BernsteinPolynomial {
+    int degree = 0;
+    double error = 0;           ///< no coefficient is farther from the true one
+    std::array<Real, N + 1> b;  ///< the first degree + 1 are used; not initialised
+};
+
+/// Where a polynomial changes its sign in [0, 1].
+template <int N>
+struct SignChanges {
+    int count = 0;
+    bool negative_at_start = false;
+    std::array<double, N> u;  ///< the first `count`, ascending; not initialised
+    /// [i] an interval that holds this sign change and no other.
+    std::array<double, N> lo, hi;
+
+    [[nodiscard]] bool negative_at_end() const { return negative_at_start != (count % 2 != 0); }
+};
+
+namespace bernstein {
+
+inline double leading(double v) {
+    return v;
+}
+inline double leading(const DoubleDouble& v) {
+    return v.high;
+}
+
+/// (1 - r) a + r b; r a dyadic fraction of few bits.
+inline double blend(double a, double b, double r) {
+    return (1.0 - r) * a + r * b;
+}
+inline DoubleDouble blend(const DoubleDouble& a, const DoubleDouble& b, double r) {
+    return DoubleDouble(1.0 - r) * a + DoubleDouble(r) * b;
+}
+
+/// Value and slope at u by de Casteljau's algorithm.
+template <class Real, int N>
+void evaluate(const BernsteinPolynomial<Real, N>& p, double u, Real& value, double& slope) {
+    const DoubleDouble rest = two_sum(1.0, -u);
+    Real row[N + 1];
+    std::copy_n(p.b.begin(), p.degree + 1, row);
+    slope = 0.0;
+    for (int n = p.degree; n > 0; --n) {
+        if (n == 1) slope = p.degree * leading(row[1] - row[0]);
+        for (int i = 0; i < n; ++i) {
+            if constexpr (std::is_same_v<Real, double>) {
+                row[i] = rest.high * row[i] + u * row[i + 1];
+            } else {
+                row[i] = rest * row[i] + DoubleDouble(u) * row[i + 1];
+            }
+        }
+    }
+    value = row[0];
+}
+
+/// Newton's method within a bracket that it keeps: the root of f where f has `sign_lo` at lo and
+/// the other sign at hi. `f(x, value, slope)`; x and the value are double.
+template <class F>
+double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double guess) {
+    double x = guess;
+    double last_step = hi - lo;
+    for (int i = 0; i < 200; ++i) {
+        double value, slope;
+        f(x, value, slope);
+        if (value == 0.0) return x;
+        (value * sign_lo > 0.0 ? lo : hi) = x;
+        double next = x - value / slope;
+        // Out of the bracket, no number, or no gain: halve.
+        if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
+        const double step = std::abs(next - x);
+        if (step > 0.5 * last_step && i > 2) next = 0.5 * (lo + hi);
+        last_step = std::abs(next - x);
+        x = next;
+        // Convergence is quadratic: this step was the last that counts.
+        if (step <= 1e-9 * std::abs(x) && i > 0) {
+            if (step <= 0x1p-51 * std::abs(x)) return x;
+            f(x, value, slope);
+            next = x - value / slope;
+            return next >= lo && next <= hi ? next : x;
+        }
+        if (!(hi - lo > 0x1p-53 * hi)) return x;
+    }
+    return x;
+}
+
+/// C(n, i) b[i]: p(u) = (1 - u)^n q(u / (1 - u)) with these as the coefficients of q.
+template <int N>
+struct ScaledPolynomial {
+    int degree;
+    std::array<double, N + 1> s;
+
+    explicit ScaledPolynomial(const BernsteinPolynomial<double, N>& p) : degree(p.degree) {
+        double binomial = 1.0;
+        for (int i = 0; i <= degree; ++i) {
+            s[i] = binomial * p.b[i];
+            binomial = binomial * (degree - i) / (i + 1);
+        }
+    }
+    void operator()(double w, double& value, double& slope) const {
+        value = s[degree];
+        slope = 0.0;
+        for (int i = degree - 1; i >= 0; --i) {
+            slope = slope * w + value;
+            value = value * w + s[i];
+        }
+    }
+};
+
+/// The one search, for both kinds of numbers.
+template <class Real, int N>
+class SignChangeSearch {
+    static constexpr bool kMustAnswer = !std::is_same_v<Real, double>;
+    /// Rounding of one step of a split, relative to the largest coefficient.
+    static constexpr double kRounding = kMustAnswer ? 4 * kDoubleDoubleUlp : 0x1p-51;
+
+  public:
+    SignChangeSearch(const BernsteinPolynomial<Real, N>& p, SignChanges<N>& out)
+        : p_(p), out_(out) {}
+
+    /// False when the signs are not certain (never in double-double).
+    bool run() {
+        out_.count = 0;
+        out_.negative_at_start = false;
+        const int n = p_.degree;
+        double largest = 0.0;
+        for (int i = 0; i <= n; ++i) largest = std::fmax(largest, std::abs(leading(p_.b[i])));
+        // Overflow: nothing can be said of such a polynomial; it has no crossings.
+        if (!std::isfinite(largest) || !(p_.error >= 0.0)) return true;
+        split_error_ = n * kRounding * largest;
+        int first = sign(p_.b[0], p_.error), last = sign(p_.b[n], p_.error);
+        if (first == 0 || last == 0) {
+            if (!kMustAnswer) return false;
+            if (first == 0) first = 1;
+            if (last == 0) last = 1;
+        }
+        out_.negative_at_start = first < 0;
+        return search(p_.b.data(), p_.error, 0.0, 1.0, first, last);
+    }
+
+  private:
+    static int sign(const Real& v, double error) {
+        return int(leading(v) > error) - int(leading(v) < -error);
+    }
+
+    struct Variations {
+        int least = 0, most = 0;
+        double middle = 0.5;  ///< where the coefficients are most unlike the first one
+        bool all_tiny;        ///< no coefficient tells much from 0
+    };
+
+    Variations count(const Real* b, double error, int first, int last) const {
+        Variations v;
+        const int n = p_.degree;
+        int previous = first, unknown = 0, at = -1;
+        double lowest = 0.0, largest = std::abs(leading(b[0]));
+        for (int i = 1; i <= n; ++i) {
+            const int s = i == n ? last : sign(b[i], error);
+            if (i < n && first * leading(b[i]) < lowest) {
+                lowest = first * leading(b[i]);
+                at = i;
+            }
+            largest = std::fmax(largest, std::abs(leading(b[i])));
+            if (s == 0) {
+                ++unknown;
+                continue;
+            }
+            if (s == previous) {
+                v.most += (unknown + 1) / 2 * 2;
+            } else {
+                v.least += 1;
+                v.most += 1 + unknown / 2 * 2;
+            }
+            previous = s;
+            unknown = 0;
+        }
+        v.all_tiny = largest <= 8.0 * error;
+        if (at > 0) {
+            v.middle = std::clamp(std::round(8.0 * at / n) / 8.0, 0.125, 0.875);
+        }
+        return v;
+    }
+
+    /// Splits b at r: `left` and `right` are the coefficients of both sides.
+    void split(const Real* b, double r, Real* left, Real* right) const {
+        const int n = p_.degree;
+        for (int i = 0; i <= n; ++i) right[i] = b[i];
+        left[0] = right[0];
+        for (int k = 1; k <= n; ++k) {
+            for (int i = 0; i <= n - k; ++i) right[i] = blend(right[i], right[i + 1], r);
+            left[k] = right[0];
+        }
+    }
+
+    bool search(const Real* b, double error, double lo, double hi, int first, int last) {
+        const Variations v = count(b, error, first, last);
+        if (v.most == 0) return true;
+        if (v.most == 1) return emit(lo, hi, first);
+        if (!(hi - lo > 0x1p-52) || v.all_tiny) return cluster(lo, hi, first, last);
+        Real left[N + 1], right[N + 1];
+        const double child_error = error + split_error_;
+        const double candidates[] = {v.middle, 0.5, 0.375, 0.625, 0.25, 0.75};
+        int middle_sign = 0;
+        double r = 0.5;
+        for (const double candidate : candidates) {
+            r = candidate;
+            split(b, r, left, right);
+            middle_sign = sign(right[0], child_error);
+            if (middle_sign != 0) break;
+        }
+        if (middle_sign == 0) {
+            if (!kMustAnswer) return false;
+            middle_sign = first == last ? first : 1;
+        }
+        const double middle = lo + r * (hi - lo);
+        return search(left, child_error, lo, middle, first, middle_sign) &&
+               search(right, child_error, middle, hi, middle_sign, last);
+    }
+
+    /// Roots that cannot be told apart.
+    bool cluster(double lo, double hi, int first, int last) {
+        if (!kMustAnswer) return false;
+        return first == last || emit(lo, hi, first);
+    }
+
+    bool put(double u, double lo, double hi) {
+        if (out_.count >= N) return false;
+        const auto i = static_cast<std::size_t>(out_.count++);
+        out_.u[i] = std::clamp(u, lo, hi);
+        out_.lo[i] = lo;
+        out_.hi[i] = hi;
+        return true;
+    }
+
+    bool emit(double lo, double hi, int sign_lo) {
+        if constexpr (kMustAnswer) {
+            const auto f = [&](double u, double& value, double& slope) {
+                Real exact;
+                evaluate(p_, u, exact, slope);
+                value = leading(exact);
+            };
+            return put(bracketed_newton(f, lo, hi, sign_lo, 0.5 * (lo + hi)), lo, hi);
+        } else {
+            return put(polish(lo, hi, sign_lo), lo, hi);
+        }
+    }
+
+    /// The root in [lo, hi], as one of the scaled polynomial or of its mirror image, whichever has
+    /// it at w <= 1.
+    double polish(double lo, double hi, double sign_lo) const {
+        ScaledPolynomial<N> q(p_);
+        if (lo < 0.5 && hi > 0.5) {
+            double value, slope;
+            q(1.0, value, slope);
+            (value * sign_lo > 0.0 ? lo : hi) = 0.5;
+        }
+        if (hi <= 0.5) {
+            const double w = root_of(q, lo / (1.0 - lo), hi / (1.0 - hi), sign_lo);
+            return w / (1.0 + w);
+        }
+        std::reverse(q.s.begin(), q.s.begin() + q.degree + 1);
+        const double w = root_of(q, (1.0 - hi) / hi, (1.0 - lo) / lo, -sign_lo);
+        return 1.0 / (1.0 + w);
+    }
+
+    static double root_of(const ScaledPolynomial<N>& q, double lo, double hi, double sign_lo) {
+        double f_lo, f_hi, slope;
+        q(lo, f_lo, slope);
+        q(hi, f_hi, slope);
+        double guess = lo + (hi - lo) * (f_lo / (f_lo - f_hi));
+        if (!(guess >= lo && guess <= hi)) guess = 0.5 * (lo + hi);
+        return bracketed_newton(q, lo, hi, sign_lo, guess);
+    }
+
+    const BernsteinPolynomial<Real, N>& p_;
+    SignChanges<N>& out_;
+    double split_error_ = 0;
+};
+
+}  // namespace bernstein
+
+/// False when double cannot tell; `out` is then to be ignored.
+template <int N>
+[[nodiscard]] bool find_sign_changes(const BernsteinPolynomial<double, N>& p, SignChanges<N>& out) {
+    return bernstein::SignChangeSearch<double, N>(p, out).run();
+}
+/// Always answers; see the conventions above for what cannot be told from 0.
+template <int N>
+void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChanges<N>& out) {
+    bernstein::SignChangeSearch<DoubleDouble, N>(p, out).run();
+}
+
+/// `make(BernsteinPolynomial<Real, N>&)` computes the coefficients and their error bound: in double
+/// and, only where that does not do, in double-double. Keep the two true to the same polynomial.
+template <int N, class Make>
+void find_certified_sign_changes(Make&& make, SignChanges<N>& out) {
+    BernsteinPolynomial<double, N> p;
+    make(p);
+    if (find_sign_changes(p, out)) return;
+    BernsteinPolynomial<DoubleDouble, N> precise;
+    make(precise);
+    find_sign_changes(precise, out);
+}
+
+}  // namespace alhazen
