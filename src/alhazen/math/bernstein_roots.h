@@ -142,8 +142,9 @@ struct ScaledPolynomial {
 template <class Real, int N>
 class SignChangeSearch {
     static constexpr bool kMustAnswer = !std::is_same_v<Real, double>;
-    /// Rounding of one step of a split, relative to the largest coefficient.
-    static constexpr double kRounding = kMustAnswer ? 4 * kDoubleDoubleUlp : 0x1p-51;
+    /// Rounding of one step of a split, relative to the largest coefficient: two products and
+    /// their sum.
+    static constexpr double kRounding = kMustAnswer ? kDoubleDoubleUlp : 0x1p-52;
 
   public:
     SignChangeSearch(const BernsteinPolynomial<Real, N>& p, SignChanges<N>& out)
@@ -158,7 +159,6 @@ class SignChangeSearch {
         for (int i = 0; i <= n; ++i) largest = std::fmax(largest, std::abs(leading(p_.b[i])));
         // Overflow: nothing can be said of such a polynomial; it has no crossings.
         if (!std::isfinite(largest) || !(p_.error >= 0.0)) return true;
-        split_error_ = n * kRounding * largest;
         int first = sign(p_.b[0], p_.error), last = sign(p_.b[n], p_.error);
         if (first == 0 || last == 0) {
             if (!kMustAnswer) return false;
@@ -177,6 +177,7 @@ class SignChangeSearch {
     struct Variations {
         int least = 0, most = 0;
         double middle = 0.5;  ///< where the coefficients are most unlike the first one
+        double largest = 0;   ///< magnitude of a coefficient
         bool all_tiny;        ///< no coefficient tells much from 0
     };
 
@@ -184,14 +185,15 @@ class SignChangeSearch {
         Variations v;
         const int n = p_.degree;
         int previous = first, unknown = 0, at = -1;
-        double lowest = 0.0, largest = std::abs(leading(b[0]));
+        double lowest = 0.0;
+        v.largest = std::abs(leading(b[0]));
         for (int i = 1; i <= n; ++i) {
             const int s = i == n ? last : sign(b[i], error);
             if (i < n && first * leading(b[i]) < lowest) {
                 lowest = first * leading(b[i]);
                 at = i;
             }
-            largest = std::fmax(largest, std::abs(leading(b[i])));
+            v.largest = std::fmax(v.largest, std::abs(leading(b[i])));
             if (s == 0) {
                 ++unknown;
                 continue;
@@ -205,7 +207,7 @@ class SignChangeSearch {
             previous = s;
             unknown = 0;
         }
-        v.all_tiny = largest <= 8.0 * error;
+        v.all_tiny = v.largest <= 8.0 * error;
         if (at > 0) {
             v.middle = std::clamp(std::round(8.0 * at / n) / 8.0, 0.125, 0.875);
         }
@@ -229,7 +231,7 @@ class SignChangeSearch {
         if (v.most == 1) return emit(lo, hi, first);
         if (!(hi - lo > 0x1p-52) || v.all_tiny) return cluster(lo, hi, first, last);
         Real left[N + 1], right[N + 1];
-        const double child_error = error + split_error_;
+        const double child_error = error + p_.degree * kRounding * v.largest;
         const double candidates[] = {v.middle, 0.5, 0.375, 0.625, 0.25, 0.75};
         int middle_sign = 0;
         double r = 0.5;
@@ -305,7 +307,6 @@ class SignChangeSearch {
 
     const BernsteinPolynomial<Real, N>& p_;
     SignChanges<N>& out_;
-    double split_error_ = 0;
 };
 
 }  // namespace bernstein
