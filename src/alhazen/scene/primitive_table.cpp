@@ -18,16 +18,6 @@ decltype(auto) with_column(Columns& columns, std::uint32_t kind, F&& f) {
     return f(std::get<I>(columns));
 }
 
-constexpr int kMostHits = [] {
-    int most = 1;
-    const auto widen = [&]<class... S>(ShapeTypes<S...>) {
-        ((most = std::max(most, S::kMaxHits)), ...);
-    };
-    widen(AnalyticShapes{});
-    return most;
-}();
-static_assert(kMostHits <= kMaxShapeHits);
-
 /// Room for what carrying a ray into the inner frame and back rounds: it grows with the condition
 /// of the transform.
 Box3 placed_box(const Placement& placement, const Box3& inner) {
@@ -78,6 +68,8 @@ void PrimitiveTable::finish() {
 
 std::uint32_t PrimitiveTable::kind(PrimitiveId id) const {
     const std::uint32_t i = static_cast<std::uint32_t>(id);
+    if (i >= first_[kTriangleKind])
+        return i < first_[kInstanceKind] ? kTriangleKind : kInstanceKind;
     std::uint32_t kind = 0;
     while (i >= first_[kind + 1]) ++kind;
     return kind;
@@ -201,19 +193,33 @@ Interval PrimitiveTable::extent(std::size_t i, const Vec3& axis) const {
     });
 }
 
-int PrimitiveTable::intersect(PrimitiveId id, const Ray& ray, const RayShear& shear,
-                              ShapeHit* hits) const {
+void PrimitiveTable::intersect(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                               ShapeHits& hits) const {
     const std::uint32_t k = kind(id);
     const std::uint32_t i = static_cast<std::uint32_t>(id) - first_[k];
     if (k == kTriangleKind) {
         const auto [a, b, c] = triangle_vertices(i);
-        return intersect_triangle(ray, shear, a, b, c, hits[0]) ? 1 : 0;
+        hits.grow(intersect_triangle(ray, shear, a, b, c, *hits.room(1)) ? 1 : 0);
+        return;
     }
+    with_column(columns, k, [&](const auto& c) {
+        const std::uint32_t placement = c.placements[i];
+        if (placement == kNoPlacement) return append_hits(c.shapes[i], ray, hits);
+        append_hits(c.shapes[i], transformed(placements[placement].inner_from_outer, ray), hits);
+    });
+}
+
+bool PrimitiveTable::inside_at_minus_infinity(PrimitiveId id, const Ray& ray) const {
+    const std::uint32_t k = kind(id);
+    const std::uint32_t i = static_cast<std::uint32_t>(id) - first_[k];
+    if (k >= kTriangleKind) return false;
     return with_column(columns, k, [&](const auto& c) {
         const std::uint32_t placement = c.placements[i];
-        if (placement == kNoPlacement) return c.shapes[i].intersect(ray, hits);
-        return c.shapes[i].intersect(transformed(placements[placement].inner_from_outer, ray),
-                                     hits);
+        if (placement == kNoPlacement) {
+            return alhazen::inside_at_minus_infinity(c.shapes[i], ray);
+        }
+        return alhazen::inside_at_minus_infinity(
+            c.shapes[i], transformed(placements[placement].inner_from_outer, ray));
     });
 }
 
@@ -221,12 +227,12 @@ template <class Stats>
 void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best,
                              Stats stats) const {
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
-        ShapeHit hits[kMaxShapeHits];
-        const int count = intersect(id, ray, shear, hits);
+        ShapeHits hits(1);
+        intersect(id, ray, shear, hits);
         stats.primitives(1);
-        if (count == 0) return;
+        if (hits.empty()) return;
         stats.primitive_hits(1);
-        offer(hits[0], id, ray, best);
+        offer(hits.front(), id, ray, best);
         return;
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
@@ -244,9 +250,10 @@ template <class Stats>
 bool PrimitiveTable::occluded(PrimitiveId id, const Ray& ray, const RayShear& shear,
                               Stats stats) const {
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
-        ShapeHit hits[kMaxShapeHits];
+        ShapeHits hits(1);
         stats.primitives(1);
-        if (intersect(id, ray, shear, hits) == 0) return false;
+        intersect(id, ray, shear, hits);
+        if (hits.empty()) return false;
         stats.primitive_hits(1);
         return true;
     }
@@ -259,13 +266,13 @@ template <class Stats>
 void PrimitiveTable::all_hits(PrimitiveId id, const Ray& ray, const RayShear& shear,
                               std::vector<Hit>& hits, Stats stats) const {
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
-        ShapeHit crossings[kMaxShapeHits];
-        const int count = intersect(id, ray, shear, crossings);
+        ShapeHits crossings;
+        intersect(id, ray, shear, crossings);
         stats.primitives(1);
-        if (count > 0) stats.primitive_hits(1);
-        for (int i = 0; i < count; ++i) {
+        if (!crossings.empty()) stats.primitive_hits(1);
+        for (const ShapeHit& crossing : crossings) {
             Hit& hit = hits.emplace_back();
-            static_cast<ShapeHit&>(hit) = crossings[i];
+            static_cast<ShapeHit&>(hit) = crossing;
             hit.primitive = id;
         }
         return;

@@ -58,9 +58,6 @@ inline constexpr std::uint32_t kTriangleKind = AnalyticShapes::kCount;
 inline constexpr std::uint32_t kInstanceKind = kTriangleKind + 1;
 inline constexpr std::uint32_t kKindCount = kInstanceKind + 1;
 
-/// Room that a list of crossings of one primitive needs.
-inline constexpr int kMaxShapeHits = 8;
-
 /// What a material does to light that comes to its surface.
 enum class Opacity : std::uint8_t {
     Transparent,      ///< some of it may pass: the renderer finds out
@@ -112,8 +109,11 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
 
     // ---- the one test. Crossings of analytic shapes and triangles in [ray.t_min, ray.t_max],
-    // ascending; not for instances. `hits` has room for kMaxShapeHits entries.
-    int intersect(PrimitiveId id, const Ray& ray, const RayShear& shear, ShapeHit* hits) const;
+    // ascending, appended; not for instances.
+    void intersect(PrimitiveId id, const Ray& ray, const RayShear& shear, ShapeHits& hits) const;
+    /// Whether the line of the ray begins inside the primitive: only for an analytic solid without
+    /// bounds.
+    [[nodiscard]] bool inside_at_minus_infinity(PrimitiveId id, const Ray& ray) const;
 
     // ---- the three queries on one primitive of any kind, instances included
     /// Makes `best` the better of itself and the primitive's nearest hit, and shrinks ray.t_max to

@@ -135,7 +135,8 @@ LoneSurface lone_shape(const AnyShape& any) {
     LoneSurface lone;
     std::visit(
         [&]<class S>(const S& shape) {
-            lone.closed = shape.closed();
+            // What has no bounds may be crossed oddly often.
+            lone.closed = shape.closed() && shape.box().bounded();
             auto& column = std::get<ShapeColumn<S>>(lone.table.columns);
             column.shapes.push_back(shape);
             column.placements.push_back(kNoPlacement);

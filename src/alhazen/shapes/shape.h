@@ -3,11 +3,14 @@
 ///
 /// A shape is a plain struct that describes a surface in its own frame. It knows neither materials
 /// nor transforms nor file formats. To add one: docs in CONTRIBUTING.md. Conventions: `intersect`
-/// works on un-normalised rays; it writes every crossing with t in [ray.t_min, ray.t_max] in
-/// ascending order of t, at most `kMaxHits`. The nearest crossing, any crossing and all crossings
-/// are all read from that one list, so they cannot disagree. A tangent ray may be reported as two
-/// equal crossings or none, never as one (for closed shapes the count is even). Threads: const
-/// functions may be called from many threads.
+/// works on un-normalised rays; it writes every crossing with t in [ray.t_min, ray.t_max], either
+/// of which may be infinite, in ascending order of t: at most `kMaxHits`, or any number into a
+/// ShapeHits where that says `kManyHits`. The nearest crossing, any crossing and all crossings are
+/// all read from that one list, so they cannot disagree. A closed shape is a solid: along a line
+/// its crossings enter and leave by turns, whatever their normals. A tangent ray may be reported as
+/// two equal crossings or none, never as one. A bounded solid is crossed evenly often; an unbounded
+/// one says with `inside_at_minus_infinity` where its lines begin. Threads: const functions may be
+/// called from many threads.
 
 #include <array>
 #include <concepts>
@@ -19,6 +22,7 @@
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
 #include "alhazen/math/interval.h"
+#include "alhazen/shapes/shape_hits.h"
 
 namespace alhazen {
 
@@ -32,10 +36,31 @@ struct ShapeSurface {
     Vec3 error;           ///< bound of |point - true point on the surface|, component by component
 };
 
+/// A shape that crosses a line kMaxHits times at the most and returns how often it did.
 template <class S>
-concept Shape = requires(S& fresh, const S& shape, const Ray& ray, ShapeHit* hits,
-                         const ShapeHit& hit, const Vec3& axis, const FileLocation& where,
-                         Diagnostics& diagnostics) {
+concept WritesFewHits = S::kMaxHits >= 1 &&
+                        S::kMaxHits <= kMaxShapeHits&& requires(const S& shape, const Ray& ray,
+                                                                ShapeHit* hits) {
+    { shape.intersect(ray, hits) } -> std::same_as<int>;
+};
+
+/// A shape that crosses a line any number of times: it appends to the list.
+template <class S>
+concept WritesManyHits = S::kMaxHits ==
+                         kManyHits&& requires(const S& shape, const Ray& ray, ShapeHits& hits) {
+    { shape.intersect(ray, hits) } -> std::same_as<void>;
+};
+
+/// A solid that may reach to infinity.
+template <class S>
+concept UnboundedSolid = requires(const S& shape, const Ray& ray) {
+    /// Whether the line of the ray (its limits do not matter) begins inside: at t = -infinity.
+    { shape.inside_at_minus_infinity(ray) } -> std::same_as<bool>;
+};
+
+template <class S>
+concept Shape = requires(S& fresh, const S& shape, const Ray& ray, const ShapeHit& hit,
+                         const Vec3& axis, const FileLocation& where, Diagnostics& diagnostics) {
     { S::kMaxHits } -> std::convertible_to<int>;
     { S::kName } -> std::convertible_to<const char*>;  // as in scene files: "sphere"
     { S::kClosed } -> std::convertible_to<bool>;       // could bound a volume whatever its options
@@ -50,8 +75,28 @@ concept Shape = requires(S& fresh, const S& shape, const Ray& ray, ShapeHit* hit
     { shape.box() } -> std::same_as<Box3>;
     /// Range of dot(axis, p) over the shape, rounded outward.
     { shape.extent(axis) } -> std::same_as<Interval>;
-    { shape.intersect(ray, hits) } -> std::same_as<int>;
     { shape.surface(ray, hit) } -> std::same_as<ShapeSurface>;
-};
+}
+&&(WritesFewHits<S> || WritesManyHits<S>);
+
+/// Appends the crossings of a shape of either kind.
+template <Shape S>
+inline void append_hits(const S& shape, const Ray& ray, ShapeHits& hits) {
+    if constexpr (WritesManyHits<S>) {
+        shape.intersect(ray, hits);
+    } else {
+        hits.grow(shape.intersect(ray, hits.room(S::kMaxHits)));
+    }
+}
+
+/// Whether the line of a ray begins inside the solid.
+template <Shape S>
+[[nodiscard]] inline bool inside_at_minus_infinity(const S& shape, const Ray& ray) {
+    if constexpr (UnboundedSolid<S>) {
+        return shape.inside_at_minus_infinity(ray);
+    } else {
+        return false;
+    }
+}
 
 }  // namespace alhazen
