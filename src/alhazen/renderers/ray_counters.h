@@ -5,12 +5,9 @@
 #include <cstdint>
 
 #include "alhazen/accel/traversal_stats.h"
+#include "alhazen/geometry/ray_mask.h"
 
 namespace alhazen {
-
-enum class RayKind { Eye, Shadow, Reflection, Refraction };
-inline constexpr std::array<const char*, 4> kRayKindNames{"eye", "shadow", "reflection",
-                                                          "refraction"};
 
 /// `hit` counts rays that met a surface; for shadow rays, those that met anything on the way to the
 /// light.
@@ -19,7 +16,7 @@ struct RayCount {
 };
 
 struct RayCounters {
-    std::array<RayCount, 4> rays;
+    std::array<RayCount, kRayKindCount> rays;
     std::uint64_t total_internal = 0;  ///< refractions that were total internal reflections
     std::uint64_t non_finite = 0;      ///< samples whose radiance was not finite
     std::uint64_t aov_rays = 0;        ///< eye rays cast again for AOVs; counted nowhere else

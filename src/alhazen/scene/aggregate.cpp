@@ -2,14 +2,14 @@
 
 namespace alhazen {
 
-void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, TraversalStats* stats,
+void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                               Coherence) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) (void)closest(rays[i], hits[i], stats);
+    for (std::size_t i = 0; i < rays.size(); ++i) (void)closest(rays[i], hits[i], query);
 }
 
-void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result,
-                               TraversalStats* stats, Coherence) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], stats);
+void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result, RayQuery query,
+                               Coherence) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], query);
 }
 
 bool hit_less(const Hit& a, const Hit& b) {

@@ -3,7 +3,8 @@
 ///
 /// Conventions: hits lie in [ray.t_min, ray.t_max]. At equal t the lower primitive id wins
 /// (compared in the outermost aggregate first), so every accelerator gives the same hit. An invalid
-/// ray hits nothing. Threads: const functions may be called from many threads.
+/// ray hits nothing, and what a query's mask does not see (geometry/ray_mask.h) is as if it were
+/// not there. Threads: const functions may be called from many threads.
 
 #include <cstddef>
 #include <span>
@@ -13,6 +14,7 @@
 #include "alhazen/geometry/box.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/ray_mask.h"
 
 namespace alhazen {
 
@@ -26,6 +28,15 @@ enum class Coherence {
     Coherent,
 };
 
+/// What goes with every query.
+struct RayQuery {
+    // Implicit, so that most callers say no more than where to count.
+    RayQuery(TraversalStats* counted, RayMask sees = kAllRays) : stats(counted), mask(sees) {}
+
+    TraversalStats* stats;  ///< what was done is added here; null: nothing is counted
+    RayMask mask;           ///< what the rays see
+};
+
 class Aggregate {
   public:
     virtual ~Aggregate() = default;
@@ -37,25 +48,25 @@ class Aggregate {
     /// Bytes of the acceleration structure, nested aggregates not included.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 
-    /// The nearest hit. `stats` may be null in every query: then nothing is counted.
-    [[nodiscard]] virtual bool closest(const Ray& ray, Hit& hit, TraversalStats* stats) const = 0;
+    /// The nearest hit.
+    [[nodiscard]] virtual bool closest(const Ray& ray, Hit& hit, RayQuery query) const = 0;
     /// True when there is any hit.
-    [[nodiscard]] virtual bool occluded(const Ray& ray, TraversalStats* stats) const = 0;
+    [[nodiscard]] virtual bool occluded(const Ray& ray, RayQuery query) const = 0;
     /// Appends every hit; the appended ones are sorted by t, then by ids.
-    virtual void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const = 0;
+    virtual void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const = 0;
     /// For shadow rays: true when an opaque primitive is hit (`crossings` is then meaningless);
     /// else appends every hit, sorted as in `all_hits`: the transparent surfaces that tint the
     /// light.
     [[nodiscard]] virtual bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
-                                        TraversalStats* stats) const = 0;
+                                        RayQuery query) const = 0;
 
     /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
     /// than ray by ray from about ten rays on, whatever their order.
-    virtual void closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
-                               TraversalStats* stats, Coherence coherence = Coherence::Any) const;
+    virtual void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                               Coherence coherence = Coherence::Any) const;
     /// Whether there is any hit on every ray.
-    virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
-                                TraversalStats* stats, Coherence coherence = Coherence::Any) const;
+    virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
+                                Coherence coherence = Coherence::Any) const;
 };
 
 /// The order of hits: by t, then by the ids from the outermost aggregate inward. Sorts must be

@@ -22,11 +22,11 @@ inline void sort_appended(std::vector<Hit>& hits, std::size_t before) {
     std::stable_sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(), hit_less);
 }
 
-/// Calls `query(stats)` with the policy that counts into `stats`, or the one that does not.
-template <class Query>
-decltype(auto) with_stats(TraversalStats* stats, Query&& query) {
-    if (stats != nullptr) return query(CountingStats{stats});
-    return query(NoStats{});
+/// Calls `body(policy)` with the policy that counts into `stats`, or the one that does not.
+template <class Body>
+decltype(auto) with_stats(TraversalStats* stats, Body&& body) {
+    if (stats != nullptr) return body(CountingStats{stats});
+    return body(NoStats{});
 }
 
 template <Accelerator A>
@@ -42,36 +42,37 @@ class AggregateOf final : public Aggregate {
     }
     [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
 
-    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, TraversalStats* stats) const override {
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override {
         hit = Hit{};
         if (!is_valid(ray)) return false;
         Ray shrinking = ray;
         const RayShear shear(ray.direction);
-        with_stats(stats, [&](auto policy) {
+        with_stats(query.stats, [&](auto policy) {
             each(shrinking, policy, [&](PrimitiveId id) {
-                table_.closest(id, shrinking, shear, hit, policy);
+                table_.closest(id, shrinking, shear, hit, policy, query.mask);
                 return false;
             });
         });
         return hit.found();
     }
 
-    [[nodiscard]] bool occluded(const Ray& ray, TraversalStats* stats) const override {
+    [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override {
         if (!is_valid(ray)) return false;
         const RayShear shear(ray.direction);
-        return with_stats(stats, [&](auto policy) {
-            return each(ray, policy,
-                        [&](PrimitiveId id) { return table_.occluded(id, ray, shear, policy); });
+        return with_stats(query.stats, [&](auto policy) {
+            return each(ray, policy, [&](PrimitiveId id) {
+                return table_.occluded(id, ray, shear, policy, query.mask);
+            });
         });
     }
 
-    void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const override {
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override {
         if (!is_valid(ray)) return;
         const RayShear shear(ray.direction);
         const std::size_t before = hits.size();
-        with_stats(stats, [&](auto policy) {
+        with_stats(query.stats, [&](auto policy) {
             each(ray, policy, [&](PrimitiveId id) {
-                table_.all_hits(id, ray, shear, hits, policy);
+                table_.all_hits(id, ray, shear, hits, policy, query.mask);
                 return false;
             });
         });
@@ -79,13 +80,13 @@ class AggregateOf final : public Aggregate {
     }
 
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
-                                TraversalStats* stats) const override {
+                                RayQuery query) const override {
         if (!is_valid(ray)) return false;
         const RayShear shear(ray.direction);
         const std::size_t before = crossings.size();
-        const bool opaque = with_stats(stats, [&](auto policy) {
+        const bool opaque = with_stats(query.stats, [&](auto policy) {
             return each(ray, policy, [&](PrimitiveId id) {
-                return table_.shadowed(id, ray, shear, crossings, policy);
+                return table_.shadowed(id, ray, shear, crossings, policy, query.mask);
             });
         });
         if (!opaque) sort_appended(crossings, before);

@@ -58,6 +58,7 @@ struct FastQuery : LeafQuery<Derived> {
         const std::uint32_t used = used_lanes(triangles);
         for (std::size_t lane = 0; lane < used; ++lane) {
             const BlockId id = triangles.ids[lane];
+            if (!this->scene.sees(id.id())) continue;
             const auto [a, b, c] = this->scene.table->triangle_vertices(this->triangle(id.id()));
             ShapeHit hit;
             if (!intersect_triangle(this->ray, this->shear(), a, b, c, hit)) continue;
@@ -91,6 +92,7 @@ struct FastClosestQuery : FastQuery<FastClosestQuery> {
         for (; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             if (!triangles.ids[lane].used() || !(s[lane] <= s_max)) continue;
+            if (!scene.sees(triangles.ids[lane].id())) continue;
             s_max = s[lane];
             nearest = lane;
         }
@@ -118,7 +120,7 @@ struct FastClosestQuery : FastQuery<FastClosestQuery> {
     }
     template <class Stats>
     HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        scene.table->closest(id, ray, this->shear(), best, stats);
+        scene.table->closest(id, ray, this->shear(), best, stats, scene.mask);
         shrink();
         return false;
     }
@@ -143,7 +145,7 @@ struct FastOccludedQuery : FastQuery<FastOccludedQuery> {
         std::uint32_t rest = test_triangles(triangles, filter, slabs.s_min, s_max).hit;
         for (; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            if (!triangles.ids[lane].used()) continue;
+            if (!triangles.ids[lane].used() || !scene.sees(triangles.ids[lane].id())) continue;
             stats.primitive_hits(1);
             return occluded = true;
         }
@@ -156,7 +158,7 @@ struct FastOccludedQuery : FastQuery<FastOccludedQuery> {
     }
     template <class Stats>
     HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        return occluded = scene.table->occluded(id, ray, this->shear(), stats);
+        return occluded = scene.table->occluded(id, ray, this->shear(), stats, scene.mask);
     }
 };
 

@@ -119,6 +119,7 @@ struct LeafQuery {
              rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             const BlockId id = block.ids[lane];
+            if (!scene.sees(id.id())) continue;
             ShapeHit hit = pairs.hit(lane);
             if ((verdict.unsure >> lane & 1) != 0) {
                 const auto [a, b, c] = scene.table->triangle_vertices(triangle(id.id()));
@@ -194,6 +195,7 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
             // Written so that a NaN is not passed over.
             if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
+            if (!scene.sees(block.ids[lane].id())) continue;
             if ((found.sure >> lane & 1) == 0) {
                 // It ends the search as well, if it is hit.
                 decide(block, lane, stats);
@@ -211,7 +213,7 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
     }
     template <class Stats>
     HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        scene.table->closest(id, ray, this->shear(), best, stats);
+        scene.table->closest(id, ray, this->shear(), best, stats, scene.mask);
         shrink();
         return false;
     }
@@ -265,14 +267,16 @@ struct OccludedQuery : RobustQuery<OccludedQuery> {
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
                               Stats stats) {
         for (std::uint32_t rest = found.sure; rest != 0; rest &= rest - 1) {
-            if (!block.ids[static_cast<std::size_t>(std::countr_zero(rest))].used()) continue;
+            const BlockId id = block.ids[static_cast<std::size_t>(std::countr_zero(rest))];
+            if (!id.used() || !scene.sees(id.id())) continue;
             stats.primitive_hits(1);
             return occluded = true;
         }
         for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             ShapeHit hit;
-            if (!block.ids[lane].used() || !this->hits_triangle(block, lane, hit)) continue;
+            if (!block.ids[lane].used() || !scene.sees(block.ids[lane].id())) continue;
+            if (!this->hits_triangle(block, lane, hit)) continue;
             stats.primitive_hits(1);
             return occluded = true;
         }
@@ -285,7 +289,7 @@ struct OccludedQuery : RobustQuery<OccludedQuery> {
     }
     template <class Stats>
     HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        return occluded = scene.table->occluded(id, ray, this->shear(), stats);
+        return occluded = scene.table->occluded(id, ray, this->shear(), stats, scene.mask);
     }
 };
 
@@ -307,7 +311,8 @@ struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             const BlockId id = block.ids[lane];
             ShapeHit hit;
-            if (!id.used() || !this->hits_triangle(block, lane, hit)) continue;
+            if (!id.used() || !scene.sees(id.id())) continue;
+            if (!this->hits_triangle(block, lane, hit)) continue;
             stats.primitive_hits(1);
             if (crossing(id, hit)) return true;
         }
@@ -326,14 +331,15 @@ struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
     template <class Stats>
     HWY_INLINE bool sphere(BlockId id, Stats stats) {
         if (kStopAtOpaque && id.opaque())
-            return scene.table->occluded(id.id(), ray, this->shear(), stats);
-        scene.table->all_hits(id.id(), ray, this->shear(), hits, stats);
+            return scene.table->occluded(id.id(), ray, this->shear(), stats, scene.mask);
+        scene.table->all_hits(id.id(), ray, this->shear(), hits, stats, scene.mask);
         return false;
     }
     template <class Stats>
     HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        if (kStopAtOpaque) return scene.table->shadowed(id, ray, this->shear(), hits, stats);
-        scene.table->all_hits(id, ray, this->shear(), hits, stats);
+        if (kStopAtOpaque)
+            return scene.table->shadowed(id, ray, this->shear(), hits, stats, scene.mask);
+        scene.table->all_hits(id, ray, this->shear(), hits, stats, scene.mask);
         return false;
     }
 };

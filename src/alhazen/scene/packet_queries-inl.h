@@ -160,7 +160,7 @@ class PacketLeaves {
                 const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
                 const std::size_t g = bit / kBlockWidth, lane = bit % kBlockWidth;
                 const RayGroup& group = packet_.groups[g];
-                if (!block.ids[lane].used()) continue;
+                if (!block.ids[lane].used() || !scene_.sees(block.ids[lane].id())) continue;
                 stats.primitives(static_cast<std::uint64_t>(std::popcount(group.used)));
                 FilteredGroup found;
                 if (!filter_group(block, lane, error[g][lane], packet_, group, found)) continue;

@@ -64,6 +64,36 @@ void PrimitiveTable::finish() {
     begin_kind(triangles);
     begin_kind(instances.size());
     first_[kind] = static_cast<std::uint32_t>(next);
+    collect_masks();
+}
+
+void PrimitiveTable::collect_masks() {
+    masks_.clear();
+    std::uint32_t next = 0;
+    const auto add = [&](std::size_t count, RayMask visible_to) {
+        if (count > 0 && (masks_.empty() || masks_.back().visible_to != visible_to)) {
+            masks_.push_back({next, visible_to});
+        }
+        next += static_cast<std::uint32_t>(count);
+    };
+    const auto add_column = [&](const auto& column) {
+        for (const RayMask mask : column.visible_to) add(1, mask);
+        add(column.shapes.size() - column.visible_to.size(), kAllRays);
+    };
+    std::apply([&](const auto&... column) { (add_column(column), ...); }, columns);
+    for (const PlacedMesh& mesh : meshes) add(mesh.mesh->triangles.size(), mesh.visible_to);
+    for (const Instance& instance : instances) add(1, instance.visible_to);
+    if (masks_.size() == 1 && masks_.front().visible_to == kAllRays) masks_.clear();
+    common_mask_ = kAllRays;
+    for (const MaskRange& range : masks_) common_mask_ &= range.visible_to;
+}
+
+RayMask PrimitiveTable::visible_to(PrimitiveId id) const {
+    if (masks_.empty()) return kAllRays;
+    const auto after =
+        std::upper_bound(masks_.begin(), masks_.end(), static_cast<std::uint32_t>(id),
+                         [](std::uint32_t i, const MaskRange& range) { return i < range.first; });
+    return (after - 1)->visible_to;
 }
 
 std::uint32_t PrimitiveTable::kind(PrimitiveId id) const {
@@ -225,7 +255,8 @@ bool PrimitiveTable::inside_at_minus_infinity(PrimitiveId id, const Ray& ray) co
 
 template <class Stats>
 void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best,
-                             Stats stats) const {
+                             Stats stats, RayMask mask) const {
+    if (!is_seen(id, mask)) return;
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
         ShapeHits hits(1);
         intersect(id, ray, shear, hits);
@@ -238,7 +269,7 @@ void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hi
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     Hit inner;
     const Ray inner_ray = transformed(instance.placement.inner_from_outer, ray);
-    if (!instance.aggregate->closest(inner_ray, inner, stats.sink())) return;
+    if (!instance.aggregate->closest(inner_ray, inner, {stats.sink(), mask})) return;
     if (inner.t < best.t || (inner.t == best.t && id < best.top())) {
         best = inner;
         best.path.push_back(id);
@@ -247,8 +278,9 @@ void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hi
 }
 
 template <class Stats>
-bool PrimitiveTable::occluded(PrimitiveId id, const Ray& ray, const RayShear& shear,
-                              Stats stats) const {
+bool PrimitiveTable::occluded(PrimitiveId id, const Ray& ray, const RayShear& shear, Stats stats,
+                              RayMask mask) const {
+    if (!is_seen(id, mask)) return false;
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
         ShapeHits hits(1);
         stats.primitives(1);
@@ -259,12 +291,13 @@ bool PrimitiveTable::occluded(PrimitiveId id, const Ray& ray, const RayShear& sh
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     return instance.aggregate->occluded(transformed(instance.placement.inner_from_outer, ray),
-                                        stats.sink());
+                                        {stats.sink(), mask});
 }
 
 template <class Stats>
 void PrimitiveTable::all_hits(PrimitiveId id, const Ray& ray, const RayShear& shear,
-                              std::vector<Hit>& hits, Stats stats) const {
+                              std::vector<Hit>& hits, Stats stats, RayMask mask) const {
+    if (!is_seen(id, mask)) return;
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
         ShapeHits crossings;
         intersect(id, ray, shear, crossings);
@@ -280,16 +313,17 @@ void PrimitiveTable::all_hits(PrimitiveId id, const Ray& ray, const RayShear& sh
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     const std::size_t before = hits.size();
     instance.aggregate->all_hits(transformed(instance.placement.inner_from_outer, ray), hits,
-                                 stats.sink());
+                                 {stats.sink(), mask});
     for (std::size_t i = before; i < hits.size(); ++i) hits[i].path.push_back(id);
 }
 
 template <class Stats>
 bool PrimitiveTable::shadowed(PrimitiveId id, const Ray& ray, const RayShear& shear,
-                              std::vector<Hit>& crossings, Stats stats) const {
+                              std::vector<Hit>& crossings, Stats stats, RayMask mask) const {
+    if (!is_seen(id, mask)) return false;
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
         const std::size_t before = crossings.size();
-        all_hits(id, ray, shear, crossings, stats);
+        all_hits(id, ray, shear, crossings, stats, mask);
         if (crossings.size() == before) return false;
         const ShadowEffect effect = shadow_effect(id, ray);
         if (effect == ShadowEffect::None) crossings.resize(before);
@@ -298,35 +332,38 @@ bool PrimitiveTable::shadowed(PrimitiveId id, const Ray& ray, const RayShear& sh
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     const std::size_t before = crossings.size();
     if (instance.aggregate->shadowed(transformed(instance.placement.inner_from_outer, ray),
-                                     crossings, stats.sink())) {
+                                     crossings, {stats.sink(), mask})) {
         return true;
     }
     for (std::size_t i = before; i < crossings.size(); ++i) crossings[i].path.push_back(id);
     return false;
 }
 
-template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&, NoStats) const;
-template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&,
-                                      CountingStats) const;
-template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&, NoStats) const;
-template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&,
-                                       CountingStats) const;
+template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&, NoStats,
+                                      RayMask) const;
+template void PrimitiveTable::closest(PrimitiveId, Ray&, const RayShear&, Hit&, CountingStats,
+                                      RayMask) const;
+template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&, NoStats,
+                                       RayMask) const;
+template bool PrimitiveTable::occluded(PrimitiveId, const Ray&, const RayShear&, CountingStats,
+                                       RayMask) const;
 template void PrimitiveTable::all_hits(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
-                                       NoStats) const;
+                                       NoStats, RayMask) const;
 template void PrimitiveTable::all_hits(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
-                                       CountingStats) const;
+                                       CountingStats, RayMask) const;
 template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
-                                       NoStats) const;
+                                       NoStats, RayMask) const;
 template bool PrimitiveTable::shadowed(PrimitiveId, const Ray&, const RayShear&, std::vector<Hit>&,
-                                       CountingStats) const;
+                                       CountingStats, RayMask) const;
 
 std::size_t PrimitiveTable::memory_bytes() const {
     const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    std::size_t total =
-        bytes(meshes) + bytes(instances) + bytes(placements) + bytes(material_opacity);
+    std::size_t total = bytes(meshes) + bytes(instances) + bytes(placements) +
+                        bytes(material_opacity) + masks_.capacity() * sizeof(MaskRange);
     std::apply(
         [&](const auto&... c) {
-            ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials) + bytes(c.parts)),
+            ((total += bytes(c.shapes) + bytes(c.placements) + bytes(c.materials) + bytes(c.parts) +
+                       bytes(c.visible_to)),
              ...);
         },
         columns);

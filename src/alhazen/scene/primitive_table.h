@@ -11,6 +11,7 @@
 
 #include "alhazen/accel/traversal_stats.h"
 #include "alhazen/geometry/bounds_source.h"
+#include "alhazen/geometry/ray_mask.h"
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/scene/aggregate.h"
 #include "alhazen/shading/material.h"
@@ -33,6 +34,15 @@ struct ShapeColumn {
         placements;  ///< [shape] index into PrimitiveTable::placements or kNoPlacement
     std::vector<MaterialId> materials;  ///< [shape]
     std::vector<std::uint32_t> parts;   ///< [shape] number of its part, or empty: all 0
+    /// [shape]; those beyond its end are visible to all rays.
+    std::vector<RayMask> visible_to;
+
+    /// Of the shape that was added last.
+    void set_last_visible_to(RayMask mask) {
+        if (mask == kAllRays) return;
+        visible_to.resize(shapes.size(), kAllRays);
+        visible_to.back() = mask;
+    }
 };
 
 /// A mesh in the frame of the aggregate.
@@ -42,6 +52,7 @@ struct PlacedMesh {
     std::uint32_t first_triangle = 0;  ///< number of triangles in the meshes before this one
     bool mirrored = false;   ///< its transform turned the winding over: normals are flipped back
     std::uint32_t part = 0;  ///< number of its part; see Surface
+    RayMask visible_to = kAllRays;
 };
 
 struct Instance {
@@ -50,6 +61,7 @@ struct Instance {
     std::uint32_t part = 0;  ///< number of the part that placed it
     /// What is placed is one mesh that several parts share: `part` is the mesh's own part.
     bool of_shared_mesh = false;
+    RayMask visible_to = kAllRays;
 };
 
 /// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two
@@ -96,6 +108,14 @@ class PrimitiveTable final : public BoundsSource {
     /// sure: false).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;
 
+    /// Which rays see the primitive; of an instance, the instance itself.
+    [[nodiscard]] RayMask visible_to(PrimitiveId id) const;
+    /// True when rays of this mask see all there is.
+    [[nodiscard]] bool all_seen(RayMask mask) const { return (common_mask_ & mask) != 0; }
+    [[nodiscard]] bool is_seen(PrimitiveId id, RayMask mask) const {
+        return all_seen(mask) || (visible_to(id) & mask) != 0;
+    }
+
     /// What a primitive that is hit (no instance) does to a shadow ray.
     enum class ShadowEffect {
         Blocks,
@@ -115,29 +135,40 @@ class PrimitiveTable final : public BoundsSource {
     /// bounds.
     [[nodiscard]] bool inside_at_minus_infinity(PrimitiveId id, const Ray& ray) const;
 
-    // ---- the three queries on one primitive of any kind, instances included
+    // ---- the queries on one primitive of any kind, instances included; one that `mask` does not
+    // see is not hit
     /// Makes `best` the better of itself and the primitive's nearest hit, and shrinks ray.t_max to
     /// it.
     template <class Stats>
-    void closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best, Stats stats) const;
+    void closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best, Stats stats,
+                 RayMask mask) const;
     template <class Stats>
-    bool occluded(PrimitiveId id, const Ray& ray, const RayShear& shear, Stats stats) const;
+    bool occluded(PrimitiveId id, const Ray& ray, const RayShear& shear, Stats stats,
+                  RayMask mask) const;
     /// Appends all hits, not sorted.
     template <class Stats>
     void all_hits(PrimitiveId id, const Ray& ray, const RayShear& shear, std::vector<Hit>& hits,
-                  Stats stats) const;
+                  Stats stats, RayMask mask) const;
     template <class Stats>
     bool shadowed(PrimitiveId id, const Ray& ray, const RayShear& shear,
-                  std::vector<Hit>& crossings, Stats stats) const;
+                  std::vector<Hit>& crossings, Stats stats, RayMask mask) const;
 
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
+    void collect_masks();
     [[nodiscard]] bool is_opaque_from_front(PrimitiveId id) const;
     /// True when a ray through the triangle comes out on its front: towards a light on that side.
     [[nodiscard]] bool leaves_through_front(PrimitiveId id, const Ray& ray) const;
 
     std::array<std::uint32_t, kKindCount + 1> first_{};
+    /// Primitives from `first` on, up to the next entry.
+    struct MaskRange {
+        std::uint32_t first;
+        RayMask visible_to;
+    };
+    std::vector<MaskRange> masks_;    ///< ascending; empty where all are visible to all rays
+    RayMask common_mask_ = kAllRays;  ///< bits that all of them have
 };
 
 /// Offers one crossing as the new best: it wins when it is nearer, or equally near with a lower id.

@@ -94,54 +94,53 @@ void WideBvhAggregate::finish_hits(std::vector<Hit>& hits, std::size_t before) c
     hits.erase(last, hits.end());
 }
 
-bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, TraversalStats* stats) const {
+bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
     hit = Hit{};
     if (!unbounded_.empty() && is_valid(ray)) {
         Ray shrinking = ray;
         const RayShear shear(ray.direction);
-        any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-            table_.closest(id, shrinking, shear, hit, policy);
+        any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            table_.closest(id, shrinking, shear, hit, policy, query.mask);
             return false;
         });
     }
-    if (!layout_.tree.empty) kernels_->closest(scene(), ray, hit, stats);
+    if (!layout_.tree.empty) kernels_->closest(scene(query.mask), ray, hit, query.stats);
     return hit.found();
 }
 
-bool WideBvhAggregate::occluded(const Ray& ray, TraversalStats* stats) const {
+bool WideBvhAggregate::occluded(const Ray& ray, RayQuery query) const {
     if (!unbounded_.empty() && is_valid(ray)) {
         const RayShear shear(ray.direction);
-        const bool found = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-            return table_.occluded(id, ray, shear, policy);
+        const bool found = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            return table_.occluded(id, ray, shear, policy, query.mask);
         });
         if (found) return true;
     }
-    return !layout_.tree.empty && kernels_->occluded(scene(), ray, stats);
+    return !layout_.tree.empty && kernels_->occluded(scene(query.mask), ray, query.stats);
 }
 
-void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits,
-                                TraversalStats* stats) const {
+void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
     if (!is_valid(ray)) return;
     const RayShear shear(ray.direction);
     const std::size_t before = hits.size();
-    any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-        table_.all_hits(id, ray, shear, hits, policy);
+    any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+        table_.all_hits(id, ray, shear, hits, policy, query.mask);
         return false;
     });
-    if (!layout_.tree.empty) (void)kernels_->all_hits(scene(), ray, hits, stats);
+    if (!layout_.tree.empty) (void)kernels_->all_hits(scene(query.mask), ray, hits, query.stats);
     finish_hits(hits, before);
 }
 
-bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings,
-                                TraversalStats* stats) const {
+bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
     if (!is_valid(ray)) return false;
     const RayShear shear(ray.direction);
     const std::size_t before = crossings.size();
-    const bool opaque = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-        return table_.shadowed(id, ray, shear, crossings, policy);
+    const bool opaque = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+        return table_.shadowed(id, ray, shear, crossings, policy, query.mask);
     });
     if (opaque) return true;
-    if (!layout_.tree.empty && kernels_->shadowed(scene(), ray, crossings, stats)) return true;
+    if (!layout_.tree.empty && kernels_->shadowed(scene(query.mask), ray, crossings, query.stats))
+        return true;
     finish_hits(crossings, before);
     return false;
 }
@@ -159,37 +158,38 @@ bool packets_pay(const WideBvhLayout& layout) {
 
 }  // namespace
 
-void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits,
-                                     TraversalStats* stats, Coherence coherence) const {
+void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                                     Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         hits[i] = Hit{};
         if (unbounded_.empty() || !is_valid(rays[i])) continue;
         Ray shrinking = rays[i];
         const RayShear shear(shrinking.direction);
-        any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-            table_.closest(id, shrinking, shear, hits[i], policy);
+        any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            table_.closest(id, shrinking, shear, hits[i], policy, query.mask);
             return false;
         });
     }
     if (layout_.tree.empty) return;
     const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
-    (coherent ? kernels_->closest_coherent : kernels_->closest_batch)(scene(), rays, hits, stats);
+    (coherent ? kernels_->closest_coherent : kernels_->closest_batch)(scene(query.mask), rays, hits,
+                                                                      query.stats);
 }
 
 void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
-                                      TraversalStats* stats, Coherence coherence) const {
+                                      RayQuery query, Coherence coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         occluded[i] = false;
         if (unbounded_.empty() || !is_valid(rays[i])) continue;
         const RayShear shear(rays[i].direction);
-        occluded[i] = any_unbounded(stats, [&](PrimitiveId id, auto policy) {
-            return table_.occluded(id, rays[i], shear, policy);
+        occluded[i] = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            return table_.occluded(id, rays[i], shear, policy, query.mask);
         });
     }
     if (layout_.tree.empty) return;
     const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
-    (coherent ? kernels_->occluded_coherent : kernels_->occluded_batch)(scene(), rays, occluded,
-                                                                        stats);
+    (coherent ? kernels_->occluded_coherent : kernels_->occluded_batch)(scene(query.mask), rays,
+                                                                        occluded, query.stats);
 }
 
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id) {

@@ -46,14 +46,14 @@ class WideBvhAggregate final : public Aggregate {
     [[nodiscard]] std::size_t memory_bytes() const override;
     [[nodiscard]] const WideBvhLayout& layout() const { return layout_; }
 
-    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, TraversalStats* stats) const override;
-    [[nodiscard]] bool occluded(const Ray& ray, TraversalStats* stats) const override;
-    void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override;
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
-                                TraversalStats* stats) const override;
-    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, TraversalStats* stats,
+                                RayQuery query) const override;
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                        Coherence coherence = Coherence::Any) const override;
-    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, TraversalStats* stats,
+    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
                         Coherence coherence = Coherence::Any) const override;
 
   private:
@@ -61,7 +61,7 @@ class WideBvhAggregate final : public Aggregate {
 
     /// What nobody else prepares for rays that come from everywhere.
     void prepare_meshes() const;
-    [[nodiscard]] WideBvhScene scene() const { return {&table_, &layout_}; }
+    [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
     /// Sorts what a query appended, and drops what it found twice.
     void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
     /// Calls test(id, policy) for the primitives outside the tree until it returns true.

@@ -9,10 +9,22 @@
 
 namespace alhazen {
 
-/// What a kernel works on.
-struct WideBvhScene {
+/// What a kernel works on, for rays that see what `mask` says.
+class WideBvhScene {
+  public:
+    WideBvhScene(const PrimitiveTable& t, const WideBvhLayout& l, RayMask m = kAllRays)
+        : table(&t), layout(&l), mask(m), all_seen_(t.all_seen(m)) {}
+
     const PrimitiveTable* table;
     const WideBvhLayout* layout;
+    RayMask mask;
+
+    [[nodiscard]] bool sees(PrimitiveId id) const {
+        return all_seen_ || (table->visible_to(id) & mask) != 0;
+    }
+
+  private:
+    bool all_seen_;  ///< the rays see every primitive
 };
 
 /// The queries of `Aggregate` on the bounded primitives; the tree is not empty, `stats` may be

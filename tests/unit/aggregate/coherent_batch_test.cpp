@@ -22,7 +22,7 @@ using Rays = std::vector<Ray>;
 /// The packets themselves, also where the aggregate would not choose them.
 void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
                      const std::vector<Hit>& expected, const std::string& name) {
-    const WideBvhScene scene{&tested.primitives(), &tested.layout()};
+    const WideBvhScene scene(tested.primitives(), tested.layout());
     std::vector<Hit> hits(rays.size());
     const auto occluded = std::make_unique<bool[]>(rays.size());
     wide_bvh_kernels().closest_coherent(scene, rays, hits, nullptr);

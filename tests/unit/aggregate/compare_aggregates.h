@@ -44,12 +44,13 @@ struct Answer {
     std::vector<Hit> all, crossings;
 };
 
-inline Answer ask(const Aggregate& aggregate, const Ray& ray) {
+inline Answer ask(const Aggregate& aggregate, const Ray& ray, RayMask mask = kAllRays) {
     Answer answer;
-    answer.found = aggregate.closest(ray, answer.closest, nullptr);
-    answer.occluded = aggregate.occluded(ray, nullptr);
-    aggregate.all_hits(ray, answer.all, nullptr);
-    answer.shadowed = aggregate.shadowed(ray, answer.crossings, nullptr);
+    const RayQuery query{nullptr, mask};
+    answer.found = aggregate.closest(ray, answer.closest, query);
+    answer.occluded = aggregate.occluded(ray, query);
+    aggregate.all_hits(ray, answer.all, query);
+    answer.shadowed = aggregate.shadowed(ray, answer.crossings, query);
     if (answer.shadowed) answer.crossings.clear();  // meaningless then
     return answer;
 }

@@ -142,25 +142,24 @@ class Watched final : public Aggregate {
     const PrimitiveTable& primitives() const override { return inner_->primitives(); }
     Box3 box() const override { return inner_->box(); }
     std::size_t memory_bytes() const override { return inner_->memory_bytes(); }
-    bool closest(const Ray& ray, Hit& hit, TraversalStats* stats) const override {
+    bool closest(const Ray& ray, Hit& hit, RayQuery query) const override {
         ++single_rays;
-        return inner_->closest(ray, hit, stats);
+        return inner_->closest(ray, hit, query);
     }
-    bool occluded(const Ray& ray, TraversalStats* stats) const override {
-        return inner_->occluded(ray, stats);
+    bool occluded(const Ray& ray, RayQuery query) const override {
+        return inner_->occluded(ray, query);
     }
-    void all_hits(const Ray& ray, std::vector<Hit>& hits, TraversalStats* stats) const override {
-        inner_->all_hits(ray, hits, stats);
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override {
+        inner_->all_hits(ray, hits, query);
     }
-    bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
-                  TraversalStats* stats) const override {
-        return inner_->shadowed(ray, crossings, stats);
+    bool shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const override {
+        return inner_->shadowed(ray, crossings, query);
     }
-    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, TraversalStats* stats,
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                        Coherence coherence) const override {
         if (stop != nullptr && generations.size() == stop_at) stop->request();
         generations.push_back(rays.size());
-        inner_->closest_batch(rays, hits, stats, coherence);
+        inner_->closest_batch(rays, hits, query, coherence);
     }
 
   private:
