@@ -1,0 +1,44 @@
+#include "alhazen/sampling/confidence.h"
+
+#include <cmath>
+
+namespace alhazen {
+
+double student_two_sided(double t, int degrees) {
+    const double angle = std::atan(t / std::sqrt(static_cast<double>(degrees)));
+    const double c = std::cos(angle);
+    const bool odd = degrees % 2 != 0;
+    // 1 + 2/3 c^2 + (2 4)/(3 5) c^4 ... (odd) or 1 + 1/2 c^2 + (1 3)/(2 4) c^4 ... (even), up to
+    // c^(degrees - 2) in all.
+    double term = odd ? c : 1.0;
+    double sum = degrees == 1 ? 0.0 : term;
+    for (int k = odd ? 3 : 2; k <= degrees - 2; k += 2) {
+        term *= (k - 1.0) / k * c * c;
+        sum += term;
+    }
+    constexpr double kTwoOverPi = 0.63661977236758134308;
+    return odd ? kTwoOverPi * (angle + std::sin(angle) * sum) : std::sin(angle) * sum;
+}
+
+double student_quantile(double probability, int degrees) {
+    double lo = 0, hi = 1;
+    while (student_two_sided(hi, degrees) < probability) hi *= 2;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (lo + hi);
+        (student_two_sided(middle, degrees) < probability ? lo : hi) = middle;
+    }
+    return 0.5 * (lo + hi);
+}
+
+Estimate mean_of(std::span<const double> independent, double probability) {
+    const double n = static_cast<double>(independent.size());
+    double mean = 0;
+    for (const double x : independent) mean += x / n;
+    double squares = 0;
+    for (const double x : independent) squares += (x - mean) * (x - mean);
+    const double deviation = std::sqrt(squares / (n - 1) / n);
+    const int degrees = static_cast<int>(independent.size()) - 1;
+    return {mean, student_quantile(probability, degrees) * deviation};
+}
+
+}  // namespace alhazen
