@@ -1,0 +1,254 @@
+#include "alhazen/scene/solid_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "alhazen/base/error.h"
+#include "alhazen/math/random.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/sampling/sobol.h"
+#include "alhazen/scene/line_bundle.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::uint32_t kPilotLines = 256;  ///< of each scrambling and direction
+constexpr std::uint32_t kFirstLines = 1024;
+constexpr std::uint32_t kMostLines = std::uint32_t{1} << 27;
+/// Lines of each scrambling for Crofton's formula: a check, which converges slowly.
+constexpr std::uint32_t kCroftonLines = 4096;
+/// How much wider than both intervals a difference may be.
+constexpr double kAgreement = 2.5;
+
+/// The world's axes, and a frame aslant to all that is usual.
+std::array<std::array<BundleFrame, 3>, 2> frames() {
+    const Mat3 aslant = Affine::rotate({0.36, 0.48, 0.8}, 0.7236).linear *
+                        Affine::rotate({1, 0.2, -0.3}, 0.5129).linear;
+    std::array<std::array<BundleFrame, 3>, 2> all;
+    const std::array<Mat3, 2> bases{Mat3{}, aslant};
+    for (std::size_t i = 0; i < bases.size(); ++i) {
+        const Vec3 x = bases[i].x_axis, y = bases[i].y_axis, z = bases[i].z_axis;
+        all[i] = {BundleFrame{x, y, z}, BundleFrame{y, z, x}, BundleFrame{z, x, y}};
+    }
+    return all;
+}
+
+double spread(const Replicates& r) {
+    return estimate_of(r).half_width;
+}
+
+bool agree(const Estimate& a, const Estimate& b) {
+    return std::abs(a.value - b.value) <= kAgreement * std::hypot(a.half_width, b.half_width);
+}
+
+class Measurer {
+  public:
+    Measurer(const Measurable& solid, const MeasureOptions& options)
+        : solid_(solid), options_(options), deadline_(options.seconds, options.stop) {
+        box_ = solid.box();
+    }
+
+    SolidMeasures run() {
+        SolidMeasures found;
+        found.box = box_;
+        if (box_.empty()) {
+            found.reached = true;
+            return found;
+        }
+        if (!box_.bounded()) {
+            throw Error(ErrorKind::Usage, "the solid is not bounded: it has no volume");
+        }
+        center_ = box_.center();
+        // What the numbers of a span are computed from, as a multiple of the solid's size.
+        reach_ = 1 + length(center_) / length(box_.size());
+        choose_frame();
+        grow();
+        fill(found);
+        return found;
+    }
+
+  private:
+    /// Looks along six directions, and keeps those of the frame with the one that is best.
+    void choose_frame() {
+        const auto all = frames();
+        double least = 0, least_area = 0;
+        for (std::size_t f = 0; f < all.size(); ++f) {
+            std::size_t best = 0;
+            double best_spread = 0, area_spread = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                LineBundle pilot(solid_, all[f][k], center_, mix64(options_.seed) + 16 * f + k);
+                pilot.grow_to(kPilotLines, options_.area);
+                lines_ += kReplicates * kPilotLines;
+                const double s = spread(pilot.volumes());
+                if (k == 0 || s < best_spread) {
+                    best = k;
+                    best_spread = s;
+                }
+                area_spread += spread(pilot.areas());
+            }
+            const bool better =
+                best_spread < least || (best_spread == least && area_spread < least_area);
+            if (f > 0 && !better) continue;
+            least = best_spread;
+            least_area = area_spread;
+            frame_ = f;
+            best_ = best;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            bundles_.emplace_back(solid_, all[frame_][k], center_,
+                                  mix64(options_.seed) + 100 + 16 * frame_ + k);
+            grow_bundle(k, kFirstLines);
+        }
+    }
+
+    void grow_bundle(std::size_t k, std::uint32_t lines) {
+        lines_ += static_cast<double>(kReplicates) * (lines - bundles_[k].lines());
+        bundles_[k].grow_to(lines, options_.area);
+    }
+
+    [[nodiscard]] static bool is_within(const Estimate& e, double relative) {
+        return e.half_width <= relative * std::abs(e.value);
+    }
+
+    void grow() {
+        for (;;) {
+            const bool volume_done = is_within(volume(), options_.relative_error);
+            const bool area_done = !options_.area || is_within(area(), options_.relative_error);
+            reached_ = volume_done && area_done;
+            if (reached_) return;
+            const std::size_t k = volume_done ? widest_area() : best_;
+            const std::uint32_t lines = bundles_[k].lines();
+            if (lines >= kMostLines ||
+                !deadline_.allows(static_cast<double>(kReplicates) * lines, lines_))
+                return;
+            grow_bundle(k, 2 * lines);
+        }
+    }
+
+    [[nodiscard]] std::size_t widest_area() const {
+        std::size_t widest = 0;
+        for (std::size_t k = 1; k < 3; ++k) {
+            if (spread(bundles_[k].areas()) > spread(bundles_[widest].areas())) widest = k;
+        }
+        return widest;
+    }
+
+    [[nodiscard]] Estimate volume_along(std::size_t k) const {
+        const Estimate e = estimate_of(bundles_[k].volumes());
+        return with_rounding(e, reach_ * std::abs(e.value));
+    }
+    [[nodiscard]] Estimate volume() const { return volume_along(best_); }
+    [[nodiscard]] Estimate area() const {
+        Replicates sum{};
+        for (const LineBundle& bundle : bundles_) {
+            const Replicates share = bundle.areas();
+            for (std::size_t r = 0; r < kReplicates; ++r) sum[r] += share[r];
+        }
+        const Estimate e = estimate_of(sum);
+        return with_rounding(e, reach_ * std::abs(e.value));
+    }
+
+    /// Lines in all directions alike through the ball around the box: the number of crossings
+    /// times the surface of the ball is twice the area.
+    [[nodiscard]] Estimate crofton() {
+        const double radius = 0.5 * length(box_.size());
+        Replicates area{};
+        parallel_for(kReplicates, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t r = begin; r < end; ++r) {
+                area[r] = 2 * kPi * radius * radius * mean_crossings(r, radius);
+            }
+        });
+        lines_ += kReplicates * kCroftonLines;
+        return estimate_of(area);
+    }
+
+    [[nodiscard]] double mean_crossings(std::size_t replicate, double radius) const {
+        const std::uint64_t key = mix64(options_.seed + 77) + replicate;
+        LineSpans found;
+        double sum = 0;
+        for (std::uint32_t i = 0; i < kCroftonLines; ++i) {
+            const double z = 1 - 2 * scrambled_sobol(key, i, 0);
+            const double turn = 2 * kPi * scrambled_sobol(key, i, 1);
+            const double across = std::sqrt(std::max(0.0, 1 - z * z));
+            const Vec3 d{across * std::cos(turn), across * std::sin(turn), z};
+            const Vec3 right = perpendicular(d);
+            const double r = radius * std::sqrt(scrambled_sobol(key, i, 2));
+            const double angle = 2 * kPi * scrambled_sobol(key, i, 3);
+            const Vec3 offset = r * std::cos(angle) * right + r * std::sin(angle) * cross(d, right);
+            solid_.cross({center_ + offset, d}, false, found);
+            sum += 2.0 * static_cast<double>(found.spans.size());
+        }
+        return sum / kCroftonLines;
+    }
+
+    void fill(SolidMeasures& found) {
+        found.volume = volume();
+        for (std::size_t k = 0; k < 3; ++k) {
+            found.volume_by_direction[k] = volume_along(k);
+            found.directions[k] = bundles_[k].direction();
+            found.inconsistent_lines += bundles_[k].inconsistent();
+            found.directions_agree =
+                found.directions_agree && agree(found.volume, found.volume_by_direction[k]);
+        }
+        fill_moments(found);
+        if (options_.area) {
+            found.area = area();
+            found.area_by_crofton = crofton();
+            found.areas_agree = agree(found.area, found.area_by_crofton);
+        }
+        found.lines = static_cast<std::uint64_t>(lines_);
+        found.reached = reached_;
+    }
+
+    /// Centroid and inertia are ratios: of each scrambling by itself, and then their mean.
+    void fill_moments(SolidMeasures& found) const {
+        std::array<Replicates, 3> centroid{};
+        std::array<Replicates, 6> inertia{};
+        for (std::size_t r = 0; r < kReplicates; ++r) {
+            const Moments m = bundles_[best_].moments(r);
+            if (!(m.volume > 0.0)) continue;
+            const Vec3 c = m.first / m.volume;
+            std::array<double, 6> s = m.second;  // about the centroid
+            s[0] -= m.volume * c.x * c.x;
+            s[1] -= m.volume * c.y * c.y;
+            s[2] -= m.volume * c.z * c.z;
+            s[3] -= m.volume * c.x * c.y;
+            s[4] -= m.volume * c.y * c.z;
+            s[5] -= m.volume * c.z * c.x;
+            for (int k = 0; k < 3; ++k) centroid[std::size_t(k)][r] = center_[k] + c[k];
+            const std::array<double, 6> tensor{s[1] + s[2], s[2] + s[0], s[0] + s[1],
+                                               -s[3],       -s[4],       -s[5]};
+            for (std::size_t k = 0; k < 6; ++k) inertia[k][r] = tensor[k];
+        }
+        const double size = length(box_.size());
+        for (std::size_t k = 0; k < 3; ++k) {
+            found.centroid[k] = with_rounding(estimate_of(centroid[k]), reach_ * size);
+        }
+        const double moment = found.volume.value * size * size;
+        for (std::size_t k = 0; k < 6; ++k) {
+            found.inertia[k] = with_rounding(estimate_of(inertia[k]), reach_ * moment);
+        }
+    }
+
+    const Measurable& solid_;
+    const MeasureOptions& options_;
+    Deadline deadline_;
+    Box3 box_;
+    Vec3 center_;
+    double reach_ = 1;
+    std::size_t frame_ = 0, best_ = 0;
+    std::vector<LineBundle> bundles_;
+    double lines_ = 0;
+    bool reached_ = false;
+};
+
+}  // namespace
+
+SolidMeasures measure(const Measurable& solid, const MeasureOptions& options) {
+    return Measurer(solid, options).run();
+}
+
+}  // namespace alhazen
