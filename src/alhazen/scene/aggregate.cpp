@@ -12,6 +12,8 @@ void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result
     for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], query);
 }
 
+void Aggregate::complete(PrimitiveId, Surface&) const {}
+
 bool hit_less(const Hit& a, const Hit& b) {
     if (a.t != b.t) return a.t < b.t;
     // Outermost ids first: paths are stored innermost first, followed outward.

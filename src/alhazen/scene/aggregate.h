@@ -19,6 +19,7 @@
 namespace alhazen {
 
 class PrimitiveTable;
+struct Surface;
 
 /// What is known of the rays of a batch: a hint, which never changes a hit.
 enum class Coherence {
@@ -59,6 +60,10 @@ class Aggregate {
     /// light.
     [[nodiscard]] virtual bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                         RayQuery query) const = 0;
+
+    /// Changes what is known of the surface at a hit where the aggregate as a whole knows more than
+    /// the primitive: its own one, or the instance that the hit came through. By default nothing.
+    virtual void complete(PrimitiveId primitive, Surface& surface) const;
 
     /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
     /// than ray by ray from about ten rays on, whatever their order.

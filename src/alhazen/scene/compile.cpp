@@ -9,6 +9,7 @@
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/csg_aggregate.h"
 #include "alhazen/scene/primitive_table.h"
 #include "alhazen/scene/scene.h"
 
@@ -46,10 +47,12 @@ class Compiler {
           options_(options),
           spare_meshes_(spare_meshes),
           built_objects_(description.objects.size()),
+          built_solids_(description.objects.size()),
           object_uses_(description.objects.size(), 0),
           mesh_uses_(description.meshes.size(), 0) {}
 
     Scene run() {
+        (void)find_csg_evaluator(options_.csg);  // an unknown one is an error in any scene
         Scene scene;
         compile_looks(scene);
         for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
@@ -154,6 +157,7 @@ class Compiler {
 
     /// Nesting is bounded by validation, so recursion is safe here.
     const Built& build_object(std::size_t index) {
+        if (d_.objects[index].combine != Combine::Group) return build_solid(index);
         if (!built_objects_[index].aggregate) {
             Draft draft;
             add_parts(index, Affine{}, draft);
@@ -163,6 +167,15 @@ class Compiler {
     }
 
     Built seal(Draft draft) {
+        Built built = finish(draft);
+        built.aggregate =
+            make_aggregate(options_.accelerator, std::move(draft.table), options_.build);
+        census_.accelerator_bytes += built.aggregate->memory_bytes();
+        return built;
+    }
+
+    /// Seals the table and counts what is in it.
+    Built finish(Draft& draft) {
         draft.table.material_opacity = opacity_;
         draft.table.finish();
         const std::uint32_t triangles =
@@ -174,10 +187,77 @@ class Compiler {
         Built built = std::move(draft.built);
         built.effective_primitives =
             saturating_add(built.effective_primitives, draft.table.first(kInstanceKind));
-        built.aggregate =
-            make_aggregate(options_.accelerator, std::move(draft.table), options_.build);
-        census_.accelerator_bytes += built.aggregate->memory_bytes();
         return built;
+    }
+
+    // Solids.
+
+    struct SolidDraft : Draft {
+        CsgExpression expression;
+        /// [leaf] kind of its primitive and place among those: ids come when the table is sealed.
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> leaves;
+    };
+
+    /// The object as one solid; of a group the union.
+    const Built& build_solid(std::size_t index) {
+        if (!built_solids_[index].aggregate) {
+            SolidDraft draft;
+            add_operands(index, Affine{}, draft);
+            Built built = finish(draft);
+            for (const auto& [kind, place] : draft.leaves) {
+                draft.expression.leaves.push_back(PrimitiveId{draft.table.first(kind) + place});
+            }
+            built.aggregate = std::make_shared<const CsgAggregate>(
+                std::move(draft.table), std::move(draft.expression), options_.csg);
+            census_.accelerator_bytes += built.aggregate->memory_bytes();
+            ++census_.solids;
+            census_.solid_leaves += draft.leaves.size();
+            built_solids_[index] = std::move(built);
+        }
+        return built_solids_[index];
+    }
+
+    /// Adds the object as a node of the expression, after those that are there.
+    void add_operands(std::size_t object, const Affine& outer_from_object, SolidDraft& draft) {
+        const std::size_t node = draft.expression.nodes.size();
+        const Combine combine = d_.objects[object].combine;
+        draft.expression.nodes.push_back(
+            {combine == Combine::Group ? Combine::Union : combine, {}});
+        const auto add_leaf = [&](std::size_t kind, std::size_t count) {
+            draft.expression.nodes[node].operands.push_back(
+                CsgOperand::leaf(static_cast<std::uint32_t>(draft.leaves.size())));
+            draft.leaves.emplace_back(kind, count - 1);
+        };
+        std::uint32_t number = first_part_[object];
+        for (const Part& part : d_.objects[object].parts) {
+            const PlacedPart placed{part, outer_from_object * part.object_from_part, number++};
+            if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
+                add_shape(*shape, placed, draft.table);
+                add_leaf(shape->index(), shapes_in(draft.table, shape->index()));
+            } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+                add_shared_mesh(*mesh, placed, draft);
+                add_leaf(kInstanceKind, draft.table.instances.size());
+            } else {
+                const auto child = static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
+                if (object_uses_[child] == 1) {
+                    draft.expression.nodes[node].operands.push_back(CsgOperand::node(
+                        static_cast<std::uint32_t>(draft.expression.nodes.size())));
+                    add_operands(child, placed.outer_from_part, draft);
+                } else {
+                    add_instance(build_solid(child), placed, draft);
+                    add_leaf(kInstanceKind, draft.table.instances.size());
+                }
+            }
+        }
+    }
+
+    static std::size_t shapes_in(const PrimitiveTable& table, std::size_t kind) {
+        return std::apply(
+            [&](const auto&... column) {
+                const std::size_t sizes[] = {column.shapes.size()...};
+                return sizes[kind];
+            },
+            table.columns);
     }
 
     struct PlacedPart {
@@ -197,7 +277,7 @@ class Compiler {
             } else {
                 const std::size_t child =
                     static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
-                if (object_uses_[child] == 1) {
+                if (object_uses_[child] == 1 && d_.objects[child].combine == Combine::Group) {
                     add_parts(child, placed.outer_from_part, draft);
                 } else {
                     add_instance(build_object(child), placed, draft);
@@ -229,15 +309,7 @@ class Compiler {
         const MaterialId material = placed.part.material;
         if (mesh->triangles.empty()) return;
         if (mesh_uses_[i] > 1 && mesh->triangles.size() > kInstancedMeshTriangles) {
-            auto found = built_meshes_.find({i, material});
-            if (found == built_meshes_.end()) {
-                Draft shared;
-                shared.table.meshes.push_back({mesh, material, 0, false});
-                found =
-                    built_meshes_.emplace(std::pair{i, material}, seal(std::move(shared))).first;
-            }
-            add_instance(found->second, placed, draft);
-            draft.table.instances.back().of_shared_mesh = true;
+            add_shared_mesh(index, placed, draft);
             return;
         }
         if (placed.outer_from_part == Affine{}) {
@@ -248,6 +320,19 @@ class Compiler {
         moved->transform(placed.outer_from_part);
         const bool mirrored = determinant(placed.outer_from_part.linear) < 0.0;
         draft.table.meshes.push_back({moved, material, 0, mirrored, placed.number});
+    }
+
+    void add_shared_mesh(MeshIndex index, const PlacedPart& placed, Draft& draft) {
+        const std::size_t i = static_cast<std::size_t>(index);
+        const MaterialId material = placed.part.material;
+        auto found = built_meshes_.find({i, material});
+        if (found == built_meshes_.end()) {
+            Draft shared;
+            shared.table.meshes.push_back({d_.meshes[i].mesh, material, 0, false});
+            found = built_meshes_.emplace(std::pair{i, material}, seal(std::move(shared))).first;
+        }
+        add_instance(found->second, placed, draft);
+        draft.table.instances.back().of_shared_mesh = true;
     }
 
     /// A mesh to transform: the description's own where that may be taken, so that a large mesh is
@@ -275,6 +360,7 @@ class Compiler {
     std::vector<Opacity> opacity_;
     std::vector<std::uint32_t> first_part_;  ///< [object]
     std::vector<Built> built_objects_;
+    std::vector<Built> built_solids_;
     std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;
     std::vector<std::uint32_t> object_uses_;
     std::vector<std::uint32_t> mesh_uses_;

@@ -107,6 +107,11 @@ class PrimitiveTable final : public BoundsSource {
     /// True when the primitive lets no light through from either side (an instance never does for
     /// sure: false).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;
+    /// Of a primitive that is no instance.
+    [[nodiscard]] Opacity opacity(PrimitiveId id) const {
+        if (is_opaque(id)) return Opacity::Opaque;
+        return is_opaque_from_front(id) ? Opacity::OpaqueFromFront : Opacity::Transparent;
+    }
 
     /// Which rays see the primitive; of an instance, the instance itself.
     [[nodiscard]] RayMask visible_to(PrimitiveId id) const;

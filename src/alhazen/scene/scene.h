@@ -19,6 +19,8 @@ struct SceneCensus {
     std::uint64_t instances = 0;             ///< stored
     std::uint64_t effective_primitives = 0;  ///< as seen by rays, instances expanded; saturates
     int instance_depth = 0;                  ///< deepest nesting of instances
+    std::uint64_t solids = 0;                ///< made of others (CSG), each stored once
+    std::uint64_t solid_leaves = 0;          ///< operands of these that are no operators
     std::uint64_t scene_bytes = 0;           ///< shapes, meshes, textures
     std::uint64_t texture_bytes = 0;         ///< of these, the textures
     std::uint64_t accelerator_bytes = 0;
@@ -40,11 +42,12 @@ struct Scene {
 
 struct CompileOptions {
     std::string accelerator = "wide_bvh";
+    std::string csg = "event_heap";  ///< who evaluates solids made of others
     BuildOptions build{};
 };
 
 /// Builds the scene. The description must have passed `validate`. Throws Error: Usage for an
-/// unknown accelerator, Resource for too many primitives or too deep nesting.
+/// unknown accelerator or CSG evaluator, Resource for too many primitives or too deep nesting.
 [[nodiscard]] Scene compile(const SceneDescription& description,
                             const CompileOptions& options = {});
 

@@ -1,0 +1,113 @@
+#include "alhazen/scene/csg_aggregate.h"
+
+#include <utility>
+
+#include "alhazen/scene/surface.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The innermost table of a hit's path.
+const PrimitiveTable& table_of(const PrimitiveTable& outer, const Hit& hit) {
+    const PrimitiveTable* table = &outer;
+    for (std::size_t i = hit.path.size(); i-- > 0;) {
+        table = &table->instances[table->index(hit.path[i])].aggregate->primitives();
+    }
+    return *table;
+}
+
+/// Whether a closed mesh is wound so that its normals point inward.
+bool wound_inward(const Aggregate& meshes) {
+    double volume = 0.0;
+    for (const PlacedMesh& placed : meshes.primitives().meshes) {
+        volume += signed_volume(*placed.mesh);
+    }
+    return volume < 0.0;
+}
+
+}  // namespace
+
+CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
+                           const std::string& evaluator)
+    : solid_(std::move(table), std::move(expression)),
+      evaluator_(find_csg_evaluator(evaluator).make(solid_)),
+      turned_(solid_.table().size(), false) {
+    const std::vector<CsgTree::Leaf>& leaves = solid_.tree().leaves();
+    const std::uint32_t first_instance = primitives().first(kInstanceKind);
+    for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
+        const auto primitive = static_cast<std::uint32_t>(solid_.expression().leaves[i]);
+        turned_[primitive] = leaves[i].complement;
+        if (primitive < first_instance) continue;
+        const Instance& instance = primitives().instances[primitive - first_instance];
+        if (instance.of_shared_mesh && wound_inward(*instance.aggregate)) {
+            turned_[primitive] = !turned_[primitive];
+        }
+    }
+}
+
+Box3 CsgAggregate::box() const {
+    // Leaves that coincide with the bound may be met a little outside it.
+    return padded(solid_.tree().box(), 1e-15);
+}
+
+std::size_t CsgAggregate::memory_bytes() const {
+    return solid_.memory_bytes() + evaluator_->memory_bytes() + turned_.size() / 8;
+}
+
+bool CsgAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
+    hit = Hit{};
+    return is_valid(ray) && evaluator_->first(solid_.prepare(ray, query.mask), hit, query.stats);
+}
+
+bool CsgAggregate::occluded(const Ray& ray, RayQuery query) const {
+    Hit hit;
+    return is_valid(ray) && evaluator_->first(solid_.prepare(ray, query.mask), hit, query.stats);
+}
+
+void CsgAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
+    if (is_valid(ray)) evaluator_->all(solid_.prepare(ray, query.mask), hits, query.stats);
+}
+
+bool CsgAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
+    if (!is_valid(ray)) return false;
+    const std::size_t before = crossings.size();
+    bool leaves = evaluator_->all(solid_.prepare(ray, query.mask), crossings, query.stats);
+    std::size_t kept = before;
+    for (std::size_t i = before; i < crossings.size(); ++i, leaves = !leaves) {
+        const PrimitiveTable& table = table_of(primitives(), crossings[i]);
+        switch (table.opacity(crossings[i].primitive)) {
+            case Opacity::Opaque:
+                return true;
+            case Opacity::OpaqueFromFront:
+                // The front of a solid is its outside, whichever way its parts are wound.
+                if (leaves) return true;
+                break;
+            case Opacity::Transparent:
+                if (kept != i) crossings[kept] = crossings[i];
+                ++kept;
+        }
+    }
+    crossings.resize(kept);
+    return false;
+}
+
+bool CsgAggregate::inside_at_minus_infinity(const Ray& ray) const {
+    if (box().bounded()) return false;
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    std::vector<Hit> none;
+    return evaluator_->all(solid_.prepare({ray.origin, ray.direction, -kInfinite, -kInfinite}),
+                           none, nullptr);
+}
+
+void CsgAggregate::complete(PrimitiveId primitive, Surface& surface) const {
+    if (turned_[static_cast<std::size_t>(primitive)]) {
+        surface.normal = -surface.normal;
+        surface.shading_normal = -surface.shading_normal;
+    }
+    // Rays that leave the surface begin where all that coincides with it is left behind.
+    const double error = 0x1p-4 * solid_.tolerance();
+    surface.error += Vec3{error, error, error};
+}
+
+}  // namespace alhazen

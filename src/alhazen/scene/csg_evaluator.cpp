@@ -1,0 +1,38 @@
+#include "alhazen/scene/csg_evaluator.h"
+
+#include <array>
+
+#include "alhazen/base/error.h"
+#include "alhazen/scene/csg_event_heap.h"
+#include "alhazen/scene/csg_roth.h"
+
+namespace alhazen {
+
+namespace {
+
+template <class E>
+std::unique_ptr<const CsgEvaluator> make(const CsgSolid& solid) {
+    return std::make_unique<const E>(solid);
+}
+
+constexpr std::array kEntries{
+    CsgEvaluatorEntry{CsgEventHeap::kName, CsgEventHeap::kDescription, &make<CsgEventHeap>},
+    CsgEvaluatorEntry{CsgRoth::kName, CsgRoth::kDescription, &make<CsgRoth>}};
+
+}  // namespace
+
+std::span<const CsgEvaluatorEntry> csg_evaluator_table() {
+    return kEntries;
+}
+
+const CsgEvaluatorEntry& find_csg_evaluator(const std::string& name) {
+    std::string names;
+    for (const CsgEvaluatorEntry& entry : csg_evaluator_table()) {
+        if (name == entry.name) return entry;
+        names += names.empty() ? "" : ", ";
+        names += entry.name;
+    }
+    throw Error(ErrorKind::Usage, "no CSG evaluator '" + name + "'; the valid names are: " + names);
+}
+
+}  // namespace alhazen

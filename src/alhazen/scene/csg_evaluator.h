@@ -1,0 +1,43 @@
+#pragma once
+/// Finds where a ray enters and leaves a solid; and the list of those who do.
+///
+/// Conventions: transitions in [ray.t_min, ray.t_max], ascending, as csg_solid.h defines them; all
+/// evaluators find the same ones, bit for bit.
+/// Threads: const functions may be called from many threads.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "alhazen/scene/csg_solid.h"
+
+namespace alhazen {
+
+class CsgEvaluator {
+  public:
+    virtual ~CsgEvaluator() = default;
+    /// The first transition; `hit` is left alone when there is none.
+    virtual bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const = 0;
+    /// Appends all transitions. True when the ray begins inside.
+    virtual bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const = 0;
+    /// Of what the evaluator adds to the solid.
+    [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
+};
+
+struct CsgEvaluatorEntry {
+    const char* name;
+    const char* description;  ///< one line
+    /// Keeps a reference to the solid.
+    std::unique_ptr<const CsgEvaluator> (*make)(const CsgSolid& solid);
+};
+
+/// The default one first.
+[[nodiscard]] std::span<const CsgEvaluatorEntry> csg_evaluator_table();
+
+inline constexpr const char* kDefaultCsgEvaluator = "event_heap";
+
+/// Throws Error (Usage) with the valid names for an unknown one.
+[[nodiscard]] const CsgEvaluatorEntry& find_csg_evaluator(const std::string& name);
+
+}  // namespace alhazen

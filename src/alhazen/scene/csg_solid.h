@@ -1,0 +1,85 @@
+#pragma once
+/// What every evaluator of a solid starts from: its leaves as primitives of a table, its expression
+/// in both forms, and all crossings of a line with one leaf.
+///
+/// Conventions: a leaf's crossings come from the one test of `PrimitiveTable` on the whole line,
+/// whatever the range of the ray, so their t are the same bits in every evaluator. Between two
+/// crossings in a row a line is inside and outside in turn.
+///
+/// Crossings of several leaves closer than `tau` are one: the solid is what it is before the first
+/// and after the last of them. So faces that coincide leave neither slivers nor inner walls, and
+/// what is thinner than tau along the ray is not there (regularised sets; Requicha and Voelcker,
+/// "Boolean Operations in Solid Modeling", Proc. IEEE 73(1), 1985). The crossing that is reported
+/// is that of the leaf with the lowest number whose own change, and that of all nodes above it,
+/// makes the change of the solid.
+
+#include <limits>
+#include <vector>
+
+#include "alhazen/scene/csg_tree.h"
+#include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/solid_aggregate.h"
+
+namespace alhazen {
+
+/// A crossing of a line with a leaf.
+struct CsgCrossing {
+    double t, u, v;
+    /// As in ShapeHit; for an instance the position of its hit in the list of such.
+    std::uint32_t part;
+    std::uint32_t leaf;
+};
+
+/// A ray as evaluators take it.
+struct CsgRay {
+    Ray line;  ///< for all t
+    RayShear shear;
+    double t_min, t_max;  ///< of the ray
+    double pad;           ///< bound of how far from the line a computed crossing can be
+    double tau;           ///< crossings closer than this are one
+    RayMask mask;         ///< a leaf that it does not see is as if it were empty
+};
+
+class CsgSolid {
+  public:
+    /// `table` must be finished. Throws Error (Resource) for too many leaves.
+    CsgSolid(PrimitiveTable table, CsgExpression expression);
+
+    [[nodiscard]] const PrimitiveTable& table() const { return table_; }
+    [[nodiscard]] const CsgExpression& expression() const { return expression_; }
+    [[nodiscard]] const CsgTree& tree() const { return tree_; }
+    [[nodiscard]] std::uint32_t leaf_count() const {
+        return static_cast<std::uint32_t>(expression_.leaves.size());
+    }
+    [[nodiscard]] Box3 leaf_box(std::uint32_t leaf) const {
+        return table_.box(static_cast<std::size_t>(expression_.leaves[leaf]));
+    }
+    [[nodiscard]] CsgRay prepare(const Ray& ray, RayMask mask = kAllRays) const;
+    /// Distance within which surfaces count as coincident, seen from as far as the solid is large.
+    [[nodiscard]] double tolerance() const { return kTolerance * (2.0 * half_ + offset_); }
+
+    /// Appends all crossings of the line with the leaf, ascending; those of instances also to
+    /// `hits`. True when the line begins inside.
+    bool cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,
+               std::vector<Hit>& hits, TraversalStats* stats) const;
+    /// The hit that a crossing is.
+    void fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, Hit& hit) const;
+
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+  private:
+    /// What the tests of primitives may be wrong by, as a part of the distances in play.
+    static constexpr double kTolerance = 0x1p-38;
+    /// The pad is larger than tau: what lies within tau of a bound is seen from inside it.
+    static constexpr double kPadPerTolerance = 4.0;
+
+    PrimitiveTable table_;
+    CsgExpression expression_;
+    CsgTree tree_;
+    std::vector<const SolidAggregate*> solids_;  ///< [instance of the table] null for a mesh
+    Vec3 center_;
+    double half_ = 1.0;    ///< half the size of the solid
+    double offset_ = 0.0;  ///< what the distance of its center from the origin adds
+};
+
+}  // namespace alhazen

@@ -1,0 +1,11 @@
+#include "csg_random_trees.h"
+
+namespace alhazen {
+namespace {
+
+TEST(CsgHeavy, TenThousandRandomTreesAreAsPointsTell) {
+    testing::check_random_trees(100000, 10000, 20);
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,11 @@
+#include "csg_random_trees.h"
+
+namespace alhazen {
+namespace {
+
+TEST(CsgRandom, BothEvaluatorsFindTheTransitionsThatPointsTell) {
+    testing::check_random_trees(1000, 300, 20);
+}
+
+}  // namespace
+}  // namespace alhazen
