@@ -144,6 +144,47 @@ struct RandomShape<Polygon> {
     }
 };
 
+template <>
+struct RandomShape<HalfSpace> {
+    static HalfSpace make(const ShapeSource& from) {
+        return {.point = from.point(), .normal = from.vector()};
+    }
+};
+
+template <>
+struct RandomShape<Polyhedron> {
+    /// A box as points, some of which may coincide; or planes around a point.
+    static Polyhedron make(const ShapeSource& from) {
+        const Vec3 middle = from.point();
+        const double size = from.length();
+        Random& random = from.random;
+        if (from.lattice || random.coin()) {
+            const double y = from.length(), z = from.length();
+            std::array<Vec3, 8> p{Vec3{0, 0, 0}, {size, 0, 0}, {size, y, 0}, {0, y, 0},
+                                  Vec3{0, 0, z}, {size, 0, z}, {size, y, z}, {0, y, z}};
+            const int kind = random.below(3);
+            if (kind >= 1) p[6] = p[5], p[7] = p[4];   // a wedge
+            if (kind == 2) p[5] = p[6] = p[7] = p[4];  // a pyramid
+            const Vec3 shear = from.lattice ? Vec3{} : random.in_cube(0.3);
+            for (Vec3& v : p) v = middle + v + v.z * shear;
+            return hexahedron(p);
+        }
+        Polyhedron solid;
+        for (int k = 0; k < 3; ++k) {
+            for (const double side : {-1.0, 1.0}) {
+                Vec3 axis{};
+                axis[k] = side;
+                solid.planes.push_back({middle + size * axis, 3.0 * axis});
+            }
+        }
+        for (int k = random.below(12); k > 0; --k) {
+            const Vec3 n = random.unit_vector();
+            solid.planes.push_back({middle + random.uniform(0.4, 1.5) * size * n, n});
+        }
+        return solid;
+    }
+};
+
 template <class S>
 S random_shape(const ShapeSource& from) {
     S shape = RandomShape<S>::make(from);

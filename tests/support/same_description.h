@@ -228,6 +228,16 @@ inline bool same(const Polygon& a, const Polygon& b) {
     };
     return same(a.vertices, b.vertices) && loops(a) == loops(b);
 }
+inline bool same(const HalfSpace& a, const HalfSpace& b) {
+    return all_same(a.point, b.point, a.normal, b.normal);
+}
+inline bool same(const OrientedPlane& a, const OrientedPlane& b) {
+    return all_same(a.point, b.point, a.normal, b.normal);
+}
+inline bool same(const Polyhedron& a, const Polyhedron& b) {
+    return all_same(a.planes, b.planes, a.vertices, b.vertices, a.corners, b.corners, a.face_ends,
+                    b.face_ends);
+}
 inline bool same(const Part& a, const Part& b) {
     const auto& [a1, a2, a3, a4, a5] = a;
     const auto& [b1, b2, b3, b4, b5] = b;

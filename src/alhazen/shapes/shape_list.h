@@ -9,8 +9,10 @@
 #include "alhazen/shapes/cone.h"
 #include "alhazen/shapes/cylinder.h"
 #include "alhazen/shapes/disc.h"
+#include "alhazen/shapes/half_space.h"
 #include "alhazen/shapes/plane.h"
 #include "alhazen/shapes/polygon.h"
+#include "alhazen/shapes/polyhedron.h"
 #include "alhazen/shapes/rectangle.h"
 #include "alhazen/shapes/sphere.h"
 
@@ -24,8 +26,8 @@ struct ShapeTypes {
     static constexpr std::size_t kCount = sizeof...(S);
 };
 
-using AnalyticShapes =
-    ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon>;
+using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon,
+                                  HalfSpace, Polyhedron>;
 
 /// Any one analytic shape by value.
 using AnyShape = AnalyticShapes::Variant;

@@ -62,17 +62,39 @@ TEST(NativeImporter, LoadsTheScenesOfTheRepository) {
     EXPECT_GE(count, 3);
 }
 
-TEST(NativeImporter, ShowsEveryShapeInTheShowcase) {
-    const Imported i =
-        import_native_file(std::filesystem::path(ALHAZEN_SOURCE_DIR) / "scenes/showcase.alhazen");
+TEST(NativeImporter, ShowsEveryShapeInTheScenesOfTheRepository) {
     std::vector<bool> seen(AnalyticShapes::kCount);
-    for (const ObjectDescription& object : i.scene.objects) {
-        for (const Part& part : object.parts) {
-            if (const auto* shape = std::get_if<AnyShape>(&part.what)) seen[shape->index()] = true;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             std::filesystem::path(ALHAZEN_SOURCE_DIR) / "scenes")) {
+        if (entry.path().extension() != ".alhazen") continue;
+        const Imported i = import_native_file(entry.path());
+        for (const ObjectDescription& object : i.scene.objects) {
+            for (const Part& part : object.parts) {
+                if (const auto* s = std::get_if<AnyShape>(&part.what)) seen[s->index()] = true;
+            }
         }
     }
     for (std::size_t k = 0; k < seen.size(); ++k) EXPECT_TRUE(seen[k]) << "shape type " << k;
-    EXPECT_FALSE(i.scene.meshes.empty());
+}
+
+TEST(NativeImporter, ReadsConvexPolyhedraInTheirThreeForms) {
+    const Imported i = import_native(
+        "half_space { point = (0, 0, 1); normal = (0, 1, 1) }\n"
+        "polyhedron { planes = [((1,0,0), (1,0,0)), ((0,0,0), (-1,0,0)), ((0,1,0), (0,1,0)),\n"
+        "  ((0,0,0), (0,-1,0)), ((0,0,1), (0,0,1)), ((0,0,0), (0,0,-1))] }\n"
+        "polyhedron { vertices = [(0,0,0), (1,0,0), (0,1,0), (0,0,1)]\n"
+        "  faces = [(0,1,2), (0,1,3), (1,2,3), (0,3,2)] }\n"
+        "polyhedron { vertices = [(0,0,0), (1,0,0), (1,1,0), (0,1,0), (0,0,1), (1,0,1), (1,1,1),\n"
+        "  (0,1,1)] }\n");
+    ASSERT_EQ(i.messages(), "");
+    EXPECT_EQ(testing::shape_of<Polyhedron>(i, 1).planes.size(), 6u);
+    EXPECT_EQ(testing::shape_of<Polyhedron>(i, 2).face_ends.size(), 4u);
+    EXPECT_EQ(testing::shape_of<Polyhedron>(i, 3).face_ends.size(), 6u);
+    EXPECT_TRUE(import_native("polyhedron { }").says("either 'planes"));
+    EXPECT_TRUE(import_native("polyhedron { vertices = [(0,0,0)] }").says("'faces = ...'"));
+    EXPECT_TRUE(import_native("polyhedron { planes = [(1, 2, 3)] }").says("outward normal"));
+    EXPECT_TRUE(import_native("polyhedron { vertices = [(0,0,0)]; faces = [(0, -1, 2)] }")
+                    .says("numbers of vertices"));
 }
 
 TEST(NativeImporter, StringsMayEscapeQuotesAndBytes) {

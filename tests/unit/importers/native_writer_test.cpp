@@ -267,13 +267,18 @@ TEST(NativeWriter, ShapesComeBackInOrderWithNamesAndPlacements) {
     ring.loop_ends = {4, 9};
     Polygon plain;
     plain.vertices = ring.vertices;
+    Polyhedron planes;
+    for (int i = 0; i < 5; ++i) planes.planes.push_back({n.point(), n.point()});
     for (const AnyShape& shape : std::initializer_list<AnyShape>{
              Sphere{n.point(), n.positive()}, plain, ring, Plane{n.point(), n.point()},
              Disc{n.point(), n.point(), n.positive(), 0.01},
              Rectangle{n.point(), n.point(), n.point()}, BoxShape{n.point(), n.point()},
              Cylinder{n.point(), n.point(), n.positive(), false},
              Cone{n.point(), n.point(), n.positive(), n.positive(), false}, Sphere{}, Plane{},
-             Disc{}, Rectangle{}, BoxShape{}, Cylinder{}, Cone{}}) {
+             Disc{}, Rectangle{}, BoxShape{}, Cylinder{}, Cone{}, HalfSpace{n.point(), n.point()},
+             planes,
+             hexahedron({n.point(), n.point(), n.point(), n.point(), n.point(), n.point(),
+                         n.point(), n.point()})}) {
         parts.push_back(part_of(shape, n.affine(), MaterialId(n.below(3)), "a part"));
         parts.push_back(part_of(shape, {}, MaterialId(n.below(3)), ""));
     }

@@ -1,5 +1,7 @@
 #include "alhazen/importers/native/native_shapes.h"
 
+#include "alhazen/importers/native/native_solids.h"
+
 namespace alhazen {
 
 namespace {
@@ -88,6 +90,13 @@ constexpr ShapeEntry kShapes[] = {
         return s;
     }},
     {Polygon::kName, read_polygon},
+    {HalfSpace::kName, [](BlockReader& r) -> AnyShape {
+        HalfSpace s;
+        r.read("point", s.point);
+        r.read("normal", s.normal);
+        return s;
+    }},
+    {Polyhedron::kName, read_native_polyhedron},
 };
 // clang-format on
 

@@ -28,6 +28,14 @@ std::string native_value(const char*) = delete;  // would become a bool
 [[nodiscard]] std::string native_string(std::string_view text);
 /// [a, b, c].
 [[nodiscard]] std::string native_list(const std::vector<std::string>& values);
+/// The list of the texts of all values.
+template <class Values, class TextOf>
+[[nodiscard]] std::string native_list_of(const Values& values, TextOf text_of) {
+    std::vector<std::string> texts;
+    texts.reserve(values.size());
+    for (const auto& value : values) texts.push_back(text_of(value));
+    return native_list(texts);
+}
 
 /// One block: `head { key = value; ... }`.
 class NativeBlockText {

@@ -5,6 +5,7 @@
 
 #include "alhazen/importers/mesh_export.h"
 #include "alhazen/importers/native/native_write_context.h"
+#include "alhazen/importers/native/native_write_shapes.h"
 
 namespace alhazen {
 
@@ -24,27 +25,20 @@ bool can_stand_in_text(const TriangleMesh& mesh) {
            std::all_of(mesh.uvs.begin(), mesh.uvs.end(), finite);
 }
 
-template <class Values, class TextOf>
-std::string list_of(const Values& values, TextOf text_of) {
-    std::vector<std::string> texts;
-    texts.reserve(values.size());
-    for (const auto& value : values) texts.push_back(text_of(value));
-    return native_list(texts);
-}
-
 void add_arrays(NativeBlockText& block, const NativeWriteContext& context,
                 const TriangleMesh& mesh) {
     const auto face = [](const std::array<std::uint32_t, 3>& t) {
         return "(" + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " +
                std::to_string(t[2]) + ")";
     };
-    block.add("points", list_of(mesh.positions, [](const Vec3& p) { return native_value(p); }));
-    block.add("faces", list_of(mesh.triangles, face));
+    block.add("points",
+              native_list_of(mesh.positions, [](const Vec3& p) { return native_value(p); }));
+    block.add("faces", native_list_of(mesh.triangles, face));
     if (!mesh.uvs.empty()) {
-        block.add("uvs", list_of(mesh.uvs, [](const Vec2& p) { return native_value(p); }));
+        block.add("uvs", native_list_of(mesh.uvs, [](const Vec2& p) { return native_value(p); }));
     }
     if (!mesh.vertex_materials.empty()) {
-        block.add("vertex_materials", list_of(mesh.vertex_materials, [&](std::uint32_t id) {
+        block.add("vertex_materials", native_list_of(mesh.vertex_materials, [&](std::uint32_t id) {
                       return native_string(context.material_labels[id]);
                   }));
     }
@@ -77,62 +71,6 @@ void add_file(NativeBlockText& block, const NativeWriteContext& context, const T
     block.add("materials", native_list(labels));
 }
 
-// Shapes: the fields that a file gives; the others are derived from them.
-
-void add_fields(NativeBlockText& block, const Sphere& s) {
-    block.add("center", native_value(s.center));
-    block.add("radius", native_value(s.radius));
-}
-void add_fields(NativeBlockText& block, const Plane& s) {
-    block.add("point", native_value(s.point));
-    block.add("normal", native_value(s.normal));
-}
-void add_fields(NativeBlockText& block, const Disc& s) {
-    block.add("center", native_value(s.center));
-    block.add("normal", native_value(s.normal));
-    block.add("radius", native_value(s.radius));
-    block.add_unless("inner_radius", s.inner_radius, 0.0);
-}
-void add_fields(NativeBlockText& block, const Rectangle& s) {
-    block.add("corner", native_value(s.corner));
-    block.add("edge_u", native_value(s.edge_u));
-    block.add("edge_v", native_value(s.edge_v));
-}
-void add_fields(NativeBlockText& block, const BoxShape& s) {
-    block.add("lo", native_value(s.lo));
-    block.add("hi", native_value(s.hi));
-}
-void add_fields(NativeBlockText& block, const Cylinder& s) {
-    block.add("base", native_value(s.base));
-    block.add("top", native_value(s.top));
-    block.add("radius", native_value(s.radius));
-    block.add_unless("capped", s.capped, true);
-}
-void add_fields(NativeBlockText& block, const Cone& s) {
-    block.add("base", native_value(s.base));
-    block.add("top", native_value(s.top));
-    block.add("base_radius", native_value(s.base_radius));
-    block.add("top_radius", native_value(s.top_radius));
-    block.add_unless("capped", s.capped, true);
-}
-void add_fields(NativeBlockText& block, const Polygon& s) {
-    const std::span<const Vec3> vertices(s.vertices);
-    const auto loop_of = [](std::span<const Vec3> loop) {
-        return list_of(loop, [](const Vec3& p) { return native_value(p); });
-    };
-    if (s.loop_ends.size() <= 1) {
-        block.add("vertices", loop_of(vertices));
-        return;
-    }
-    std::vector<std::string> loops;
-    std::size_t begin = 0;
-    for (const std::uint32_t end : s.loop_ends) {
-        loops.push_back(loop_of(vertices.subspan(begin, end - begin)));
-        begin = end;
-    }
-    block.add("loops", native_list(loops));
-}
-
 void write_part(NativeWriteContext& context, const Part& part, int indent) {
     const auto add_placement = [&](NativeBlockText& block) {
         block.add_unless("transform", part.object_from_part, Affine{});
@@ -159,7 +97,7 @@ void write_part(NativeWriteContext& context, const Part& part, int indent) {
     std::visit(
         [&]<class S>(const S& shape) {
             NativeBlockText block(S::kName, part.name);
-            add_fields(block, shape);
+            add_shape_fields(block, shape);
             add_placement(block);
             block.add("material", material);
             context.append(block, indent);
@@ -185,8 +123,9 @@ void write_object_list(NativeWriteContext& context) {
     const auto root = static_cast<std::size_t>(scene.root);
     const std::string& root_label = context.object_labels[root];
     NativeBlockText block("objects");
-    block.add("names", list_of(context.object_labels,
-                               [](const std::string& label) { return native_string(label); }));
+    block.add("names", native_list_of(context.object_labels, [](const std::string& label) {
+                  return native_string(label);
+              }));
     block.add("root", native_string(root_label));
     if (root_label != scene.objects[root].name) {
         block.add("root_name", native_string(scene.objects[root].name));

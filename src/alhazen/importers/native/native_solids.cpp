@@ -1,0 +1,80 @@
+#include "alhazen/importers/native/native_solids.h"
+
+#include <limits>
+
+namespace alhazen {
+
+namespace {
+
+/// `((point, normal), ...)`.
+void read_planes(TextNode list, const ValueReader& values, Polyhedron& solid) {
+    if (!values.is_list(list, "planes")) return;
+    for (const TextNode entry : list) {
+        if (!values.is_list(entry, "planes")) continue;
+        if (entry.size() != 2) {
+            values.fail(entry, "planes", "a list (point, outward normal)");
+            continue;
+        }
+        OrientedPlane plane;
+        auto field = entry.begin();
+        const bool point = values.read(*field, "point of a plane", plane.point);
+        if (values.read(*++field, "normal of a plane", plane.normal) && point) {
+            solid.planes.push_back(plane);
+        }
+    }
+}
+
+bool read_vertex_number(TextNode value, const ValueReader& values, std::uint32_t& number) {
+    int read = 0;
+    if (!values.read(value, "faces", read)) return false;
+    if (read < 0) return values.fail(value, "faces", "numbers of vertices, from 0");
+    number = static_cast<std::uint32_t>(read);
+    return true;
+}
+
+/// `((a, b, c, ...), ...)`.
+void read_faces(TextNode list, const ValueReader& values, Polyhedron& solid) {
+    if (!values.is_list(list, "faces")) return;
+    for (const TextNode face : list) {
+        if (!values.is_list(face, "faces")) continue;
+        for (const TextNode corner : face) {
+            std::uint32_t number = 0;
+            if (read_vertex_number(corner, values, number)) solid.corners.push_back(number);
+        }
+        solid.face_ends.push_back(static_cast<std::uint32_t>(solid.corners.size()));
+    }
+}
+
+}  // namespace
+
+AnyShape read_native_polyhedron(BlockReader& reader) {
+    Polyhedron solid;
+    const auto planes = reader.find("planes");
+    const auto vertices = reader.find("vertices");
+    const auto faces = reader.find("faces");
+    if (reader.has("planes") == reader.has("vertices")) {
+        reader.error(reader.block(), "expected either 'planes = ...' or 'vertices = ...'");
+        return solid;
+    }
+    if (planes) read_planes(*planes, reader.values(), solid);
+    if (vertices && reader.values().is_list(*vertices, "vertices")) {
+        for (const TextNode point : *vertices) {
+            Vec3 vertex;
+            if (reader.values().read(point, "vertices", vertex)) solid.vertices.push_back(vertex);
+        }
+    }
+    if (faces) {
+        read_faces(*faces, reader.values(), solid);
+    } else if (vertices && !reader.has("faces")) {
+        if (solid.vertices.size() != 8) {
+            reader.error(reader.block(), "expected 'faces = ...', or 8 vertices of a hexahedron");
+            return solid;
+        }
+        std::array<Vec3, 8> points;
+        std::copy(solid.vertices.begin(), solid.vertices.end(), points.begin());
+        return hexahedron(points);
+    }
+    return solid;
+}
+
+}  // namespace alhazen
