@@ -155,10 +155,10 @@ class SignChangeSearch {
         out_.count = 0;
         out_.negative_at_start = false;
         const int n = p_.degree;
-        double largest = 0.0;
-        for (int i = 0; i <= n; ++i) largest = std::fmax(largest, std::abs(leading(p_.b[i])));
         // Overflow: nothing can be said of such a polynomial; it has no crossings.
-        if (!std::isfinite(largest) || !(p_.error >= 0.0)) return true;
+        bool finite = p_.error >= 0.0;
+        for (int i = 0; i <= n; ++i) finite = finite && std::isfinite(leading(p_.b[i]));
+        if (!finite) return true;
         int first = sign(p_.b[0], p_.error), last = sign(p_.b[n], p_.error);
         if (first == 0 || last == 0) {
             if (!kMustAnswer) return false;
