@@ -138,10 +138,10 @@ inline bool same(const Texture& a, const Texture& b) {
     return same(*a1, *b1) && all_same(a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
 }
 inline bool same(const TextureDescription& a, const TextureDescription& b) {
-    const auto& [a1, a2, a3, a4, a5] = a;
-    const auto& [b1, b2, b3, b4, b5] = b;
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
     (void)a3, (void)b3;
-    return all_same(a1, b1, a2, b2, a4, b4, a5, b5);
+    return all_same(a1, b1, a2, b2);
 }
 
 // Cameras and lights.
@@ -246,10 +246,10 @@ inline bool same(const Part& a, const Part& b) {
     return all_same(a1, b1, a2, b2, a4, b4) && (object || same(a3, b3));
 }
 inline bool same(const ObjectDescription& a, const ObjectDescription& b) {
-    const auto& [a1, a2, a3] = a;
-    const auto& [b1, b2, b3] = b;
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
     (void)a3, (void)b3;
-    return all_same(a1, b1, a2, b2);
+    return all_same(a1, b1, a2, b2, a4, b4, a5, b5);
 }
 inline bool same(const MeshDescription& a, const MeshDescription& b) {
     const auto& [a1, a2, a3] = a;
