@@ -239,11 +239,11 @@ inline bool same(const Polyhedron& a, const Polyhedron& b) {
                     b.face_ends);
 }
 inline bool same(const Part& a, const Part& b) {
-    const auto& [a1, a2, a3, a4, a5] = a;
-    const auto& [b1, b2, b3, b4, b5] = b;
+    const auto& [a1, a2, a3, a4, a5, a6] = a;
+    const auto& [b1, b2, b3, b4, b5, b6] = b;
     (void)a5, (void)b5;
     const bool object = std::holds_alternative<ObjectIndex>(a1);
-    return all_same(a1, b1, a2, b2, a4, b4) && (object || same(a3, b3));
+    return all_same(a1, b1, a2, b2, a4, b4, a6, b6) && (object || same(a3, b3));
 }
 inline bool same(const ObjectDescription& a, const ObjectDescription& b) {
     const auto& [a1, a2, a3, a4, a5] = a;

@@ -120,7 +120,8 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
     double passed = 0.0;
     for (int i = 0; i <= kMaxPassedSurfaces; ++i) {
         found.hit = Hit();
-        if (!scene.aggregate->closest(rest, found.hit, stats)) return false;
+        if (!scene.aggregate->closest(rest, found.hit, {stats, mask_of(RayKind::Eye)}))
+            return false;
         found.t = passed + found.hit.t;
         set_shading_point(scene, rest, found.hit, inside, cone.width_at(found.t), found.point);
         const double coverage = found.point.material.coverage;

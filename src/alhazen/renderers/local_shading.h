@@ -47,8 +47,8 @@ struct VisibleHit {
                    ///< passed through
 };
 
-/// The first surface along a ray of which something is there: a coverage above 0. Others are passed
-/// straight through, at most kMaxPassedSurfaces of them.
+/// The first surface along an eye ray of which something is there: a coverage above 0. Others are
+/// passed straight through, at most kMaxPassedSurfaces of them.
 [[nodiscard]] bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone,
                                      bool inside, TraversalStats* stats, VisibleHit& found);
 inline constexpr int kMaxPassedSurfaces = 4096;

@@ -53,6 +53,7 @@ class Caster {
         double left;
         RayCone cone;
         bool inside = false;
+        RayKind kind = RayKind::Eye;
     };
 
     void end(const OnWay& o, std::span<Rgb> radiance) const {

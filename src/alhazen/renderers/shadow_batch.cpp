@@ -45,7 +45,7 @@ void ShadowBatch::finish(Coherence coherence) {
     if (rays_.empty()) return;
     const std::span<bool> met(met_.get(), rays_.size());
     if (asks_first()) {
-        scene_.aggregate->occluded_batch(rays_, met, stats_, coherence);
+        scene_.aggregate->occluded_batch(rays_, met, query(), coherence);
     } else {
         std::fill(met.begin(), met.end(), true);
     }
@@ -73,7 +73,7 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     }
     crossings_.clear();
     // Light may pass what it meets without a trace: the back of a surface that has none.
-    const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, stats_);
+    const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query());
     count_.hit += blocked || !crossings_.empty();
     return blocked ? Rgb{0, 0, 0} : tint_of_crossings(ray, path);
 }

@@ -36,6 +36,7 @@ class ShadowBatch {
         Rgb intensity, fraction;
     };
 
+    [[nodiscard]] RayQuery query() const { return {stats_, mask_of(RayKind::Shadow)}; }
     [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
     /// What the transparent surfaces in `crossings_` leave of light along `ray`.

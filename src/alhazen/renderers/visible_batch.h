@@ -17,13 +17,14 @@ class VisibleBatch {
   public:
     VisibleBatch(const Scene& scene, TraversalStats* stats) : scene_(scene), stats_(stats) {}
 
-    /// `path(k)` gives `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for each ray: a
-    /// null pointer where nothing is seen, else what is seen and its distance from the ray's
-    /// origin. `tell` must not change rays or paths that have not been told yet.
+    /// `path(k)` gives `kind`, `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for
+    /// each ray: a null pointer where nothing is seen, else what is seen and its distance from the
+    /// ray's origin. `tell` must not change rays or paths that have not been told yet.
     template <class PathOf, class Tell>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
         behind_.clear();
-        for (std::size_t k = 0; const Hit& hit : closest(rays, coherence)) {
+        const auto kind = [&](std::size_t k) { return path(k).kind; };
+        for (std::size_t k = 0; const Hit& hit : closest(rays, coherence, kind)) {
             meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
             ++k;
         }
@@ -32,7 +33,8 @@ class VisibleBatch {
             behind_.clear();
             rest_.clear();
             for (const Passed& p : on_way_) rest_.push_back(p.rest);
-            for (std::size_t i = 0; const Hit& hit : closest(rest_, Coherence::Any)) {
+            const auto kind_behind = [&](std::size_t i) { return path(on_way_[i].ray).kind; };
+            for (std::size_t i = 0; const Hit& hit : closest(rest_, Coherence::Any, kind_behind)) {
                 const Passed& p = on_way_[i++];
                 meet(p.ray, rays[p.ray], p.rest, p.distance, hit, path(p.ray), tell);
             }
@@ -48,7 +50,27 @@ class VisibleBatch {
         double distance;  ///< from the origin of the ray asked for
     };
 
-    [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays, Coherence coherence);
+    /// What ray i meets first of what rays of `kind(i)` see.
+    template <class KindOf>
+    [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays, Coherence coherence,
+                                               KindOf&& kind) {
+        // Hits are large: those that are there are used again.
+        if (hits_.size() < rays.size()) hits_.resize(rays.size());
+        if (!scene_.has_masks) {
+            trace(rays, hits_, coherence, kAllRays);
+            return std::span(hits_).first(rays.size());
+        }
+        for (std::size_t k = 0; k < kRayKindCount; ++k) {
+            chosen_.clear();
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (kind(i) == static_cast<RayKind>(k)) chosen_.push_back(i);
+            }
+            trace_chosen(rays, coherence, mask_of(static_cast<RayKind>(k)));
+        }
+        return std::span(hits_).first(rays.size());
+    }
+    void trace(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, RayMask mask);
+    void trace_chosen(std::span<const Ray> rays, Coherence coherence, RayMask mask);
 
     /// `rest`: ray k from the last surface on, `distance` behind the origin of `whole`.
     template <class Path, class Tell>
@@ -71,6 +93,10 @@ class VisibleBatch {
     TraversalStats* stats_;
     ShadingPoint point_;
     std::vector<Hit> hits_;
+    // Of the rays of one kind, where the kinds are told apart.
+    std::vector<std::size_t> chosen_;
+    std::vector<Ray> chosen_rays_;
+    std::vector<Hit> chosen_hits_;
     std::vector<Ray> rest_;
     std::vector<Passed> behind_, on_way_;
 };

@@ -62,6 +62,7 @@ class Compiler {
         number_parts();
         const Built root = build_object(static_cast<std::size_t>(d_.root));
         scene.aggregate = root.aggregate;
+        scene.has_masks = has_masks_;
         census_.effective_primitives = root.effective_primitives;
         census_.instance_depth = root.instance_depth;
         census_.texture_bytes = texture_bytes(scene.textures);
@@ -160,7 +161,7 @@ class Compiler {
         if (d_.objects[index].combine != Combine::Group) return build_solid(index);
         if (!built_objects_[index].aggregate) {
             Draft draft;
-            add_parts(index, Affine{}, draft);
+            add_parts(index, Affine{}, kAllRays, draft);
             built_objects_[index] = seal(std::move(draft));
         }
         return built_objects_[index];
@@ -264,12 +265,21 @@ class Compiler {
         const Part& part;
         Affine outer_from_part;
         std::uint32_t number;
+        RayMask visible_to = kAllRays;
     };
 
-    void add_parts(std::size_t object, const Affine& outer_from_object, Draft& draft) {
+    /// Renderers ask with the bit of one kind of ray: what all kinds see needs no mask.
+    static RayMask without_unused_bits(RayMask mask) {
+        return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
+    }
+
+    void add_parts(std::size_t object, const Affine& outer_from_object, RayMask visible_to,
+                   Draft& draft) {
         std::uint32_t number = first_part_[object];
         for (const Part& part : d_.objects[object].parts) {
-            const PlacedPart placed{part, outer_from_object * part.object_from_part, number++};
+            const PlacedPart placed{part, outer_from_object * part.object_from_part, number++,
+                                    visible_to & without_unused_bits(part.visible_to)};
+            has_masks_ = has_masks_ || placed.visible_to != kAllRays;
             if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
                 add_shape(*shape, placed, draft.table);
             } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
@@ -278,7 +288,7 @@ class Compiler {
                 const std::size_t child =
                     static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
                 if (object_uses_[child] == 1 && d_.objects[child].combine == Combine::Group) {
-                    add_parts(child, placed.outer_from_part, draft);
+                    add_parts(child, placed.outer_from_part, placed.visible_to, draft);
                 } else {
                     add_instance(build_object(child), placed, draft);
                 }
@@ -299,6 +309,7 @@ class Compiler {
                 column.placements.push_back(placement);
                 column.materials.push_back(placed.part.material);
                 column.parts.push_back(placed.number);
+                column.set_last_visible_to(placed.visible_to);
             },
             shape);
     }
@@ -313,13 +324,15 @@ class Compiler {
             return;
         }
         if (placed.outer_from_part == Affine{}) {
-            draft.table.meshes.push_back({mesh, material, 0, false, placed.number});
+            draft.table.meshes.push_back(
+                {mesh, material, 0, false, placed.number, placed.visible_to});
             return;
         }
         const std::shared_ptr<TriangleMesh> moved = own_copy(i);
         moved->transform(placed.outer_from_part);
         const bool mirrored = determinant(placed.outer_from_part.linear) < 0.0;
-        draft.table.meshes.push_back({moved, material, 0, mirrored, placed.number});
+        draft.table.meshes.push_back(
+            {moved, material, 0, mirrored, placed.number, placed.visible_to});
     }
 
     void add_shared_mesh(MeshIndex index, const PlacedPart& placed, Draft& draft) {
@@ -347,8 +360,11 @@ class Compiler {
 
     static void add_instance(const Built& child, const PlacedPart& placed, Draft& draft) {
         const Affine& outer_from_inner = placed.outer_from_part;
-        draft.table.instances.push_back(
-            {child.aggregate, {outer_from_inner, inverse(outer_from_inner)}, placed.number, false});
+        draft.table.instances.push_back({child.aggregate,
+                                         {outer_from_inner, inverse(outer_from_inner)},
+                                         placed.number,
+                                         false,
+                                         placed.visible_to});
         draft.built.effective_primitives =
             saturating_add(draft.built.effective_primitives, child.effective_primitives);
         draft.built.instance_depth = std::max(draft.built.instance_depth, child.instance_depth + 1);
@@ -364,6 +380,7 @@ class Compiler {
     std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;
     std::vector<std::uint32_t> object_uses_;
     std::vector<std::uint32_t> mesh_uses_;
+    bool has_masks_ = false;
     SceneCensus census_;
 };
 

@@ -35,6 +35,7 @@ struct Scene {
     ShadingConventions conventions;
     Rgb background;
     bool all_opaque = false;   ///< no material lets light through
+    bool has_masks = false;    ///< some part is not visible to all rays
     bool has_mipmaps = false;  ///< some texture is filtered by what the ray's cone sees
     std::string accelerator;
     SceneCensus census;

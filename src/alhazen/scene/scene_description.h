@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "alhazen/base/diagnostics.h"
+#include "alhazen/geometry/ray_mask.h"
 #include "alhazen/math/affine.h"
 #include "alhazen/scene/camera.h"
 #include "alhazen/shading/light.h"
@@ -37,6 +38,9 @@ struct Part {
     MaterialId material{0};
     std::string name;
     FileLocation location;
+    /// Bits of `mask_of(RayKind)`, or kAllRays. A kind of ray sees the part where it sees all the
+    /// objects around it too.
+    RayMask visible_to = kAllRays;
 };
 
 /// What the parts of an object make together.
@@ -130,8 +134,8 @@ struct SceneDescription {
 
 /// Adds every finding about `description` to `diagnostics`: values that are not finite, singular
 /// transforms, bad shapes and meshes, ids out of range, objects that contain themselves, nesting
-/// deeper than kMaxInstanceDepth, operands of a solid that bound no volume, nothing to see
-/// (warning).
+/// deeper than kMaxInstanceDepth, masks of no kind of ray, operands of a solid that bound no
+/// volume, nothing to see (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace alhazen

@@ -3,7 +3,7 @@
 ///
 /// What goes into the number is what the builder of `wide_bvh` reads: kinds and opacity of all
 /// primitives, the triangles and spheres that are copied into leaves, and of everything else the
-/// boxes alone. Two tables with one fingerprint get the same tree, so a tree of the one gives the
+/// boxes alone. Masks are the table's and in no tree, so they may differ. Two tables with one fingerprint get the same tree, so a tree of the one gives the
 /// right hits on the other.
 /// Complexity: O(size of the table); a fraction of a build.
 

@@ -121,7 +121,19 @@ class Validator {
         }
     }
 
+    void check_mask(const Part& part) {
+        if (part.visible_to == kAllRays) return;
+        if ((part.visible_to & ~kRaysOfAllKinds) != 0) {
+            error(part.location,
+                  fmt::format("is visible to rays of mask {:#x}; known are bits of {:#x}",
+                              part.visible_to, kRaysOfAllKinds));
+        } else if (part.visible_to == 0) {
+            warning(part.location, "is visible to no ray");
+        }
+    }
+
     void check_part(const Part& part) {
+        check_mask(part);
         if (!is_invertible(part.object_from_part)) {
             error(part.location, "the transform is singular or not finite");
         }

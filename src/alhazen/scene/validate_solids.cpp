@@ -58,6 +58,10 @@ class SolidValidator {
     }
 
     void check_part(const Part& part) {
+        if (part.visible_to != kAllRays) {
+            error(part.location,
+                  "part of a solid, so it must be visible to all rays; the solid need not be");
+        }
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
             std::visit(
                 [&]<class S>(const S& s) {

@@ -38,25 +38,32 @@ class Verifier {
     Verifier(const VerifyOptions& options, VerifyReport& report)
         : options_(options), report_(report) {}
 
-    void compare(const Aggregate& fast, const Aggregate& brute, const VerifyRays::Sample& sample) {
+    /// As rays of `mask` see both.
+    void compare(const Aggregate& fast, const Aggregate& brute, const VerifyRays::Sample& sample,
+                 RayMask mask) {
         const Ray& ray = sample.ray;
+        const RayQuery query{nullptr, mask};
+        seen_by_.clear();
+        for (std::size_t k = 0; mask != kAllRays && k < kRayKindCount; ++k) {
+            if (mask == mask_of(static_cast<RayKind>(k))) seen_by_ = kRayKindNames[k];
+        }
         ++report_.rays;
         Hit found, expected;
-        (void)fast.closest(ray, found, nullptr);
-        (void)brute.closest(ray, expected, nullptr);
+        (void)fast.closest(ray, found, query);
+        (void)brute.closest(ray, expected, query);
         report_.hits += expected.found();
         if (found.found() != expected.found() || (found.found() && !same_hit(found, expected))) {
             disagree(sample, "closest", describe(found), describe(expected));
         }
-        const bool occluded = fast.occluded(ray, nullptr);
+        const bool occluded = fast.occluded(ray, query);
         if (occluded != expected.found()) {
             disagree(sample, "occluded", occluded ? "occluded" : "free",
                      expected.found() ? "occluded" : "free");
         }
         fast_hits_.clear();
         brute_hits_.clear();
-        fast.all_hits(ray, fast_hits_, nullptr);
-        brute.all_hits(ray, brute_hits_, nullptr);
+        fast.all_hits(ray, fast_hits_, query);
+        brute.all_hits(ray, brute_hits_, query);
         if (!std::equal(fast_hits_.begin(), fast_hits_.end(), brute_hits_.begin(),
                         brute_hits_.end(), same_hit)) {
             disagree(sample, "all_hits", describe(fast_hits_), describe(brute_hits_));
@@ -68,8 +75,8 @@ class Verifier {
         }
         fast_hits_.clear();
         brute_hits_.clear();
-        const bool shadowed = fast.shadowed(ray, fast_hits_, nullptr);
-        const bool expect_shadow = brute.shadowed(ray, brute_hits_, nullptr);
+        const bool shadowed = fast.shadowed(ray, fast_hits_, query);
+        const bool expect_shadow = brute.shadowed(ray, brute_hits_, query);
         if (shadowed != expect_shadow ||
             (!shadowed && !std::equal(fast_hits_.begin(), fast_hits_.end(), brute_hits_.begin(),
                                       brute_hits_.end(), same_hit))) {
@@ -85,6 +92,7 @@ class Verifier {
             sample.ray.t_min = -std::numeric_limits<double>::infinity();
             ++report_.parity_lines;
             fast_hits_.clear();
+            seen_by_.clear();
             surface.all_hits(sample.ray, fast_hits_, nullptr);
             if (fast_hits_.size() % 2 != 0) {
                 ++report_.odd_crossings;
@@ -102,13 +110,16 @@ class Verifier {
     void report(const VerifyRays::Sample& sample, const char* query, std::string found,
                 std::string expected) {
         if (report_.reported.size() < options_.max_reported) {
+            const std::string kind =
+                seen_by_.empty() ? sample.kind : fmt::format("{} for {}", sample.kind, seen_by_);
             report_.reported.push_back(
-                {sample.kind, query, sample.ray, std::move(found), std::move(expected)});
+                {kind, query, sample.ray, std::move(found), std::move(expected)});
         }
     }
 
     const VerifyOptions& options_;
     VerifyReport& report_;
+    std::string seen_by_;  ///< kind of ray that is asked for; empty: all
     std::vector<Hit> fast_hits_, brute_hits_;
 };
 
@@ -184,6 +195,11 @@ void count_all_crossings(const SceneDescription& description, const VerifyOption
     }
 }
 
+/// Kinds of rays in turn; rays of one sort come every fourth time.
+RayMask mask_of_ray(std::uint64_t i) {
+    return mask_of(static_cast<RayKind>(i / 4 % kRayKindCount));
+}
+
 }  // namespace
 
 VerifyReport verify(const SceneDescription& description, const VerifyOptions& options) {
@@ -197,7 +213,8 @@ VerifyReport verify(const SceneDescription& description, const VerifyOptions& op
         fast.cameras.empty() ? nullptr : &find_camera(fast, options.camera).camera;
     VerifyRays rays(fast.aggregate->box(), camera, fast.aggregate->primitives(), options.seed);
     for (std::uint64_t i = 0; i < options.rays; ++i) {
-        verifier.compare(*fast.aggregate, *brute.aggregate, rays.next());
+        verifier.compare(*fast.aggregate, *brute.aggregate, rays.next(),
+                         fast.has_masks ? mask_of_ray(i) : kAllRays);
         if (options.progress != nullptr && i % 256 == 0) {
             options.progress->update("verify", i, options.rays);
         }

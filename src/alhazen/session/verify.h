@@ -25,7 +25,8 @@ struct VerifyOptions {
 /// One ray on which the two differ. Coordinates are printed with 17 digits so that they repeat it
 /// exactly.
 struct Disagreement {
-    std::string kind;   ///< "random", "lattice", "eye", "aimed"
+    /// "random", "lattice", "eye", "aimed"; "random for shadow" where parts are masked.
+    std::string kind;
     std::string query;  ///< "closest", "occluded", "all_hits", "shadowed", "parity"
     Ray ray;
     std::string found, expected;

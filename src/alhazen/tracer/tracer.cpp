@@ -49,35 +49,35 @@ void Tracer::save(const std::filesystem::path& file) const {
     wide->save(file);
 }
 
-bool Tracer::intersect(const Ray& ray, Hit& hit) const {
-    return aggregate_->closest(ray, hit, nullptr);
+bool Tracer::intersect(const Ray& ray, Hit& hit, RayMask mask) const {
+    return aggregate_->closest(ray, hit, {nullptr, mask});
 }
 
-bool Tracer::occluded(const Ray& ray) const {
-    return aggregate_->occluded(ray, nullptr);
+bool Tracer::occluded(const Ray& ray, RayMask mask) const {
+    return aggregate_->occluded(ray, {nullptr, mask});
 }
 
-void Tracer::all_hits(const Ray& ray, std::vector<Hit>& hits) const {
+void Tracer::all_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask) const {
     hits.clear();
-    aggregate_->all_hits(ray, hits, nullptr);
+    aggregate_->all_hits(ray, hits, {nullptr, mask});
 }
 
-void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, RayMask mask) const {
     check_lengths(rays.size(), hits.size());
-    aggregate_->closest_batch(rays, hits, nullptr);
+    aggregate_->closest_batch(rays, hits, {nullptr, mask});
 }
 
-void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded) const {
+void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded, RayMask mask) const {
     check_lengths(rays.size(), occluded.size());
-    aggregate_->occluded_batch(rays, occluded, nullptr);
+    aggregate_->occluded_batch(rays, occluded, {nullptr, mask});
 }
 
-void Tracer::all_hits(std::span<const Ray> rays, HitLists& lists) const {
+void Tracer::all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask) const {
     lists.hits.clear();
     lists.ends.clear();
     lists.ends.reserve(rays.size());
     for (const Ray& ray : rays) {
-        aggregate_->all_hits(ray, lists.hits, nullptr);
+        aggregate_->all_hits(ray, lists.hits, {nullptr, mask});
         lists.ends.push_back(lists.hits.size());
     }
 }

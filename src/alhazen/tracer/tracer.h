@@ -2,9 +2,11 @@
 /// Traces rays through geometry for programs that want hits and no renderer.
 ///
 /// Conventions: points are origin + t * direction with t in [t_min, t_max]; the direction need not
-/// be of unit length, and t is in units of it. An invalid ray (`is_valid`) hits nothing. Every
-/// accelerator gives the same hits, bit for bit. At equal t the lower primitive wins: analytic
-/// shapes before triangles before instances, each kind in the order in which it was added.
+/// be of unit length, and t is in units of it. An invalid ray (`is_valid`) hits nothing. A query
+/// sees the geometry of which `visible_to` has a bit of its `mask`, through instances where that
+/// holds for each of them too. Every accelerator gives the same hits, bit for bit. At equal t the
+/// lower primitive wins: analytic shapes before triangles before instances, each kind in the order
+/// in which it was added.
 /// Complexity and threads: built in parallel, about O(n log n). Const functions may be called from
 /// many threads at once, and give a batch to one thread each. A copy shares what was built.
 
@@ -67,17 +69,18 @@ class Tracer {
 
     /// The nearest hit: t, and u and v, the weights of the second and third vertex of a triangle or
     /// the parameters of a shape. True when there is one; else `hit.found()` is false.
-    bool intersect(const Ray& ray, Hit& hit) const;
+    bool intersect(const Ray& ray, Hit& hit, RayMask mask = kAllRays) const;
     /// True when there is any hit: cheaper than the nearest one.
-    [[nodiscard]] bool occluded(const Ray& ray) const;
+    [[nodiscard]] bool occluded(const Ray& ray, RayMask mask = kAllRays) const;
     /// Replaces `hits` by every hit, the nearest first.
-    void all_hits(const Ray& ray, std::vector<Hit>& hits) const;
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask = kAllRays) const;
 
     // ---- The same for many rays of any kind and in any order. From about ten rays on the first
     // two are faster than ray by ray. Throws Error (Usage) where two spans differ in length.
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
-    void occluded(std::span<const Ray> rays, std::span<bool> occluded) const;
-    void all_hits(std::span<const Ray> rays, HitLists& lists) const;
+    void intersect(std::span<const Ray> rays, std::span<Hit> hits, RayMask mask = kAllRays) const;
+    void occluded(std::span<const Ray> rays, std::span<bool> occluded,
+                  RayMask mask = kAllRays) const;
+    void all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask = kAllRays) const;
 
     /// Where a hit of this very tracer lies and what it belongs to. `leaving_ray` (scene/surface.h)
     /// begins the next ray there. Throws Error (Usage) when nothing was hit.

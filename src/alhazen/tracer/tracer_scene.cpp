@@ -72,16 +72,17 @@ GeometryId TracerScene::add_mesh(std::shared_ptr<const TriangleMesh> mesh,
     const Affine& transform = options.world_from_geometry;
     check_transform(transform, count_);
     check_shape(*mesh, count_);
-    if (transform == Affine{}) return place_mesh(std::move(mesh), false);
+    if (transform == Affine{}) return place_mesh(std::move(mesh), false, options.visible_to);
     TriangleMesh moved = *mesh;
     moved.transform(transform);
     check_shape(moved, count_);
     return place_mesh(std::make_shared<const TriangleMesh>(std::move(moved)),
-                      determinant(transform.linear) < 0.0);
+                      determinant(transform.linear) < 0.0, options.visible_to);
 }
 
-GeometryId TracerScene::place_mesh(std::shared_ptr<const TriangleMesh> mesh, bool mirrored) {
-    table_.meshes.push_back({std::move(mesh), MaterialId{0}, 0, mirrored, count_});
+GeometryId TracerScene::place_mesh(std::shared_ptr<const TriangleMesh> mesh, bool mirrored,
+                                   RayMask visible_to) {
+    table_.meshes.push_back({std::move(mesh), MaterialId{0}, 0, mirrored, count_, visible_to});
     return GeometryId{count_++};
 }
 
@@ -106,6 +107,7 @@ GeometryId TracerScene::add(const AnyShape& shape, const GeometryOptions& option
             column.placements.push_back(placement);
             column.materials.push_back(MaterialId{0});
             column.parts.push_back(count_);
+            column.set_last_visible_to(options.visible_to);
         },
         shape);
     return GeometryId{count_++};
@@ -121,7 +123,8 @@ GeometryId TracerScene::add_instance(const Tracer& inner, const GeometryOptions&
             place_of(count_));
     }
     depth_ = std::max(depth_, inner.depth_ + 1);
-    table_.instances.push_back({inner.aggregate_, {transform, inverse(transform)}, count_, false});
+    table_.instances.push_back(
+        {inner.aggregate_, {transform, inverse(transform)}, count_, false, options.visible_to});
     return GeometryId{count_++};
 }
 

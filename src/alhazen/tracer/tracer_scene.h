@@ -11,6 +11,7 @@
 #include <memory>
 #include <span>
 
+#include "alhazen/geometry/ray_mask.h"
 #include "alhazen/math/affine.h"
 #include "alhazen/scene/primitive_table.h"
 #include "alhazen/shapes/shape_list.h"
@@ -26,6 +27,9 @@ enum class GeometryId : std::uint32_t {};
 struct GeometryOptions {
     /// Where it stands: any affine transform that can be inverted.
     Affine world_from_geometry{};
+    /// Which rays see it: those whose mask has a bit in common with this one. What the bits mean is
+    /// up to the program; 0: none sees it.
+    RayMask visible_to = kAllRays;
 };
 
 class TracerScene {
@@ -56,7 +60,8 @@ class TracerScene {
   private:
     friend class Tracer;
     /// Puts a mesh that was checked into the table.
-    GeometryId place_mesh(std::shared_ptr<const TriangleMesh> mesh, bool mirrored);
+    GeometryId place_mesh(std::shared_ptr<const TriangleMesh> mesh, bool mirrored,
+                          RayMask visible_to);
 
     PrimitiveTable table_;  ///< `part` of what is in it is the GeometryId
     std::uint32_t count_ = 0;

@@ -78,13 +78,10 @@ bool is_seen(const Aggregate& aggregate, const Hit& hit, RayMask mask) {
     return (mask_in_columns(*table, hit.primitive) & mask) != 0;
 }
 
-/// The answers, from all that the list hits without any mask. `unmasked` has the same primitives
-/// as `masked`, all of them visible.
-Answer expected(const Aggregate& unmasked, const Aggregate& masked, const Ray& ray, RayMask mask) {
-    std::vector<Hit> hits;
-    unmasked.all_hits(ray, hits, nullptr);
+/// The answers, from all that is hit where the same primitives have no masks.
+Answer expected(const std::vector<Hit>& unmasked, const Aggregate& masked, RayMask mask) {
     Answer answer;
-    for (const Hit& hit : hits) {
+    for (const Hit& hit : unmasked) {
         if (!is_seen(masked, hit, mask)) continue;
         answer.all.push_back(hit);
         answer.shadowed = answer.shadowed || innermost(masked, hit).is_opaque(hit.primitive);
@@ -125,13 +122,16 @@ void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
     check("packets");
 }
 
+/// `unmasked`: a list of the same primitives, all of them visible.
 void compare(const Aggregate& tested, const Aggregate& unmasked, const std::vector<Ray>& rays,
              const std::string& name) {
+    std::vector<std::vector<Hit>> hits(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) unmasked.all_hits(rays[i], hits[i], nullptr);
     for (const RayMask mask : kMasks) {
         std::vector<Answer> answers;
         std::size_t found = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            answers.push_back(expected(unmasked, tested, rays[i], mask));
+            answers.push_back(expected(hits[i], tested, mask));
             found += answers.back().found;
             ASSERT_EQ(difference(answers.back(), ask(tested, rays[i], mask)), "")
                 << name << ", mask " << mask << ", ray " << i << ": " << show(rays[i]);
@@ -146,9 +146,9 @@ std::vector<Ray> rays_at(double reach, std::uint64_t seed) {
     Random random(seed);
     const MakeRay make = random_rays(reach);
     std::vector<Ray> rays;
-    for (int i = 0; i < 320; ++i) rays.push_back(make(random));
-    for (int i = 0; i < 320; ++i) {
-        const Vec3 aim{reach * (i % 16 - 8) / 20.0, reach * (i / 16 - 10) / 20.0, 0};
+    for (int i = 0; i < 160; ++i) rays.push_back(make(random));
+    for (int i = 0; i < 160; ++i) {
+        const Vec3 aim{reach * (i % 16 - 8) / 20.0, reach * (i / 16 - 5) / 20.0, 0};
         const Vec3 eye{0.1 * reach, 0.2 * reach, 3 * reach};
         rays.push_back({eye, aim - eye, 0, i % 7 == 0 ? 1.0 : 1e300});
     }
@@ -156,9 +156,9 @@ std::vector<Ray> rays_at(double reach, std::uint64_t seed) {
 }
 
 std::vector<std::pair<std::string, PrimitiveTable>> tables() {
-    return {{"triangles", random_triangles(300, 1, 0.4, 1)},
-            {"spheres", random_spheres(200, 1, 0.3, 2)},
-            {"mixture with planes", random_mixture(200, 1, 0.4, 3)}};
+    return {{"triangles", random_triangles(150, 1, 0.5, 1)},
+            {"spheres", random_spheres(100, 1, 0.3, 2)},
+            {"mixture with planes", random_mixture(100, 1, 0.4, 3)}};
 }
 
 TEST(Masks, EveryQueryOfEveryAcceleratorSeesWhatTheMasksLetItSee) {
@@ -196,9 +196,9 @@ std::shared_ptr<const Aggregate> nest(const char* accelerator, bool masks) {
     Random random(9);
     std::shared_ptr<const Aggregate> inner;
     for (int level = 0; level < 3; ++level) {
-        PrimitiveTable table = random_mixture(40, 1, 0.4, 10 + static_cast<std::uint64_t>(level));
+        PrimitiveTable table = random_mixture(30, 1, 0.5, 10 + static_cast<std::uint64_t>(level));
         std::get<ShapeColumn<Plane>>(table.columns) = {};
-        for (int i = 0; inner != nullptr && i < 12; ++i) {
+        for (int i = 0; inner != nullptr && i < 8; ++i) {
             Placement placement;
             placement.outer_from_inner.linear = {{0.5, 0, 0}, {0, 0.4, 0.3}, {0, -0.3, 0.4}};
             placement.outer_from_inner.translation = uniform_point(random, 1);
@@ -289,7 +289,7 @@ TEST(Masks, FastModeGivesTheHitsOfATableWithoutWhatIsHidden) {
         (void)masked.closest(rays[i], all, nullptr);
         differ += !same(all, expected);
     }
-    EXPECT_GT(differ, 50) << "too few rays meet what is hidden";
+    EXPECT_GT(differ, 20) << "too few rays meet what is hidden";
 }
 
 TEST(Masks, BelongToTheTableAndNotToTheTree) {

@@ -143,5 +143,22 @@ TEST(Validate, EveryPartOfAMaterialAndATextureIsLookedAt) {
     EXPECT_EQ(errors_in(maker.description()), 2u);
 }
 
+TEST(Validate, MasksNameKindsOfRaysAndHideNoPartOfASolid) {
+    SceneMaker maker = good_scene();
+    Part& part = maker.description().objects[0].parts[0];
+    part.visible_to = mask_of(RayKind::Shadow);
+    EXPECT_EQ(errors_in(maker.description()), 0u);
+    part.visible_to = 1u << 7;
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+    part.visible_to = 0;
+    Diagnostics diagnostics;
+    validate(maker.description(), diagnostics);
+    EXPECT_EQ(diagnostics.error_count(), 0u);
+    ASSERT_EQ(diagnostics.all().size(), 1u) << "a warning";
+    part.visible_to = mask_of(RayKind::Eye);
+    maker.description().objects[0].combine = Combine::Union;
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
 }  // namespace
 }  // namespace alhazen
