@@ -53,6 +53,7 @@ struct NativeScope {
     std::optional<MaterialId> material;  ///< default for parts without one
     std::filesystem::path folder;        ///< of the file that is being read
     int nesting = 0;                     ///< objects and groups around, through all included files
+    RayMask visible_to = kAllRays;       ///< rays that the groups around let through
 
     [[nodiscard]] bool top_level() const { return nesting == 0; }
     /// Where a transform that is written here leads. One that stands alone is kept bit for bit:

@@ -5,6 +5,7 @@
 #include "alhazen/importers/native/native_materials.h"
 #include "alhazen/importers/native/native_parts.h"
 #include "alhazen/importers/native/native_transform.h"
+#include "alhazen/importers/native/native_visibility.h"
 
 namespace alhazen {
 
@@ -94,10 +95,12 @@ void read_native_instance(TextNode entry, NativeContext& context, NativeScope& s
     const auto object = look_up(entry.first(), "object", context.object_names, context.diagnostics);
     Part part;
     part.object_from_part = scope.object_from_here;
+    part.visible_to = scope.visible_to;
     part.location = entry.location();
     if (entry.size() == 2) {
         BlockReader reader = context.reader(*++entry.begin(), "instance");
         part.object_from_part = scope.placed(read_native_transform(reader));
+        part.visible_to &= read_native_visibility(reader);
         reader.read("name", part.name);
         reader.finish();
     }

@@ -11,6 +11,7 @@
 #include "alhazen/importers/native/native_shapes.h"
 #include "alhazen/importers/native/native_transform.h"
 #include "alhazen/importers/native/native_view.h"
+#include "alhazen/importers/native/native_visibility.h"
 
 namespace alhazen {
 
@@ -21,6 +22,7 @@ Part placed_part(BlockReader& reader, const NativeBlock& block, const NativeScop
     part.name = block.name;
     part.location = block.location;
     part.object_from_part = scope.placed(read_native_transform(reader));
+    part.visible_to = scope.visible_to & read_native_visibility(reader);
     return part;
 }
 
@@ -50,8 +52,9 @@ void read_mesh_part(const NativeBlock& block, NativeContext& context, NativeScop
 
 void read_group(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
     BlockReader reader = context.reader(*block.block, block.type);
-    NativeScope inner{scope.parts, scope.placed(read_native_transform(reader)), scope.material,
-                      scope.folder, scope.nesting + 1};
+    NativeScope inner{scope.parts,       scope.placed(read_native_transform(reader)),
+                      scope.material,    scope.folder,
+                      scope.nesting + 1, scope.visible_to & read_native_visibility(reader)};
     if (const auto value = reader.find("material")) {
         if (const auto id = read_material_value(*value, context)) inner.material = id;
     }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "alhazen/importers/mesh_export.h"
+#include "alhazen/importers/native/native_visibility.h"
 #include "alhazen/importers/native/native_write_context.h"
 #include "alhazen/importers/native/native_write_shapes.h"
 
@@ -74,6 +75,8 @@ void add_file(NativeBlockText& block, const NativeWriteContext& context, const T
 void write_part(NativeWriteContext& context, const Part& part, int indent) {
     const auto add_placement = [&](NativeBlockText& block) {
         block.add_unless("transform", part.object_from_part, Affine{});
+        if (part.visible_to != kAllRays)
+            block.add("visible_to", native_visibility(part.visible_to));
     };
     if (const auto* object = std::get_if<ObjectIndex>(&part.what)) {
         const auto index = static_cast<std::size_t>(*object);
