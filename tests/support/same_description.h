@@ -219,6 +219,51 @@ inline bool same(const Cone& a, const Cone& b) {
     return all_same(a.base, b.base, a.top, b.top, a.base_radius, b.base_radius, a.top_radius,
                     b.top_radius, a.capped, b.capped);
 }
+inline bool same(const Ellipsoid& a, const Ellipsoid& b) {
+    return all_same(a.center, b.center, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.axis_c, b.axis_c);
+}
+inline bool same(const EllipticCylinder& a, const EllipticCylinder& b) {
+    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.capped,
+                    b.capped);
+}
+inline bool same(const EllipticCone& a, const EllipticCone& b) {
+    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b,
+                    a.top_scale, b.top_scale, a.capped, b.capped);
+}
+inline bool same(const Tgc& a, const Tgc& b) {
+    return all_same(a.base, b.base, a.height, b.height, a.axis_a, b.axis_a, a.axis_b, b.axis_b,
+                    a.axis_c, b.axis_c, a.axis_d, b.axis_d, a.capped, b.capped);
+}
+inline bool same(const Box3& a, const Box3& b) {
+    return same(a.lo, b.lo) && same(a.hi, b.hi);
+}
+inline bool same(const ClipPlane& a, const ClipPlane& b) {
+    return same(a.normal, b.normal) && same(a.offset, b.offset);
+}
+inline bool same(const Paraboloid& a, const Paraboloid& b) {
+    return all_same(a.apex, b.apex, a.rim, b.rim, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.capped,
+                    b.capped);
+}
+inline bool same(const Hyperboloid& a, const Hyperboloid& b) {
+    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.waist,
+                    b.waist, a.capped, b.capped);
+}
+inline bool same(const TwoSheetHyperboloid& a, const TwoSheetHyperboloid& b) {
+    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.gap,
+                    b.gap, a.capped, b.capped);
+}
+inline bool same(const Quadric& a, const Quadric& b) {
+    return all_same(a.squares, b.squares, a.products, b.products, a.linear, b.linear, a.constant,
+                    b.constant, a.clip_box, b.clip_box, a.clip_planes, b.clip_planes, a.capped,
+                    b.capped);
+}
+inline bool same(const Algebraic& a, const Algebraic& b) {
+    return all_same(a.expression, b.expression, a.clip_box, b.clip_box, a.capped, b.capped);
+}
+inline bool same(const Torus& a, const Torus& b) {
+    return all_same(a.center, b.center, a.axis, b.axis, a.major_radius, b.major_radius,
+                    a.minor_radius, b.minor_radius);
+}
 inline bool same(const Polygon& a, const Polygon& b) {
     // No loops mean one of all vertices.
     const auto loops = [](const Polygon& p) {

@@ -11,12 +11,11 @@
 /// that cannot be told apart are none, an odd cluster is one, so that the number of crossings
 /// always agrees with the signs at both ends. Split where the coefficients are most unlike the
 /// ends. Conventions: p(u) = sum b[i] C(n, i) (1 - u)^(n - i) u^i. In double the search gives up
-/// where it cannot be certain (about one ray in millions); it is then repeated in double-double,
-/// with coefficients made anew, where it always answers: a value it cannot tell from 0 counts as
-/// positive ("outside") at the ends and as its surroundings between them, and roots closer than
-/// 2^-52 cancel in pairs.
-/// `find_certified_sign_changes` does both.
-/// Complexity: O(n^2) per split; mostly no split for 0 or 1 crossing, one or two for 2.
+/// where it cannot be certain; it is then repeated in double-double, with coefficients made anew,
+/// where it always answers: a value it cannot tell from 0 has the sign of its surroundings (of the
+/// next coefficient at the ends; all unknown is positive, "outside"), and roots closer than 2^-52
+/// cancel in pairs. `find_certified_sign_changes` does both. Complexity: O(n^2) per split; mostly
+/// no split for 0 or 1 crossing, one or two for 2.
 
 #include <algorithm>
 #include <array>
@@ -101,11 +100,13 @@ double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double gues
         if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
         const double step = std::abs(next - x);
         if (step > 0.5 * last_step && i > 2) next = 0.5 * (lo + hi);
+        // Convergence is quadratic and this step the last that counts; at a root that is nearly
+        // double it is not, and steps become smaller by half.
+        const bool fast = step <= 1e-9 * std::abs(x) && step <= 1e-4 * last_step;
         last_step = std::abs(next - x);
         x = next;
-        // Convergence is quadratic: this step was the last that counts.
-        if (step <= 1e-9 * std::abs(x) && i > 0) {
-            if (step <= 0x1p-51 * std::abs(x)) return x;
+        if (fast || last_step <= 0x1p-52 * std::abs(x)) {
+            if (last_step <= 0x1p-51 * std::abs(x)) return x;
             f(x, value, slope);
             next = x - value / slope;
             return next >= lo && next <= hi ? next : x;
@@ -155,15 +156,15 @@ class SignChangeSearch {
         out_.count = 0;
         out_.negative_at_start = false;
         const int n = p_.degree;
-        // Overflow: nothing can be said of such a polynomial; it has no crossings.
-        bool finite = p_.error >= 0.0;
-        for (int i = 0; i <= n; ++i) finite = finite && std::isfinite(leading(p_.b[i]));
-        if (!finite) return true;
+        double total = p_.error;
+        for (int i = 0; i <= n; ++i) total += std::abs(leading(p_.b[i]));
+        // Overflow or no number: nothing can be said of such a polynomial; it has no crossings.
+        if (!std::isfinite(total)) return true;
         int first = sign(p_.b[0], p_.error), last = sign(p_.b[n], p_.error);
         if (first == 0 || last == 0) {
             if (!kMustAnswer) return false;
-            if (first == 0) first = 1;
-            if (last == 0) last = 1;
+            if (first == 0) first = sign_beside(0, 1);
+            if (last == 0) last = sign_beside(n, -1);
         }
         out_.negative_at_start = first < 0;
         return search(p_.b.data(), p_.error, 0.0, 1.0, first, last);
@@ -172,6 +173,15 @@ class SignChangeSearch {
   private:
     static int sign(const Real& v, double error) {
         return int(leading(v) > error) - int(leading(v) < -error);
+    }
+
+    /// The sign next to an end where p is 0: that of the first coefficient that has one.
+    int sign_beside(int end, int step) const {
+        for (int i = end; i >= 0 && i <= p_.degree; i += step) {
+            const int s = sign(p_.b[static_cast<std::size_t>(i)], p_.error);
+            if (s != 0) return s;
+        }
+        return 1;
     }
 
     struct Variations {

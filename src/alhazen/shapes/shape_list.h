@@ -5,16 +5,26 @@
 
 #include <variant>
 
+#include "alhazen/shapes/algebraic.h"
 #include "alhazen/shapes/box_shape.h"
 #include "alhazen/shapes/cone.h"
 #include "alhazen/shapes/cylinder.h"
 #include "alhazen/shapes/disc.h"
+#include "alhazen/shapes/ellipsoid.h"
+#include "alhazen/shapes/elliptic_cone.h"
+#include "alhazen/shapes/elliptic_cylinder.h"
 #include "alhazen/shapes/half_space.h"
+#include "alhazen/shapes/hyperboloid.h"
+#include "alhazen/shapes/paraboloid.h"
 #include "alhazen/shapes/plane.h"
 #include "alhazen/shapes/polygon.h"
 #include "alhazen/shapes/polyhedron.h"
+#include "alhazen/shapes/quadric.h"
 #include "alhazen/shapes/rectangle.h"
 #include "alhazen/shapes/sphere.h"
+#include "alhazen/shapes/tgc.h"
+#include "alhazen/shapes/torus.h"
+#include "alhazen/shapes/two_sheet_hyperboloid.h"
 
 namespace alhazen {
 
@@ -27,7 +37,7 @@ struct ShapeTypes {
 };
 
 using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon,
-                                  HalfSpace, Polyhedron>;
+                                  HalfSpace, Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric, Algebraic>;
 
 /// Any one analytic shape by value.
 using AnyShape = AnalyticShapes::Variant;

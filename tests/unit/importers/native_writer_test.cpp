@@ -269,6 +269,11 @@ TEST(NativeWriter, ShapesComeBackInOrderWithNamesAndPlacements) {
     plain.vertices = ring.vertices;
     Polyhedron planes;
     for (int i = 0; i < 5; ++i) planes.planes.push_back({n.point(), n.point()});
+    Quadric quadric{n.point(), n.point(), n.point(), n.positive()};
+    const Quadric unclipped = quadric;
+    quadric.clip_box = {n.point(), n.point()};
+    quadric.clip_planes = {{n.point(), n.positive()}, {n.point(), n.positive()}};
+    quadric.capped = false;
     for (const AnyShape& shape : std::initializer_list<AnyShape>{
              Sphere{n.point(), n.positive()}, plain, ring, Plane{n.point(), n.point()},
              Disc{n.point(), n.point(), n.positive(), 0.01},
@@ -278,7 +283,18 @@ TEST(NativeWriter, ShapesComeBackInOrderWithNamesAndPlacements) {
              Disc{}, Rectangle{}, BoxShape{}, Cylinder{}, Cone{}, HalfSpace{n.point(), n.point()},
              planes,
              hexahedron({n.point(), n.point(), n.point(), n.point(), n.point(), n.point(),
-                         n.point(), n.point()})}) {
+                         n.point(), n.point()}),
+             Ellipsoid{n.point(), n.point(), n.point(), n.point()},
+             EllipticCylinder{n.point(), n.point(), n.point(), n.point(), false},
+             EllipticCone{n.point(), n.point(), n.point(), n.point(), n.positive(), false},
+             Tgc{n.point(), n.point(), n.point(), n.point(), n.point(), n.point(), false},
+             Torus{n.point(), n.point(), n.positive(), n.positive()},
+             Paraboloid{n.point(), n.point(), n.point(), n.point(), false},
+             Hyperboloid{n.point(), n.point(), n.point(), n.point(), n.positive(), false},
+             TwoSheetHyperboloid{n.point(), n.point(), n.point(), n.point(), n.positive(), false},
+             quadric, unclipped, Algebraic{"x^2*y - 1", {n.point(), n.point()}, false},
+             Ellipsoid{}, EllipticCylinder{}, EllipticCone{}, Tgc{}, Torus{}, Paraboloid{},
+             Hyperboloid{}, TwoSheetHyperboloid{}, Quadric{}, Algebraic{}}) {
         parts.push_back(part_of(shape, n.affine(), MaterialId(n.below(3)), "a part"));
         parts.push_back(part_of(shape, {}, MaterialId(n.below(3)), ""));
     }

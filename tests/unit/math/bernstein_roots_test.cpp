@@ -166,8 +166,12 @@ TEST(BernsteinRoots, CountAgreesWithTheSignsAtTheEnds) {
         p.error = 1e-30;
         for (int k = 0; k <= p.degree; ++k) p.b[k] = DoubleDouble(random.below(5) - 2.0);
         const auto found = sign_changes(p);
-        ASSERT_EQ(found.negative_at_start, p.b[0].high < 0.0);
-        ASSERT_EQ(found.negative_at_end(), p.b[p.degree].high < 0.0) << i;
+        // Beside an end where p is 0 it has the sign of the first coefficient that has one.
+        double first = 0.0, last = 0.0;
+        for (int k = p.degree; k >= 0; --k) first = p.b[k].high != 0.0 ? p.b[k].high : first;
+        for (int k = 0; k <= p.degree; ++k) last = p.b[k].high != 0.0 ? p.b[k].high : last;
+        ASSERT_EQ(found.negative_at_start, first < 0.0) << i;
+        ASSERT_EQ(found.negative_at_end(), last < 0.0) << i;
         for (int k = 1; k < found.count; ++k) ASSERT_LE(found.u[k - 1], found.u[k]);
     }
 }

@@ -1,5 +1,6 @@
 #include "alhazen/importers/native/native_shapes.h"
 
+#include "alhazen/importers/native/native_exact_shapes.h"
 #include "alhazen/importers/native/native_solids.h"
 
 namespace alhazen {
@@ -97,6 +98,16 @@ constexpr ShapeEntry kShapes[] = {
         return s;
     }},
     {Polyhedron::kName, read_native_polyhedron},
+    {Ellipsoid::kName, read_native_ellipsoid},
+    {EllipticCylinder::kName, read_native_elliptic_cylinder},
+    {EllipticCone::kName, read_native_elliptic_cone},
+    {Tgc::kName, read_native_tgc},
+    {Torus::kName, read_native_torus},
+    {Paraboloid::kName, read_native_paraboloid},
+    {Hyperboloid::kName, read_native_hyperboloid},
+    {TwoSheetHyperboloid::kName, read_native_two_sheet_hyperboloid},
+    {Quadric::kName, read_native_quadric},
+    {Algebraic::kName, read_native_algebraic},
 };
 // clang-format on
 

@@ -1,5 +1,7 @@
 #include "alhazen/importers/native/native_write_shapes.h"
 
+#include "alhazen/importers/native/native_exact_shapes.h"
+
 #include <span>
 
 namespace alhazen {

@@ -1,0 +1,142 @@
+#pragma once
+/// The kernel of the shapes f(x, y, z) < 0 with a polynomial f: torus, truncated cone, algebraic
+/// surface.
+///
+/// Source: Hanrahan, "Ray Tracing Algebraic Surfaces", SIGGRAPH 1983 (substitute the line, isolate
+/// the real roots of what comes of it). Differs: the line is first cut to the solid's clip, and f
+/// restricted to that segment is computed in Bernstein form at once, from the coordinates of the
+/// segment's ends: products are convolutions, nothing cancels that need not. Its sign changes come
+/// from math/bernstein_roots.h, in double and, where that is not certain, again in double-double
+/// from the ray as it is given. Conventions: internal to this folder.
+///
+/// A polynomial offers kDegree (a bound for its degree) and
+///   `template <class Real> int coefficients(Point3<Real> p0, Point3<Real> p1, Real* b) const`:
+///       the degree and the Bernstein coefficients of f((1 - u) p0 + u p1);
+///   `template <class Real> Real value(Point3<Real> p) const`, `Vec3 gradient(Vec3 p) const`;
+///   `double magnitude() const`: a bound of the sum of the absolute terms of f over the clip;
+///   `double roundings() const`: how many of these in a row its coefficients suffer.
+
+#include "alhazen/math/bernstein_roots.h"
+#include "alhazen/shapes/solid_frame.h"
+
+namespace alhazen {
+
+/// The line in the frame, cut to the solid's clip.
+struct ClipSegment {
+    Vec3 o, d;
+    ClipRange range;
+    double shift = 0;  ///< of o along the line
+    /// Bound of the error of an end's coordinate over the size of the clip, in half ulps.
+    double relative_error = 0;
+};
+
+/// Cuts the line by a box in the frame; false when nothing is left that the ray covers. `size` is
+/// the smallest of the largest coordinates of the box along its axes.
+inline bool clip_segment(const SolidFrame& frame, const Ray& ray, const Box3& box, double size,
+                         ClipSegment& s) {
+    Vec3 from = ray.origin - frame.origin;
+    s.o = frame.local_from_object * from;
+    s.d = frame.local_from_object * ray.direction;
+    if (!cut_by_box(s.o, s.d, box, s.range)) return false;
+    if (!(s.range.exit >= ray.t_min && s.range.entry <= ray.t_max)) return false;
+    const double step = max_component(abs(ray.direction));
+    if (std::abs(s.range.entry) * step * frame.stretch > 16.0 * size) {
+        s.shift = s.range.entry;
+        from = advanced(ray, s.shift).origin - frame.origin;
+        s.o = frame.local_from_object * from;
+    }
+    const double far =
+        std::fmax(std::abs(s.range.entry - s.shift), std::abs(s.range.exit - s.shift));
+    s.relative_error = 6.0 * frame.stretch / size *
+                       (max_component(abs(from)) + max_component(abs(frame.origin)) + far * step);
+    return true;
+}
+
+/// Coefficients in either precision; the polynomial is that of the exact line.
+template <class Polynomial, class Real, int N>
+void restrict_to_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                         const ClipSegment& s, BernsteinPolynomial<Real, N>& p) {
+    constexpr double kUnit = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
+    Point3<Real> o, d;
+    Real entry(s.range.entry), exit(s.range.exit);
+    if constexpr (std::is_same_v<Real, double>) {
+        o = {s.o.x, s.o.y, s.o.z};
+        d = {s.d.x, s.d.y, s.d.z};
+        entry -= s.shift;
+        exit -= s.shift;
+    } else {
+        o = frame.local_point(to_real<Real>(ray.origin));
+        d = frame.local_vector(to_real<Real>(ray.direction));
+    }
+    const auto at = [&](const Real& t) {
+        return Point3<Real>{o.x + t * d.x, o.y + t * d.y, o.z + t * d.z};
+    };
+    p.degree = f.coefficients(at(entry), at(exit), p.b.data());
+    // A term of degree n changes by at most n times the relative change of its factors.
+    p.error = kUnit * f.magnitude() * (f.roundings() + 1.5 * p.degree * s.relative_error);
+}
+
+/// Crossings of a segment whose range has been found; see report_solid for `capped`.
+template <class Polynomial>
+int intersect_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                      const ClipSegment& s, bool capped, ShapeHit* hits) {
+    constexpr int N = Polynomial::kDegree;
+    SignChanges<N> changes;
+    find_certified_sign_changes<N>([&](auto& p) { restrict_to_segment(f, frame, ray, s, p); },
+                                   changes);
+    if (changes.count == 0 && !changes.negative_at_start) return 0;
+    double t[N];
+    const double length = s.range.exit - s.range.entry;
+    for (int i = 0; i < changes.count; ++i) {
+        t[i] = std::fmin(s.range.exit, s.range.entry + changes.u[i] * length);
+    }
+    return report_solid(ray, s.range, changes.negative_at_start, t, changes.count, capped, hits);
+}
+
+/// A point of the frame moved onto f = 0, and how far it may still be from there.
+struct ProjectedPoint {
+    Vec3 point;
+    Vec3 gradient;  ///< not zero unless the surface has no normal anywhere near
+    double error;
+};
+
+/// `back`: a step towards where the ray came from; at a singular point the normal is taken there.
+template <class Polynomial>
+ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
+    Vec3 gradient = f.gradient(p);
+    const double size = length(p) + length(back);
+    const auto value = [&] { return f.value(to_real<DoubleDouble>(p)).high; };
+    for (int i = 0; i < 2; ++i) {
+        const double squared = length_squared(gradient);
+        if (!(squared > 0.0)) break;
+        const Vec3 step = (value() / squared) * gradient;
+        // Near a singular point Newton's step may lead anywhere: the point then stays.
+        if (!(length(step) <= 1e-5 * size)) break;
+        p -= step;
+        gradient = f.gradient(p);
+    }
+    double error = 0.0;
+    const double steepness = length(gradient);
+    if (steepness > 0.0) error = std::fmin(2.0 * std::abs(value()) / steepness, 1e-5 * size);
+    // At a singular point the normal is that of the way by which the ray came, or beside it.
+    Vec3 step = back;
+    for (int i = 0; i < 8 && !(length_squared(gradient) > 0.0); ++i) {
+        gradient = f.gradient(p + step);
+        step = 2.0 * step + 0.5 * Vec3{step.y, step.z, step.x};
+    }
+    if (!(length_squared(gradient) > 0.0)) gradient = back;
+    return {p, gradient, error};
+}
+
+/// The surface but for texture coordinates.
+inline ShapeSurface surface_of(const SolidFrame& frame, const ProjectedPoint& at) {
+    ShapeSurface surface;
+    surface.point = frame.to_object(at.point);
+    surface.normal = surface.shading_normal = object_normal(frame, at.gradient, {0, 0, 1});
+    const Mat3& m = frame.object_from_local;
+    surface.error = frame.object_error(at.point, 8) +
+                    at.error * (abs(m.x_axis) + abs(m.y_axis) + abs(m.z_axis));
+    return surface;
+}
+
+}  // namespace alhazen

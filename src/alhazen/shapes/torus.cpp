@@ -1,0 +1,135 @@
+#include "alhazen/shapes/torus.h"
+
+#include "alhazen/shapes/polynomial_solid.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The clip is this much larger than the torus, so that the line is outside at its ends for sure.
+constexpr double kRoom = 1.0 + 1.0 / 64;
+
+template <class Real>
+Real third() {
+    if constexpr (std::is_same_v<Real, double>) {
+        return 1.0 / 3.0;
+    } else {
+        return DoubleDouble(1.0 / 3.0, 0x1.5555555555555p-56);
+    }
+}
+
+/// (x^2 + y^2 + z^2 + k)^2 - 4 (x^2 + y^2), k = 1 - r^2.
+struct TorusPolynomial {
+    static constexpr int kDegree = 4;
+    double r;
+
+    template <class Real>
+    [[nodiscard]] Real k() const {
+        return (Real(1.0) - Real(r)) * (Real(1.0) + Real(r));
+    }
+    template <class Real>
+    int coefficients(const Point3<Real>& p, const Point3<Real>& q, Real* b) const {
+        const Real b0 = p.x * p.x + p.y * p.y;
+        const Real b1 = p.x * q.x + p.y * q.y;
+        const Real b2 = q.x * q.x + q.y * q.y;
+        const Real a0 = b0 + p.z * p.z + k<Real>();
+        const Real a1 = b1 + p.z * q.z + k<Real>();
+        const Real a2 = b2 + q.z * q.z + k<Real>();
+        const Real two(2.0), four(4.0);
+        b[0] = a0 * a0 - four * b0;
+        b[1] = a0 * a1 - two * (b0 + b1);
+        b[2] = (a0 * a2 + two * (a1 * a1) - two * (b0 + four * b1 + b2)) * third<Real>();
+        b[3] = a1 * a2 - two * (b1 + b2);
+        b[4] = a2 * a2 - four * b2;
+        return 4;
+    }
+    template <class Real>
+    [[nodiscard]] Real value(const Point3<Real>& p) const {
+        const Real across = p.x * p.x + p.y * p.y;
+        const Real a = across + p.z * p.z + k<Real>();
+        return a * a - Real(4.0) * across;
+    }
+    [[nodiscard]] Vec3 gradient(const Vec3& p) const {
+        // Of the square of the distance to the circle, times what makes it that of the quartic.
+        const double across = std::hypot(p.x, p.y);
+        if (!(across > 0.0)) return {0.0, 0.0, 4.0 * p.z * (p.z * p.z + k<double>())};
+        const double radial = (across - 1.0) / across;
+        const double other = (across + 1.0) * (across + 1.0) + p.z * p.z - r * r;
+        const double own = (across - 1.0) * (across - 1.0) + p.z * p.z - r * r;
+        // f = own * other.
+        const Vec3 own_gradient{2.0 * p.x * radial, 2.0 * p.y * radial, 2.0 * p.z};
+        const double outer = (across + 1.0) / across;
+        const Vec3 other_gradient{2.0 * p.x * outer, 2.0 * p.y * outer, 2.0 * p.z};
+        return other * own_gradient + own * other_gradient;
+    }
+    [[nodiscard]] double magnitude() const {
+        const double reach = kRoom * (1.0 + r);
+        const double a = 3.0 * reach * reach + 1.0;
+        return a * a + 8.0 * reach * reach;
+    }
+    [[nodiscard]] double roundings() const { return 16.0; }
+};
+
+}  // namespace
+
+void Torus::prepare() {
+    unit_axis = unit_or(axis, {0, 0, 1});
+    const Vec3 x = perpendicular(unit_axis);
+    frame = SolidFrame(center, Mat3{major_radius * x, major_radius * cross(unit_axis, x),
+                                    major_radius * unit_axis});
+    tube = minor_radius / major_radius;
+}
+
+void Torus::validate(const FileLocation& where, Diagnostics& diagnostics) const {
+    FieldChecks checks(kName, where, diagnostics);
+    checks.point("center", center);
+    checks.vector("axis", axis);
+    checks.length("major_radius", major_radius);
+    checks.length("minor_radius", minor_radius);
+    if (!checks.ok()) return;
+    if (minor_radius > major_radius) {
+        checks.fail("minor_radius must not exceed major_radius");
+    } else if (minor_radius < 1e-6 * major_radius) {
+        checks.fail("minor_radius must be at least a millionth of major_radius");
+    }
+}
+
+Box3 Torus::box() const {
+    return outward_box(center, circle_half_box(unit_axis, major_radius) +
+                                   Vec3{minor_radius, minor_radius, minor_radius});
+}
+
+Interval Torus::extent(const Vec3& direction) const {
+    return outward_extent(direction, center,
+                          major_radius * length(accurate_cross(direction, unit_axis)) +
+                              minor_radius * length(direction));
+}
+
+int Torus::intersect(const Ray& ray, ShapeHit* hits) const {
+    const double reach = kRoom * (1.0 + tube), height = kRoom * tube;
+    ClipSegment s;
+    if (!clip_segment(frame, ray, {{-reach, -reach, -height}, {reach, reach, height}}, reach, s)) {
+        return 0;
+    }
+    return intersect_segment(TorusPolynomial{tube}, frame, ray, s, true, hits);
+}
+
+ShapeSurface Torus::surface(const Ray& ray, const ShapeHit& hit) const {
+    const Vec3 start = frame.to_local(ray.at(hit.t));
+    const Vec3 d = unit_or(frame.local_from_object * ray.direction, {0, 0, 1});
+    const ProjectedPoint at = project_to_zero(TorusPolynomial{tube}, start, -1e-6 * tube * d);
+    ShapeSurface surface = surface_of(frame, at);
+    const Vec3& p = at.point;
+    LocalUv local = turn_uv(p);
+    const double across = std::hypot(p.x, p.y);
+    const double out = across - 1.0;
+    local.uv.y = turn_fraction(out, p.z);
+    const double squared = 2.0 * kPi * (out * out + p.z * p.z);
+    if (across > 0.0 && squared > 0.0) {
+        local.v_gradient = Vec3{-p.z * p.x / across, -p.z * p.y / across, out} / squared;
+    }
+    set_uv(frame, local, at.gradient, surface);
+    return surface;
+}
+
+}  // namespace alhazen
