@@ -4,9 +4,10 @@
 /// Source: Dekker, "A floating-point technique for extending the available precision", Numerische
 /// Mathematik 18, 1971; Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
 /// building blocks of double-word arithmetic", ACM TOMS 44(2), 2017: algorithms 4, 6, 9 and 12.
-/// Differs: only what exact shapes need: sums, differences, products and comparisons.
-/// Conventions: |low| is at most half an ulp of high. Each operation is right to kDoubleDoubleUlp
-/// of its result, barring over- and underflow (a sum of numbers of opposite signs as well).
+/// Differs: only what exact shapes need.
+/// Conventions: |low| is at most half an ulp of high. Sums and products are right to
+/// kDoubleDoubleUlp of its result, barring over- and underflow (a sum of numbers of opposite signs
+/// as well).
 
 #include <cmath>
 
@@ -65,6 +66,20 @@ inline DoubleDouble& operator+=(DoubleDouble& a, const DoubleDouble& b) {
 }
 inline DoubleDouble& operator-=(DoubleDouble& a, const DoubleDouble& b) {
     return a = a - b;
+}
+
+/// The quotient, right to about 30 digits; not finite where b is 0.
+inline DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
+    const double first = a.high / b.high;
+    const DoubleDouble rest = a - b * DoubleDouble(first);
+    return fast_two_sum(first, rest.high / b.high);
+}
+/// The square root of what is not negative, right to about 30 digits.
+inline DoubleDouble square_root(const DoubleDouble& a) {
+    if (a.high == 0.0) return {};
+    const double first = std::sqrt(a.high);
+    const DoubleDouble rest = a - two_product(first, first);
+    return fast_two_sum(first, rest.high / (2.0 * first));
 }
 
 inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {

@@ -129,7 +129,7 @@ ShapeSurface ClippedQuadric::side_surface(const Vec3& start, const Vec3& before)
         local.uv.y = (p.z - v_range.lo) / height;
         local.v_gradient.z = 1.0 / height;
     }
-    set_uv(frame, local, usable, surface);
+    set_uv(frame, local, usable, surface, least_slope);
     const Mat3& m = frame.object_from_local;
     surface.error =
         frame.object_error(p, 8) + 2.0 * residual * (abs(m.x_axis) + abs(m.y_axis) + abs(m.z_axis));

@@ -29,6 +29,7 @@ struct ClippedQuadric {
     bool capped = true;
     V v_kind = V::Height;
     Interval v_range{0, 1};
+    double least_slope = 0;  ///< see set_uv
 
     int intersect(const Ray& ray, ShapeHit* hits) const;
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;

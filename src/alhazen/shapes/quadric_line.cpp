@@ -16,23 +16,14 @@ DoubleDouble dot(const Point3<DoubleDouble>& a, const Point3<DoubleDouble>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// The quotient right to about 30 digits.
-DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
-    const double first = a.high / b.high;
-    const DoubleDouble rest = a - b * DoubleDouble(first);
-    return fast_two_sum(first, rest.high / b.high);
-}
-
-DoubleDouble square_root(const DoubleDouble& a) {
-    const double first = std::sqrt(a.high);
-    const DoubleDouble rest = a - two_product(first, first);
-    return fast_two_sum(first, rest.high / (2.0 * first));
-}
-
 /// Crossings that lie at no finite t: both or, in front of every t there is, the one.
 void drop_infinite(QuadricSpans& s) {
     if (s.count == 2 && std::isfinite(s.t[0]) && std::isfinite(s.t[1])) return;
     if (s.count == 1 && std::isfinite(s.t[0])) return;
+    if (std::isnan(s.t[0]) || std::isnan(s.t[1])) {
+        s = {};  // overflow: nothing can be said
+        return;
+    }
     if (s.count == 1 && s.t[0] < 0.0) s.inside_first = !s.inside_first;
     s.count = 0;
 }

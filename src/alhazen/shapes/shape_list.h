@@ -36,8 +36,10 @@ struct ShapeTypes {
     static constexpr std::size_t kCount = sizeof...(S);
 };
 
-using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon,
-                                  HalfSpace, Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric, Algebraic>;
+using AnalyticShapes =
+    ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon, HalfSpace,
+               Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid,
+               Hyperboloid, TwoSheetHyperboloid, Quadric, Algebraic>;
 
 /// Any one analytic shape by value.
 using AnyShape = AnalyticShapes::Variant;

@@ -142,12 +142,18 @@ struct LocalUv {
 };
 
 /// Fills in uv, dpdu and dpdv: the steps within the tangent plane that change one of u and v by one
-/// and not the other; zero where there are none.
+/// and not the other; zero where there are none, or where the surface is so steep in terms of u and
+/// v that they tell nothing: sine of the angle below `least_slope`.
 inline void set_uv(const SolidFrame& frame, const LocalUv& local, const Vec3& local_normal,
-                   ShapeSurface& surface) {
+                   ShapeSurface& surface, double least_slope = 0.0) {
     surface.uv = local.uv;
     const double volume = dot(local_normal, cross(local.u_gradient, local.v_gradient));
     if (volume == 0.0 || !std::isfinite(volume)) return;
+    if (least_slope > 0.0 &&
+        !(std::abs(volume) >= least_slope * length(local_normal) * length(local.u_gradient) *
+                                  length(local.v_gradient))) {
+        return;
+    }
     const Vec3 u_step = cross(local.v_gradient, local_normal) / volume;
     const Vec3 v_step = cross(local_normal, local.u_gradient) / volume;
     if (!is_finite(u_step) || !is_finite(v_step)) return;

@@ -1,0 +1,101 @@
+#include "alhazen/shapes/algebraic.h"
+
+#include "alhazen/base/error.h"
+#include "alhazen/shapes/clipped_quadric.h"
+#include "alhazen/shapes/polynomial_solid.h"
+
+namespace alhazen {
+
+namespace {
+
+struct AlgebraicPolynomial {
+    static constexpr int kDegree = PolynomialExpression::kMaxDegree;
+    const Algebraic& shape;
+
+    template <class Real>
+    int coefficients(const Point3<Real>& p, const Point3<Real>& q, Real* b) const {
+        shape.polynomial->restricted(p, q, b);
+        return shape.polynomial->degree();
+    }
+    template <class Real>
+    [[nodiscard]] Real value(const Point3<Real>& p) const {
+        return shape.polynomial->value(p);
+    }
+    [[nodiscard]] Vec3 gradient(const Vec3& p) const { return shape.polynomial->gradient(p); }
+    [[nodiscard]] double magnitude() const { return shape.magnitude; }
+    [[nodiscard]] double roundings() const { return shape.roundings; }
+};
+
+/// Farthest coordinates of a box.
+Vec3 reach_of(const Box3& box) {
+    Vec3 reach;
+    for (int k = 0; k < 3; ++k) {
+        reach[k] = std::fmax(std::abs(box.lo[k]), std::abs(box.hi[k]));
+    }
+    return reach;
+}
+
+}  // namespace
+
+void Algebraic::prepare() {
+    polynomial = std::make_shared<const PolynomialExpression>(expression);
+    const Vec3 reach = reach_of(clip_box);
+    size = std::fmin(reach.x, std::fmin(reach.y, reach.z));
+    magnitude = polynomial->magnitude(reach);
+    roundings = polynomial->roundings();
+}
+
+void Algebraic::validate(const FileLocation& where, Diagnostics& diagnostics) const {
+    FieldChecks checks(kName, where, diagnostics);
+    checks.point("clip_box", clip_box.lo);
+    checks.point("clip_box", clip_box.hi);
+    for (int k = 0; k < 3 && checks.ok(); ++k) {
+        if (!(clip_box.lo[k] < clip_box.hi[k])) {
+            checks.fail("clip_box must be ((x, y, z), (x, y, z)) with the lower corner first");
+        }
+    }
+    try {
+        const PolynomialExpression parsed(expression);
+        if (parsed.degree() < 1) checks.fail("expression: x, y and z do not occur in it");
+        if (checks.ok() && !(parsed.magnitude(reach_of(clip_box)) < 1e150)) {
+            checks.fail("expression: its terms overflow within clip_box");
+        }
+    } catch (const Error& error) {
+        checks.fail("expression: " + std::string(error.what()));
+    }
+}
+
+Interval Algebraic::extent(const Vec3& axis) const {
+    const Interval range = alhazen::extent(clip_box, axis);
+    const double pad = gamma_bound(8) * (std::abs(range.lo) + std::abs(range.hi));
+    return {range.lo - pad, range.hi + pad};
+}
+
+int Algebraic::intersect(const Ray& ray, ShapeHit* hits) const {
+    ClipSegment s;
+    const SolidFrame frame;
+    if (!clip_segment(frame, ray, clip_box, size, s)) return 0;
+    return intersect_segment(AlgebraicPolynomial{*this}, frame, ray, s, capped, hits);
+}
+
+ShapeSurface Algebraic::surface(const Ray& ray, const ShapeHit& hit) const {
+    const SolidFrame frame;
+    const Vec3 start = ray.at(hit.t);
+    if (hit.part > 0) return clip_face_surface(frame, clip_box, {}, start, hit.part);
+    const Vec3 d = unit_or(ray.direction, {0, 0, 1});
+    const ProjectedPoint at =
+        project_to_zero(AlgebraicPolynomial{*this}, start, (-1e-6 * size) * d);
+    ShapeSurface surface = surface_of(frame, at);
+    const Vec3 p = at.point - clip_box.center();
+    LocalUv local = turn_uv(p);
+    const double across = std::hypot(p.x, p.y);
+    const double squared = kPi * length_squared(p);
+    local.uv.y = 0.5 + std::atan2(p.z, across) / kPi;
+    if (across > 0.0) {
+        local.v_gradient = Vec3{-p.z * p.x / across, -p.z * p.y / across, across} / squared;
+    }
+    set_uv(frame, local, at.gradient, surface, 0.2);
+    return surface;
+}
+
+}  // namespace alhazen

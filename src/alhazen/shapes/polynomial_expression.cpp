@@ -1,0 +1,227 @@
+#include "alhazen/shapes/polynomial_expression.h"
+
+#include <algorithm>
+#include <array>
+
+#include "alhazen/shapes/polynomial_parser.h"
+
+namespace alhazen {
+
+namespace {
+
+using Op = PolynomialExpression::Op;
+
+constexpr std::size_t kRows = PolynomialExpression::kMaxDegree + 1;
+
+/// [n][k] n over k.
+constexpr std::array<std::array<double, kRows>, kRows> kBinomials = [] {
+    std::array<std::array<double, kRows>, kRows> table{};
+    for (std::size_t n = 0; n < kRows; ++n) {
+        table[n][0] = 1.0;
+        for (std::size_t k = 1; k <= n; ++k) {
+            table[n][k] = table[n - 1][k - 1] + (k < n ? table[n - 1][k] : 0.0);
+        }
+    }
+    return table;
+}();
+
+template <class Real>
+Real constant_as(const DoubleDouble& c) {
+    if constexpr (std::is_same_v<Real, double>) {
+        return c.high;
+    } else {
+        return c;
+    }
+}
+
+/// out += sign * a, raised from degree m to n: times ((1 - u) + u)^(n - m).
+template <class Real>
+void add_raised(const Real* a, int m, int n, double sign, Real* out) {
+    const auto& row = kBinomials[static_cast<std::size_t>(n - m)];
+    for (int i = 0; i <= m; ++i) {
+        for (int k = 0; k <= n - m; ++k) {
+            out[i + k] += Real(sign * row[static_cast<std::size_t>(k)]) * a[i];
+        }
+    }
+}
+
+template <class Real>
+Real divided(const Real& a, double by) {
+    if constexpr (std::is_same_v<Real, double>) {
+        return a / by;
+    } else {
+        return quotient(a, Real(by));
+    }
+}
+
+}  // namespace
+
+PolynomialExpression::PolynomialExpression(std::string_view text)
+    : nodes_(parse_polynomial(text)) {}
+
+double PolynomialExpression::roundings() const {
+    std::vector<double> of(nodes_.size(), 0.0);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& n = nodes_[i];
+        if (n.op == Op::Constant) of[i] = 1.0;
+        if (n.op < Op::Add) continue;
+        const int a = nodes_[n.a].degree, b = nodes_[n.b].degree;
+        if (n.op == Op::Multiply) {
+            of[i] = of[n.a] + of[n.b] + std::min(a, b) + 2.0;
+        } else {
+            of[i] = std::max(of[n.a], of[n.b]) + std::abs(a - b) + 3.0;
+        }
+    }
+    return of.empty() ? 0.0 : of.back() + 2.0;
+}
+
+double PolynomialExpression::magnitude(const Vec3& reach) const {
+    std::vector<double> of(nodes_.size(), 0.0);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& n = nodes_[i];
+        switch (n.op) {
+            case Op::Constant:
+                of[i] = std::abs(n.constant.high);
+                break;
+            case Op::X:
+                of[i] = reach.x;
+                break;
+            case Op::Y:
+                of[i] = reach.y;
+                break;
+            case Op::Z:
+                of[i] = reach.z;
+                break;
+            case Op::Add:
+            case Op::Subtract:
+                of[i] = of[n.a] + of[n.b];
+                break;
+            case Op::Multiply:
+                of[i] = of[n.a] * of[n.b];
+                break;
+        }
+    }
+    return of.empty() ? 0.0 : of.back();
+}
+
+template <class Real>
+Real PolynomialExpression::value(const Point3<Real>& p) const {
+    std::array<Real, kMaxCoefficients> of;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& n = nodes_[i];
+        switch (n.op) {
+            case Op::Constant:
+                of[i] = constant_as<Real>(n.constant);
+                break;
+            case Op::X:
+                of[i] = p.x;
+                break;
+            case Op::Y:
+                of[i] = p.y;
+                break;
+            case Op::Z:
+                of[i] = p.z;
+                break;
+            case Op::Add:
+                of[i] = of[n.a] + of[n.b];
+                break;
+            case Op::Subtract:
+                of[i] = of[n.a] - of[n.b];
+                break;
+            case Op::Multiply:
+                of[i] = of[n.a] * of[n.b];
+                break;
+        }
+    }
+    return nodes_.empty() ? Real(0.0) : of[nodes_.size() - 1];
+}
+
+Vec3 PolynomialExpression::gradient(const Vec3& p) const {
+    struct Value {
+        double v;
+        Vec3 g;
+    };
+    std::vector<Value> of(nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& n = nodes_[i];
+        switch (n.op) {
+            case Op::Constant:
+                of[i] = {n.constant.high, {}};
+                break;
+            case Op::X:
+                of[i] = {p.x, {1, 0, 0}};
+                break;
+            case Op::Y:
+                of[i] = {p.y, {0, 1, 0}};
+                break;
+            case Op::Z:
+                of[i] = {p.z, {0, 0, 1}};
+                break;
+            case Op::Add:
+                of[i] = {of[n.a].v + of[n.b].v, of[n.a].g + of[n.b].g};
+                break;
+            case Op::Subtract:
+                of[i] = {of[n.a].v - of[n.b].v, of[n.a].g - of[n.b].g};
+                break;
+            case Op::Multiply:
+                of[i] = {of[n.a].v * of[n.b].v, of[n.b].v * of[n.a].g + of[n.a].v * of[n.b].g};
+                break;
+        }
+    }
+    return of.empty() ? Vec3{} : of.back().g;
+}
+
+template <class Real>
+void PolynomialExpression::restricted(const Point3<Real>& p, const Point3<Real>& q, Real* b) const {
+    // Of every node the coefficients times binomials.
+    std::array<Real, kMaxCoefficients> all;
+    for (const Node& n : nodes_) {
+        Real* out = all.data() + n.first;
+        const auto ends = [&](const Real& at_p, const Real& at_q) {
+            out[0] = at_p;
+            out[1] = at_q;
+        };
+        switch (n.op) {
+            case Op::Constant:
+                out[0] = constant_as<Real>(n.constant);
+                continue;
+            case Op::X:
+                ends(p.x, q.x);
+                continue;
+            case Op::Y:
+                ends(p.y, q.y);
+                continue;
+            case Op::Z:
+                ends(p.z, q.z);
+                continue;
+            default:
+                break;
+        }
+        const Node &left = nodes_[n.a], &right = nodes_[n.b];
+        const Real *u = all.data() + left.first, *v = all.data() + right.first;
+        std::fill_n(out, n.degree + 1, Real(0.0));
+        if (n.op == Op::Multiply) {
+            for (int i = 0; i <= left.degree; ++i) {
+                for (int k = 0; k <= right.degree; ++k) out[i + k] += u[i] * v[k];
+            }
+        } else {
+            add_raised(u, left.degree, n.degree, 1.0, out);
+            add_raised(v, right.degree, n.degree, n.op == Op::Add ? 1.0 : -1.0, out);
+        }
+    }
+    const Node& root = nodes_.back();
+    for (int i = 0; i <= root.degree; ++i) {
+        b[i] =
+            divided(all[static_cast<std::size_t>(root.first + i)],
+                    kBinomials[static_cast<std::size_t>(root.degree)][static_cast<std::size_t>(i)]);
+    }
+}
+
+template double PolynomialExpression::value(const Point3<double>&) const;
+template DoubleDouble PolynomialExpression::value(const Point3<DoubleDouble>&) const;
+template void PolynomialExpression::restricted(const Point3<double>&, const Point3<double>&,
+                                               double*) const;
+template void PolynomialExpression::restricted(const Point3<DoubleDouble>&,
+                                               const Point3<DoubleDouble>&, DoubleDouble*) const;
+
+}  // namespace alhazen
