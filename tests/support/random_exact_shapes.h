@@ -176,4 +176,22 @@ struct RandomShape<Algebraic> {
     }
 };
 
+template <>
+struct RandomShape<Superellipsoid> {
+    /// Not the stars of exponents above 2: a normal on their edges is that of either side.
+    static Superellipsoid make(const ShapeSource& from) {
+        const Mat3 axes = random_axes(from);
+        const auto exponent = [&] {
+            return from.lattice ? 0.5 * (1 + from.random.below(3))
+                                : from.random.log_uniform(0.2, 1.8);
+        };
+        return {.center = from.point(),
+                .axis_a = axes.x_axis,
+                .axis_b = axes.y_axis,
+                .axis_c = axes.z_axis,
+                .east = exponent(),
+                .north = exponent()};
+    }
+};
+
 }  // namespace alhazen::testing

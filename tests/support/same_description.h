@@ -260,6 +260,10 @@ inline bool same(const Quadric& a, const Quadric& b) {
 inline bool same(const Algebraic& a, const Algebraic& b) {
     return all_same(a.expression, b.expression, a.clip_box, b.clip_box, a.capped, b.capped);
 }
+inline bool same(const Superellipsoid& a, const Superellipsoid& b) {
+    return all_same(a.center, b.center, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.axis_c, b.axis_c,
+                    a.east, b.east, a.north, b.north);
+}
 inline bool same(const Torus& a, const Torus& b) {
     return all_same(a.center, b.center, a.axis, b.axis, a.major_radius, b.major_radius,
                     a.minor_radius, b.minor_radius);

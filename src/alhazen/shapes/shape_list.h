@@ -22,6 +22,7 @@
 #include "alhazen/shapes/quadric.h"
 #include "alhazen/shapes/rectangle.h"
 #include "alhazen/shapes/sphere.h"
+#include "alhazen/shapes/superellipsoid.h"
 #include "alhazen/shapes/tgc.h"
 #include "alhazen/shapes/torus.h"
 #include "alhazen/shapes/two_sheet_hyperboloid.h"
@@ -39,7 +40,7 @@ struct ShapeTypes {
 using AnalyticShapes =
     ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon, HalfSpace,
                Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid,
-               Hyperboloid, TwoSheetHyperboloid, Quadric, Algebraic>;
+               Hyperboloid, TwoSheetHyperboloid, Quadric, Algebraic, Superellipsoid>;
 
 /// Any one analytic shape by value.
 using AnyShape = AnalyticShapes::Variant;

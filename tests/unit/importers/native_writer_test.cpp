@@ -275,12 +275,23 @@ TEST(NativeWriter, ShapesComeBackInOrderWithNamesAndPlacements) {
     quadric.clip_planes = {{n.point(), n.positive()}, {n.point(), n.positive()}};
     quadric.capped = false;
     for (const AnyShape& shape : std::initializer_list<AnyShape>{
-             Sphere{n.point(), n.positive()}, plain, ring, Plane{n.point(), n.point()},
+             Sphere{n.point(), n.positive()},
+             plain,
+             ring,
+             Plane{n.point(), n.point()},
              Disc{n.point(), n.point(), n.positive(), 0.01},
-             Rectangle{n.point(), n.point(), n.point()}, BoxShape{n.point(), n.point()},
+             Rectangle{n.point(), n.point(), n.point()},
+             BoxShape{n.point(), n.point()},
              Cylinder{n.point(), n.point(), n.positive(), false},
-             Cone{n.point(), n.point(), n.positive(), n.positive(), false}, Sphere{}, Plane{},
-             Disc{}, Rectangle{}, BoxShape{}, Cylinder{}, Cone{}, HalfSpace{n.point(), n.point()},
+             Cone{n.point(), n.point(), n.positive(), n.positive(), false},
+             Sphere{},
+             Plane{},
+             Disc{},
+             Rectangle{},
+             BoxShape{},
+             Cylinder{},
+             Cone{},
+             HalfSpace{n.point(), n.point()},
              planes,
              hexahedron({n.point(), n.point(), n.point(), n.point(), n.point(), n.point(),
                          n.point(), n.point()}),
@@ -292,9 +303,22 @@ TEST(NativeWriter, ShapesComeBackInOrderWithNamesAndPlacements) {
              Paraboloid{n.point(), n.point(), n.point(), n.point(), false},
              Hyperboloid{n.point(), n.point(), n.point(), n.point(), n.positive(), false},
              TwoSheetHyperboloid{n.point(), n.point(), n.point(), n.point(), n.positive(), false},
-             quadric, unclipped, Algebraic{"x^2*y - 1", {n.point(), n.point()}, false},
-             Ellipsoid{}, EllipticCylinder{}, EllipticCone{}, Tgc{}, Torus{}, Paraboloid{},
-             Hyperboloid{}, TwoSheetHyperboloid{}, Quadric{}, Algebraic{}}) {
+             quadric,
+             unclipped,
+             Algebraic{"x^2*y - 1", {n.point(), n.point()}, false},
+             Ellipsoid{},
+             EllipticCylinder{},
+             EllipticCone{},
+             Tgc{},
+             Torus{},
+             Paraboloid{},
+             Hyperboloid{},
+             TwoSheetHyperboloid{},
+             Quadric{},
+             Algebraic{},
+             Superellipsoid{},
+             Superellipsoid{n.point(), n.point(), n.point(), n.point(), n.positive(),
+                            n.positive()}}) {
         parts.push_back(part_of(shape, n.affine(), MaterialId(n.below(3)), "a part"));
         parts.push_back(part_of(shape, {}, MaterialId(n.below(3)), ""));
     }

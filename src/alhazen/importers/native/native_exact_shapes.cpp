@@ -144,6 +144,26 @@ AnyShape read_native_algebraic(BlockReader& reader) {
     return s;
 }
 
+AnyShape read_native_superellipsoid(BlockReader& reader) {
+    Superellipsoid s;
+    reader.read("center", s.center);
+    reader.read("axis_a", s.axis_a);
+    reader.read("axis_b", s.axis_b);
+    reader.read("axis_c", s.axis_c);
+    reader.read("east", s.east);
+    reader.read("north", s.north);
+    return s;
+}
+
+void add_fields(NativeBlockText& block, const Superellipsoid& s) {
+    block.add("center", native_value(s.center));
+    block.add("axis_a", native_value(s.axis_a));
+    block.add("axis_b", native_value(s.axis_b));
+    block.add("axis_c", native_value(s.axis_c));
+    block.add("east", native_value(s.east));
+    block.add("north", native_value(s.north));
+}
+
 void add_fields(NativeBlockText& block, const Ellipsoid& s) {
     block.add("center", native_value(s.center));
     block.add("axis_a", native_value(s.axis_a));

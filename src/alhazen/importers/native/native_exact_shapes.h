@@ -20,6 +20,7 @@ AnyShape read_native_hyperboloid(BlockReader& reader);
 AnyShape read_native_two_sheet_hyperboloid(BlockReader& reader);
 AnyShape read_native_quadric(BlockReader& reader);
 AnyShape read_native_algebraic(BlockReader& reader);
+AnyShape read_native_superellipsoid(BlockReader& reader);
 
 void add_fields(NativeBlockText& block, const Ellipsoid& s);
 void add_fields(NativeBlockText& block, const EllipticCylinder& s);
@@ -31,5 +32,6 @@ void add_fields(NativeBlockText& block, const Hyperboloid& s);
 void add_fields(NativeBlockText& block, const TwoSheetHyperboloid& s);
 void add_fields(NativeBlockText& block, const Quadric& s);
 void add_fields(NativeBlockText& block, const Algebraic& s);
+void add_fields(NativeBlockText& block, const Superellipsoid& s);
 
 }  // namespace alhazen

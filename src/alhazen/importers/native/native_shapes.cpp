@@ -108,6 +108,7 @@ constexpr ShapeEntry kShapes[] = {
     {TwoSheetHyperboloid::kName, read_native_two_sheet_hyperboloid},
     {Quadric::kName, read_native_quadric},
     {Algebraic::kName, read_native_algebraic},
+    {Superellipsoid::kName, read_native_superellipsoid},
 };
 // clang-format on
 
