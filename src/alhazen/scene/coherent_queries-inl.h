@@ -42,9 +42,11 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
     if (layout.is_indexed() || layout.triangles.size() > PacketDecider::kMaxBlocks) {
         return otherwise(0, rays.size());
     }
-    const Places places(layout.tree.nodes.data(),
-                        {layout.triangles.data(), layout.spheres.data(), layout.others.data()},
-                        {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(PrimitiveId)});
+    const Places places(
+        layout.tree.nodes.data(),
+        {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
+         layout.others.data()},
+        {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
     // Where packets fail they are tried again after a while: the whiles grow.
     std::size_t failures = 0, skip = 0;
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {

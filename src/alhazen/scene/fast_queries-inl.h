@@ -115,12 +115,8 @@ struct FastClosestQuery : FastQuery<FastClosestQuery> {
         return false;
     }
     template <class Stats>
-    HWY_INLINE bool sphere(BlockId id, Stats stats) {
-        return other(id.id(), stats);
-    }
-    template <class Stats>
-    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        scene.table->closest(id, ray, this->shear(), best, stats, scene.mask);
+    HWY_INLINE bool other(BlockId id, Stats stats) {
+        scene.table->closest(id.id(), ray, this->shear(), best, stats, scene.mask);
         shrink();
         return false;
     }
@@ -153,12 +149,8 @@ struct FastOccludedQuery : FastQuery<FastOccludedQuery> {
     }
     HWY_INLINE bool crossing(BlockId, const ShapeHit&) { return occluded = true; }
     template <class Stats>
-    HWY_INLINE bool sphere(BlockId id, Stats stats) {
-        return other(id.id(), stats);
-    }
-    template <class Stats>
-    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        return occluded = scene.table->occluded(id, ray, this->shear(), stats, scene.mask);
+    HWY_INLINE bool other(BlockId id, Stats stats) {
+        return occluded = scene.table->occluded(id.id(), ray, this->shear(), stats, scene.mask);
     }
 };
 

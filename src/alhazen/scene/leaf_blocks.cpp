@@ -1,7 +1,6 @@
 #include "alhazen/scene/leaf_blocks.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "alhazen/accel/wide_bvh/binary_builder.h"
 #include "alhazen/accel/wide_bvh/clustering.h"
@@ -10,6 +9,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/scene/leaf_bounds.h"
 #include "alhazen/scene/leaf_fill.h"
 #include "alhazen/scene/primitive_table.h"
 #include "alhazen/scene/triangle_splitter.h"
@@ -18,29 +18,9 @@ namespace alhazen {
 namespace {
 
 /// Costs in visits of a wide node, measured.
-constexpr LeafKinds kLeafKindTable{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{0, 2.0f}};
+constexpr LeafKinds kLeafKindTable{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{3, 1.5f},
+                                   LeafKind{3, 1.5f}};
 static_assert(1u << kLeafKindTable[0].width_log2 == kBlockWidth);
-
-template <class S>
-constexpr std::uint32_t column_of() {
-    std::uint32_t column = 0;
-    const auto search = [&]<class... T>(ShapeTypes<T...>) {
-        bool found = false;
-        ((found = found || std::is_same_v<S, T>, column += found ? 0 : 1), ...);
-    };
-    search(AnalyticShapes{});
-    return column;
-}
-
-LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id) {
-    const std::uint32_t kind = table.kind(id);
-    if (kind == kTriangleKind) return LeafType::Triangles;
-    if (kind == column_of<Sphere>()) {
-        const auto& column = std::get<ShapeColumn<Sphere>>(table.columns);
-        if (column.placements[table.index(id)] == kNoPlacement) return LeafType::Spheres;
-    }
-    return LeafType::Others;
-}
 
 /// Copies primitives into blocks, leaf by leaf.
 class Packer final : public LeafSink {
@@ -56,6 +36,7 @@ class Packer final : public LeafSink {
             layout_.triangles.resize(triangles);
         }
         layout_.spheres.resize(blocks[static_cast<std::size_t>(LeafType::Spheres)]);
+        layout_.frustums.resize(blocks[static_cast<std::size_t>(LeafType::Frustums)]);
         layout_.others.resize(blocks[static_cast<std::size_t>(LeafType::Others)]);
     }
 
@@ -73,8 +54,10 @@ class Packer final : public LeafSink {
                                                   : fill_blocks(&layout_.triangles[offset], ids);
             case LeafType::Spheres:
                 return fill_blocks(&layout_.spheres[offset], ids);
+            case LeafType::Frustums:
+                return fill_blocks(&layout_.frustums[offset], ids);
             case LeafType::Others:
-                std::copy(ids.begin(), ids.end(), &layout_.others[offset]);
+                return fill_blocks(&layout_.others[offset], ids);
         }
     }
 

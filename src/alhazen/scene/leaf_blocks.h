@@ -1,8 +1,8 @@
 #pragma once
 /// How primitives lie in the leaves of the wide BVH: eight of one kind side by side, lane by lane.
-/// Triangles are there in float, in the local frame, for the filter (triangle_filter.h); spheres in
-/// double, so that the block test has the very numbers of the scalar one. Kinds without a block are
-/// tested one by one.
+/// All are there in float, in the local frame, for the filters (triangle_filter.h,
+/// shape_filters.h): triangles and spheres as they are, what is round in a cylinder around it, all
+/// else, rectangles and instances among it, in a slanted box.
 ///
 /// Conventions: lanes are in ascending order of id; the used ones come first.
 
@@ -22,7 +22,7 @@ class PrimitiveTable;
 inline constexpr std::size_t kBlockWidth = 8;
 
 /// Kinds of leaf, as NodeRef::kind.
-enum class LeafType : std::uint32_t { Triangles, Spheres, Others };
+enum class LeafType : std::uint32_t { Triangles, Spheres, Frustums, Others };
 
 /// What a lane holds.
 class BlockId {
@@ -77,12 +77,33 @@ template <class Block>
 
 /// Spheres that stand in the frame of the aggregate.
 struct alignas(64) SphereBlock {
-    double center[3][kBlockWidth];  ///< [axis][lane]
-    double radius[kBlockWidth];
+    float center[3][kBlockWidth];  ///< [axis][lane]
+    float radius[kBlockWidth];     ///< with room for the rounding of the center
     BlockId ids[kBlockWidth];
     std::uint32_t lanes = 0;  ///< a bit for each lane in use; the others repeat the first
 };
-static_assert(sizeof(SphereBlock) == 320);
+static_assert(sizeof(SphereBlock) == 192);
+
+/// Cylinders around cylinders, cones and discs that stand in the frame of the aggregate.
+struct alignas(64) FrustumBlock {
+    float center[3][kBlockWidth];
+    float axis[3][kBlockWidth];  ///< of length 1, rounded
+    float half_height[kBlockWidth];
+    float radius[kBlockWidth];  ///< the wider one
+    BlockId ids[kBlockWidth];
+    std::uint32_t lanes = 0;  ///< as in a SphereBlock
+};
+static_assert(sizeof(FrustumBlock) == 320);
+
+/// Slanted boxes around whatever has no block of its own: all p with |direction_k . (p - center)|
+/// at most half_k, for k = 0, 1, 2.
+struct alignas(64) BoxBlock {
+    float center[3][kBlockWidth];
+    float direction[3][3][kBlockWidth];  ///< [k][axis][lane]; of length 1, rounded
+    float half[3][kBlockWidth];          ///< [k][lane]; of a free lane -inf
+    BlockId ids[kBlockWidth];
+};
+static_assert(sizeof(BoxBlock) == 512);
 
 /// A wide BVH over a table, with its leaves.
 struct WideBvhLayout {
@@ -92,7 +113,8 @@ struct WideBvhLayout {
     /// In place of `triangles` in a tree with Leaves::Indices.
     MappableVector<IndexBlock> indices;
     MappableVector<SphereBlock> spheres;
-    MappableVector<PrimitiveId> others;
+    MappableVector<FrustumBlock> frustums;
+    MappableVector<BoxBlock> others;
 
     /// The triangles are in `indices`.
     [[nodiscard]] bool is_indexed() const { return !indices.empty(); }
@@ -110,6 +132,7 @@ void for_each_array(Layout& layout, F&& f) {
     f(layout.triangles);
     f(layout.indices);
     f(layout.spheres);
+    f(layout.frustums);
     f(layout.others);
 }
 

@@ -1,8 +1,11 @@
 #include "alhazen/scene/leaf_fill.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <tuple>
 
+#include "alhazen/scene/leaf_bounds.h"
 #include "alhazen/scene/primitive_table.h"
 
 namespace alhazen {
@@ -38,6 +41,31 @@ void leave_free(TriangleBlock& block, std::size_t lane) {
     block.ids[lane] = BlockId::none();
 }
 
+/// For what is rounded in double.
+constexpr double kMore = 1.0 + 0x1p-40;
+
+/// Rounds a point into a lane; how far that moves it, at most.
+double set_point(float (&rows)[3][kBlockWidth], std::size_t lane, const Vec3& p) {
+    double moved = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        rows[axis][lane] = static_cast<float>(p[axis]);
+        moved += std::abs(p[axis] - static_cast<double>(rows[axis][lane]));
+    }
+    return moved;
+}
+
+/// Calls `fill(lane, id)` for every lane; free lanes repeat the first.
+template <class Block, class Fill>
+void fill_lanes(Block& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                Fill&& fill) {
+    for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
+        const bool used = lane < ids.size();
+        const PrimitiveId id = ids[used ? lane : 0];
+        fill(lane, id);
+        block.ids[lane] = used ? BlockId{id, table.is_opaque(id), false} : BlockId::none();
+    }
+}
+
 }  // namespace
 
 void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
@@ -59,18 +87,71 @@ void fill_block(IndexBlock& block, std::span<const PrimitiveId> ids, const Primi
 }
 
 void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
-                const LocalFrame&) {
+                const LocalFrame& frame) {
     const auto& spheres = std::get<ShapeColumn<Sphere>>(table.columns).shapes;
-    for (std::size_t lane = 0; lane < kBlockWidth; ++lane) {
-        const bool used = lane < ids.size();
-        // Free lanes repeat the first.
-        const PrimitiveId id = ids[used ? lane : 0];
+    fill_lanes(block, ids, table, [&](std::size_t lane, PrimitiveId id) {
         const Sphere& sphere = spheres[table.index(id)];
-        for (int axis = 0; axis < 3; ++axis) block.center[axis][lane] = sphere.center[axis];
-        block.radius[lane] = sphere.radius;
-        block.ids[lane] = used ? BlockId{id, table.is_opaque(id), true} : BlockId::none();
-    }
+        const double moved = set_point(block.center, lane, frame.local(sphere.center));
+        block.radius[lane] = round_up(kMore * (sphere.radius * frame.scale) + moved);
+    });
     block.lanes = (1u << ids.size()) - 1;
+}
+
+void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame) {
+    fill_lanes(block, ids, table, [&](std::size_t lane, PrimitiveId id) {
+        const RoundBounds bounds = round_bounds(table, id);
+        const double moved = set_point(block.center, lane, frame.local(bounds.center));
+        const double turned = set_point(block.axis, lane, bounds.axis);
+        const double height = bounds.half_height * frame.scale;
+        const double radius = bounds.radius * frame.scale;
+        // A point of the shape is at most that far from the center, so turning the axis moves its
+        // place along the axis and across it by at most twice this.
+        const double away = turned * (height + radius);
+        // What the test of the shape is off along the axis, it may be off across it by the slope.
+        const double steep = bounds.slope * (4 * kExactTestSlack);
+        block.half_height[lane] = round_up(kMore * height + 1.01 * (moved + away));
+        block.radius[lane] = round_up(kMore * radius + 1.01 * (moved + 2.0 * away) + steep);
+    });
+    block.lanes = (1u << ids.size()) - 1;
+}
+
+namespace {
+
+/// Half the width of the body along the direction of a slab, as float has that and the center.
+double half_of(const SlantedBounds& bounds, const BoxBlock& block, std::size_t lane, int slab,
+               const LocalFrame& frame) {
+    const auto& d = block.direction[slab];
+    const Vec3 along{d[0][lane], d[1][lane], d[2][lane]};
+    const Vec3 center{block.center[0][lane], block.center[1][lane], block.center[2][lane]};
+    double half = 0;
+    for (int i = 0; i < 8; ++i) {
+        Vec3 p = bounds.corner;
+        for (int k = 0; k < 3; ++k) {
+            if ((i >> k & 1) != 0) p += bounds.edge[k];
+        }
+        half = std::max(half, std::abs(dot(along, frame.local(p) - center)));
+    }
+    return kMore * (half + dot(abs(along), frame.scale * bounds.pad));
+}
+
+}  // namespace
+
+void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame) {
+    fill_lanes(block, ids, table, [&](std::size_t lane, PrimitiveId id) {
+        const SlantedBounds bounds = slanted_bounds(table, id);
+        const Vec3 middle =
+            bounds.corner + 0.5 * bounds.edge[0] + 0.5 * bounds.edge[1] + 0.5 * bounds.edge[2];
+        set_point(block.center, lane, frame.local(middle));
+        for (int slab = 0; slab < 3; ++slab) {
+            set_point(block.direction[slab], lane, bounds.direction[slab]);
+            block.half[slab][lane] = round_up(half_of(bounds, block, lane, slab, frame));
+        }
+    });
+    for (std::size_t lane = ids.size(); lane < kBlockWidth; ++lane) {
+        for (auto& half : block.half) half[lane] = -std::numeric_limits<float>::infinity();
+    }
 }
 
 }  // namespace alhazen

@@ -13,7 +13,12 @@ void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const Pr
 /// The lanes are not exact: the mesh is asked.
 void fill_block(IndexBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);
+/// The bodies are rounded outward to what float holds.
 void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
                 const LocalFrame& frame);
 
 }  // namespace alhazen

@@ -13,7 +13,7 @@
 
 #include <bit>
 
-#include "alhazen/scene/sphere_block-inl.h"
+#include "alhazen/scene/shape_filters-inl.h"
 #include "alhazen/scene/triangle_decider-inl.h"
 #include "alhazen/scene/triangle_filter-inl.h"
 #include "alhazen/scene/wide_bvh_kernels.h"
@@ -23,9 +23,9 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The part of a query on one ray that is the same for all. `Derived` offers
-/// `bool block(triangle_block, stats)`, `bool sphere(id, stats)`, `bool other(id, stats)` and `bool
-/// crossing(id, hit)`, for a triangle that is hit for certain, true to stop; and `DistanceBound
-/// slab_slack(frame)`, the slack of its slab test.
+/// `bool block(triangle_block, stats)`, `bool other(id, stats)` and `bool crossing(id, hit)`, for a
+/// triangle that is hit for certain, true to stop; and `DistanceBound slab_slack(frame)`, the slack
+/// of its slab test.
 template <class Derived>
 struct LeafQuery {
     SlabRay slabs;
@@ -63,30 +63,14 @@ struct LeafQuery {
                 }
                 return false;
             }
-            case LeafType::Spheres: {
-                const SphereBlock* blocks = &scene.layout->spheres[ref.offset()];
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    std::uint32_t rest = sphere_candidates(blocks[i], ray);
-                    // The query counts the candidates.
-                    stats.primitives(
-                        static_cast<std::uint64_t>(std::popcount(blocks[i].lanes & ~rest)));
-                    for (; rest != 0; rest &= rest - 1) {
-                        const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                        if (query.sphere(blocks[i].ids[lane], stats)) return true;
-                    }
-                }
-                return false;
-            }
+            case LeafType::Spheres:
+                return visit_shapes(&scene.layout->spheres[ref.offset()], count, stats);
+            case LeafType::Frustums:
+                return visit_shapes(&scene.layout->frustums[ref.offset()], count, stats);
             case LeafType::Others:
-                break;
-            default:
-                return true;
+                return visit_shapes(&scene.layout->others[ref.offset()], count, stats);
         }
-        const PrimitiveId* ids = &scene.layout->others[ref.offset()];
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (query.other(ids[i], stats)) return true;
-        }
-        return false;
+        return true;
     }
 
     /// Made anew for the few tests that need it.
@@ -96,6 +80,26 @@ struct LeafQuery {
     }
 
   private:
+    template <class Block, class Stats>
+    HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
+        for (const Block* end = blocks + count; blocks < end; ++blocks) {
+            FilteredShapes found;
+            std::uint32_t rest = shape_candidates(*blocks, filter, slabs.s_min, s_max, found);
+            // The query counts those that it tests.
+            stats.primitives(used_lanes(*blocks) - static_cast<std::uint32_t>(std::popcount(rest)));
+            for (; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                const BlockId id = blocks->ids[lane];
+                if (found.lo[lane] > s_max || !id.used()) {
+                    stats.primitives(1);
+                    continue;
+                }
+                if (static_cast<Derived&>(*this).other(id, stats)) return true;
+            }
+        }
+        return false;
+    }
+
     /// Triangles of which the leaf has the numbers only: all are tested in double, eight at a time.
     template <class Stats>
     HWY_NOINLINE bool visit_indices(NodeRef ref, Stats stats) {
@@ -208,12 +212,8 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
         return false;
     }
     template <class Stats>
-    HWY_INLINE bool sphere(BlockId id, Stats stats) {
-        return other(id.id(), stats);
-    }
-    template <class Stats>
-    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        scene.table->closest(id, ray, this->shear(), best, stats, scene.mask);
+    HWY_INLINE bool other(BlockId id, Stats stats) {
+        scene.table->closest(id.id(), ray, this->shear(), best, stats, scene.mask);
         shrink();
         return false;
     }
@@ -284,12 +284,8 @@ struct OccludedQuery : RobustQuery<OccludedQuery> {
     }
     HWY_INLINE bool crossing(BlockId, const ShapeHit&) { return occluded = true; }
     template <class Stats>
-    HWY_INLINE bool sphere(BlockId id, Stats stats) {
-        return other(id.id(), stats);
-    }
-    template <class Stats>
-    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
-        return occluded = scene.table->occluded(id, ray, this->shear(), stats, scene.mask);
+    HWY_INLINE bool other(BlockId id, Stats stats) {
+        return occluded = scene.table->occluded(id.id(), ray, this->shear(), stats, scene.mask);
     }
 };
 
@@ -329,17 +325,13 @@ struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
         return false;
     }
     template <class Stats>
-    HWY_INLINE bool sphere(BlockId id, Stats stats) {
-        if (kStopAtOpaque && id.opaque())
+    HWY_INLINE bool other(BlockId id, Stats stats) {
+        if (kStopAtOpaque && id.opaque()) {
             return scene.table->occluded(id.id(), ray, this->shear(), stats, scene.mask);
-        scene.table->all_hits(id.id(), ray, this->shear(), hits, stats, scene.mask);
-        return false;
-    }
-    template <class Stats>
-    HWY_INLINE bool other(PrimitiveId id, Stats stats) {
+        }
         if (kStopAtOpaque)
-            return scene.table->shadowed(id, ray, this->shear(), hits, stats, scene.mask);
-        scene.table->all_hits(id, ray, this->shear(), hits, stats, scene.mask);
+            return scene.table->shadowed(id.id(), ray, this->shear(), hits, stats, scene.mask);
+        scene.table->all_hits(id.id(), ray, this->shear(), hits, stats, scene.mask);
         return false;
     }
 };

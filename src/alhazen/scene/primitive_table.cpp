@@ -199,6 +199,23 @@ Box3 PrimitiveTable::box(std::size_t i) const {
     });
 }
 
+Box3 PrimitiveTable::inner_box(PrimitiveId id) const {
+    const std::uint32_t k = kind(id);
+    const std::uint32_t j = static_cast<std::uint32_t>(id) - first_[k];
+    if (k == kInstanceKind) return instances[j].aggregate->box();
+    return with_column(columns, k, [&](const auto& c) { return c.shapes[j].box(); });
+}
+
+const Placement* PrimitiveTable::placement_of(PrimitiveId id) const {
+    const std::uint32_t k = kind(id);
+    const std::uint32_t j = static_cast<std::uint32_t>(id) - first_[k];
+    if (k == kInstanceKind) return &instances[j].placement;
+    if (k == kTriangleKind) return nullptr;
+    return with_column(columns, k, [&](const auto& c) {
+        return c.placements[j] == kNoPlacement ? nullptr : &placements[c.placements[j]];
+    });
+}
+
 Interval PrimitiveTable::extent(std::size_t i, const Vec3& axis) const {
     const PrimitiveId id{static_cast<std::uint32_t>(i)};
     const std::uint32_t k = kind(id);

@@ -132,6 +132,10 @@ class PrimitiveTable final : public BoundsSource {
     // ---- bounds; empty for what cannot be hit: a triangle with two equal vertices
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
+    /// Of a shape or an instance in its own frame; not for triangles.
+    [[nodiscard]] Box3 inner_box(PrimitiveId id) const;
+    /// Where a shape or an instance stands; null: in the frame of the table.
+    [[nodiscard]] const Placement* placement_of(PrimitiveId id) const;
 
     // ---- the one test. Crossings of analytic shapes and triangles in [ray.t_min, ray.t_max],
     // ascending, appended; not for instances.

@@ -21,6 +21,8 @@ class Refit {
         triangles_ = layout.triangles.data();
         indices_ = layout.is_indexed() ? layout.indices.data() : nullptr;
         spheres_ = layout.spheres.data();
+        frustums_ = layout.frustums.data();
+        others_ = layout.others.data();
     }
 
     void run() {
@@ -71,10 +73,12 @@ class Refit {
             case LeafType::Spheres:
                 refit_blocks(spheres_ + leaf.offset(), leaf.count(), box);
                 break;
+            case LeafType::Frustums:
+                refit_blocks(frustums_ + leaf.offset(), leaf.count(), box);
+                break;
             case LeafType::Others:
-                for (std::uint32_t i = 0; i < leaf.count(); ++i) {
-                    include(box, std::as_const(layout_).others[leaf.offset() + i]);
-                }
+                refit_blocks(others_ + leaf.offset(), leaf.count(), box);
+                break;
         }
         return box;
     }
@@ -116,6 +120,8 @@ class Refit {
     TriangleBlock* triangles_;
     IndexBlock* indices_;  ///< null: the triangles are in blocks of their own
     SphereBlock* spheres_;
+    FrustumBlock* frustums_;
+    BoxBlock* others_;
 };
 
 /// Whether every primitive that has bounds now is in the tree, and every one in the tree has.
@@ -138,7 +144,8 @@ void check(const WideBvhLayout& layout, const PrimitiveTable& moved,
     note_blocks(layout.triangles);
     note_blocks(layout.indices);
     note_blocks(layout.spheres);
-    for (const PrimitiveId id : layout.others) note(id);
+    note_blocks(layout.frustums);
+    note_blocks(layout.others);
     for (std::size_t i = 0; known && i < bounded.size(); ++i) known = in_tree[bounded.id(i)];
     for (const PrimitiveId id : bounded.unbounded()) {
         known = known && !in_tree[static_cast<std::uint32_t>(id)];

@@ -95,9 +95,11 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
     const bool indexed = layout.is_indexed();
     const void* triangles = layout.triangles.data();
     if (indexed) triangles = layout.indices.data();
-    const Places places(tree.nodes.data(), {triangles, layout.spheres.data(), layout.others.data()},
-                        {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
-                         sizeof(PrimitiveId)});
+    const Places places(
+        tree.nodes.data(),
+        {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
+        {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
+         sizeof(FrustumBlock), sizeof(BoxBlock)});
     with_policy(stats, [&](auto policy) HWY_ATTR {
         if (layout.memory_bytes() > kCachedBytes) {
             traverse_stream<Query, true>(tree.nodes.data(), tree.root, places, source, policy);

@@ -1,6 +1,7 @@
 #include "alhazen/scene/table_fingerprint.h"
 
 #include "alhazen/base/checksum.h"
+#include "alhazen/scene/leaf_bounds.h"
 
 namespace alhazen {
 namespace {
@@ -11,6 +12,22 @@ void add(Checksum& sum, const Vec3& v) {
 void add(Checksum& sum, const Box3& box) {
     add(sum, box.lo);
     add(sum, box.hi);
+}
+
+/// What the filters of leaves know of a primitive, but for spheres.
+void add_body(Checksum& sum, const PrimitiveTable& table, PrimitiveId id) {
+    const LeafType leaf = leaf_type(table, id);
+    sum.add(static_cast<std::uint64_t>(leaf));
+    if (leaf == LeafType::Frustums) {
+        const RoundBounds bounds = round_bounds(table, id);
+        add(sum, bounds.center);
+        add(sum, bounds.axis);
+        for (const double x : {bounds.half_height, bounds.radius, bounds.slope}) sum.add(x);
+    } else if (leaf == LeafType::Others && table.box(static_cast<std::uint32_t>(id)).bounded()) {
+        const SlantedBounds bounds = slanted_bounds(table, id);
+        add(sum, bounds.corner);
+        for (const Vec3& edge : bounds.edge) add(sum, edge);
+    }
 }
 
 void add_meshes(Checksum& sum, const PrimitiveTable& table) {
@@ -38,11 +55,12 @@ std::uint64_t table_fingerprint(const PrimitiveTable& table) {
     for (std::uint32_t kind = 0; kind <= kKindCount; ++kind) {
         sum.add(std::uint64_t{table.first(kind)});
     }
-    // Analytic shapes and instances; the boxes of spheres do not tell all of their digits.
+    // Analytic shapes and instances; their boxes do not tell all that the leaves hold of them.
     const auto add_boxes = [&](std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t i = begin; i < end; ++i) {
             add(sum, table.box(i));
             sum.add(std::uint64_t{table.is_opaque(PrimitiveId{i})});
+            add_body(sum, table, PrimitiveId{i});
         }
     };
     add_boxes(0, table.first(kTriangleKind));

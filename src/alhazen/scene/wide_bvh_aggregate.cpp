@@ -153,7 +153,8 @@ namespace {
 bool packets_pay(const WideBvhLayout& layout) {
     constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
     return layout.memory_bytes() <= kCachedBytes &&
-           8 * (layout.spheres.size() + layout.others.size()) <= layout.triangles.size();
+           8 * (layout.spheres.size() + layout.frustums.size() + layout.others.size()) <=
+               layout.triangles.size();
 }
 
 }  // namespace

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <type_traits>
 #include <vector>
 
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/leaf_bounds.h"
 
 namespace alhazen {
 namespace {
@@ -20,6 +18,8 @@ bool leads_to_leaf(const WideBvhLayout& layout, NodeRef ref) {
             return layout.is_indexed() ? lies_in(layout.indices) : lies_in(layout.triangles);
         case LeafType::Spheres:
             return lies_in(layout.spheres);
+        case LeafType::Frustums:
+            return lies_in(layout.frustums);
         case LeafType::Others:
             return lies_in(layout.others);
     }
@@ -87,44 +87,38 @@ const char* check_nodes(const WideBvhLayout& layout) {
     return nullptr;
 }
 
-bool names_kind(const PrimitiveTable& table, BlockId id, std::uint32_t kind) {
-    const auto i = static_cast<std::uint32_t>(id.id());
-    return table.first(kind) <= i && i < table.first(kind + 1);
-}
-
 /// The lanes in use are the first, and hold primitives of the kind.
-bool names_kind(const PrimitiveTable& table, const BlockId (&ids)[kBlockWidth],
-                std::uint32_t kind) {
+bool names_kind(const PrimitiveTable& table, const BlockId (&ids)[kBlockWidth], LeafType kind) {
     bool ended = false;
     for (const BlockId id : ids) {
-        if (id.used() && (ended || !names_kind(table, id, kind))) return false;
+        const bool fits = static_cast<std::uint32_t>(id.id()) < table.size() &&
+                          may_be_in(kind, table.kind(id.id()));
+        if (id.used() && (ended || !fits)) return false;
         ended = ended || !id.used();
     }
     return true;
 }
+template <class Block>
+bool is_sound(const PrimitiveTable& table, const Block& block, LeafType kind) {
+    if constexpr (requires { block.lanes; }) {
+        const std::uint32_t used = used_lanes(block);
+        if (used == 0 || block.lanes != (1u << used) - 1) return false;
+    }
+    return names_kind(table, block.ids, kind);
+}
 
 const char* check_leaves(const WideBvhLayout& layout, const PrimitiveTable& table) {
     constexpr const char* kMessage = "a leaf has a gap or names a primitive that is not there";
-    const auto name_triangles = [&](const auto& blocks) {
-        return std::all_of(blocks.begin(), blocks.end(), [&](const auto& block) {
-            return names_kind(table, block.ids, kTriangleKind);
-        });
+    const auto all_sound = [&](const auto& blocks, LeafType kind) {
+        return std::all_of(blocks.begin(), blocks.end(),
+                           [&](const auto& block) { return is_sound(table, block, kind); });
     };
-    if (!name_triangles(layout.triangles) || !name_triangles(layout.indices)) return kMessage;
-    constexpr std::uint32_t kSphereKind = 0;
-    static_assert(std::is_same_v<std::tuple_element_t<kSphereKind, decltype(table.columns)>,
-                                 ShapeColumn<Sphere>>);
-    for (const SphereBlock& block : layout.spheres) {
-        const std::uint32_t used = used_lanes(block);
-        if (used == 0 || block.lanes != (1u << used) - 1 ||
-            !names_kind(table, block.ids, kSphereKind)) {
-            return kMessage;
-        }
-    }
-    for (const PrimitiveId id : layout.others) {
-        if (static_cast<std::uint32_t>(id) >= table.size()) return kMessage;
-    }
-    return nullptr;
+    const bool sound = all_sound(layout.triangles, LeafType::Triangles) &&
+                       all_sound(layout.indices, LeafType::Triangles) &&
+                       all_sound(layout.spheres, LeafType::Spheres) &&
+                       all_sound(layout.frustums, LeafType::Frustums) &&
+                       all_sound(layout.others, LeafType::Others);
+    return sound ? nullptr : kMessage;
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ constexpr std::size_t kAlignment = 256;
 constexpr std::size_t kMaxArrays = 16;
 constexpr char kMagic[8] = {'A', 'L', 'H', 'Z', 'B', 'V', 'H', '\n'};
 static_assert(alignof(WideNode) <= kAlignment && alignof(TriangleBlock) <= kAlignment &&
-              alignof(SphereBlock) <= kAlignment);
+              alignof(SphereBlock) <= kAlignment && alignof(FrustumBlock) <= kAlignment &&
+              alignof(BoxBlock) <= kAlignment);
 
 /// What a file begins with; the rest of its 512 bytes is zero but for the checksum at their end.
 struct Header {

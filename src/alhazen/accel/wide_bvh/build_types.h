@@ -11,7 +11,7 @@
 namespace alhazen {
 
 /// Kinds of primitive that cannot share a leaf.
-inline constexpr std::size_t kLeafKinds = 3;
+inline constexpr std::size_t kLeafKinds = 4;
 
 /// What a leaf of one kind costs to test.
 struct LeafKind {

@@ -26,6 +26,7 @@
 
 #include <new>
 
+#include "alhazen/accel/wide_bvh/build_types.h"
 #include "alhazen/accel/wide_bvh/traverse-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,22 +40,21 @@ inline constexpr std::size_t kStreamSlots = 8;
 class Places {
   public:
     /// Leaf i of kind k is at leaves[k] + i * sizes[k].
-    HWY_INLINE Places(const WideNode* nodes, const void* const (&leaves)[3],
-                      const std::size_t (&sizes)[3]) {
-        for (std::size_t i = 0; i < 4; ++i) place_[i] = {nodes, sizeof(WideNode), ~0u, 0};
-        for (std::size_t i = 0; i < 4; ++i) {
+    HWY_INLINE Places(const WideNode* nodes, const void* const (&leaves)[kLeafKinds],
+                      const std::size_t (&sizes)[kLeafKinds]) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            place_[i] = {nodes, sizeof(WideNode), ~0u, 0};
             // Nothing is to be fetched for NodeRef::none().
-            if (i == 3) {
-                place_[4 + i] = {nodes, 0, 0, 0};
-                continue;
-            }
-            place_[4 + i] = {leaves[i], sizes[i], NodeRef::kMaxOffset,
+            place_[8 + i] = {nodes, 0, 0, 0};
+        }
+        for (std::size_t i = 0; i < kLeafKinds; ++i) {
+            place_[8 + i] = {leaves[i], sizes[i], NodeRef::kMaxOffset,
                              sizes[i] > 256 ? std::size_t{256} : 0};
         }
     }
     /// Five lines, or what there is.
     HWY_INLINE void prefetch(std::uint32_t ref) const {
-        const Place& place = place_[ref >> 29];
+        const Place& place = place_[ref >> 28];
         const char* lines = static_cast<const char*>(place.base) + (ref & place.mask) * place.size;
         hwy::Prefetch(lines);
         hwy::Prefetch(lines + 64);
@@ -70,7 +70,7 @@ class Places {
         std::uint32_t mask;
         std::size_t fifth;
     };
-    Place place_[8];
+    Place place_[16];
 };
 
 /// Subtrees yet to visit, entries and references apart so that both are stored by lanes. Its height

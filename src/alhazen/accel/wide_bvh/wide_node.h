@@ -18,25 +18,25 @@ inline constexpr std::size_t kWideNodeWidth = 8;
 /// A child: an inner node, or a leaf of consecutive blocks of one kind.
 class NodeRef {
   public:
-    static constexpr std::uint32_t kMaxBlocks = 16;
+    static constexpr std::uint32_t kMaxBlocks = 8;
     static constexpr std::uint32_t kMaxOffset = (1u << 25) - 1;
     static constexpr std::uint32_t kMaxNodes = 1u << 31;
 
     NodeRef() = default;  // not set: the traversal stack holds hundreds
     [[nodiscard]] static NodeRef node(std::uint32_t index) { return NodeRef(index); }
-    /// `count` blocks of `kind` (0 to 3), the first at `offset`.
+    /// `count` blocks of `kind` (0 to 6), the first at `offset`.
     [[nodiscard]] static NodeRef leaf(std::uint32_t kind, std::uint32_t offset,
                                       std::uint32_t count) {
-        return NodeRef(kLeafBit | kind << 29 | (count - 1) << 25 | offset);
+        return NodeRef(kLeafBit | kind << 28 | (count - 1) << 25 | offset);
     }
     /// A leaf of the kind that no primitive has: where a ray is that has seen all.
-    [[nodiscard]] static NodeRef none() { return leaf(3, 0, 1); }
+    [[nodiscard]] static NodeRef none() { return leaf(7, 0, 1); }
     [[nodiscard]] static NodeRef from_bits(std::uint32_t bits) { return NodeRef(bits); }
 
     [[nodiscard]] bool is_leaf() const { return (bits_ & kLeafBit) != 0; }
     [[nodiscard]] std::uint32_t index() const { return bits_; }
-    [[nodiscard]] std::uint32_t kind() const { return bits_ >> 29 & 3; }
-    [[nodiscard]] std::uint32_t count() const { return (bits_ >> 25 & 15) + 1; }
+    [[nodiscard]] std::uint32_t kind() const { return bits_ >> 28 & 7; }
+    [[nodiscard]] std::uint32_t count() const { return (bits_ >> 25 & 7) + 1; }
     [[nodiscard]] std::uint32_t offset() const { return bits_ & kMaxOffset; }
     [[nodiscard]] std::uint32_t bits() const { return bits_; }
     friend bool operator==(NodeRef, NodeRef) = default;
