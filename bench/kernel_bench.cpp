@@ -1,6 +1,6 @@
 /// Rays per second of wide_bvh beside Embree: same scene, same rays, one thread, in turn, medians.
 /// Usage: alhazen_kernel_bench SCENE... [--side N] [--rounds N] [--only RAYS] [--json FILE]
-///            [--markdown FILE] [--build fast|default|high] [--compact]
+///            [--markdown FILE] [--build fast|default|high] [--width 4|8|16] [--compact]
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
 /// SCENE: see kernel_scenes.h. --check does not measure: it counts the rays that the tracers
 /// disagree about and decides each by brute force in extended precision.
@@ -151,9 +151,9 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
 }
 
 int run_program(int argc, char** argv) {
-    const CommandLine line(argc, argv,
-                           {"--side", "--rounds", "--only", "--json", "--markdown", "--build"},
-                           {"--check", "--compact"});
+    const CommandLine line(
+        argc, argv, {"--side", "--rounds", "--only", "--json", "--markdown", "--build", "--width"},
+        {"--check", "--compact"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
     }
@@ -163,6 +163,7 @@ int run_program(int argc, char** argv) {
     settings.only = line.text("--only", "");
     settings.build.quality =
         find_build_quality(line.text("--build", name_of(settings.build.quality)));
+    settings.build.width = static_cast<std::uint32_t>(line.count("--width", 8));
     if (line.has("--compact")) settings.build.leaves = Leaves::Indices;
     if (line.has("--check")) {
         const std::size_t faults = run_checks(line, settings);

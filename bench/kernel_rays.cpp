@@ -55,6 +55,7 @@ std::vector<RaySet> ray_sets(const KernelScene& scene, const Aggregate& aggregat
     for (std::size_t i = shuffled.rays.size(); i > 1; --i) {
         std::swap(shuffled.rays[i - 1], shuffled.rays[random.below(i)]);
     }
+    RaySet ambient{"ambient", true, false, bounce.rays};
     RaySet lines{"lines", false, false, {}};
     const auto point = [&] {
         return Vec3{random.uniform(box.lo.x, box.hi.x), random.uniform(box.lo.y, box.hi.y),
@@ -65,8 +66,8 @@ std::vector<RaySet> ray_sets(const KernelScene& scene, const Aggregate& aggregat
         const Vec3 d = normalize(point() - a);
         lines.rays.push_back(float_ray(a - size * d, d, 0, HUGE_VAL));
     }
-    return {std::move(eye), std::move(shadow), std::move(bounce), std::move(shuffled),
-            std::move(lines)};
+    return {std::move(eye),     std::move(shadow),   std::move(bounce),
+            std::move(ambient), std::move(shuffled), std::move(lines)};
 }
 
 }  // namespace alhazen::bench

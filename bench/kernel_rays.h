@@ -17,9 +17,9 @@ struct RaySet {
 };
 
 /// eye: side x side rays in 8x8 tiles; shadow: from their hits to a point light; bounce:
-/// cosine-distributed from their hits; shuffled: the same in random order; lines: random lines
-/// through the bounds. All coordinates are rounded to float, so that a kernel in float traces the
-/// same rays.
+/// cosine-distributed from their hits; ambient: the same, for any hit; shuffled: bounce in random
+/// order; lines: random lines through the bounds. All coordinates are rounded to float, so that a
+/// kernel in float traces the same rays.
 [[nodiscard]] std::vector<RaySet> ray_sets(const KernelScene& scene, const Aggregate& aggregate,
                                            int side);
 

@@ -92,6 +92,11 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                     "Work that goes into the accelerator: fast, default or high")
         ->type_name("QUALITY")
         ->capture_default_str();
+    command
+        .add_option("--width", width,
+                    "Children of a node of the accelerator: 4, 8 or 16; the hits are the same")
+        ->type_name("N")
+        ->capture_default_str();
     command.add_flag("--compact", compact,
                      "Leaves hold the numbers of triangles, not their vertices: a fourth of the "
                      "memory, slower");
@@ -123,6 +128,8 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
 BuildOptions SceneArguments::build_options() const {
     BuildOptions options;
     options.quality = find_build_quality(build_quality);
+    check_node_width(width);
+    options.width = width;
     if (compact) options.leaves = Leaves::Indices;
     return options;
 }

@@ -35,6 +35,7 @@ struct SceneArguments {
     std::string scene;
     std::string accelerator;
     std::string build_quality = "default";
+    std::uint32_t width = BuildOptions{}.width;
     bool compact = false;
     std::vector<std::string> allow_paths;
     std::optional<double> time;
@@ -44,7 +45,7 @@ struct SceneArguments {
     int threads = 0;
 
     void add_to(CLI::App& command, const std::string& default_accelerator);
-    /// Throws Error (Usage) for an unknown quality.
+    /// Throws Error (Usage) for an unknown quality or width.
     [[nodiscard]] BuildOptions build_options() const;
     [[nodiscard]] LoadOptions load_options() const;
 };

@@ -40,14 +40,22 @@ class Packer final : public LeafSink {
         layout_.others.resize(blocks[static_cast<std::size_t>(LeafType::Others)]);
     }
 
-    void pack(std::uint32_t kind, std::size_t offset,
-              std::span<const BuildReference> references) override {
+    float pack(std::uint32_t kind, std::size_t offset,
+               std::span<const BuildReference> references) override {
         std::array<PrimitiveId, kBlockWidth * NodeRef::kMaxBlocks> sorted;
         const std::span ids = std::span(sorted).first(references.size());
         std::transform(references.begin(), references.end(), ids.begin(),
                        [](const BuildReference& r) { return PrimitiveId{r.id}; });
         std::sort(ids.begin(), ids.end());
-        switch (static_cast<LeafType>(kind)) {
+        fill(static_cast<LeafType>(kind), offset, ids);
+        float surface = 0;
+        for (const PrimitiveId id : ids) surface += surface_of(id);
+        return surface;
+    }
+
+  private:
+    void fill(LeafType kind, std::size_t offset, std::span<const PrimitiveId> ids) const {
+        switch (kind) {
             case LeafType::Triangles:
                 if (leaves_ == Leaves::Vertices) prefetch_triangles(ids);
                 return leaves_ == Leaves::Indices ? fill_blocks(&layout_.indices[offset], ids)
@@ -60,8 +68,13 @@ class Packer final : public LeafSink {
                 return fill_blocks(&layout_.others[offset], ids);
         }
     }
+    /// What lets light through may end a query or not.
+    [[nodiscard]] float surface_of(PrimitiveId id) const {
+        const double unit = layout_.frame.scale * layout_.frame.scale;
+        const double area = surface_area(table_, id) * unit;
+        return static_cast<float>(table_.is_opaque(id) ? area : 0.5 * area);
+    }
 
-  private:
     /// Triangles lie about in memory as seen from a leaf: all of a leaf are on their way before the
     /// first is looked at.
     void prefetch_triangles(std::span<const PrimitiveId> ids) const {
@@ -123,6 +136,7 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
     if (table.size() > BlockId::kLimit) {
         throw Error(ErrorKind::Resource, "too many primitives for one wide BVH");
     }
+    check_node_width(options.width);
     WideBvhLayout layout;
     layout.frame = LocalFrame(box_of_bounded(bounded));
     std::vector<BuildReference> references(bounded.size());
@@ -135,7 +149,8 @@ WideBvhLayout build_wide_bvh(const PrimitiveTable& table, const BoundedPrimitive
     });
     const BinaryBvh binary = build_binary_of(options.quality, references, layout.frame, table);
     Packer packer(table, options.leaves, layout);
-    layout.tree = collapse(binary, references, kLeafKindTable, packer);
+    const std::uint32_t width = options.precision == Precision::Fast ? 8 : options.width;
+    layout.tree = collapse(binary, references, kLeafKindTable, packer, width);
     return layout;
 }
 

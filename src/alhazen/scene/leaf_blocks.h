@@ -129,6 +129,8 @@ struct WideBvhLayout {
 template <class Layout, class F>
 void for_each_array(Layout& layout, F&& f) {
     f(layout.tree.nodes);
+    f(layout.tree.nodes_of_4);
+    f(layout.tree.nodes_of_16);
     f(layout.triangles);
     f(layout.indices);
     f(layout.spheres);

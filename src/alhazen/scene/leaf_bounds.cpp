@@ -5,6 +5,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "alhazen/math/angle.h"
 #include "alhazen/math/unit_vector.h"
 
 namespace alhazen {
@@ -112,6 +113,28 @@ SlantedBounds slanted_bounds(const PrimitiveTable& table, PrimitiveId id) {
     const double reach = max_component(abs(outer.lo)) + max_component(abs(outer.hi));
     if (is_finite(bounds.pad) && max_component(bounds.pad) <= reach) return bounds;
     return placed_box(outer, {});
+}
+
+double surface_area(const PrimitiveTable& table, PrimitiveId id) {
+    switch (leaf_type(table, id)) {
+        case LeafType::Triangles: {
+            const auto [a, b, c] = table.triangle_vertices(table.index(id));
+            return 0.5 * length(cross(b - a, c - a));
+        }
+        case LeafType::Spheres: {
+            const double radius = shape_of<Sphere>(table, id).radius;
+            return 4.0 * kPi * radius * radius;
+        }
+        case LeafType::Frustums: {
+            const RoundBounds bounds = round_bounds(table, id);
+            return 2.0 * kPi * bounds.radius * (2.0 * bounds.half_height + bounds.radius);
+        }
+        case LeafType::Others:
+            break;
+    }
+    const SlantedBounds bounds = slanted_bounds(table, id);
+    const auto face = [&](int i, int j) { return length(cross(bounds.edge[i], bounds.edge[j])); };
+    return 2.0 * (face(0, 1) + face(1, 2) + face(2, 0));
 }
 
 }  // namespace alhazen

@@ -35,6 +35,9 @@ struct SlantedBounds {
     Vec3 pad;           ///< how far the shape may reach beyond it along each axis
 };
 
+/// About the area of a primitive's surface: of its body, where it is no triangle.
+[[nodiscard]] double surface_area(const PrimitiveTable& table, PrimitiveId id);
+
 /// Of any bounded primitive.
 [[nodiscard]] SlantedBounds slanted_bounds(const PrimitiveTable& table, PrimitiveId id);
 

@@ -13,10 +13,13 @@ namespace {
 
 constexpr std::size_t kGrain = 1024;  // nodes of one task
 
+template <std::uint32_t kWidth>
 class Refit {
+    using Node = WideNodeOf<kWidth>;
+
   public:
     Refit(WideBvhLayout& layout, const PrimitiveTable& table)
-        : layout_(layout), table_(table), nodes_(layout.tree.nodes.data()) {
+        : layout_(layout), table_(table), nodes_(nodes_of<kWidth>(layout.tree).data()) {
         // Asked for once: asking may copy what is mapped.
         triangles_ = layout.triangles.data();
         indices_ = layout.is_indexed() ? layout.indices.data() : nullptr;
@@ -26,33 +29,34 @@ class Refit {
     }
 
     void run() {
-        WideBvh& tree = layout_.tree;
-        if (tree.root.is_leaf()) {
-            (void)refit_leaf(tree.root);
+        const NodeRef root = layout_.tree.root;
+        if (root.is_leaf()) {
+            (void)refit_leaf(root);
             return;
         }
-        parallel_for(tree.nodes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        const std::size_t count = nodes_of<kWidth>(std::as_const(layout_.tree)).size();
+        parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) refit_leaves(nodes_[n]);
         });
         // Children come behind their parents.
-        for (std::size_t n = tree.nodes.size(); n-- > 0;) refit_inner(nodes_[n]);
-        parallel_for(tree.nodes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = count; n-- > 0;) refit_inner(nodes_[n]);
+        parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) nodes_[n].set_order();
         });
     }
 
   private:
-    void refit_leaves(WideNode& node) {
+    void refit_leaves(Node& node) {
         const std::uint32_t count = node.child_count();
         for (std::uint32_t i = 0; i < count; ++i) {
             if (node.child[i].is_leaf()) node.set_box(i, refit_leaf(node.child[i]));
         }
     }
-    void refit_inner(WideNode& node) {
+    void refit_inner(Node& node) {
         const std::uint32_t count = node.child_count();
         for (std::uint32_t i = 0; i < count; ++i) {
             if (node.child[i].is_leaf()) continue;
-            const WideNode& child = nodes_[node.child[i].index()];
+            const Node& child = nodes_[node.child[i].index()];
             FloatBox box;
             const std::uint32_t inner_count = child.child_count();
             for (std::uint32_t k = 0; k < inner_count; ++k) box.include(child.box(k));
@@ -116,7 +120,7 @@ class Refit {
 
     WideBvhLayout& layout_;
     const PrimitiveTable& table_;
-    WideNode* nodes_;
+    Node* nodes_;
     TriangleBlock* triangles_;
     IndexBlock* indices_;  ///< null: the triangles are in blocks of their own
     SphereBlock* spheres_;
@@ -162,7 +166,9 @@ void refit(WideBvhLayout& layout, const PrimitiveTable& moved, const BoundedPrim
     check(layout, moved, bounded);
     if (layout.tree.empty) return;
     layout.frame = LocalFrame(box_of_bounded(bounded));
-    Refit(layout, moved).run();
+    if (layout.tree.width == 4) return Refit<4>(layout, moved).run();
+    if (layout.tree.width == 16) return Refit<16>(layout, moved).run();
+    Refit<8>(layout, moved).run();
 }
 
 }  // namespace alhazen

@@ -26,13 +26,13 @@ HWY_INLINE auto with_policy(TraversalStats* stats, Body&& body) {
     return stats != nullptr ? body(CountingStats{stats}) : body(NoStats{});
 }
 
-template <class Query>
+template <std::size_t W, class Query>
 HWY_INLINE bool run(Query& query, TraversalStats* stats) {
     if (!query.valid) return false;
     const WideBvh& tree = query.scene.layout->tree;
     return with_policy(stats, [&](auto policy) HWY_ATTR {
-        const bool stopped =
-            traverse<Query::kOrdered>(tree.nodes.data(), tree.root, query.slabs, query, policy);
+        const bool stopped = traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root,
+                                                       query.slabs, query, policy);
         if constexpr (requires { query.finish(policy); }) query.finish(policy);
         return stopped;
     });
@@ -86,25 +86,25 @@ class BatchSource {
 /// 2 MB.
 constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
 
-template <class Query, class Result>
+template <class Query, std::size_t W, class Result>
 HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                           std::span<Result> results, TraversalStats* stats) {
     BatchSource<Query, Result> source(scene, rays, results);
-    const WideBvh& tree = scene.layout->tree;
     const WideBvhLayout& layout = *scene.layout;
+    const NodeRef root = layout.tree.root;
+    const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();
     const bool indexed = layout.is_indexed();
     const void* triangles = layout.triangles.data();
     if (indexed) triangles = layout.indices.data();
     const Places places(
-        tree.nodes.data(),
-        {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
+        nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
     with_policy(stats, [&](auto policy) HWY_ATTR {
         if (layout.memory_bytes() > kCachedBytes) {
-            traverse_stream<Query, true>(tree.nodes.data(), tree.root, places, source, policy);
+            traverse_stream<Query, true>(nodes, root, places, source, policy);
         } else {
-            traverse_stream<Query, false>(tree.nodes.data(), tree.root, places, source, policy);
+            traverse_stream<Query, false>(nodes, root, places, source, policy);
         }
         source.finish_all(policy);
     });

@@ -13,7 +13,7 @@ namespace alhazen {
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& options)
     : table_(std::move(table)),
       kernels_(options.precision == Precision::Fast ? &wide_bvh_fast_kernels()
-                                                    : &wide_bvh_kernels()) {
+                                                    : &wide_bvh_kernels(options.width)) {
     const BoundedPrimitives bounded(table_);
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
@@ -23,11 +23,12 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& opt
 }
 
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file)
-    : table_(std::move(table)), kernels_(&wide_bvh_kernels()) {
+    : table_(std::move(table)) {
     StoredWideBvh stored = load_wide_bvh(file, table_);
     box_ = stored.box;
     unbounded_ = std::move(stored.unbounded);
     layout_ = std::move(stored.layout);
+    kernels_ = &wide_bvh_kernels(layout_.tree.width);
     built_cost_ = layout_.sah_cost();
     prepare_meshes();
 }

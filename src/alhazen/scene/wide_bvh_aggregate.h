@@ -1,6 +1,6 @@
 #pragma once
-/// The production accelerator: a bounding volume hierarchy eight wide, traversed with SIMD, its
-/// leaves blocks of eight triangles or spheres.
+/// The production accelerator: a wide bounding volume hierarchy, traversed with SIMD, its leaves
+/// blocks of eight triangles, spheres, cylinders or boxes around whatever else there is.
 ///
 /// Source: see the headers of accel/wide_bvh/.
 /// Differs: boxes and the triangle filter are float but conservative with respect to tests in
@@ -26,8 +26,7 @@ namespace alhazen {
 class WideBvhAggregate final : public Aggregate {
   public:
     static constexpr const char* kName = "wide_bvh";
-    static constexpr const char* kDescription =
-        "bounding volume hierarchy, eight children per node, SIMD: the fastest";
+    static constexpr const char* kDescription = "wide bounding volume hierarchy, SIMD: the fastest";
 
     explicit WideBvhAggregate(PrimitiveTable table, const BuildOptions& options = {});
     /// With a tree that was stored (scene/wide_bvh_file.h) over a table like this one, which is
@@ -73,7 +72,7 @@ class WideBvhAggregate final : public Aggregate {
     std::vector<PrimitiveId> unbounded_;
     WideBvhLayout layout_;
     double built_cost_ = 0;  ///< of the tree before any refit
-    const WideBvhKernels* kernels_;
+    const WideBvhKernels* kernels_ = nullptr;
 };
 
 }  // namespace alhazen

@@ -27,16 +27,20 @@ bool leads_to_leaf(const WideBvhLayout& layout, NodeRef ref) {
 }
 
 /// A slot that no ray enters.
-bool is_free(const WideNode& node, std::size_t slot) {
+template <std::size_t W>
+bool is_free(const WideNodeOf<W>& node, std::size_t slot) {
     return node.box(slot) == FloatBox{};
 }
 
 /// Every octant's order names every slot once.
-bool is_ordered(const WideNode& node) {
-    for (const std::uint32_t order : node.order) {
-        std::uint32_t seen = order >> 24;
-        for (std::uint32_t i = 0; i < kWideNodeWidth; ++i) seen |= 1u << (order >> 3 * i & 7);
-        if (seen != (1u << kWideNodeWidth) - 1 || order >> 24 != 0) return false;
+template <std::size_t W>
+bool is_ordered(const WideNodeOf<W>& node) {
+    constexpr std::uint32_t kBits = WideNodeOf<W>::kSlotBits;
+    for (const std::uint64_t order : node.order) {
+        std::uint32_t seen = 0;
+        for (std::uint32_t i = 0; i < W; ++i) seen |= 1u << (order >> kBits * i & (W - 1));
+        if (seen != (1u << W) - 1) return false;
+        if (W * kBits < 64 && order >> (W * kBits) % 64 != 0) return false;
     }
     return true;
 }
@@ -51,40 +55,50 @@ bool is_sound(const LocalFrame& frame) {
            frame.slack == FrameSlack(frame.offset, frame.usual);
 }
 
+/// What is wrong with the children of a node, the `index`-th of `count`; the depth of inner ones is
+/// set (0: not met so far).
+template <std::size_t W>
+const char* check_children(const WideBvhLayout& layout, const WideNodeOf<W>& node,
+                           std::size_t index, std::vector<std::uint8_t>& depth) {
+    bool ended = false;
+    for (std::size_t slot = 0; slot < W; ++slot) {
+        const NodeRef child = node.child[slot];
+        if (is_free(node, slot)) {
+            ended = true;
+            continue;
+        }
+        // Who counts the slots takes the first ones.
+        if (ended) return "a node has a free slot before one in use";
+        if (child.is_leaf()) {
+            if (!leads_to_leaf(layout, child)) return "a node leads out of the leaves";
+            continue;
+        }
+        if (child.index() >= depth.size()) return "a node leads out of the nodes";
+        if (child.index() <= index || depth[child.index()] != 0 || depth[index] == 0) {
+            return "the nodes make no tree";
+        }
+        if (depth[index] >= kMaxWideDepth) return "the tree is too deep";
+        depth[child.index()] = static_cast<std::uint8_t>(depth[index] + 1);
+    }
+    return nullptr;
+}
+
 const char* check_nodes(const WideBvhLayout& layout) {
     const WideBvh& tree = layout.tree;
     if (tree.empty) return nullptr;
     if (tree.root.is_leaf()) {
         return leads_to_leaf(layout, tree.root) ? nullptr : "the root leads out of the leaves";
     }
-    if (tree.root.index() >= tree.nodes.size()) return "the root leads out of the nodes";
-    std::vector<std::uint8_t> depth(tree.nodes.size(), 0);  // 0: not met so far
-    depth[tree.root.index()] = 1;
-    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-        const WideNode& node = tree.nodes[i];
-        if (!is_ordered(node)) return "the order of some children is none";
-        bool ended = false;
-        for (std::size_t slot = 0; slot < kWideNodeWidth; ++slot) {
-            const NodeRef child = node.child[slot];
-            if (is_free(node, slot)) {
-                ended = true;
-                continue;
-            }
-            // Who counts the slots takes the first ones.
-            if (ended) return "a node has a free slot before one in use";
-            if (child.is_leaf()) {
-                if (!leads_to_leaf(layout, child)) return "a node leads out of the leaves";
-                continue;
-            }
-            if (child.index() >= tree.nodes.size()) return "a node leads out of the nodes";
-            if (child.index() <= i || depth[child.index()] != 0 || depth[i] == 0) {
-                return "the nodes make no tree";
-            }
-            if (depth[i] >= kMaxWideDepth) return "the tree is too deep";
-            depth[child.index()] = static_cast<std::uint8_t>(depth[i] + 1);
+    return with_nodes(tree, [&](const auto& nodes) -> const char* {
+        if (tree.root.index() >= nodes.size()) return "the root leads out of the nodes";
+        std::vector<std::uint8_t> depth(nodes.size(), 0);
+        depth[tree.root.index()] = 1;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (!is_ordered(nodes[i])) return "the order of some children is none";
+            if (const char* message = check_children(layout, nodes[i], i, depth)) return message;
         }
-    }
-    return nullptr;
+        return nullptr;
+    });
 }
 
 /// The lanes in use are the first, and hold primitives of the kind.

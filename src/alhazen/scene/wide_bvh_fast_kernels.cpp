@@ -19,23 +19,23 @@ namespace {
 
 void fast_closest(const WideBvhScene& scene, const Ray& ray, Hit& best, TraversalStats* stats) {
     FastClosestQuery query(scene, ray, best);
-    run(query, stats);
+    run<8>(query, stats);
 }
 
 bool fast_occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
     bool result = false;
     FastOccludedQuery query(scene, ray, result);
-    return run(query, stats);
+    return run<8>(query, stats);
 }
 
 void fast_closest_batch(const WideBvhScene& scene, std::span<const Ray> rays, std::span<Hit> best,
                         TraversalStats* stats) {
-    run_batch<FastClosestQuery>(scene, rays, best, stats);
+    run_batch<FastClosestQuery, 8>(scene, rays, best, stats);
 }
 
 void fast_occluded_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                          std::span<bool> occluded, TraversalStats* stats) {
-    run_batch<FastOccludedQuery>(scene, rays, occluded, stats);
+    run_batch<FastOccludedQuery, 8>(scene, rays, occluded, stats);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "alhazen/scene/wide_bvh_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -62,7 +63,6 @@ Header header_of_this_build() {
     header.byte_order = 0x01020304;
     header.version = kWideBvhFileVersion;
     header.frame_bytes = sizeof(LocalFrame);
-    header.node_width = kWideNodeWidth;
     header.block_width = kBlockWidth;
     const WideBvhLayout none;
     std::size_t i = 0;
@@ -73,6 +73,12 @@ Header header_of_this_build() {
     });
     header.element_bytes[i] = sizeof(PrimitiveId);  // the unbounded ones come last
     return header;
+}
+
+/// Of the nodes that a build knows.
+bool is_node_width(std::uint32_t width) {
+    return std::find(std::begin(kNodeWidths), std::end(kNodeWidths), width) !=
+           std::end(kNodeWidths);
 }
 
 /// Throws unless the header is one of this build, and the file as long as it says.
@@ -92,7 +98,7 @@ void check_header(const std::filesystem::path& path, const Header& header, std::
         refuse(path, "the file has " + std::to_string(file_bytes) + " bytes, expected " +
                          std::to_string(header.file_bytes));
     }
-    if (header.frame_bytes != own.frame_bytes || header.node_width != own.node_width ||
+    if (header.frame_bytes != own.frame_bytes || !is_node_width(header.node_width) ||
         header.block_width != own.block_width ||
         std::memcmp(header.element_bytes, own.element_bytes, sizeof(own.element_bytes)) != 0) {
         refuse(path, "the tree was stored by a build with other nodes or leaves");
@@ -170,6 +176,7 @@ void save_wide_bvh(const std::filesystem::path& path, const WideBvhLayout& layou
                    const std::vector<PrimitiveId>& unbounded, const PrimitiveTable& table) {
     Header header = header_of_this_build();
     header.fingerprint = table_fingerprint(table);
+    header.node_width = layout.tree.width;
     header.root = layout.tree.empty ? NodeRef::node(0) : layout.tree.root;
     header.empty = layout.tree.empty;
     header.depth = layout.tree.depth;
@@ -218,6 +225,7 @@ StoredWideBvh load_wide_bvh(const std::filesystem::path& path, const PrimitiveTa
     tree.layout.tree.root = header.root;
     tree.layout.tree.empty = header.empty != 0;
     tree.layout.tree.depth = header.depth;
+    tree.layout.tree.width = header.node_width;
     tree.box = header.box;
     ArrayReader arrays(file, header);
     for_each_array(tree.layout, [&]<class T>(MappableVector<T>& array) {

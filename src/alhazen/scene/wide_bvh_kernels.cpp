@@ -6,49 +6,21 @@
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
 #include "alhazen/scene/coherent_queries-inl.h"
-#include "alhazen/scene/leaf_queries-inl.h"
-#include "alhazen/scene/run_queries-inl.h"
+#include "alhazen/scene/width_kernels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-void closest(const WideBvhScene& scene, const Ray& ray, Hit& best, TraversalStats* stats) {
-    ClosestQuery query(scene, ray, best);
-    run(query, stats);
-}
-
-bool occluded(const WideBvhScene& scene, const Ray& ray, TraversalStats* stats) {
-    bool result = false;
-    OccludedQuery query(scene, ray, result);
-    return run(query, stats);
-}
-
-template <bool kStopAtOpaque>
-bool collect(const WideBvhScene& scene, const Ray& ray, std::vector<Hit>& hits,
-             TraversalStats* stats) {
-    CollectQuery<kStopAtOpaque> query(scene, ray, hits);
-    return run(query, stats);
-}
-
-void closest_batch(const WideBvhScene& scene, std::span<const Ray> rays, std::span<Hit> best,
-                   TraversalStats* stats) {
-    run_batch<ClosestQuery>(scene, rays, best, stats);
-}
-
-void occluded_batch(const WideBvhScene& scene, std::span<const Ray> rays, std::span<bool> occluded,
-                    TraversalStats* stats) {
-    run_batch<OccludedQuery>(scene, rays, occluded, stats);
-}
-
-// ---- coherent rays
+using Kernels = WidthKernels<8>;
 
 void closest_coherent(const WideBvhScene& scene, std::span<const Ray> rays, std::span<Hit> best,
                       TraversalStats* stats) {
     with_policy(stats, [&](auto policy) HWY_ATTR {
         run_coherent(scene, rays, best, policy, [&](std::size_t first, std::size_t count) {
-            closest_batch(scene, rays.subspan(first, count), best.subspan(first, count), stats);
+            Kernels::closest_batch(scene, rays.subspan(first, count), best.subspan(first, count),
+                                   stats);
         });
     });
 }
@@ -57,8 +29,8 @@ void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                        std::span<bool> occluded, TraversalStats* stats) {
     with_policy(stats, [&](auto policy) HWY_ATTR {
         run_coherent(scene, rays, occluded, policy, [&](std::size_t first, std::size_t count) {
-            occluded_batch(scene, rays.subspan(first, count), occluded.subspan(first, count),
-                           stats);
+            Kernels::occluded_batch(scene, rays.subspan(first, count),
+                                    occluded.subspan(first, count), stats);
         });
     });
 }
@@ -66,9 +38,12 @@ void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
 }  // namespace
 
 const WideBvhKernels& kernels() {
-    static constexpr WideBvhKernels kernels{&closest,          &occluded,         &collect<false>,
-                                            &collect<true>,    &closest_batch,    &occluded_batch,
-                                            &closest_coherent, &occluded_coherent};
+    static constexpr WideBvhKernels kernels = [] {
+        WideBvhKernels table = Kernels::table();
+        table.closest_coherent = &closest_coherent;
+        table.occluded_coherent = &occluded_coherent;
+        return table;
+    }();
     return kernels;
 }
 
@@ -81,7 +56,9 @@ namespace alhazen {
 
 HWY_EXPORT(kernels);
 
-const WideBvhKernels& wide_bvh_kernels() {
+const WideBvhKernels& wide_bvh_kernels(std::uint32_t width) {
+    if (width == 4) return wide_bvh_kernels_4();
+    if (width == 16) return wide_bvh_kernels_16();
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     return HWY_DYNAMIC_DISPATCH(kernels)();
 }

@@ -52,9 +52,13 @@ struct WideBvhKernels {
 /// Out of line, so that no copy of std::vector's code is made for a wide instruction set.
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id);
 
-/// Those for the best instruction set of this machine, or the one that is forced (simd/targets.h).
-[[nodiscard]] const WideBvhKernels& wide_bvh_kernels();
-/// The same, but that float decides about triangles in the first two queries and their batches.
+/// Those for the best instruction set of this machine, or the one that is forced (simd/targets.h),
+/// and nodes of 4, 8 or 16 children.
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels(std::uint32_t width);
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_4();
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_16();
+/// Those for nodes of 8, but that float decides about triangles in the first two queries and their
+/// batches.
 [[nodiscard]] const WideBvhKernels& wide_bvh_fast_kernels();
 
 }  // namespace alhazen

@@ -25,8 +25,8 @@ void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
     const WideBvhScene scene(tested.primitives(), tested.layout());
     std::vector<Hit> hits(rays.size());
     const auto occluded = std::make_unique<bool[]>(rays.size());
-    wide_bvh_kernels().closest_coherent(scene, rays, hits, nullptr);
-    wide_bvh_kernels().occluded_coherent(scene, rays, {occluded.get(), rays.size()}, nullptr);
+    wide_bvh_kernels(8).closest_coherent(scene, rays, hits, nullptr);
+    wide_bvh_kernels(8).occluded_coherent(scene, rays, {occluded.get(), rays.size()}, nullptr);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_TRUE(same(hits[i], expected[i])) << name << ", packets, ray " << i;
         ASSERT_EQ(occluded[i], expected[i].found()) << name << ", packets, ray " << i;

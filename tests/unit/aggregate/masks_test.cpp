@@ -117,8 +117,8 @@ void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
     std::fill(hits.begin(), hits.end(), Hit{});
     std::fill(occluded.begin(), occluded.end(), false);
     const WideBvhScene scene(tree->primitives(), tree->layout(), mask);
-    wide_bvh_kernels().closest_coherent(scene, rays, hits, nullptr);
-    wide_bvh_kernels().occluded_coherent(scene, rays, occluded, nullptr);
+    wide_bvh_kernels(8).closest_coherent(scene, rays, hits, nullptr);
+    wide_bvh_kernels(8).occluded_coherent(scene, rays, occluded, nullptr);
     check("packets");
 }
 

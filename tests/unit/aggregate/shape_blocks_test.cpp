@@ -67,7 +67,7 @@ Ray grazing_ray(Random& random, const PrimitiveTable& table) {
     const auto id =
         PrimitiveId{static_cast<std::uint32_t>(random.below(static_cast<int>(table.size())))};
     const auto meets = [&](const Ray& ray) {
-        return table.occluded(id, ray, RayShear(ray.direction), NoStats{});
+        return table.occluded(id, ray, RayShear(ray.direction), NoStats{}, kAllRays);
     };
     const Box3 box = table.box(static_cast<std::uint32_t>(id));
     const Vec3 middle = box.bounded() ? box.center() : Vec3{};

@@ -28,6 +28,11 @@ BuildQuality find_build_quality(const std::string& name) {
     throw Error(ErrorKind::Usage, "no build quality '" + name + "'; the valid names are: " + names);
 }
 
+void check_node_width(std::uint32_t width) {
+    if (width == 4 || width == 8 || width == 16) return;
+    throw Error(ErrorKind::Usage, "nodes have 4, 8 or 16 children, not " + std::to_string(width));
+}
+
 const char* name_of(BuildQuality quality) {
     return kEntries[static_cast<std::size_t>(quality)].name;
 }

@@ -31,7 +31,13 @@ struct BuildOptions {
     BuildQuality quality = BuildQuality::Default;
     Precision precision = Precision::Robust;
     Leaves leaves = Leaves::Vertices;
+    /// Children of a node: 4, 8 or 16; all give the same hits. Packets of coherent rays are there
+    /// for 8 only, and so is Precision::Fast, which takes 8 whatever is said here.
+    std::uint32_t width = 8;
 };
+
+/// Throws Error(Usage) for a width that no node has.
+void check_node_width(std::uint32_t width);
 
 struct BuildQualityEntry {
     const char* name;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "alhazen/base/error.h"
@@ -10,13 +11,13 @@
 namespace alhazen {
 namespace {
 
-constexpr std::uint32_t kWidth = kWideNodeWidth;
 constexpr float kNever = std::numeric_limits<float>::infinity();
 /// Subtrees of so many references are tasks of their own.
 constexpr std::uint32_t kTaskSize = 4096;
 
 /// The best ways to turn the subtree of a binary node into at most i wide subtrees.
-struct Choice {
+template <std::uint32_t kWidth>
+struct ChoiceOf {
     std::array<float, kWidth + 1> cost;  ///< [i]; of at most i subtrees
     std::array<std::uint8_t, kWidth + 1>
         left;                 ///< [i]; how many go to the left child, 0: do as for i - 1
@@ -48,14 +49,32 @@ struct Plan {
 };
 
 /// The binary nodes that become the children of a wide node.
-struct Children {
+template <std::uint32_t kWidth>
+struct ChildrenOf {
     std::array<std::uint32_t, kWidth> node;
     std::uint32_t count = 0;
 };
 
+/// A subtree that has been written: where it is, and what it means to a query for any hit.
+struct Emitted {
+    NodeRef ref;
+    float surface = 0;  ///< area
+    float cost = 0;     ///< of a line that meets its box and goes on through all of it
+};
+
+/// What is to be visited first has more: the chance to end there over its cost.
+float promise_of(const Emitted& child, const FloatBox& box) {
+    return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
+}
+
 /// Three passes: what to do with each binary node, from the leaves up; what each wide subtree takes
 /// up; and then all of them are written, each to its place.
+template <std::uint32_t kWidth>
 class Collapse {
+    using Choice = ChoiceOf<kWidth>;
+    using Children = ChildrenOf<kWidth>;
+    using Node = WideNodeOf<kWidth>;
+
   public:
     Collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
              const LeafKinds& kinds, LeafSink& sink)
@@ -75,9 +94,11 @@ class Collapse {
         }
         wide_.empty = false;
         wide_.depth = all.depth;
-        wide_.nodes.resize(all.extent.nodes);
+        wide_.width = kWidth;
+        nodes_of<kWidth>(wide_).resize(all.extent.nodes);
+        nodes_ = nodes_of<kWidth>(wide_).data();
         sink_.resize(blocks);
-        wide_.root = emit(0, all, {});
+        wide_.root = emit(0, all, {}).ref;
         return std::move(wide_);
     }
 
@@ -187,31 +208,27 @@ class Collapse {
     }
 
     /// Writes a subtree from `place` on, and moves that behind it.
-    NodeRef emit(std::uint32_t index, Extent& place) {
+    Emitted emit(std::uint32_t index, Extent& place) {
         const BinaryNode& node = binary_.nodes[index];
         if (choices_[index].as_leaf) return emit_leaf(node, place);
         const std::size_t number = place.nodes++;
         const Children all = children(index);
-        for (std::uint32_t i = 0; i < all.count; ++i) {
-            set_child(number, i, all.node[i], emit(all.node[i], place));
-        }
-        wide_.nodes[number].set_order();
-        return NodeRef::node(static_cast<std::uint32_t>(number));
+        std::array<Emitted, kWidth> emitted;
+        for (std::uint32_t i = 0; i < all.count; ++i) emitted[i] = emit(all.node[i], place);
+        return emit_node(number, index, all, emitted);
     }
-    NodeRef emit_leaf(const BinaryNode& node, Extent& place) {
+    Emitted emit_leaf(const BinaryNode& node, Extent& place) {
         const std::uint32_t count = blocks_of(node);
         const std::size_t offset = place.blocks[node.kind];
         place.blocks[node.kind] += count;
-        sink_.pack(node.kind, offset, references_.subspan(node.begin, node.size()));
-        return NodeRef::leaf(node.kind, static_cast<std::uint32_t>(offset), count);
-    }
-    void set_child(std::size_t number, std::size_t slot, std::uint32_t index, NodeRef child) {
-        wide_.nodes[number].set_box(slot, binary_.nodes[index].box);
-        wide_.nodes[number].child[slot] = child;
+        const float surface =
+            sink_.pack(node.kind, offset, references_.subspan(node.begin, node.size()));
+        return {NodeRef::leaf(node.kind, static_cast<std::uint32_t>(offset), count), surface,
+                kinds_[node.kind].cost * static_cast<float>(count)};
     }
 
     /// The same with the children in parallel, where there is a plan of them.
-    NodeRef emit(std::uint32_t index, const Plan& plan, Extent place) {
+    Emitted emit(std::uint32_t index, const Plan& plan, Extent place) {
         if (plan.children.empty()) return emit(index, place);
         const std::size_t number = place.nodes++;
         const Children all = children(index);
@@ -220,13 +237,38 @@ class Collapse {
             places[i] = place;
             place.add(plan.children[i].extent);
         }
+        std::array<Emitted, kWidth> emitted;
         parallel_for(all.count, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                set_child(number, i, all.node[i], emit(all.node[i], plan.children[i], places[i]));
+                emitted[i] = emit(all.node[i], plan.children[i], places[i]);
             }
         });
-        wide_.nodes[number].set_order();
-        return NodeRef::node(static_cast<std::uint32_t>(number));
+        return emit_node(number, index, all, emitted);
+    }
+
+    /// Writes a node above its children, the most promising one first.
+    Emitted emit_node(std::size_t number, std::uint32_t index, const Children& all,
+                      const std::array<Emitted, kWidth>& emitted) {
+        Emitted sum{NodeRef::node(static_cast<std::uint32_t>(number)), 0, 0};
+        std::array<float, kWidth> promise;
+        std::array<std::uint32_t, kWidth> order;
+        for (std::uint32_t i = 0; i < all.count; ++i) {
+            const FloatBox& box = binary_.nodes[all.node[i]].box;
+            sum.surface += emitted[i].surface;
+            sum.cost += emitted[i].cost * box.weight();
+            promise[i] = promise_of(emitted[i], box);
+            order[i] = i;
+        }
+        sum.cost = 1.0f + sum.cost / binary_.nodes[index].box.weight();
+        std::stable_sort(order.begin(), order.begin() + all.count,
+                         [&](std::uint32_t a, std::uint32_t b) { return promise[a] > promise[b]; });
+        Node& node = nodes_[number];
+        for (std::uint32_t slot = 0; slot < all.count; ++slot) {
+            node.set_box(slot, binary_.nodes[all.node[order[slot]]].box);
+            node.child[slot] = emitted[order[slot]].ref;
+        }
+        node.set_order();
+        return sum;
     }
 
     const BinaryBvh& binary_;
@@ -235,14 +277,17 @@ class Collapse {
     LeafSink& sink_;
     std::unique_ptr<Choice[]> choices_;
     WideBvh wide_;
+    Node* nodes_ = nullptr;
 };
 
 }  // namespace
 
 WideBvh collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
-                 const LeafKinds& kinds, LeafSink& sink) {
+                 const LeafKinds& kinds, LeafSink& sink, std::uint32_t width) {
     if (binary.empty) return {};
-    return Collapse(binary, references, kinds, sink).run();
+    if (width == 4) return Collapse<4>(binary, references, kinds, sink).run();
+    if (width == 16) return Collapse<16>(binary, references, kinds, sink).run();
+    return Collapse<8>(binary, references, kinds, sink).run();
 }
 
 }  // namespace alhazen

@@ -335,7 +335,7 @@ HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root, const Place
     // Measured: about what the rays cost one by one.
     constexpr std::uint32_t kMaxWork = 80;
     std::uint32_t work = 0;
-    StackEntry stack[kTraversalStackSize];
+    StackEntry stack[kTraversalStackSize<8>];
     std::size_t height = 1;
     stack[0] = {-std::numeric_limits<float>::infinity(), root};
     while (height > 0) {
@@ -352,7 +352,7 @@ HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root, const Place
         stats.boxes(node.child_count());
         Floats entries;
         const std::uint32_t hit = packet.meet_children(node, entries);
-        HWY_ALIGN float entry[kWideNodeWidth];
+        HWY_ALIGN float entry[WideNode::kWidth];
         store_lanes(entries, entry);
         const std::size_t base = height;
         height = push_sorted(node, hit, entry, stack, height);

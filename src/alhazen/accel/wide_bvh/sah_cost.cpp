@@ -10,15 +10,18 @@ double sah_cost(const WideBvh& tree, const LeafKinds& kinds) {
     if (tree.root.is_leaf()) return leaf_cost(tree.root);
     FloatBox all;
     double cost = 0;
-    for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
-        const WideNode& node = tree.nodes[n];
-        for (std::size_t i = 0; i < node.child_count(); ++i) {
-            const FloatBox box = node.box(i);
-            const NodeRef child = node.child[i];
-            cost += static_cast<double>(box.weight()) * (child.is_leaf() ? leaf_cost(child) : 1.0);
-            if (NodeRef::node(static_cast<std::uint32_t>(n)) == tree.root) all.include(box);
+    with_nodes(tree, [&](const auto& nodes) {
+        for (std::size_t n = 0; n < nodes.size(); ++n) {
+            const auto& node = nodes[n];
+            for (std::size_t i = 0; i < node.child_count(); ++i) {
+                const FloatBox box = node.box(i);
+                const NodeRef child = node.child[i];
+                cost +=
+                    static_cast<double>(box.weight()) * (child.is_leaf() ? leaf_cost(child) : 1.0);
+                if (NodeRef::node(static_cast<std::uint32_t>(n)) == tree.root) all.include(box);
+            }
         }
-    }
+    });
     return 1.0 + cost / static_cast<double>(all.weight());
 }
 

@@ -58,13 +58,14 @@ struct LocalParameter {
 
 /// Which planes of a box a ray meets first.
 struct alignas(8) NearRows {
-    /// Distance in floats from WideNode::planes of the row of the near planes, per axis.
+    /// Four times the number of the row of the near planes in WideNodeOf::planes, per axis: the
+    /// distance in floats where four children lie side by side.
     std::uint16_t row[3];
     std::uint16_t octant;  ///< bit k is set when the ray goes down axis k
 
     /// As `row`, of the far planes.
     [[nodiscard]] std::size_t far_row(std::size_t axis) const {
-        return kWideNodeWidth * (2 * axis + 3) - row[axis];
+        return 4 * (2 * axis + 3) - row[axis];
     }
 };
 
@@ -74,7 +75,7 @@ inline constexpr std::array<NearRows, 8> kNearRows = [] {
     for (std::uint16_t octant = 0; octant < 8; ++octant) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t down = octant >> k & 1;
-            table[octant].row[k] = static_cast<std::uint16_t>(kWideNodeWidth * (k + 3 * down));
+            table[octant].row[k] = static_cast<std::uint16_t>(4 * (k + 3 * down));
         }
         table[octant].octant = octant;
     }

@@ -5,7 +5,8 @@
 /// (slots refilled one by one); Fuetterling, Lojewski, Pfreundt, Hamann and Ebert, "Accelerated
 /// Single Ray Tracing for Wide Vector Units", HPG 2017 (children sorted by the octant of the ray
 /// and compressed onto the stack).
-/// Differs: the order of an octant is that of the centers of the boxes along its diagonal.
+/// Differs: the order of an octant is that of the centers of the boxes along its diagonal; queries
+/// for any hit have one order for all (collapse.h).
 /// Conventions: included once per target (see simd/lanes-inl.h).
 ///
 /// What a turn of a ray decides was stored the turn before, so that a wrongly predicted branch is
@@ -24,6 +25,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <array>
 #include <new>
 
 #include "alhazen/accel/wide_bvh/build_types.h"
@@ -40,10 +42,11 @@ inline constexpr std::size_t kStreamSlots = 8;
 class Places {
   public:
     /// Leaf i of kind k is at leaves[k] + i * sizes[k].
-    HWY_INLINE Places(const WideNode* nodes, const void* const (&leaves)[kLeafKinds],
+    template <std::size_t W>
+    HWY_INLINE Places(const WideNodeOf<W>* nodes, const void* const (&leaves)[kLeafKinds],
                       const std::size_t (&sizes)[kLeafKinds]) {
         for (std::size_t i = 0; i < 8; ++i) {
-            place_[i] = {nodes, sizeof(WideNode), ~0u, 0};
+            place_[i] = {nodes, sizeof(WideNodeOf<W>), ~0u, W > 8 ? std::size_t{256} : 0};
             // Nothing is to be fetched for NodeRef::none().
             place_[8 + i] = {nodes, 0, 0, 0};
         }
@@ -75,8 +78,9 @@ class Places {
 
 /// Subtrees yet to visit, entries and references apart so that both are stored by lanes. Its height
 /// is kept outside: in a register. The lowest says that there are no more.
+template <std::size_t W>
 struct StreamStack {
-    static constexpr std::size_t kSize = 1 + kTraversalStackSize + kWideNodeWidth;
+    static constexpr std::size_t kSize = 1 + kTraversalStackSize<W> + W;
     float entry[kSize];
     std::uint32_t child[kSize];
 
@@ -85,20 +89,22 @@ struct StreamStack {
         child[0] = NodeRef::none().bits();
     }
 
-    /// Puts the children that are hit on top, the farthest first by the order of the octant.
-    template <std::size_t kRegisters = kParts<float>>
-    [[nodiscard]] HWY_INLINE std::size_t push(std::size_t height, const WideNode& node,
-                                              const Floats& entries, const LaneMask<float>& hit,
-                                              std::uint32_t octant) {
+    /// Puts the children that are hit on top: the farthest first by the order of the octant, or
+    /// those of the highest slots first.
+    template <bool kOrdered, std::size_t kRegisters = kParts<float, W>>
+    [[nodiscard]] HWY_INLINE std::size_t push(std::size_t height, const WideNodeOf<W>& node,
+                                              const Lanes<float, W>& entries,
+                                              const LaneMask<float, W>& hit, std::uint32_t octant) {
         if constexpr (kRegisters == 1) {
-            return push_lanes(height, node, entries, hit, octant);
+            return push_lanes<kOrdered>(height, node, entries, hit, octant);
         } else {
-            HWY_ALIGN float near[kWideNodeWidth];
+            HWY_ALIGN float near[W];
             store_lanes(entries, near);
             const std::uint32_t bits = bits_of(hit);
-            std::uint32_t order = node.order[octant];
-            for (std::size_t i = 0; i < kWideNodeWidth; ++i, order >>= 3) {
-                const std::uint32_t slot = order & 7;
+            auto order = node.order[octant];
+            for (std::size_t i = 0; i < W; ++i) {
+                const std::size_t slot = kOrdered ? order & (W - 1) : W - 1 - i;
+                order = static_cast<decltype(order)>(order >> WideNodeOf<W>::kSlotBits);
                 entry[height] = near[slot];
                 child[height] = node.child[slot].bits();
                 height += bits >> slot & 1;
@@ -108,35 +114,58 @@ struct StreamStack {
     }
 
   private:
-    template <class = void>
-    HWY_INLINE std::size_t push_lanes(std::size_t height, const WideNode& node,
-                                      const Floats& entries, const LaneMask<float>& hit,
+    using Tag = LaneTag<float, W>;
+
+    /// [lane] the slot that is to be there.
+    static HWY_INLINE auto slots_of(const WideNodeOf<W>& node, std::uint32_t octant) {
+        const hn::RebindToUnsigned<Tag> du;
+        constexpr std::uint32_t kBits = WideNodeOf<W>::kSlotBits;
+        constexpr std::uint32_t kInWord = 32 / kBits;  // slots of which 32 bits of an order tell
+        HWY_ALIGN static constexpr auto kShifts = [] {
+            std::array<std::uint32_t, W> shifts{};
+            for (std::uint32_t i = 0; i < W; ++i) shifts[i] = i % kInWord * kBits;
+            return shifts;
+        }();
+        const auto order = node.order[octant];
+        auto word = hn::Set(du, static_cast<std::uint32_t>(order));
+        if constexpr (W > kInWord) {
+            const auto rest = hn::Set(du, static_cast<std::uint32_t>(order >> 32));
+            word = hn::IfThenElse(hn::FirstN(du, kInWord), word, rest);
+        }
+        return hn::And(hn::Shr(word, hn::Load(du, kShifts.data())), hn::Set(du, W - 1));
+    }
+
+    template <bool kOrdered>
+    HWY_INLINE std::size_t push_lanes(std::size_t height, const WideNodeOf<W>& node,
+                                      const Lanes<float, W>& entries, const LaneMask<float, W>& hit,
                                       std::uint32_t octant) {
-        const LaneTag<float> d;
-        const hn::RebindToSigned<LaneTag<float>> di;
-        const hn::RebindToUnsigned<LaneTag<float>> du;
-        HWY_ALIGN static constexpr std::uint32_t kShifts[kWideNodeWidth] = {0,  3,  6,  9,
-                                                                            12, 15, 18, 21};
-        const auto slots = hn::And(hn::Shr(hn::Set(du, node.order[octant]), hn::Load(du, kShifts)),
-                                   hn::Set(du, 7));
-        const auto order = hn::IndicesFromVec(d, hn::BitCast(di, slots));
+        const Tag d;
         const auto missed = hn::Set(d, std::numeric_limits<float>::infinity());
-        const auto near =
-            hn::TableLookupLanes(hn::IfThenElse(hit.part[0], entries.part[0], missed), order);
-        const auto refs =
-            hn::TableLookupLanes(hn::Load(d, reinterpret_cast<const float*>(node.child)), order);
+        const auto entries_hit = hn::IfThenElse(hit.part[0], entries.part[0], missed);
+        const auto children = hn::Load(d, reinterpret_cast<const float*>(node.child));
+        const auto in_order = [&](const auto& values) HWY_ATTR {
+            if constexpr (kOrdered) {
+                const hn::RebindToSigned<Tag> di;
+                return hn::TableLookupLanes(
+                    values, hn::IndicesFromVec(d, hn::BitCast(di, slots_of(node, octant))));
+            } else {
+                return hn::Reverse(d, values);
+            }
+        };
+        const auto near = in_order(entries_hit);
         const auto mask = hn::Lt(near, missed);
         hn::StoreU(hn::Compress(near, mask), d, entry + height);
-        hn::StoreU(hn::Compress(refs, mask), d, reinterpret_cast<float*>(child + height));
+        hn::StoreU(hn::Compress(in_order(children), mask), d,
+                   reinterpret_cast<float*>(child + height));
         return height + hn::CountTrue(d, mask);
     }
 };
 
-template <class Query>
+template <class Query, std::size_t W>
 struct StreamSlot {
     alignas(64) std::byte place[sizeof(Query)];
     std::size_t height;
-    StreamStack stack;
+    StreamStack<W> stack;
 
     [[nodiscard]] HWY_INLINE Query& query() {
         return *std::launder(reinterpret_cast<Query*>(place));
@@ -144,11 +173,11 @@ struct StreamSlot {
 };
 
 /// One node or leaf of one ray; false when the ray is done.
-template <bool kPrefetch, class Query, class Stats>
-HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, const Places& places,
-                        Stats stats) {
+template <bool kPrefetch, class Query, std::size_t W, class Stats>
+HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
+                        const Places& places, Stats stats) {
     Query& query = slot.query();
-    StreamStack& stack = slot.stack;
+    StreamStack<W>& stack = slot.stack;
     std::size_t height = slot.height;
     do {
         --height;
@@ -157,12 +186,13 @@ HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, const Pl
     if (ref.is_leaf()) {
         if (query.visit(ref, stats)) return false;
     } else {
-        const WideNode& node = nodes[ref.index()];
+        const WideNodeOf<W>& node = nodes[ref.index()];
         stats.nodes(1);
         stats.boxes(node.child_count());
-        Floats entries;
-        const LaneMask<float> hit = meet_children(node, query.slabs, query.s_max, entries);
-        height = stack.push(height, node, entries, hit, query.slabs.near.octant);
+        Lanes<float, W> entries;
+        const LaneMask<float, W> hit = meet_children(node, query.slabs, query.s_max, entries);
+        height = stack.template push<Query::kOrdered>(height, node, entries, hit,
+                                                      query.slabs.near.octant);
     }
     slot.height = height;
     if (kPrefetch) places.prefetch(stack.child[height - 1]);
@@ -171,12 +201,12 @@ HWY_INLINE bool advance(StreamSlot<Query>& slot, const WideNode* nodes, const Pl
 
 /// Takes every ray of `source` through the tree. Prefetching pays where the tree is much larger
 /// than the caches near the core; else it only takes time.
-template <class Query, bool kPrefetch, class Source, class Stats>
-HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, const Places& places,
+template <class Query, bool kPrefetch, std::size_t W, class Source, class Stats>
+HWY_INLINE void traverse_stream(const WideNodeOf<W>* nodes, NodeRef root, const Places& places,
                                 Source& source, Stats stats) {
-    StreamSlot<Query> slots[kStreamSlots];
-    StreamSlot<Query>* active[kStreamSlots];
-    const auto start = [&](StreamSlot<Query>& slot) HWY_ATTR {
+    StreamSlot<Query, W> slots[kStreamSlots];
+    StreamSlot<Query, W>* active[kStreamSlots];
+    const auto start = [&](StreamSlot<Query, W>& slot) HWY_ATTR {
         if (!source.start(slot.place)) return false;
         slot.stack.clear();
         slot.stack.entry[1] = -std::numeric_limits<float>::infinity();
@@ -191,7 +221,7 @@ HWY_INLINE void traverse_stream(const WideNode* nodes, NodeRef root, const Place
     }
     while (count > 0) {
         for (std::size_t i = 0; i < count; ++i) {
-            StreamSlot<Query>& slot = *active[i];
+            StreamSlot<Query, W>& slot = *active[i];
             if (advance<kPrefetch>(slot, nodes, places, stats)) continue;
             source.finish(slot.query(), stats);
             if (!start(slot)) active[i--] = active[--count];

@@ -1,5 +1,5 @@
-/// The traversal kernel of the wide BVH: one ray, eight children at a time, compiled once per
-/// instruction set.
+/// The traversal kernel of the wide BVH: one ray, the children of a node at a time, compiled once
+/// per instruction set and width of the nodes.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
 /// Differs: slab test with all slack in the ray's constants (`SlabRay`); ways of their own for
@@ -24,18 +24,20 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 
 /// The children whose boxes the ray meets; `entry` is where.
-HWY_INLINE LaneMask<float> meet_children(const WideNode& node, const SlabRay& ray, float s_max,
-                                         Floats& entry) {
+template <std::size_t W>
+HWY_INLINE LaneMask<float, W> meet_children(const WideNodeOf<W>& node, const SlabRay& ray,
+                                            float s_max, Lanes<float, W>& entry) {
+    using F = Lanes<float, W>;
     const float* planes = node.planes[0];
-    Floats nearest(ray.s_min);
-    Floats farthest(s_max);
+    F nearest(ray.s_min);
+    F farthest(s_max);
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) {
-        const Floats reciprocal(ray.reciprocal[k]);
-        const Floats near =
-            mul_add(load_lanes(planes + ray.near.row[k]), reciprocal, Floats(ray.near_offset[k]));
-        const Floats far = mul_add(load_lanes(planes + ray.near.far_row(k)), reciprocal,
-                                   Floats(ray.far_offset[k]));
+        const F reciprocal(ray.reciprocal[k]);
+        const F near = mul_add(load_lanes<W>(planes + W / 4 * ray.near.row[k]), reciprocal,
+                               F(ray.near_offset[k]));
+        const F far = mul_add(load_lanes<W>(planes + W / 4 * ray.near.far_row(k)), reciprocal,
+                              F(ray.far_offset[k]));
         nearest = max_lanes(nearest, near);
         farthest = min_lanes(farthest, far);
     }
@@ -49,7 +51,8 @@ struct StackEntry {
 };
 
 /// Puts the children that are hit on the stack, the nearest on top; returns the new height.
-HWY_INLINE std::size_t push_sorted(const WideNode& node, std::uint32_t hit, const float* entry,
+template <std::size_t W>
+HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit, const float* entry,
                                    StackEntry* stack, std::size_t height) {
     const std::size_t base = height;
     for (; hit != 0; hit &= hit - 1) {
@@ -65,22 +68,22 @@ HWY_INLINE std::size_t push_sorted(const WideNode& node, std::uint32_t hit, cons
     return height;
 }
 
-/// Visits the leaves the ray meets, nearest first if `kOrdered`, until `leaf` says stop; true when
-/// it did.
-template <bool kOrdered, class Leaf, class Stats>
-HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRay& ray, Leaf& leaf,
+/// Visits the leaves the ray meets, nearest first if `kOrdered`, else from slot 0 on, until `leaf`
+/// says stop; true when it did.
+template <bool kOrdered, std::size_t W, class Leaf, class Stats>
+HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, Leaf& leaf,
                          Stats stats) {
-    StackEntry stack[kTraversalStackSize];
+    StackEntry stack[kTraversalStackSize<W>];
     std::size_t height = 0;
     NodeRef ref = root;
     while (true) {
         if (ref.is_leaf()) {
             if (leaf.visit(ref, stats)) return true;
         } else {
-            const WideNode& node = nodes[ref.index()];
+            const WideNodeOf<W>& node = nodes[ref.index()];
             stats.nodes(1);
             stats.boxes(node.child_count());
-            Floats entries;
+            Lanes<float, W> entries;
             std::uint32_t hit = bits_of(meet_children(node, ray, leaf.s_max, entries));
             if (hit != 0) {
                 const auto first = static_cast<std::size_t>(std::countr_zero(hit));
@@ -89,7 +92,7 @@ HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRay& ray
                     ref = node.child[first];
                     continue;
                 }
-                HWY_ALIGN float entry[kWideNodeWidth];
+                HWY_ALIGN float entry[W];
                 store_lanes(entries, entry);
                 const auto second = static_cast<std::size_t>(std::countr_zero(hit));
                 hit &= hit - 1;
@@ -105,9 +108,9 @@ HWY_INLINE bool traverse(const WideNode* nodes, NodeRef root, const SlabRay& ray
                     height = push_sorted(node, hit, entry, stack, height);
                     ref = stack[--height].ref;
                 } else {
-                    stack[height++] = {entry[second], node.child[second]};
-                    for (; hit != 0; hit &= hit - 1) {
-                        const auto slot = static_cast<std::size_t>(std::countr_zero(hit));
+                    hit |= 1u << second;
+                    for (; hit != 0; hit &= ~(0x80000000u >> std::countl_zero(hit))) {
+                        const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
                         stack[height++] = {entry[slot], node.child[slot]};
                     }
                     ref = node.child[first];

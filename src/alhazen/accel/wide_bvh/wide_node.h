@@ -7,13 +7,13 @@
 /// leaves hold blocks of one kind of primitive each.
 /// Conventions: boxes are in the local frame of the tree (`LocalFrame`), rounded outward.
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace alhazen {
-
-inline constexpr std::size_t kWideNodeWidth = 8;
 
 /// A child: an inner node, or a leaf of consecutive blocks of one kind.
 class NodeRef {
@@ -70,18 +70,29 @@ struct FloatBox {
     friend bool operator==(const FloatBox&, const FloatBox&) = default;
 };
 
-/// Four cache lines. A free slot has planes no ray can meet.
-struct alignas(256) WideNode {
-    /// Rows lo.x, lo.y, lo.z, hi.x, hi.y, hi.z.
-    float planes[6][kWideNodeWidth];
-    NodeRef child[kWideNodeWidth]{};  ///< the slots in use are the first ones
-    /// [octant of the direction] the slots from the farthest to the nearest, three bits each from
-    /// the lowest; bit k of the octant is set when component k is negative.
-    std::uint32_t order[8];
+/// As many children as a node may have: BuildOptions::width.
+inline constexpr std::size_t kNodeWidths[] = {4, 8, 16};
 
-    WideNode() {
-        for (std::size_t i = 0; i < kWideNodeWidth; ++i) set_box(i, FloatBox{});
-        for (std::uint32_t& slots : order) slots = 0xFAC688;  // 0, 1, ... 7
+/// A node of 4, 8 or 16 children: two, four or eight cache lines. A free slot has planes no ray can
+/// meet. Queries for any hit visit the children from slot 0 on; see collapse.h for their order.
+template <std::size_t Width>
+struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
+    static constexpr std::size_t kWidth = Width;
+    static constexpr std::uint32_t kSlotBits = std::bit_width(Width - 1);
+    /// Room for every slot's number, and nothing left of the cache lines.
+    using Order = std::conditional_t<Width == 4, std::uint16_t,
+                                     std::conditional_t<Width == 8, std::uint32_t, std::uint64_t>>;
+
+    /// Rows lo.x, lo.y, lo.z, hi.x, hi.y, hi.z.
+    float planes[6][Width];
+    NodeRef child[Width]{};  ///< the slots in use are the first ones
+    /// [octant of the direction] the slots from the farthest to the nearest, kSlotBits bits each
+    /// from the lowest; bit k of the octant is set when component k is negative.
+    Order order[8];
+
+    WideNodeOf() {
+        for (std::size_t i = 0; i < Width; ++i) set_box(i, FloatBox{});
+        set_order();
     }
     /// Slots in use.
     [[nodiscard]] std::uint32_t child_count() const {
@@ -106,12 +117,16 @@ struct alignas(256) WideNode {
         return box;
     }
 };
-static_assert(sizeof(WideNode) == 256);
+/// What most trees are made of.
+using WideNode = WideNodeOf<8>;
+static_assert(sizeof(WideNodeOf<4>) == 128 && sizeof(WideNodeOf<8>) == 256 &&
+              sizeof(WideNodeOf<16>) == 512);
 
-inline void WideNode::set_order() {
+template <std::size_t Width>
+void WideNodeOf<Width>::set_order() {
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
-        float along[kWideNodeWidth];
-        for (std::size_t i = 0; i < kWideNodeWidth; ++i) {
+        float along[Width];
+        for (std::size_t i = 0; i < Width; ++i) {
             along[i] = 0;
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const float center2 = planes[k][i] + planes[k + 3][i];
@@ -119,21 +134,23 @@ inline void WideNode::set_order() {
             }
         }
         // Insertion sort; free slots have NaN and stay where they are, behind.
-        std::uint32_t slots[kWideNodeWidth];
-        for (std::uint32_t i = 0; i < kWideNodeWidth; ++i) {
+        std::uint32_t slots[Width];
+        for (std::uint32_t i = 0; i < Width; ++i) {
             std::uint32_t place = i;
             for (; place > 0 && along[slots[place - 1]] < along[i]; --place) {
                 slots[place] = slots[place - 1];
             }
             slots[place] = i;
         }
-        order[octant] = 0;
-        for (std::uint32_t i = 0; i < kWideNodeWidth; ++i) order[octant] |= slots[i] << 3 * i;
+        std::uint64_t all = 0;
+        for (std::uint32_t i = 0; i < Width; ++i) all |= std::uint64_t{slots[i]} << kSlotBits * i;
+        order[octant] = static_cast<Order>(all);
     }
 }
 
-/// Levels of inner nodes that a builder may make; the traversal stack is sized for it.
+/// Levels of inner nodes that a builder may make; the traversal stacks are sized for it.
 inline constexpr int kMaxWideDepth = 88;
-inline constexpr std::size_t kTraversalStackSize = (kWideNodeWidth - 1) * kMaxWideDepth + 8;
+template <std::size_t Width>
+inline constexpr std::size_t kTraversalStackSize = (Width - 1) * kMaxWideDepth + 8;
 
 }  // namespace alhazen
