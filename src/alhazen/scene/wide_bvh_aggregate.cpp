@@ -153,9 +153,9 @@ namespace {
 /// triangles are finer than the rays lie apart it gives up.
 bool packets_pay(const WideBvhLayout& layout) {
     constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
+    const std::size_t shapes = layout.frustums.size() + layout.others.size();
     return layout.memory_bytes() <= kCachedBytes &&
-           8 * (layout.spheres.size() + layout.frustums.size() + layout.others.size()) <=
-               layout.triangles.size();
+           8 * (layout.spheres.size() + kBlockWidth * shapes) <= layout.triangles.size();
 }
 
 }  // namespace

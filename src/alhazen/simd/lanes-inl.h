@@ -47,6 +47,9 @@ inline constexpr std::size_t kParts = N / hn::MaxLanes(LaneTag<T, N>());
 template <class T, std::size_t N = kLaneCount>
 struct LaneMask {
     hn::Mask<LaneTag<T, N>> part[kParts<T, N>];
+
+    // Not defaulted: GCC would make it outside of the target that the masks of NEON are for.
+    HWY_INLINE LaneMask() {}
 };
 
 template <class T, std::size_t N = kLaneCount>
