@@ -82,6 +82,24 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
     return {in_set(surface.dpdu, surface.dpdv), in_set(surface.dpdu2, surface.dpdv2)};
 }
 
+namespace {
+
+BehindSurface behind_surface(const Scene& scene, const Surface& surface) {
+    const SurfaceMedia& media = surface.media;
+    if (!media.known) return {};
+    const auto sample = [&](MaterialId id) {
+        const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color};
+        return evaluate(scene.materials[static_cast<std::size_t>(id)], scene.textures, lookup);
+    };
+    const double air = scene.conventions.air_index;
+    const double here = media.before ? sample(*media.before).index : air;
+    if (!media.after) return {true, false, here / air, {}};
+    const MaterialSample after = sample(*media.after);
+    return {true, true, here / after.index, after.absorption};
+}
+
+}  // namespace
+
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
                        double width, ShadingPoint& point) {
     point.inside = inside;
@@ -91,6 +109,7 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
         footprint = footprint_at(point.surface, ray.direction, width);
     }
     point.material = material_at(scene, point.surface, footprint);
+    point.behind = behind_surface(scene, point.surface);
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;

@@ -11,15 +11,24 @@
 
 namespace alhazen {
 
+/// What a ray finds behind a surface where a solid of several media tells.
+struct BehindSurface {
+    bool known = false;
+    bool inside = false;  ///< there is a medium, not air
+    double eta = 1;       ///< index on this side / index behind
+    Rgb absorption;
+};
+
 /// A hit made ready for shading: everything turned to the side the ray came from.
 struct ShadingPoint {
     Surface surface;
     MaterialSample material;
     bool inside = false;   ///< the ray came through the inside of something transparent
     bool entering = true;  ///< the ray met the outside (by the geometric normal)
-    Vec3 geometric;        ///< unit geometric normal towards the ray's origin
-    Vec3 normal;           ///< unit shading normal, turned towards the ray's origin
-    Vec3 view;             ///< unit, towards the ray's origin
+    BehindSurface behind;
+    Vec3 geometric;  ///< unit geometric normal towards the ray's origin
+    Vec3 normal;     ///< unit shading normal, turned towards the ray's origin
+    Vec3 view;       ///< unit, towards the ray's origin
 };
 
 /// `footprint`: what the ray's cone cuts out of both sets of texture coordinates.

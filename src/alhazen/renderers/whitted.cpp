@@ -211,8 +211,11 @@ class Tracer {
                 ++counters_.total_internal;
                 return;
             }
-            onward.inside = point.entering;
-            onward.absorption = point.entering ? material.absorption : Rgb{};
+            const BehindSurface& behind = point.behind;
+            onward.inside = behind.known ? behind.inside : point.entering;
+            onward.absorption = behind.known     ? behind.absorption
+                                : point.entering ? material.absorption
+                                                 : Rgb{};
         }
         const bool tinted = material.physical || conventions_.refraction_tint ==
                                                      ShadingConventions::RefractionTint::PerEvent;
@@ -222,7 +225,9 @@ class Tracer {
 
     [[nodiscard]] bool refracted(const ShadingPoint& point, const Ray& ray, Vec3& direction) const {
         const double air = conventions_.air_index;
-        const double eta = point.entering ? air / point.material.index : point.material.index / air;
+        const double eta = point.behind.known ? point.behind.eta
+                           : point.entering   ? air / point.material.index
+                                              : point.material.index / air;
         if (!refract(ray.direction, point.normal, eta, direction)) return false;
         return !conventions_.correct_interpolated_normals ||
                !(dot(direction, point.geometric) > 0.0) ||

@@ -12,7 +12,7 @@ void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result
     for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], query);
 }
 
-void Aggregate::complete(PrimitiveId, Surface&) const {}
+void Aggregate::complete(const Ray&, double, PrimitiveId, Surface&) const {}
 
 bool hit_less(const Hit& a, const Hit& b) {
     if (a.t != b.t) return a.t < b.t;

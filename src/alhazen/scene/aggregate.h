@@ -62,8 +62,9 @@ class Aggregate {
                                         RayQuery query) const = 0;
 
     /// Changes what is known of the surface at a hit where the aggregate as a whole knows more than
-    /// the primitive: its own one, or the instance that the hit came through. By default nothing.
-    virtual void complete(PrimitiveId primitive, Surface& surface) const;
+    /// the primitive: its own one, or the instance that the hit came through; `ray` in the frame of
+    /// the aggregate. By default nothing.
+    virtual void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const;
 
     /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
     /// than ray by ray from about ten rays on, whatever their order.

@@ -9,6 +9,7 @@
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/compile_looks.h"
 #include "alhazen/scene/csg_aggregate.h"
 #include "alhazen/scene/primitive_table.h"
 #include "alhazen/scene/scene.h"
@@ -54,7 +55,7 @@ class Compiler {
     Scene run() {
         (void)find_csg_evaluator(options_.csg);  // an unknown one is an error in any scene
         Scene scene;
-        compile_looks(scene);
+        compile_looks(d_, scene);
         for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
         scene.all_opaque = std::all_of(opacity_.begin(), opacity_.end(),
                                        [](Opacity o) { return o == Opacity::Opaque; });
@@ -73,62 +74,6 @@ class Compiler {
     }
 
   private:
-    void compile_looks(Scene& scene) const {
-        const bool truncate = d_.conventions.truncate_material_colors;
-        for (const MaterialDescription& description : d_.materials) {
-            Material m = description.material;
-            if (truncate) {
-                for (ColorInput* input : {&m.emission, &m.ambient, &m.diffuse, &m.specular,
-                                          &m.reflective, &m.transmissive}) {
-                    for (int i = 0; i < 3; ++i) {
-                        input->color[i] = std::floor(255.0 * input->color[i]) / 255.0;
-                    }
-                }
-            }
-            scene.materials.push_back(std::move(m));
-        }
-        compile_textures(scene);
-        for (const LightDescription& l : d_.lights) {
-            Light light = l.light;
-            if (auto* directional = std::get_if<DirectionalLight>(&light)) {
-                directional->to_light = normalize(directional->to_light);
-            } else if (auto* spot = std::get_if<SpotLight>(&light)) {
-                spot->direction = normalize(spot->direction);
-            }
-            scene.lights.push_back(light);
-        }
-        scene.cameras = d_.cameras;
-        scene.conventions = d_.conventions;
-        scene.background = d_.picture.background.value_or(Rgb{});
-    }
-
-    /// Textures that show one picture in different ways share its pyramid.
-    void compile_textures(Scene& scene) const {
-        std::map<std::pair<const StoredImage*, bool>, std::shared_ptr<const MipPyramid>> pyramids;
-        for (const TextureDescription& t : d_.textures) {
-            Texture& texture = scene.textures.emplace_back(t.texture);
-            if (texture.filter != TextureFilter::Mipmapped) continue;
-            auto& pyramid = pyramids[{texture.image.get(), texture.decode_srgb}];
-            if (!pyramid) {
-                pyramid = std::make_shared<const MipPyramid>(texture.image, texture.decode_srgb);
-            }
-            texture.pyramid = pyramid;
-            scene.has_mipmaps = true;
-        }
-    }
-
-    /// Each picture once, however many textures show it.
-    static std::uint64_t texture_bytes(const std::vector<Texture>& textures) {
-        std::map<const void*, std::uint64_t> bytes;
-        for (const Texture& t : textures) {
-            bytes[t.image.get()] = t.image->memory_bytes();
-            if (t.pyramid) bytes[t.pyramid.get()] = t.pyramid->memory_bytes();
-        }
-        std::uint64_t sum = 0;
-        for (const auto& [what, count] : bytes) sum += count;
-        return sum;
-    }
-
     /// How many parts use each object and mesh; one user is flattened, several share an instance.
     void count_uses() {
         for (const ObjectDescription& object : d_.objects) {
@@ -191,23 +136,37 @@ class Compiler {
         return built;
     }
 
+    struct PlacedPart {
+        const Part& part;
+        Affine outer_from_part;
+        std::uint32_t number;
+        RayMask visible_to = kAllRays;
+    };
+
+    /// Renderers ask with the bit of one kind of ray: what all kinds see needs no mask.
+    static RayMask without_unused_bits(RayMask mask) {
+        return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
+    }
+
     // Solids.
 
     struct SolidDraft : Draft {
         CsgExpression expression;
         /// [leaf] kind of its primitive and place among those: ids come when the table is sealed.
         std::vector<std::pair<std::uint32_t, std::uint32_t>> leaves;
+        bool any_cut = false;  ///< some leaf shows the minuend
     };
 
     /// The object as one solid; of a group the union.
     const Built& build_solid(std::size_t index) {
         if (!built_solids_[index].aggregate) {
             SolidDraft draft;
-            add_operands(index, Affine{}, draft);
+            add_operands(index, {}, draft);
             Built built = finish(draft);
             for (const auto& [kind, place] : draft.leaves) {
                 draft.expression.leaves.push_back(PrimitiveId{draft.table.first(kind) + place});
             }
+            if (!draft.any_cut) draft.expression.shows_minuend.clear();
             built.aggregate = std::make_shared<const CsgAggregate>(
                 std::move(draft.table), std::move(draft.expression), options_.csg);
             census_.accelerator_bytes += built.aggregate->memory_bytes();
@@ -218,20 +177,35 @@ class Compiler {
         return built_solids_[index];
     }
 
+    /// What holds for all operands of an object.
+    struct Operands {
+        Affine outer_from_object;
+        RayMask visible_to = kAllRays;
+        bool cuts = false;  ///< taken away from something whose material their surfaces show
+    };
+
     /// Adds the object as a node of the expression, after those that are there.
-    void add_operands(std::size_t object, const Affine& outer_from_object, SolidDraft& draft) {
+    void add_operands(std::size_t object, const Operands& all, SolidDraft& draft) {
         const std::size_t node = draft.expression.nodes.size();
         const Combine combine = d_.objects[object].combine;
         draft.expression.nodes.push_back(
             {combine == Combine::Group ? Combine::Union : combine, {}});
+        bool cuts = all.cuts;
         const auto add_leaf = [&](std::size_t kind, std::size_t count) {
             draft.expression.nodes[node].operands.push_back(
                 CsgOperand::leaf(static_cast<std::uint32_t>(draft.leaves.size())));
             draft.leaves.emplace_back(kind, count - 1);
+            draft.expression.shows_minuend.push_back(cuts);
+            draft.any_cut |= cuts;
         };
+        const bool of_minuend = combine == Combine::Difference &&
+                                d_.objects[object].cut_material == CutMaterial::Minuend;
         std::uint32_t number = first_part_[object];
         for (const Part& part : d_.objects[object].parts) {
-            const PlacedPart placed{part, outer_from_object * part.object_from_part, number++};
+            const PlacedPart placed{part, all.outer_from_object * part.object_from_part, number++,
+                                    all.visible_to & without_unused_bits(part.visible_to)};
+            has_masks_ = has_masks_ || placed.visible_to != kAllRays;
+            cuts = all.cuts || (of_minuend && !draft.expression.nodes[node].operands.empty());
             if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
                 add_shape(*shape, placed, draft.table);
                 add_leaf(shape->index(), shapes_in(draft.table, shape->index()));
@@ -243,7 +217,7 @@ class Compiler {
                 if (object_uses_[child] == 1) {
                     draft.expression.nodes[node].operands.push_back(CsgOperand::node(
                         static_cast<std::uint32_t>(draft.expression.nodes.size())));
-                    add_operands(child, placed.outer_from_part, draft);
+                    add_operands(child, {placed.outer_from_part, placed.visible_to, cuts}, draft);
                 } else {
                     add_instance(build_solid(child), placed, draft);
                     add_leaf(kInstanceKind, draft.table.instances.size());
@@ -259,18 +233,6 @@ class Compiler {
                 return sizes[kind];
             },
             table.columns);
-    }
-
-    struct PlacedPart {
-        const Part& part;
-        Affine outer_from_part;
-        std::uint32_t number;
-        RayMask visible_to = kAllRays;
-    };
-
-    /// Renderers ask with the bit of one kind of ray: what all kinds see needs no mask.
-    static RayMask without_unused_bits(RayMask mask) {
-        return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
     }
 
     void add_parts(std::size_t object, const Affine& outer_from_object, RayMask visible_to,

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "alhazen/scene/surface.h"
-
 namespace alhazen {
 
 namespace {
@@ -33,6 +31,13 @@ CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
     : solid_(std::move(table), std::move(expression)),
       evaluator_(find_csg_evaluator(evaluator).make(solid_)),
       turned_(solid_.table().size(), false) {
+    if (!solid_.expression().shows_minuend.empty()) {
+        shows_minuend_.resize(solid_.table().size(), false);
+        for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
+            shows_minuend_[static_cast<std::size_t>(solid_.expression().leaves[i])] =
+                solid_.expression().shows_minuend[i];
+        }
+    }
     const std::vector<CsgTree::Leaf>& leaves = solid_.tree().leaves();
     const std::uint32_t first_instance = primitives().first(kInstanceKind);
     for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
@@ -72,11 +77,11 @@ void CsgAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery que
 bool CsgAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
     if (!is_valid(ray)) return false;
     const std::size_t before = crossings.size();
-    bool leaves = evaluator_->all(solid_.prepare(ray, query.mask), crossings, query.stats);
+    const CsgRay prepared = solid_.prepare(ray, query.mask);
+    bool leaves = evaluator_->all(prepared, crossings, query.stats);
     std::size_t kept = before;
     for (std::size_t i = before; i < crossings.size(); ++i, leaves = !leaves) {
-        const PrimitiveTable& table = table_of(primitives(), crossings[i]);
-        switch (table.opacity(crossings[i].primitive)) {
+        switch (opacity(prepared, crossings[i])) {
             case Opacity::Opaque:
                 return true;
             case Opacity::OpaqueFromFront:
@@ -100,7 +105,43 @@ bool CsgAggregate::inside_at_minus_infinity(const Ray& ray) const {
                            none, nullptr);
 }
 
-void CsgAggregate::complete(PrimitiveId primitive, Surface& surface) const {
+CsgAggregate::Look CsgAggregate::look(const CsgRay& ray, double t, PrimitiveId primitive) const {
+    Look look;
+    const bool of_minuend =
+        !shows_minuend_.empty() && shows_minuend_[static_cast<std::size_t>(primitive)];
+    if (!solid_.has_media() && !of_minuend) return look;
+    const CsgSides sides = evaluator_->sides(ray, t);
+    const auto material_of = [&](std::uint32_t leaf) -> std::optional<MaterialId> {
+        if (leaf == CsgTree::kNone) return std::nullopt;
+        return solid_.material(leaf);
+    };
+    look.media = {solid_.has_media(), material_of(sides.before), material_of(sides.after)};
+    const bool is_wall = look.media.before && look.media.after;
+    if (of_minuend) {
+        look.material = look.media.after ? look.media.after : look.media.before;
+    } else if (is_wall && solid_.medium(sides.after) == CsgSolid::kOpaque) {
+        look.material = look.media.after;
+    }
+    return look;
+}
+
+Opacity CsgAggregate::opacity(const CsgRay& ray, const Hit& hit) const {
+    const PrimitiveId own = hit.path.empty() ? hit.primitive : hit.path.back();
+    if (const auto material = look(ray, hit.t, own).material) {
+        return primitives().material_opacity[static_cast<std::size_t>(*material)];
+    }
+    return table_of(primitives(), hit).opacity(hit.primitive);
+}
+
+void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
+                            Surface& surface) const {
+    const Look seen = look(solid_.prepare(ray), t, primitive);
+    if (seen.media.known) surface.media = seen.media;
+    if (seen.material) {
+        surface.materials[0] = *seen.material;
+        surface.material_count = 1;
+        surface.weights = {1, 0, 0};
+    }
     if (turned_[static_cast<std::size_t>(primitive)]) {
         surface.normal = -surface.normal;
         surface.shading_normal = -surface.shading_normal;

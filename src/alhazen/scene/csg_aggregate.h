@@ -7,6 +7,7 @@
 /// Threads: const functions may be called from many threads.
 
 #include "alhazen/scene/csg_evaluator.h"
+#include "alhazen/scene/surface.h"
 
 namespace alhazen {
 
@@ -26,12 +27,22 @@ class CsgAggregate final : public SolidAggregate {
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                 RayQuery query) const override;
     [[nodiscard]] bool inside_at_minus_infinity(const Ray& ray) const override;
-    void complete(PrimitiveId primitive, Surface& surface) const override;
+    void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
 
   private:
+    /// What lies on both sides of the hit, and the material that is seen where that is not the
+    /// primitive's own.
+    struct Look {
+        SurfaceMedia media;
+        std::optional<MaterialId> material;
+    };
+    [[nodiscard]] Look look(const CsgRay& ray, double t, PrimitiveId primitive) const;
+    [[nodiscard]] Opacity opacity(const CsgRay& ray, const Hit& hit) const;
+
     CsgSolid solid_;
     std::unique_ptr<const CsgEvaluator> evaluator_;
-    std::vector<bool> turned_;  ///< [primitive] its normal points into the solid
+    std::vector<bool> shows_minuend_;  ///< [primitive], or empty: none does
+    std::vector<bool> turned_;         ///< [primitive] its normal points into the solid
 };
 
 }  // namespace alhazen

@@ -14,13 +14,22 @@
 
 namespace alhazen {
 
+/// The leaves that fill the solid before and behind a place on a ray: of those that make it solid
+/// there, the one with the lowest number; CsgTree::kNone outside.
+struct CsgSides {
+    std::uint32_t before = CsgTree::kNone, after = CsgTree::kNone;
+};
+
 class CsgEvaluator {
   public:
     virtual ~CsgEvaluator() = default;
     /// The first transition; `hit` is left alone when there is none.
     virtual bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const = 0;
-    /// Appends all transitions. True when the ray begins inside.
+    /// Appends all transitions; a wall between two media twice, once for each. True when the ray
+    /// begins inside.
     virtual bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const = 0;
+    /// What is on both sides of the transition at t.
+    [[nodiscard]] virtual CsgSides sides(const CsgRay& ray, double t) const = 0;
     /// Of what the evaluator adds to the solid.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 };

@@ -74,21 +74,39 @@ class Walk {
             if (t > ray_.t_max) return false;
             apply_silent(t);
             if (s_.events.empty() || s_.events.front().t != t) continue;
-            const bool before = state.value();
+            const std::uint32_t before = place();
             s_.cluster.clear();
             state.forget_changes();
             apply(t);
-            if (state.value() == before) continue;
+            if (place() == before) continue;
             // What follows within tau belongs to the same place.
             const double end = t + ray_.tau;
             open_to(end);
             apply(end);
-            if (state.value() == before || !responsible(found)) continue;
-            if (found.t <= ray_.t_max) return true;
+            const std::uint32_t after = place();
+            if (after == before) continue;
+            is_wall_ = before != CsgSolid::kNoMedium && after != CsgSolid::kNoMedium;
+            if (responsible(found) && found.t <= ray_.t_max) return true;
         }
     }
 
+    /// The transition that was found last leads from one medium to another.
+    [[nodiscard]] bool is_wall() const { return is_wall_; }
+    /// What fills the place: a leaf, or none.
+    [[nodiscard]] std::uint32_t filling_leaf() const { return s_.state.filling_leaf(); }
+    /// Goes to t, whatever there is on the way.
+    void go_to(double t) {
+        open_to(t);
+        apply(t);
+    }
+
   private:
+    /// What a transition changes: the medium, or merely inside and outside where there is but one.
+    [[nodiscard]] std::uint32_t place() const {
+        if (!s_.state.value()) return CsgSolid::kNoMedium;
+        return solid_.has_media() ? solid_.medium(s_.state.filling_leaf()) : CsgSolid::kOpaque;
+    }
+
     void begin() {
         open_to(ray_.t_min);
         apply_silent(ray_.t_min);
@@ -179,7 +197,10 @@ class Walk {
         bool any = false;
         for (const CsgCrossing& crossing : s_.cluster) {
             if (any && crossing.leaf > found.leaf) continue;
-            if (!s_.state.changed_all_the_way(crossing.leaf)) continue;
+            if (is_wall_ ? !s_.state.changed(crossing.leaf)
+                         : !s_.state.changed_all_the_way(crossing.leaf)) {
+                continue;
+            }
             found = crossing;  // of one leaf the last
             any = true;
         }
@@ -194,6 +215,7 @@ class Walk {
     TraversalStats* stats_;
     double last_t_;  ///< events behind this are not looked at
     bool begins_inside_ = false;
+    bool is_wall_ = false;
 };
 
 }  // namespace
@@ -211,8 +233,25 @@ bool CsgEventHeap::all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats
     const CsgScratchLease<Scratch> lease;
     Walk walk(solid_, bvh_, ray, *lease, stats);
     CsgCrossing found;
-    while (walk.next(found)) solid_.fill(found, (*lease).hits, hits.emplace_back());
+    while (walk.next(found)) {
+        solid_.fill(found, (*lease).hits, hits.emplace_back());
+        if (walk.is_wall()) hits.push_back(Hit(hits.back()));
+    }
     return walk.begins_inside();
+}
+
+CsgSides CsgEventHeap::sides(const CsgRay& ray, double t) const {
+    const CsgScratchLease<Scratch> lease;
+    // All that makes one transition lies within tau of it.
+    CsgRay near = ray;
+    near.t_min = t - 2.0 * ray.tau;
+    near.t_max = t + 2.0 * ray.tau;
+    Walk walk(solid_, bvh_, near, *lease, nullptr);
+    CsgSides sides;
+    sides.before = walk.filling_leaf();
+    walk.go_to(near.t_max);
+    sides.after = walk.filling_leaf();
+    return sides;
 }
 
 }  // namespace alhazen

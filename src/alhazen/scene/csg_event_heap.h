@@ -25,10 +25,14 @@ class CsgEventHeap final : public CsgEvaluator {
     static constexpr const char* kDescription =
         "S-bounds in a tree of boxes, a heap of crossings: the one for any size";
 
-    explicit CsgEventHeap(const CsgSolid& solid) : solid_(solid), bvh_(solid.tree().bounds()) {}
+    explicit CsgEventHeap(const CsgSolid& solid) : CsgEventHeap(solid, solid.tree().bounds()) {}
+    /// With other bounds than the S-bounds: at least as large.
+    CsgEventHeap(const CsgSolid& solid, std::span<const Box3> bounds)
+        : solid_(solid), bvh_(bounds) {}
 
     bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const override;
     bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
+    [[nodiscard]] CsgSides sides(const CsgRay& ray, double t) const override;
     [[nodiscard]] std::size_t memory_bytes() const override { return bvh_.memory_bytes(); }
 
   private:

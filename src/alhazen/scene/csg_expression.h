@@ -32,7 +32,9 @@ struct CsgExpression {
         Combine combine = Combine::Union;  ///< never Group
         std::vector<CsgOperand> operands;
     };
-    std::vector<Node> nodes;          ///< [0] is the root; operands come after their node
+    std::vector<Node> nodes;  ///< [0] is the root; operands come after their node
+    /// [leaf] its surface shows the material of what it is taken away from; or empty: none does.
+    std::vector<bool> shows_minuend;
     std::vector<PrimitiveId> leaves;  ///< [leaf] primitive of the table
 };
 

@@ -8,6 +8,9 @@ namespace alhazen {
 
 namespace {
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr Box3 kEverything{{-kInfinite, -kInfinite, -kInfinite}, {kInfinite, kInfinite, kInfinite}};
+
 Box3 common(const Box3& a, const Box3& b) {
     const Box3 both{{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
                     {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
@@ -197,7 +200,8 @@ class Merge {
 
 }  // namespace
 
-CsgRoth::CsgRoth(const CsgSolid& solid) : solid_(solid) {
+CsgRoth::CsgRoth(const CsgSolid& solid)
+    : solid_(solid), sweep_(solid, std::vector<Box3>(solid.leaf_count(), kEverything)) {
     const CsgExpression& expression = solid.expression();
     for (std::uint32_t i = 0; i < solid.leaf_count(); ++i) leaf_boxes_.push_back(solid.leaf_box(i));
     boxes_.resize(expression.nodes.size());
@@ -220,6 +224,7 @@ CsgRoth::CsgRoth(const CsgSolid& solid) : solid_(solid) {
 }
 
 bool CsgRoth::first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const {
+    if (solid_.has_media()) return sweep_.first(ray, hit, stats);
     const CsgScratchLease<Scratch> lease;
     Merge merge(solid_, boxes_, leaf_boxes_, ray, *lease, stats);
     CsgCrossing found;
@@ -229,6 +234,7 @@ bool CsgRoth::first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const {
 }
 
 bool CsgRoth::all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const {
+    if (solid_.has_media()) return sweep_.all(ray, hits, stats);
     const CsgScratchLease<Scratch> lease;
     Merge merge(solid_, boxes_, leaf_boxes_, ray, *lease, stats);
     CsgCrossing found;

@@ -9,11 +9,13 @@
 /// same t are classified together, so that faces that coincide exactly leave nothing between them;
 /// (3) a ray may begin inside: each list says whether it does; (4) a query for any transition gets
 /// no shorter cut than the first one, because a ray that begins inside may leave nothing behind;
-/// (5) transitions closer than tau are one, as csg_solid.h defines them.
+/// (5) walls between media in one solid, which span lists do not know, are found by the other
+/// evaluator without any bounds;
+/// (6) transitions closer than tau are one, as csg_solid.h defines them.
 /// Complexity and threads: O(sum of the crossings of all leaves x depth) per ray. Const functions
 /// may be called from many threads.
 
-#include "alhazen/scene/csg_evaluator.h"
+#include "alhazen/scene/csg_event_heap.h"
 
 namespace alhazen {
 
@@ -27,6 +29,9 @@ class CsgRoth final : public CsgEvaluator {
 
     bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const override;
     bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
+    [[nodiscard]] CsgSides sides(const CsgRay& ray, double t) const override {
+        return sweep_.sides(ray, t);
+    }
     [[nodiscard]] std::size_t memory_bytes() const override {
         return boxes_.capacity() * sizeof(Box3) + leaf_boxes_.capacity() * sizeof(Box3);
     }
@@ -35,6 +40,7 @@ class CsgRoth final : public CsgEvaluator {
     const CsgSolid& solid_;
     std::vector<Box3> boxes_;       ///< [node] of what the operator leaves of its operands
     std::vector<Box3> leaf_boxes_;  ///< [leaf]
+    CsgEventHeap sweep_;            ///< every leaf for every ray
 };
 
 }  // namespace alhazen

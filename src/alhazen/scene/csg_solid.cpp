@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "alhazen/base/error.h"
+#include "alhazen/scene/csg_aggregate.h"
 
 namespace alhazen {
 
@@ -26,6 +27,9 @@ CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
     for (const Instance& instance : table_.instances) {
         solids_.push_back(dynamic_cast<const SolidAggregate*>(instance.aggregate.get()));
     }
+    find_media();
+    unbounded_ = std::any_of(boxes.begin(), boxes.end(),
+                             [](const Box3& box) { return !box.empty() && !box.bounded(); });
     Box3 finite;
     for (const Box3& bound : tree_.bounds()) {
         if (!bound.empty() && bound.bounded()) finite.include(bound);
@@ -34,6 +38,38 @@ CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
     center_ = finite.center();
     half_ = 0.5 * max_component(finite.size());
     offset_ = kOffsetShare * max_component(abs(center_));
+}
+
+void CsgSolid::find_media() {
+    const std::uint32_t first_instance = table_.first(kInstanceKind);
+    bool any = false;
+    for (std::uint32_t leaf = 0; leaf < leaf_count(); ++leaf) {
+        const PrimitiveId id = expression_.leaves[leaf];
+        MaterialId material{};
+        const CsgSolid* inner = nullptr;
+        if (static_cast<std::uint32_t>(id) < first_instance) {
+            material = table_.shape_material(id);
+        } else {
+            const Instance& instance =
+                table_.instances[static_cast<std::uint32_t>(id) - first_instance];
+            if (const auto* solid = dynamic_cast<const CsgAggregate*>(instance.aggregate.get())) {
+                inner = &solid->solid();
+                if (inner->leaf_count() > 0) material = inner->material(0);
+            } else {
+                material = instance.aggregate->primitives().meshes.front().material;
+            }
+        }
+        const bool clear =
+            table_.material_opacity[static_cast<std::size_t>(material)] == Opacity::Transparent;
+        media_.push_back(inner != nullptr ? inner->only_medium()
+                         : clear          ? static_cast<std::uint32_t>(material)
+                                          : kOpaque);
+        materials_.push_back(material);
+        if (tree_.leaves()[leaf].complement) continue;
+        if (any && media_.back() != only_medium_) has_media_ = true;
+        only_medium_ = has_media_ ? kMixture : media_.back();
+        any = true;
+    }
 }
 
 CsgRay CsgSolid::prepare(const Ray& ray, RayMask mask) const {
@@ -64,7 +100,7 @@ bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCross
         for (const ShapeHit& hit : found) {
             crossings.push_back({hit.t, hit.u, hit.v, hit.part, leaf});
         }
-        return table_.inside_at_minus_infinity(id, ray.line);
+        return unbounded_ && table_.inside_at_minus_infinity(id, ray.line);
     }
     const std::uint32_t index = static_cast<std::uint32_t>(id) - first_instance;
     const Instance& instance = table_.instances[index];
@@ -90,7 +126,9 @@ void CsgSolid::fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, H
 }
 
 std::size_t CsgSolid::memory_bytes() const {
-    std::size_t bytes = tree_.memory_bytes() + expression_.leaves.capacity() * sizeof(PrimitiveId) +
+    std::size_t bytes = tree_.memory_bytes() + materials_.capacity() * sizeof(MaterialId) +
+                        media_.capacity() * sizeof(std::uint32_t) +
+                        expression_.leaves.capacity() * sizeof(PrimitiveId) +
                         expression_.nodes.capacity() * sizeof(CsgExpression::Node) +
                         solids_.capacity() * sizeof(void*);
     for (const CsgExpression::Node& node : expression_.nodes) {

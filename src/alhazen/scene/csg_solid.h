@@ -58,6 +58,22 @@ class CsgSolid {
     /// Distance within which surfaces count as coincident, seen from as far as the solid is large.
     [[nodiscard]] double tolerance() const { return kTolerance * (2.0 * half_ + offset_); }
 
+    /// What fills a leaf: the number of a material that lets light through, or one of these.
+    static constexpr std::uint32_t kNoMedium = 0xFFFFFFFFu;
+    static constexpr std::uint32_t kOpaque = 0xFFFFFFFEu;
+    static constexpr std::uint32_t kMixture = 0xFFFFFFFDu;  ///< a shared solid of several media
+    /// True when operands are filled by different media and some let light through: then the wall
+    /// between two media is a transition too, from one and into the other.
+    [[nodiscard]] bool has_media() const { return has_media_; }
+    /// Of a leaf; CsgTree::kNone, for no leaf, is kNoMedium.
+    [[nodiscard]] std::uint32_t medium(std::uint32_t leaf) const {
+        return leaf == CsgTree::kNone ? kNoMedium : media_[leaf];
+    }
+    /// The one medium of the whole solid, or kMixture.
+    [[nodiscard]] std::uint32_t only_medium() const { return only_medium_; }
+    /// The material of a leaf; of a shared solid that of its first leaf.
+    [[nodiscard]] MaterialId material(std::uint32_t leaf) const { return materials_[leaf]; }
+
     /// Appends all crossings of the line with the leaf, ascending; those of instances also to
     /// `hits`. True when the line begins inside.
     bool cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,
@@ -73,9 +89,16 @@ class CsgSolid {
     /// The pad is larger than tau: what lies within tau of a bound is seen from inside it.
     static constexpr double kPadPerTolerance = 4.0;
 
+    void find_media();
+
     PrimitiveTable table_;
     CsgExpression expression_;
     CsgTree tree_;
+    std::vector<MaterialId> materials_;  ///< [leaf]
+    std::vector<std::uint32_t> media_;   ///< [leaf]
+    std::uint32_t only_medium_ = kOpaque;
+    bool has_media_ = false;
+    bool unbounded_ = false;                     ///< some leaf is
     std::vector<const SolidAggregate*> solids_;  ///< [instance of the table] null for a mesh
     Vec3 center_;
     double half_ = 1.0;    ///< half the size of the solid

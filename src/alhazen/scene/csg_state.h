@@ -62,6 +62,22 @@ class CsgState {
         value_ = !value_;
     }
 
+    /// Of the leaves that make the place solid the one with the lowest number; kNone outside.
+    /// O(leaves that were met, times the depth).
+    [[nodiscard]] std::uint32_t filling_leaf() const {
+        std::uint32_t lowest = CsgTree::kNone;
+        for (const std::uint32_t leaf : touched_) {
+            if (leaf >= lowest || !inside(leaf) || tree_->leaves()[leaf].complement) continue;
+            std::uint32_t node = tree_->leaves()[leaf].parent;
+            while (node != CsgTree::kNone && surplus_[node] >= tree_->nodes()[node].need) {
+                node = tree_->nodes()[node].parent;
+            }
+            if (node == CsgTree::kNone) lowest = leaf;
+        }
+        return lowest;
+    }
+    [[nodiscard]] bool changed(std::uint32_t leaf) const { return (leaf_[leaf] & kChanged) != 0; }
+
     /// Changes are remembered from here on.
     void forget_changes() {
         for (const std::uint32_t leaf : changed_leaves_) {

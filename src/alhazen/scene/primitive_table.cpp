@@ -136,6 +136,11 @@ std::array<const Vec3*, 3> PrimitiveTable::corner_positions(std::uint32_t triang
     return {p + corners[0], p + corners[1], p + corners[2]};
 }
 
+MaterialId PrimitiveTable::shape_material(PrimitiveId id) const {
+    const std::uint32_t i = index(id);
+    return with_column(columns, kind(id), [&](const auto& c) { return c.materials[i]; });
+}
+
 bool PrimitiveTable::is_opaque(PrimitiveId id) const {
     const std::uint32_t k = kind(id);
     const std::uint32_t i = static_cast<std::uint32_t>(id) - first_[k];

@@ -107,6 +107,8 @@ class PrimitiveTable final : public BoundsSource {
     /// True when the primitive lets no light through from either side (an instance never does for
     /// sure: false).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;
+    /// Of an analytic shape.
+    [[nodiscard]] MaterialId shape_material(PrimitiveId id) const;
     /// Of a primitive that is no instance.
     [[nodiscard]] Opacity opacity(PrimitiveId id) const {
         if (is_opaque(id)) return Opacity::Opaque;

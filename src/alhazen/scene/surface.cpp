@@ -167,7 +167,7 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
         carry_outward(instance.placement, surface);
         surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;
-        aggregate.complete(hit.path[depth - 1], surface);
+        aggregate.complete(ray, hit.t, hit.path[depth - 1], surface);
         return;
     }
     const std::uint32_t kind = table.kind(hit.primitive);
@@ -178,7 +178,7 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
         analytic_surface(table, kind, index, ray, hit, surface);
     }
     surface.instance = surface.part;
-    aggregate.complete(hit.primitive, surface);
+    aggregate.complete(ray, hit.t, hit.primitive, surface);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 /// The surface at the nearest hit: computed once per ray, for the winner.
 
 #include <array>
+#include <optional>
 
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
@@ -9,6 +10,13 @@
 #include "alhazen/shading/material.h"
 
 namespace alhazen {
+
+/// What lies on both sides of a surface along the ray that found it, where a solid tells (CSG of
+/// several media); outside is no material.
+struct SurfaceMedia {
+    bool known = false;
+    std::optional<MaterialId> before, after;
+};
 
 /// World space. `normal` is the geometric one, outward for closed shapes; both normals are unit.
 struct Surface {
@@ -29,6 +37,7 @@ struct Surface {
     std::array<MaterialId, 3> materials{};
     std::array<double, 3> weights{1, 0, 0};
     int material_count = 1;
+    SurfaceMedia media;
     /// Number of the part that was hit: parts are counted through the objects of the description,
     /// in their order.
     std::uint32_t part = 0;

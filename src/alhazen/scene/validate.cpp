@@ -10,6 +10,9 @@ namespace alhazen {
 
 namespace {
 
+/// What follows objects recurses this deep.
+constexpr int kMaxSolidNesting = 500;
+
 bool finite(const Rgb& c) {
     return c.is_finite();
 }
@@ -160,6 +163,18 @@ class Validator {
         }
     }
 
+    [[nodiscard]] std::vector<int> object_uses() const {
+        std::vector<int> uses(d_.objects.size(), 0);
+        for (const ObjectDescription& object : d_.objects) {
+            for (const Part& part : object.parts) {
+                const auto* child = std::get_if<ObjectIndex>(&part.what);
+                if (child == nullptr || static_cast<std::size_t>(*child) >= uses.size()) continue;
+                ++uses[static_cast<std::size_t>(*child)];
+            }
+        }
+        return uses;
+    }
+
     /// Depth of every object by an explicit stack: hostile nesting must not overflow the real one.
     void check_nesting() {
         enum : std::uint8_t { New, Open, Done };
@@ -170,6 +185,13 @@ class Validator {
         }
         std::vector<std::uint8_t> state(n, New);
         std::vector<int> depth(n, 0);
+        // Parts of a solid that are placed once become part of it: they take no level of instances.
+        std::vector<int> nesting(n, 0), uses = object_uses();
+        const auto deepen = [&](std::size_t outer, std::size_t inner) {
+            const bool joined = d_.objects[outer].combine != Combine::Group && uses[inner] == 1;
+            depth[outer] = std::max(depth[outer], depth[inner] + !joined);
+            nesting[outer] = std::max(nesting[outer], nesting[inner] + 1);
+        };
         struct Frame {
             std::size_t object, next_part;
         };
@@ -183,8 +205,7 @@ class Validator {
                 state[object] = Done;
                 stack.pop_back();
                 if (!stack.empty()) {
-                    int& parent = depth[stack.back().object];
-                    parent = std::max(parent, depth[object] + 1);
+                    deepen(stack.back().object, object);
                 }
                 continue;
             }
@@ -198,17 +219,21 @@ class Validator {
                 return;
             }
             if (state[c] == Done) {
-                depth[object] = std::max(depth[object], depth[c] + 1);
+                deepen(object, c);
             } else {
                 state[c] = Open;
                 stack.push_back({c, 0});
             }
         }
         const int deepest = depth[static_cast<std::size_t>(d_.root)];
+        const int nested = nesting[static_cast<std::size_t>(d_.root)];
         // Automatic instances of meshes may add one level of their own.
         if (deepest + 1 > static_cast<int>(kMaxInstanceDepth)) {
             error({}, fmt::format("objects are nested {} deep; at most {} levels are supported",
                                   deepest, kMaxInstanceDepth - 1));
+        } else if (nested > kMaxSolidNesting) {
+            error({}, fmt::format("solids are nested {} deep; at most {} levels are supported",
+                                  nested, kMaxSolidNesting));
         }
         if (d_.objects[static_cast<std::size_t>(d_.root)].parts.empty()) {
             warning({}, "the scene is empty");

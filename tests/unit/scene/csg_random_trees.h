@@ -12,6 +12,7 @@ namespace alhazen::testing {
 
 inline Scene compiled(SceneMaker& maker, const std::string& evaluator,
                       const std::string& accelerator = "list") {
+    if (maker.description().materials.empty()) maker.material({});
     Diagnostics diagnostics;
     validate(maker.description(), diagnostics);
     for (const Diagnostic& d : diagnostics.all()) {
