@@ -6,6 +6,7 @@
 #include "alhazen/importers/native/native_parts.h"
 #include "alhazen/importers/native/native_transform.h"
 #include "alhazen/importers/native/native_visibility.h"
+#include "alhazen/importers/native/native_words.h"
 
 namespace alhazen {
 
@@ -27,6 +28,11 @@ void define_object(const NativeBlock& block, ObjectDescription object, NativeCon
                 context.diagnostics);
 }
 
+void read_combination(BlockReader& reader, ObjectDescription& object) {
+    reader.read_word("combine", native_words<Combine>(), object.combine);
+    reader.read_word("cut_material", native_words<CutMaterial>(), object.cut_material);
+}
+
 }  // namespace
 
 void read_native_object_list(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
@@ -44,6 +50,8 @@ void read_native_object_list(const NativeBlock& block, NativeContext& context, N
     const bool has_root = reader.read("root", root);
     std::string root_name = root;
     reader.read("root_name", root_name);
+    ObjectDescription how;  // the root combines its parts
+    read_combination(reader, how);
     reader.finish();
     if (!names || !has_root || !reader.values().is_list(*names, "names")) return;
     std::vector<ObjectDescription> objects;
@@ -61,7 +69,10 @@ void read_native_object_list(const NativeBlock& block, NativeContext& context, N
         reader.error(*reader.find("root"), "'root' must be one of the names");
     } else {
         context.scene.root = found->second;
-        objects[static_cast<std::size_t>(found->second)].name = root_name;
+        ObjectDescription& object = objects[static_cast<std::size_t>(found->second)];
+        object.name = root_name;
+        object.combine = how.combine;
+        object.cut_material = how.cut_material;
         context.listed_objects.erase(root);
     }
     // Even after an error: the names have their numbers now.
@@ -80,9 +91,36 @@ void read_native_object(const NativeBlock& block, NativeContext& context, Native
         if (const auto id = read_material_value(*value, context)) inner.material = id;
     }
     reader.read("name", object.name);
+    read_combination(reader, object);
     reader.finish(true);
     read_native_items(*block.block, context, inner);
     define_object(block, std::move(object), context);
+}
+
+void read_native_solid(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    Part part;
+    part.name = block.name;
+    part.location = block.location;
+    part.object_from_part = scope.placed(read_native_transform(reader));
+    part.visible_to = scope.visible_to & read_native_visibility(reader);
+    ObjectDescription object{block.name.empty() ? block.type : block.name, {}, block.location};
+    for (const auto& [word, combine] : native_words<Combine>()) {
+        if (word == block.type) object.combine = combine;
+    }
+    if (object.combine == Combine::Difference) {
+        reader.read_word("cut_material", native_words<CutMaterial>(), object.cut_material);
+    }
+    NativeScope inner{object.parts, {}, scope.material, scope.folder, scope.nesting + 1};
+    if (const auto value = reader.find("material")) {
+        if (const auto id = read_material_value(*value, context)) inner.material = id;
+    }
+    reader.finish(true);
+    read_native_items(*block.block, context, inner);
+    context.count_elements(1, block.location);
+    context.scene.objects.push_back(std::move(object));
+    part.what = static_cast<ObjectIndex>(context.scene.objects.size() - 1);
+    scope.parts.push_back(std::move(part));
 }
 
 void read_native_instance(TextNode entry, NativeContext& context, NativeScope& scope) {

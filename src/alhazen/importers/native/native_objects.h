@@ -8,6 +8,9 @@ namespace alhazen {
 /// `objects { names = [...]; root = "..." }`: the objects in the order of their numbers.
 void read_native_object_list(const NativeBlock& block, NativeContext& context, NativeScope& scope);
 void read_native_object(const NativeBlock& block, NativeContext& context, NativeScope& scope);
+/// `union { ... }`, `intersection { ... }`, `difference { ... }`: an object that is one solid, and
+/// the part that places it.
+void read_native_solid(const NativeBlock& block, NativeContext& context, NativeScope& scope);
 /// `instance "object" { transform = ... }` or `instance "object";`
 void read_native_instance(TextNode entry, NativeContext& context, NativeScope& scope);
 

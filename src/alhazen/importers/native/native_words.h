@@ -46,6 +46,20 @@ inline const Vocabulary<ShadingConventions::PixelSample>& native_words() {
     return kWords;
 }
 template <>
+inline const Vocabulary<Combine>& native_words() {
+    static const Vocabulary<Combine> kWords{{"group", Combine::Group},
+                                            {"union", Combine::Union},
+                                            {"intersection", Combine::Intersection},
+                                            {"difference", Combine::Difference}};
+    return kWords;
+}
+template <>
+inline const Vocabulary<CutMaterial>& native_words() {
+    static const Vocabulary<CutMaterial> kWords{{"own", CutMaterial::Own},
+                                                {"minuend", CutMaterial::Minuend}};
+    return kWords;
+}
+template <>
 inline const Vocabulary<UpAxis>& native_words() {
     static const Vocabulary<UpAxis> kWords{{"y", UpAxis::Y}, {"z", UpAxis::Z}};
     return kWords;

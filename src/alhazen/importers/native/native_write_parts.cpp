@@ -5,6 +5,7 @@
 
 #include "alhazen/importers/mesh_export.h"
 #include "alhazen/importers/native/native_visibility.h"
+#include "alhazen/importers/native/native_words.h"
 #include "alhazen/importers/native/native_write_context.h"
 #include "alhazen/importers/native/native_write_shapes.h"
 
@@ -108,10 +109,23 @@ void write_part(NativeWriteContext& context, const Part& part, int indent) {
         std::get<AnyShape>(part.what));
 }
 
+/// How the object combines its parts, where it does not as usual.
+std::vector<std::pair<std::string, std::string>> combination_of(const ObjectDescription& object) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    if (object.combine != Combine::Group) {
+        pairs.emplace_back("combine", native_word(object.combine));
+    }
+    if (object.cut_material != CutMaterial::Own) {
+        pairs.emplace_back("cut_material", native_word(object.cut_material));
+    }
+    return pairs;
+}
+
 /// Without a list, objects are numbered as they are defined, after the scene itself, and must be
 /// defined before they are placed.
 bool needs_object_list(const SceneDescription& scene) {
     if (scene.root != ObjectIndex{0} || scene.objects.front().name != "scene") return true;
+    if (!combination_of(scene.objects.front()).empty()) return true;
     for (std::size_t i = 1; i < scene.objects.size(); ++i) {
         for (const Part& part : scene.objects[i].parts) {
             const auto* child = std::get_if<ObjectIndex>(&part.what);
@@ -133,6 +147,7 @@ void write_object_list(NativeWriteContext& context) {
     if (root_label != scene.objects[root].name) {
         block.add("root_name", native_string(scene.objects[root].name));
     }
+    for (const auto& [key, word] : combination_of(scene.objects[root])) block.add(key, word);
     context.append(block);
 }
 
@@ -161,6 +176,9 @@ void write_native_objects(NativeWriteContext& context) {
         context.text += "object " + native_string(label) + " {\n";
         if (label != scene.objects[i].name) {
             context.text += "    name = " + native_string(scene.objects[i].name) + "\n";
+        }
+        for (const auto& [key, word] : combination_of(scene.objects[i])) {
+            context.text += "    " + key + " = " + word + "\n";
         }
         for (const Part& part : scene.objects[i].parts) write_part(context, part, 4);
         context.text += "}\n";
