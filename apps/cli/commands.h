@@ -20,6 +20,7 @@ enum ExitStatus {
 
 void add_render(CLI::App& app, int& exit_status);
 void add_convert(CLI::App& app, int& exit_status);
+void add_generate(CLI::App& app, int& exit_status);
 void add_info(CLI::App& app, int& exit_status);
 void add_verify(CLI::App& app, int& exit_status);
 void add_diff(CLI::App& app, int& exit_status);

@@ -8,6 +8,7 @@
 #include "alhazen/importers/importer_list.h"
 #include "alhazen/renderers/renderer.h"
 #include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/csg_evaluator.h"
 #include "commands.h"
 #include "messages.h"
 
@@ -24,6 +25,10 @@ void list_renderers() {
 }
 void list_accelerators() {
     for (const AcceleratorEntry& entry : accelerator_table())
+        print_entry(entry.name, entry.description);
+}
+void list_csg() {
+    for (const CsgEvaluatorEntry& entry : csg_evaluator_table())
         print_entry(entry.name, entry.description);
 }
 void list_formats() {
@@ -44,14 +49,17 @@ struct Topic {
 };
 constexpr Topic kTopics[] = {{"renderers", list_renderers},
                              {"accelerators", list_accelerators},
+                             {"csg", list_csg},
                              {"shapes", list_shapes},
                              {"formats", list_formats}};
 
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_status) {
-    CLI::App* command = app.add_subcommand(
-        "list", "List what can be chosen by name: renderers, accelerators, shapes, formats");
+    CLI::App* command =
+        app.add_subcommand("list",
+                           "List what can be chosen by name: renderers, accelerators, CSG "
+                           "evaluators, shapes, formats");
     const auto wanted = std::make_shared<std::string>();
     std::vector<std::string> names;
     for (const Topic& topic : kTopics) names.emplace_back(topic.name);

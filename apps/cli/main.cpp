@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     int exit_status = kDone;
     add_render(app, exit_status);
     add_convert(app, exit_status);
+    add_generate(app, exit_status);
     add_info(app, exit_status);
     add_verify(app, exit_status);
     add_diff(app, exit_status);

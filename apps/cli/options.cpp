@@ -9,6 +9,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/scene/csg_evaluator.h"
 #include "messages.h"
 
 namespace alhazen::cli {
@@ -97,6 +98,10 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                     "Children of a node of the accelerator: 4, 8 or 16; the hits are the same")
         ->type_name("N")
         ->capture_default_str();
+    csg = kDefaultCsgEvaluator;
+    command.add_option("--csg", csg, "Who evaluates solids made of others; see `alhazen list csg`")
+        ->type_name("NAME")
+        ->capture_default_str();
     command.add_flag("--compact", compact,
                      "Leaves hold the numbers of triangles, not their vertices: a fourth of the "
                      "memory, slower");
@@ -149,6 +154,7 @@ LoadOptions SceneArguments::load_options() const {
     }
     options.compile.accelerator = accelerator;
     options.compile.build = build_options();
+    options.compile.csg = csg;
     options.threads = threads;
     return options;
 }

@@ -36,6 +36,7 @@ struct SceneArguments {
     std::string accelerator;
     std::string build_quality = "default";
     std::uint32_t width = BuildOptions{}.width;
+    std::string csg;
     bool compact = false;
     std::vector<std::string> allow_paths;
     std::optional<double> time;

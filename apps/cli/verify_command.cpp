@@ -98,6 +98,7 @@ void add_verify(CLI::App& app, int& exit_status) {
             VerifyOptions options = args->verify;
             options.accelerator = accelerator;
             options.build = args->scene.build_options();
+            options.csg = args->scene.csg;
             options.progress = &progress;
             VerifyReport report;
             ThreadLimit(args->scene.threads).run([&] { report = verify(description, options); });

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/solid_aggregate.h"
 
 namespace alhazen {
 
@@ -38,8 +39,14 @@ class ExactBounds {
     const Box3& of(const Aggregate& aggregate) {
         const auto known = boxes_.find(&aggregate);
         if (known != boxes_.end()) return known->second;
-        const PrimitiveTable& table = aggregate.primitives();
         Box3 sum;
+        // What a solid leaves of its operands has no box of its own that is exact.
+        if (dynamic_cast<const SolidAggregate*>(&aggregate) != nullptr) {
+            const Box3 box = aggregate.box();
+            if (!box.empty() && box.bounded()) sum = without_margin(box);
+            return boxes_[&aggregate] = sum;
+        }
+        const PrimitiveTable& table = aggregate.primitives();
         std::apply([&](const auto&... column) { (add_shapes(column, table, sum), ...); },
                    table.columns);
         for (const PlacedMesh& mesh : table.meshes) add(mesh.mesh->box(), sum);

@@ -176,6 +176,8 @@ void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& opti
     info["vertices"] = vertices;
     info["unused_vertices"] = unused;
     info["instances"] = census.instances;
+    info["solids"] = census.solids;
+    info["solid_leaves"] = census.solid_leaves;
     info["instance_depth"] = census.instance_depth;
     info["effective_primitives"] = census.effective_primitives;
     const auto placed = placed_figures(d, figures);

@@ -118,6 +118,10 @@ void add_geometry(Report& report, const json& info) {
         parts += fmt::format("{}{} x {}", parts.empty() ? "" : ", ", count_text(count), kind);
     }
     report.line("parts", parts.empty() ? "none" : parts);
+    if (info["solids"].get<std::uint64_t>() > 0) {
+        report.line("solids", fmt::format("{} made of {} others", count_text(info["solids"]),
+                                          count_text(info["solid_leaves"])));
+    }
     if (info["instances"].get<std::uint64_t>() > 0) {
         report.line("instances",
                     fmt::format("{}, nested {} deep; rays see {} primitives",

@@ -207,8 +207,9 @@ VerifyReport verify(const SceneDescription& description, const VerifyOptions& op
     report.accelerator = options.accelerator;
     Verifier verifier(options, report);
     const Scene fast =
-        compile(description, {.accelerator = options.accelerator, .build = options.build});
-    const Scene brute = compile(description, {.accelerator = "list"});
+        compile(description,
+                {.accelerator = options.accelerator, .csg = options.csg, .build = options.build});
+    const Scene brute = compile(description, {.accelerator = "list", .csg = "roth"});
     const Camera* camera =
         fast.cameras.empty() ? nullptr : &find_camera(fast, options.camera).camera;
     VerifyRays rays(fast.aggregate->box(), camera, fast.aggregate->primitives(), options.seed);

@@ -15,7 +15,8 @@ namespace alhazen {
 struct VerifyOptions {
     std::string accelerator = "wide_bvh";
     BuildOptions build{};
-    std::uint64_t rays = 20000;  ///< in all, over the kinds below
+    std::string csg = "event_heap";  ///< who evaluates solids; compared with `roth`
+    std::uint64_t rays = 20000;      ///< in all, over the kinds below
     std::uint64_t seed = 1;
     std::string camera;
     std::size_t max_reported = 20;
