@@ -117,6 +117,17 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->type_name("SECONDS");
     command.add_option("--animation", animation, "Apply only this animation")
         ->type_name("NAME|INDEX");
+    command
+        .add_option("--object", objects, "Show only the objects of these names; may be repeated")
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all();
+    command
+        .add_option("--view-script", view_script,
+                    "BRL-CAD: a file with the view commands of `rt`; the first frame becomes the "
+                    "default camera")
+        ->type_name("FILE");
     image_limits.add_to(command);
     command
         .add_option("--max-import-mib", max_import_mib,
@@ -143,6 +154,8 @@ LoadOptions SceneArguments::load_options() const {
     LoadOptions options;
     options.import.allowed_folders.assign(allow_paths.begin(), allow_paths.end());
     options.import.animation = animation;
+    options.import.objects = objects;
+    options.import.view_script = view_script;
     options.import.image_limits = image_limits.limits();
     if (max_import_mib) options.import.max_made_bytes = *max_import_mib << 20;
     if (!animation.empty() && !time) {

@@ -41,6 +41,8 @@ struct SceneArguments {
     std::vector<std::string> allow_paths;
     std::optional<double> time;
     std::string animation;
+    std::vector<std::string> objects;
+    std::string view_script;
     ImageLimitArguments image_limits;
     std::optional<std::uint64_t> max_import_mib;
     int threads = 0;

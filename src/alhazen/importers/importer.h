@@ -32,6 +32,8 @@ struct ImportOptions {
     std::optional<double>
         time;  ///< seconds: animations of the file are applied at this time; none: as at rest
     std::string animation;  ///< name or position of the only animation to apply; empty: all
+    std::vector<std::string> objects;   ///< names of what is to be seen; none: all of the file
+    std::filesystem::path view_script;  ///< a file of views beside the scene; empty: none
 };
 
 /// What an importer is given: the file's bytes (already read) and where they came from.
@@ -49,6 +51,10 @@ class Importer {
     /// How sure the importer is that the bytes are its format: 0 no, 1 by the suffix only, 2 by the
     /// content.
     [[nodiscard]] virtual int recognise(const ImportSource& source) const = 0;
+    /// Makes only what `ImportOptions::objects` names; of other formats it is chosen afterwards.
+    [[nodiscard]] virtual bool chooses_objects() const { return false; }
+    /// Whether `ImportOptions::view_script` is for this format.
+    [[nodiscard]] virtual bool reads_view_scripts() const { return false; }
     /// Reads all that can be read. Findings go to `diagnostics`; the result is only used when none
     /// is an error. Throws Error only for limits (Resource) and for files that cannot be read.
     [[nodiscard]] virtual SceneDescription import(const ImportSource& source,

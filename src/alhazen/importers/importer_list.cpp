@@ -1,8 +1,10 @@
 #include "alhazen/importers/importer_list.h"
 
+#include <algorithm>
 #include <array>
 
 #include "alhazen/base/file.h"
+#include "alhazen/importers/brlcad/brlcad_importer.h"
 #include "alhazen/importers/gltf/gltf_importer.h"
 #include "alhazen/importers/native/native_importer.h"
 #include "alhazen/importers/nff/nff_importer.h"
@@ -23,8 +25,9 @@ std::span<const Importer* const> importers() {
     static const ObjImporter obj;
     static const PlyImporter ply;
     static const StlImporter stl;
-    static const std::array<const Importer*, 8> table{&native, &ray, &uw_yaml, &nff,
-                                                      &gltf,   &obj, &ply,     &stl};
+    static const BrlcadImporter brlcad;
+    static const std::array<const Importer*, 9> table{&native, &ray, &uw_yaml, &nff,   &gltf,
+                                                      &obj,    &ply, &stl,     &brlcad};
     return table;
 }
 
@@ -48,6 +51,31 @@ const Importer& find_importer(const ImportSource& source) {
                 {source.path.string(), 0, 0});
 }
 
+namespace {
+
+/// Makes the objects of these names the root's only parts. Throws Error (Usage).
+void choose_objects(SceneDescription& description, std::span<const std::string> names) {
+    ObjectDescription root;
+    root.name = "chosen";
+    for (const std::string& name : names) {
+        const auto& objects = description.objects;
+        const auto found = std::find_if(objects.begin(), objects.end(),
+                                        [&](const auto& object) { return object.name == name; });
+        if (found == objects.end()) {
+            throw Error(ErrorKind::Usage, "the scene has no object '" + name + "'");
+        }
+        Part part;
+        part.what = static_cast<ObjectIndex>(found - objects.begin());
+        part.name = name;
+        part.location = found->location;
+        root.parts.push_back(std::move(part));
+    }
+    description.objects.push_back(std::move(root));
+    description.root = static_cast<ObjectIndex>(description.objects.size() - 1);
+}
+
+}  // namespace
+
 SceneDescription import_scene(const std::filesystem::path& path, const ImportOptions& options,
                               Diagnostics& diagnostics) {
     const std::string file = read_file(path);
@@ -55,7 +83,15 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
     std::string_view bytes = file;
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     const ImportSource source{bytes, path, options};
-    SceneDescription description = find_importer(source).import(source, diagnostics);
+    const Importer& importer = find_importer(source);
+    if (!options.view_script.empty() && !importer.reads_view_scripts()) {
+        throw Error(ErrorKind::Usage,
+                    "there are no view scripts of the format " + std::string(importer.name()));
+    }
+    SceneDescription description = importer.import(source, diagnostics);
+    if (!options.objects.empty() && !importer.chooses_objects()) {
+        choose_objects(description, options.objects);
+    }
     description.files = diagnostics.files();
     // A file with mistakes is validated too, so that all of them are told at once; but what
     // validation says of the whole (nothing to see) may only be a consequence.
