@@ -82,6 +82,59 @@ TEST(BrlcadScene, ExclusiveOrAndIntersectionOfCombinationsAreSolids) {
     EXPECT_EQ(model.at({4.5, 0, 0}), 1u);
 }
 
+TEST(BrlcadScene, EverySolidIsWhereItsDefinitionSays) {
+    struct Probe {
+        const char* solid;
+        Vec3 inside, outside;  ///< both close to one place of the surface
+    };
+    const Probe probes[] = {
+        {"ell V {1 0 0} A {2 0 0} B {0 1 0} C {0 0 3}", {1, 0, 2.99}, {1, 0, 3.01}},
+        {"tgc V {0 0 0} H {0 0 2} A {2 0 0} B {0 1 0} C {1 0 0} D {0 2 0}",
+         {1.49, 0, 1},
+         {1.51, 0, 1}},
+        {"tgc V {0 0 0} H {0 0 2} A {2 0 0} B {0 1 0} C {1 0 0} D {0 2 0}",
+         {0, 1.49, 1},
+         {0, 1.51, 1}},
+        {"tor V {0 0 0} H {0 0 3} r_a 3 r_h 1", {0, 2.01, 0}, {0, 1.99, 0}},
+        {"half N {0 0 2} d 2", {5, 5, 0.99}, {5, 5, 1.01}},
+        {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {0, 0, -1.99}, {0, 0, -2.01}},
+        {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {0, 0, 4.99}, {0, 0, 5.01}},
+        // Half way up, the cone that touches both spheres: 1.5 / cos of its half angle.
+        {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {1.54, 0, 2}, {1.56, 0, 2}},
+        {"part V {0 0 0} H {0 0 1} r_v 3 r_h 1", {0, 0, 2.99}, {0, 0, 3.01}},
+        {"rpc V {0 0 0} H {0 0 2} B {0 4 0} r 2", {0.99, 3, 1}, {1.01, 3, 1}},
+        // ((B + c - s)^2 - c^2) / ((B + c)^2 - c^2) = 5 / 18 of r^2 at s = 2.
+        {"rhc V {0 0 0} H {0 0 2} B {0 4 0} r 2 c 0.25", {1.05, 2, 1}, {1.06, 2, 1}},
+        {"epa V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1", {0, 0.99, 3}, {0, 1.01, 3}},
+        {"epa V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1", {0.49, 0, 3}, {0.51, 0, 3}},
+        {"ehy V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1 c 0.25", {0, 1.05, 2}, {0, 1.06, 2}},
+        {"hyp V {0 0 0} H {0 0 4} A {2 0 0} b 1 bnr 0.5", {0.99, 0, 2}, {1.01, 0, 2}},
+        {"hyp V {0 0 0} H {0 0 4} A {2 0 0} b 1 bnr 0.5", {0, 0.99, 0.01}, {0, 1.01, 0.01}},
+        {"eto V {0 0 0} N {0 0 1} C {1 0 1} r 5 r_d 0.5", {5.99, 0, 0.99}, {6.01, 0, 1.01}},
+        {"eto V {0 0 0} N {0 0 1} C {1 0 1} r 5 r_d 0.5", {0, 5.35, -0.35}, {0, 5.36, -0.36}},
+        {"arbn N 4 P0 {0 0 1 1} P1 {0 1 -1 1} P2 {1 -1 -1 1} P3 {-1 -1 -1 1}",
+         {0, 0, 0.99},
+         {0, 0, 1.01}},
+        {"arb8 V1 {0 0 0} V2 {2 0 0} V3 {2 2 0} V4 {0 2 0} V5 {1 1 3} V6 {1 1 3} V7 {1 1 3} V8 {1 "
+         "1 3}",
+         {1, 1, 2.99},
+         {1, 1, 3.01}},
+        {"ars NC 3 PPC 4 C0 { {0 0 0} {0 0 0} {0 0 0} {0 0 0} } C1 { {1 0 1} {0 1 1} {-1 0 1} {0 "
+         "-1 1} } C2 { {0 0 2} {0 0 2} {0 0 2} {0 0 2} }",
+         {0.01, 0.01, 1.95},
+         {0.01, 0.01, 2.01}},
+        {"bot mode volume V {{0 0 0} {1 0 0} {0 1 0} {0 0 1}} F {{0 2 1} {0 1 3} {0 3 2} {1 2 3}}",
+         {0.33, 0.33, 0.33},
+         {0.34, 0.34, 0.34}},
+    };
+    for (const Probe& probe : probes) {
+        const Model model("put s " + std::string(probe.solid) + "\n");
+        EXPECT_EQ(text_of(model.found()), "") << probe.solid;
+        EXPECT_EQ(model.at(probe.inside), 1u) << probe.solid;
+        EXPECT_EQ(model.at(probe.outside), 0u) << probe.solid;
+    }
+}
+
 TEST(BrlcadScene, RegionsOfAGroupLieSideBySide) {
     const Model model(kRegions + "put all comb region no tree {u {l r} {l g}}\n");
     EXPECT_EQ(model.at({1.5, 0, 0}), 2u);

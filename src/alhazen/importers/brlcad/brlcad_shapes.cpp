@@ -2,20 +2,22 @@
 
 #include <cmath>
 
+#include "alhazen/importers/brlcad/brlcad_quadrics.h"
+
 namespace alhazen {
 
 namespace {
 
 /// Adds a piece, when its shape says that it is one.
 template <class S>
-void add(BrlcadPieces& pieces, S shape) {
+void add(BrlcadPieces& pieces, S shape, const Affine& solid_from_shape = {}) {
     Diagnostics findings;
     shape.validate({}, findings);
     if (findings.error_count() != 0) {
         pieces.refused = "is no solid: " + findings.all().front().message;
         return;
     }
-    pieces.pieces.push_back({AnyShape(std::move(shape)), {}});
+    pieces.pieces.push_back({AnyShape(std::move(shape)), solid_from_shape});
 }
 
 /// The direction of one vector with the length of another.
@@ -107,6 +109,22 @@ struct Maker {
         cone.top_radius = c * particle.top_radius;
         add(made, cone);
     }
+    void operator()(const BrlcadConicCylinder& given) { add_quadric(brlcad_quadric(given)); }
+    void operator()(const BrlcadConicDome& given) { add_quadric(brlcad_quadric(given)); }
+    void operator()(const BrlcadHyperboloid& given) {
+        if (!(given.neck > 0.0 && given.neck < 1.0)) {
+            made.refused = "is no solid: the ratio of its neck must lie between 0 and 1";
+            return;
+        }
+        add_quadric(brlcad_quadric(given));
+    }
+    void operator()(const BrlcadEllipticTorus& given) {
+        if (const std::optional<BrlcadQuartic> quartic = brlcad_quartic(given)) {
+            add(made, quartic->shape, quartic->solid_from_shape);
+        } else {
+            made.refused = "is no solid: its ellipse has no area or reaches the axis";
+        }
+    }
     void operator()(const BrlcadMesh& mesh) {
         if (mesh.mesh->triangles.empty()) {
             made.refused = "has no faces";
@@ -114,6 +132,15 @@ struct Maker {
         }
         made.closed = mesh.solid && mesh.mesh->closed();
         made.pieces.push_back({mesh.mesh, {}});
+    }
+
+  private:
+    void add_quadric(const BrlcadQuadric& quadric) {
+        if (!is_invertible(quadric.solid_from_shape)) {
+            made.refused = "is no solid: its axes have no length or lie in a plane";
+            return;
+        }
+        add(made, quadric.shape, quadric.solid_from_shape);
     }
 };
 
