@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/importers/brlcad/brlcad_importer.h"
 #include "alhazen/importers/brlcad/brlcad_view.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/scene/spans.h"
@@ -15,7 +16,9 @@ using testing::text_of;
 
 SceneDescription import(const std::string& text, Diagnostics& found, ImportOptions options = {}) {
     const ImportSource source{text, "a.asc", options};
-    SceneDescription scene = find_importer(source).import(source, found);
+    const BrlcadImporter importer;
+    EXPECT_EQ(importer.recognise(source), 2) << text;
+    SceneDescription scene = importer.import(source, found);
     if (found.error_count() == 0) validate(scene, found);
     return scene;
 }
@@ -112,6 +115,9 @@ TEST(BrlcadScene, EverySolidIsWhereItsDefinitionSays) {
         {"hyp V {0 0 0} H {0 0 4} A {2 0 0} b 1 bnr 0.5", {0, 0.99, 0.01}, {0, 1.01, 0.01}},
         {"eto V {0 0 0} N {0 0 1} C {1 0 1} r 5 r_d 0.5", {5.99, 0, 0.99}, {6.01, 0, 1.01}},
         {"eto V {0 0 0} N {0 0 1} C {1 0 1} r 5 r_d 0.5", {0, 5.35, -0.35}, {0, 5.36, -0.36}},
+        {"superell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1} n 2 e 2",
+         {0.1, 0.1, 0.79},
+         {0.1, 0.1, 0.81}},
         {"arbn N 4 P0 {0 0 1 1} P1 {0 1 -1 1} P2 {1 -1 -1 1} P3 {-1 -1 -1 1}",
          {0, 0, 0.99},
          {0, 0, 1.01}},

@@ -33,8 +33,7 @@ OrientedPlane plane_of(const BrlcadHalfSpace& half) {
 struct Maker {
     BrlcadPieces made;
 
-    template <class Other>
-    void operator()(const Other& /*solid*/) {
+    void operator()(const BrlcadUnsupported& /*solid*/) {
         made.refused = "is of a type that is not read";
     }
     void operator()(const BrlcadArb8& arb) { add(made, hexahedron(arb.corners)); }
@@ -117,6 +116,16 @@ struct Maker {
             return;
         }
         add_quadric(brlcad_quadric(given));
+    }
+    void operator()(const BrlcadSuperellipsoid& given) {
+        Superellipsoid super;
+        super.center = given.center;
+        super.axis_a = given.a;
+        super.axis_b = given.b;
+        super.axis_c = given.c;
+        super.north = given.north;
+        super.east = given.east;
+        add(made, super);
     }
     void operator()(const BrlcadEllipticTorus& given) {
         if (const std::optional<BrlcadQuartic> quartic = brlcad_quartic(given)) {
