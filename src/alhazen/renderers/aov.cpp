@@ -44,7 +44,7 @@ class DepthScale {
 /// What the samples of a pixel have met so far.
 struct PixelGeometry {
     int samples = 0, hits = 0;
-    double depth = 0;
+    double depth = 0, error = 0;
     Vec3 normal, geometric, position;
     Vec2 uv;
     Rgb albedo;
@@ -68,6 +68,7 @@ struct PixelGeometry {
         position += surface.point;
         uv = {uv.x + surface.uv.x, uv.y + surface.uv.y};
         albedo += point.material.albedo;
+        error = std::max(error, length(surface.error));
         ++hits;
     }
 };
@@ -86,6 +87,7 @@ void write(AovFilm& film, int i, int j, const PixelGeometry& g) {
     set(AovKind::Uv, {share * g.uv.x, share * g.uv.y});
     const Rgb albedo = share * g.albedo;
     set(AovKind::Albedo, {albedo.r, albedo.g, albedo.b});
+    set(AovKind::ErrorBound, {g.error});
     film.set_whole(AovKind::ObjectId, i, j, g.object);
     film.set_whole(AovKind::MaterialId, i, j, g.material);
     film.set_whole(AovKind::InstanceId, i, j, g.instance);
@@ -130,6 +132,11 @@ std::span<const AovEntry> aov_table() {
          "1 + number of the part that placed it in the scene",
          {"id.instance"},
          Uint},
+        {AovKind::ErrorBound,
+         "error_bound",
+         "bound of the distance of the point from the true surface",
+         {"error_bound"},
+         Float},
         {AovKind::Rays, "count.rays", "rays that were cast for the pixel", {"count.rays"}, Float},
         {AovKind::NodeVisits,
          "count.node_visits",

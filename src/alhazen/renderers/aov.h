@@ -35,6 +35,7 @@ enum class AovKind {
     ObjectId,
     MaterialId,
     InstanceId,
+    ErrorBound,
     Rays,
     NodeVisits,
     PrimitiveTests,

@@ -174,6 +174,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
             return id_picture(crop, *c[0]);
         case AovKind::Time:
             return heat_picture(crop, *c[0], kTimeQuantile);
+        case AovKind::ErrorBound:
         case AovKind::Rays:
         case AovKind::NodeVisits:
         case AovKind::PrimitiveTests:

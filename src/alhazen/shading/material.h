@@ -74,6 +74,9 @@ struct Material {
     ScalarInput shininess{0, kNoTexture};  ///< ns, exponent of the highlight
     ScalarInput index{1, kNoTexture};      ///< index of refraction inside the surface's normal
 
+    /// Mass of a unit of volume, in any unit; for measures, not for light.
+    std::optional<double> density;
+
     AlphaMode alpha_mode = AlphaMode::Opaque;
     ScalarInput alpha{1, kNoTexture, Channel::Alpha};  ///< times the alpha of the vertex colour
     double alpha_cutoff = 0.5;                         ///< Mask: below it nothing is there

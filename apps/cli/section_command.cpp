@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/session/scene_files.h"
+#include "alhazen/session/section.h"
+#include "alhazen/session/solid_queries_json.h"
+#include "commands.h"
+#include "messages.h"
+#include "options.h"
+#include "stop_signals.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+struct Arguments {
+    SceneArguments scene;
+    std::vector<std::string> objects;
+    std::string plane, output, svg, json, size = "800x800", camera;
+    SvgOptions svg_options;
+    std::optional<double> tolerance;
+    int grid = 256;
+    double error = 1e-6, budget = 1;
+    bool quiet = false;
+};
+
+/// What the plane cuts out of one solid.
+struct Cut {
+    SolidId solid{};
+    std::string name;
+    SectionArea area;
+};
+
+void write_picture_of(const SolidScene& solids, const LoadedScene& loaded,
+                      const SectionPlane& plane, const Arguments& args) {
+    const Size size = parse_size(args.size);
+    SectionView view{.width = size.width, .height = size.height};
+    if (!args.camera.empty()) {
+        const CameraDescription& camera = find_camera(loaded.scene, args.camera);
+        view.camera = with_aspect(camera.camera, camera.aspect,
+                                  static_cast<double>(size.width) / size.height);
+    }
+    write_image(args.output, section_picture(solids, loaded.scene, plane, view));
+}
+
+/// Areas of what is cut, in the order of the solids; those that the plane misses are left out.
+std::vector<Cut> cut_solids(const SolidScene& solids, const SectionPlane& plane,
+                            const Arguments& args, const StopFlag& stop) {
+    const MeasureOptions options{
+        .relative_error = args.error, .seconds = args.budget, .area = false, .stop = &stop};
+    std::vector<Cut> cuts;
+    for (const SolidId id : solids.select(args.objects)) {
+        const LoneSolid solid(solids.solids(), id);
+        if (!solid.box().bounded()) {
+            tell("alhazen: '{}' is not bounded: it has neither area nor outline\n",
+                 solids.name(id));
+            continue;
+        }
+        const SectionArea area = section_area(solid, plane, options);
+        if (area.area.hi() > 0.0) cuts.push_back({id, solids.name(id), area});
+    }
+    return cuts;
+}
+
+std::uint64_t write_outlines(const SolidScene& solids, const Scene& scene, const PlaneFrame& frame,
+                             const std::vector<Cut>& cuts, Arguments& args) {
+    Box3 box;
+    for (const Cut& cut : cuts) box.include(LoneSolid(solids.solids(), cut.solid).box());
+    args.svg_options.tolerance = args.tolerance.value_or(1e-4 * length(box.size()));
+    std::uint64_t unresolved = 0;
+    std::vector<SectionLayer> layers;
+    for (const Cut& cut : cuts) {
+        const LoneSolid solid(solids.solids(), cut.solid);
+        SectionLayer layer{cut.solid, cut.name, color_of(scene, solid.place().material), {}};
+        layer.outlines = trace_section(
+            solid, frame, {.cells = args.grid, .tolerance = args.svg_options.tolerance});
+        unresolved += layer.outlines.unresolved;
+        layers.push_back(std::move(layer));
+    }
+    write_file_atomically(args.svg, section_svg(layers, frame, args.svg_options));
+    return unresolved;
+}
+
+nlohmann::ordered_json report_of(const std::vector<Cut>& cuts, const Arguments& args,
+                                 std::uint64_t unresolved) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Cut& cut : cuts) {
+        const Estimate& a = cut.area.area;
+        list.push_back({{"solid", static_cast<std::uint64_t>(cut.solid)},
+                        {"name", cut.name},
+                        {"area", {{"value", a.value}, {"interval", {a.lo(), a.hi()}}}},
+                        {"inconsistent_lines", cut.area.inconsistent_lines},
+                        {"reached", cut.area.reached}});
+    }
+    nlohmann::ordered_json out{{"confidence", 0.95}, {"solids", std::move(list)}};
+    if (!args.svg.empty()) {
+        out["tolerance"] = args.svg_options.tolerance;
+        out["unresolved"] = unresolved;
+    }
+    return out;
+}
+
+void add_options(CLI::App& command, Arguments& args) {
+    command
+        .add_option("objects", args.objects,
+                    "Solids by number, name, or the beginning or end of a name; default: all. "
+                    "The picture shows the whole scene")
+        ->type_name("OBJECT");
+    command
+        .add_option("--plane", args.plane,
+                    "The plane nx x + ny y + nz z = d; what lies on the side of the normal is "
+                    "taken away")
+        ->required()
+        ->type_name("NX,NY,NZ,D");
+    command.add_option("-o,--output", args.output, "Picture of the scene cut open")
+        ->type_name("FILE");
+    command.add_option("--size", args.size, "Of the picture")
+        ->type_name("WxH")
+        ->capture_default_str();
+    command.add_option("--camera", args.camera,
+                       "Look through this camera of the scene instead of straight on");
+    command.add_option("--svg", args.svg, "Outlines of the cut, a layer for each solid")
+        ->type_name("FILE");
+    command
+        .add_option("--unit", args.svg_options.unit,
+                    "What a unit of the scene is in the SVG: mm, cm, in, pt or px")
+        ->capture_default_str();
+    command
+        .add_option("--tolerance", args.tolerance,
+                    "Largest distance of outlines from the curves; default: 1e-4 of the size")
+        ->check(CLI::Range(1e-300, 1e300));
+    command.add_option("--grid", args.grid, "Cells along a solid; smaller features may be missed")
+        ->capture_default_str()
+        ->check(CLI::Range(4, 8192));
+    command.add_option("--error", args.error, "Relative error of the areas to work for")
+        ->capture_default_str()
+        ->check(CLI::Range(1e-13, 1.0));
+    command.add_option("--budget", args.budget, "Seconds for the area of each solid at the most")
+        ->capture_default_str()
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.0, 1e9));
+    command.add_option("--json", args.json, "Write the areas as JSON; - for stdout")
+        ->type_name("FILE");
+    command.add_flag("-q,--quiet", args.quiet, "No warnings");
+}
+
+void run_section(Arguments& args, int& exit_status) {
+    const auto n = parse_numbers(args.plane, {4}, "a plane: nx,ny,nz,d");
+    const SectionPlane plane{{n[0], n[1], n[2]}, n[3]};
+    const PlaneFrame frame = frame_of(plane);
+    (void)parse_size(args.size);
+    if (!args.output.empty()) check_image_suffix(args.output);
+    if (!args.svg.empty()) (void)section_svg({}, frame, args.svg_options);  // checks the unit
+    const LoadedScene loaded = load(args.scene.scene, args.scene.load_options());
+    std::vector<std::filesystem::path> outputs;
+    for (const std::string& path : {args.output, args.svg, args.json}) {
+        if (!path.empty() && path != "-") outputs.emplace_back(path);
+    }
+    check_spares_scene(loaded.description, outputs);
+    if (!args.quiet) print_warnings(loaded.diagnostics);
+    const StopFlag& stop = stop_on_signals();
+    ThreadLimit(args.scene.threads).run([&] {
+        const SolidScene solids(loaded.description, loaded.scene);
+        const std::vector<Cut> cuts = cut_solids(solids, plane, args, stop);
+        if (!args.output.empty()) write_picture_of(solids, loaded, plane, args);
+        std::uint64_t unresolved = 0;
+        if (!args.svg.empty()) {
+            unresolved = write_outlines(solids, loaded.scene, frame, cuts, args);
+        }
+        for (const Cut& cut : cuts) {
+            if (args.json == "-") break;
+            print("{} {}: area {:.12g} +- {:.2g}\n", static_cast<std::uint64_t>(cut.solid),
+                  cut.name, cut.area.area.value, cut.area.area.half_width);
+        }
+        if (unresolved > 0) {
+            tell(
+                "alhazen: at {} places of the outlines curves could not be told apart; try a "
+                "larger --grid\n",
+                unresolved);
+        }
+        if (!args.json.empty()) {
+            write_report(args.json,
+                         report_of(cuts, args, unresolved)
+                                 .dump(2, ' ', true, nlohmann::json::error_handler_t::replace) +
+                             "\n");
+        }
+    });
+    exit_status = stop.requested() ? kStopped : kDone;
+}
+
+}  // namespace
+
+void add_section(CLI::App& app, int& exit_status) {
+    CLI::App* command = app.add_subcommand(
+        "section", "A scene cut open by a plane: picture, outlines as SVG, areas");
+    const auto args = std::make_shared<Arguments>();
+    args->scene.add_to(*command, kDefaultAccelerator);
+    add_options(*command, *args);
+    command->callback([args, &exit_status] { run_section(*args, exit_status); });
+}
+
+}  // namespace alhazen::cli

@@ -1,0 +1,224 @@
+#include "alhazen/scene/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "alhazen/base/error.h"
+#include "alhazen/math/random.h"
+#include "alhazen/math/unit_vector.h"
+#include "alhazen/sampling/sobol.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::uint32_t kSurfaceLines = 1024;  ///< through each solid, for points to begin from
+constexpr std::size_t kStarts = 24;            ///< pairs of points that the search improves
+constexpr int kRounds = 60;
+constexpr std::size_t kTurns = 8;
+
+using SurfacePoint = LoneSolid::SurfacePoint;
+
+/// Points all over the surface, from lines in all directions.
+std::vector<SurfacePoint> surface_points(const LoneSolid& solid, std::uint64_t key) {
+    const Box3 box = solid.box();
+    const double radius = 0.5 * length(box.size());
+    std::vector<SurfacePoint> points;
+    for (std::uint32_t i = 0; i < kSurfaceLines; ++i) {
+        const double z = 1 - 2 * scrambled_sobol(key, i, 0);
+        const double turn = 2 * kPi * scrambled_sobol(key, i, 1);
+        const double across = std::sqrt(std::max(0.0, 1 - z * z));
+        const Vec3 d{across * std::cos(turn), across * std::sin(turn), z};
+        const Vec3 right = perpendicular(d);
+        const double r = radius * std::sqrt(scrambled_sobol(key, i, 2));
+        const double angle = 2 * kPi * scrambled_sobol(key, i, 3);
+        const Vec3 origin =
+            box.center() + r * std::cos(angle) * right + r * std::sin(angle) * cross(d, right);
+        solid.crossings({origin, d, -kInf, kInf}, points);
+    }
+    return points;
+}
+
+struct Pair {
+    SurfacePoint a, b;
+    double distance = kInf;
+};
+
+/// The narrowest gap on a line between an end of a span in one solid and an end in the other.
+class LineGap {
+  public:
+    LineGap(const LoneSolid& a, const LoneSolid& b) : a_(a), b_(b) {}
+
+    /// Negative `distance`: a point of the line lies in both.
+    Pair on(const Vec3& through, const Vec3& direction) {
+        const Ray line{through, direction, -kInf, kInf};
+        in_a_.clear();
+        in_b_.clear();
+        Pair best;
+        a_.crossings(line, in_a_);
+        if (in_a_.empty() || in_a_.size() % 2 != 0) return best;
+        b_.crossings(line, in_b_);
+        if (in_b_.size() % 2 != 0) return best;
+        for (std::size_t i = 0; i < in_a_.size(); i += 2) {
+            for (std::size_t k = 0; k < in_b_.size(); k += 2) compare(i, k, best);
+        }
+        return best;
+    }
+
+  private:
+    void compare(std::size_t i, std::size_t k, Pair& best) const {
+        const SurfacePoint &a0 = in_a_[i], &a1 = in_a_[i + 1];
+        const SurfacePoint &b0 = in_b_[k], &b1 = in_b_[k + 1];
+        if (a0.t == a1.t || b0.t == b1.t) return;
+        if (std::max(a0.t, b0.t) < std::min(a1.t, b1.t)) {
+            const SurfacePoint& inside = a0.t > b0.t ? a0 : b0;
+            if (best.distance > -1) best = {inside, inside, -1};
+            return;
+        }
+        const bool a_first = a1.t <= b0.t;
+        const SurfacePoint& a = a_first ? a1 : a0;
+        const SurfacePoint& b = a_first ? b0 : b1;
+        const double distance = length(a.point - b.point);
+        if (distance < best.distance) best = {a, b, distance};
+    }
+
+    const LoneSolid& a_;
+    const LoneSolid& b_;
+    std::vector<SurfacePoint> in_a_, in_b_;
+};
+
+/// Moves the line through two points about, in steps that shrink, while the gap gets narrower.
+Pair improve(LineGap& gap, Pair best, double size) {
+    double step = 0.1 * size;
+    int turn = 0;
+    for (int round = 0; round < kRounds && best.distance > 0; ++round) {
+        const Vec3 d = unit_or(best.b.point - best.a.point, best.a.normal);
+        const Vec3 right = perpendicular(d);
+        const Vec3 up = cross(d, right);
+        bool better = false;
+        const auto attempt = [&](const Vec3& move_a, const Vec3& move_b) {
+            const Vec3 from = best.a.point + move_a;
+            const Vec3 to = best.b.point + move_b;
+            const Vec3 direction = unit_or(to - from, d);
+            const Pair found = gap.on(from, direction);
+            if (found.distance < best.distance) {
+                best = found;
+                better = true;
+            }
+        };
+        // Along the normals the feet of a perpendicular are found at once on flat ground.
+        attempt({}, length(best.b.point - best.a.point) * (best.a.normal - d));
+        attempt(length(best.b.point - best.a.point) * (best.b.normal + d), {});
+        for (std::size_t i = 0; i < kTurns && best.distance > 0; ++i) {
+            const double angle = 2 * kPi * (static_cast<double>(i) + 0.37 * turn) / kTurns;
+            const Vec3 aside = step * (std::cos(angle) * right + std::sin(angle) * up);
+            attempt(aside, {});
+            attempt({}, aside);
+            attempt(aside, aside);
+        }
+        ++turn;
+        step *= better ? 1.2 : 0.4;
+    }
+    return best;
+}
+
+/// The widest slab between the two, near the direction that is given.
+void separate(const LoneSolid& a, const LoneSolid& b, Vec3 n, Clearance& found) {
+    const auto width = [&](const Vec3& axis) { return b.extent(axis).lo - a.extent(axis).hi; };
+    double best = width(n);
+    for (double step = 0.3; step > 1e-12; step *= 0.5) {
+        const Vec3 right = perpendicular(n);
+        const Vec3 up = cross(n, right);
+        for (std::size_t i = 0; i < kTurns; ++i) {
+            const double angle = 2 * kPi * static_cast<double>(i) / kTurns;
+            const Vec3 tilted =
+                normalize(n + step * (std::cos(angle) * right + std::sin(angle) * up));
+            const double w = width(tilted);
+            if (w > best) {
+                best = w;
+                n = tilted;
+            }
+        }
+    }
+    // The unit normal is one but for roundings.
+    best *= 1 - 1e-15;
+    if (best > found.at_least) {
+        found.at_least = best;
+        found.slab_normal = n;
+    }
+}
+
+/// The nearest pairs between two sets of points.
+std::vector<Pair> nearest_pairs(const std::vector<SurfacePoint>& on_a,
+                                const std::vector<SurfacePoint>& on_b) {
+    std::vector<Pair> nearest;
+    for (const SurfacePoint& a : on_a) {
+        Pair best;
+        for (const SurfacePoint& b : on_b) {
+            const double distance = length(a.point - b.point);
+            if (distance < best.distance) best = {a, b, distance};
+        }
+        nearest.push_back(best);
+    }
+    const std::size_t kept = std::min(kStarts, nearest.size());
+    std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(kept),
+                      nearest.end(),
+                      [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
+    nearest.resize(kept);
+    return nearest;
+}
+
+}  // namespace
+
+Clearance clearance(const LoneSolid& a, const LoneSolid& b, std::uint64_t seed) {
+    if (!a.box().bounded() || !b.box().bounded()) {
+        throw Error(ErrorKind::Usage, "a solid is not bounded: its clearance is not looked for");
+    }
+    const auto on_a = surface_points(a, mix64(seed));
+    const auto on_b = surface_points(b, mix64(seed + 1));
+    if (on_a.empty() || on_b.empty()) {
+        throw Error(ErrorKind::Usage, "a solid is too thin to be met by any line");
+    }
+    LineGap gap(a, b);
+    Pair best;
+    // Lines between the solids also tell whether they overlap.
+    for (std::size_t i = 0; i < std::min(on_a.size(), on_b.size()); ++i) {
+        const Vec3 d = unit_or(on_b[i].point - on_a[i].point, on_a[i].normal);
+        const Pair found = gap.on(on_a[i].point, d);
+        if (found.distance < best.distance) best = found;
+    }
+    const double size = std::min(length(a.box().size()), length(b.box().size()));
+    if (best.distance >= 0) {
+        std::vector<Pair> starts = nearest_pairs(on_a, on_b);
+        starts.push_back(best);
+        for (const Pair& start : starts) {
+            const Pair found = improve(gap, start, size);
+            if (found.distance < best.distance) best = found;
+            if (best.distance < 0) break;
+        }
+    }
+    Clearance found;
+    found.on_a = best.a.point;
+    found.on_b = best.b.point;
+    found.error = std::max(length(best.a.error), length(best.b.error));
+    if (best.distance < 0) {
+        found.overlap = true;
+        return found;
+    }
+    found.at_most = best.distance;
+    const Vec3 across = unit_or(best.b.point - best.a.point, best.a.normal);
+    separate(a, b, across, found);
+    for (int k = 0; k < 3; ++k) {
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 n;
+            n[k] = side;
+            separate(a, b, n, found);
+        }
+    }
+    return found;
+}
+
+}  // namespace alhazen
