@@ -9,6 +9,7 @@
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/scene_files.h"
 #include "alhazen/session/verify.h"
+#include "alhazen/session/verify_exact.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
@@ -20,9 +21,9 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json to_json(const VerifyReport& report) {
+json to_json(const std::vector<Disagreement>& reported) {
     json disagreements = json::array();
-    for (const Disagreement& d : report.reported) {
+    for (const Disagreement& d : reported) {
         const Ray& r = d.ray;
         disagreements.push_back({{"kind", d.kind},
                                  {"query", d.query},
@@ -31,6 +32,10 @@ json to_json(const VerifyReport& report) {
                                  {"found", d.found},
                                  {"expected", d.expected}});
     }
+    return disagreements;
+}
+
+json to_json(const VerifyReport& report) {
     return {{"accelerator", report.accelerator},
             {"rays", report.rays},
             {"hits", report.hits},
@@ -40,7 +45,32 @@ json to_json(const VerifyReport& report) {
             {"parity_lines", report.parity_lines},
             {"odd_crossings", report.odd_crossings},
             {"holds", report.holds()},
-            {"reported", disagreements}};
+            {"reported", to_json(report.reported)}};
+}
+
+json to_json(const ExactReport& report) {
+    return {{"exact", true},
+            {"solids", report.solids},
+            {"unchecked", report.unchecked},
+            {"rays", report.rays},
+            {"crossings", report.crossings},
+            {"grazing", report.grazing},
+            {"disagreements", report.disagreements},
+            {"worst_crossing", report.worst_crossing},
+            {"worst_point", report.worst_point},
+            {"holds", report.holds()},
+            {"reported", to_json(report.reported)}};
+}
+
+void print_disagreements(const std::vector<Disagreement>& reported) {
+    for (const Disagreement& d : reported) {
+        const Vec3& o = d.ray.origin;
+        const Vec3& v = d.ray.direction;
+        print(
+            "  {} {}: origin {:.17g} {:.17g} {:.17g} direction {:.17g} {:.17g} {:.17g}\n    found "
+            "{}\n    expected {}\n",
+            d.kind, d.query, o.x, o.y, o.z, v.x, v.y, v.z, d.found, d.expected);
+    }
 }
 
 void print_report(const VerifyReport& report) {
@@ -50,14 +80,18 @@ void print_report(const VerifyReport& report) {
         "odd number of crossings\n",
         report.accelerator, report.rays, report.hits, report.disagreements, report.closed_surfaces,
         report.parity_lines, report.odd_crossings);
-    for (const Disagreement& d : report.reported) {
-        const Vec3& o = d.ray.origin;
-        const Vec3& v = d.ray.direction;
-        print(
-            "  {} {}: origin {:.17g} {:.17g} {:.17g} direction {:.17g} {:.17g} {:.17g}\n    found "
-            "{}\n    expected {}\n",
-            d.kind, d.query, o.x, o.y, o.z, v.x, v.y, v.z, d.found, d.expected);
-    }
+    print_disagreements(report.reported);
+}
+
+void print_report(const ExactReport& report) {
+    if (report.solids == 0) return;
+    print(
+        "exact: {} solids, {} rays, {} crossings in 113 digits: {} disagreements, {} rays graze; "
+        "crossings and points within {:.3g} and {:.3g} of their bounds{}\n",
+        report.solids, report.rays, report.crossings, report.disagreements, report.grazing,
+        report.worst_crossing, report.worst_point,
+        report.unchecked > 0 ? fmt::format("; {} solids not checked", report.unchecked) : "");
+    print_disagreements(report.reported);
 }
 
 }  // namespace
@@ -107,11 +141,22 @@ void add_verify(CLI::App& app, int& exit_status) {
             reports.push_back(to_json(report));
             if (args->json != "-") print_report(report);
         };
+        ExactReport exact;
+        VerifyOptions exact_options = args->verify;
+        exact_options.accelerator = "list";
+        exact_options.progress = &progress;
+        ThreadLimit(args->scene.threads).run([&] {
+            exact = verify_exact(description, exact_options);
+        });
+        progress.finish();
+        if (args->json != "-") print_report(exact);
+        holds = holds && exact.holds();
         if (args->scene.accelerator == "all") {
             for (const AcceleratorEntry& entry : accelerator_table()) check(entry.name);
         } else {
             check(args->scene.accelerator);
         }
+        reports.push_back(to_json(exact));
         if (!args->json.empty()) write_report(args->json, reports.dump(2) + "\n");
         exit_status = holds ? kDone : kCheckFailed;
     });

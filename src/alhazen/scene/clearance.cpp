@@ -125,30 +125,50 @@ Pair improve(LineGap& gap, Pair best, double size) {
     return best;
 }
 
-/// The widest slab between the two, near the direction that is given.
+/// Where two solids have an edge or a corner the width of a slab has a ridge: directions that go
+/// round with every step find along it.
+constexpr int kTilts = 24;
+constexpr int kMostTilts = 20000;
+
+void offer_slab(double width, const Vec3& normal, Clearance& found) {
+    // The unit normal is one but for roundings.
+    width *= 1 - 1e-15;
+    if (width > found.at_least) {
+        found.at_least = width;
+        found.slab_normal = normal;
+    }
+}
+
+/// The widest slab between the two, near the direction that is given; and those along the axes.
 void separate(const LoneSolid& a, const LoneSolid& b, Vec3 n, Clearance& found) {
     const auto width = [&](const Vec3& axis) { return b.extent(axis).lo - a.extent(axis).hi; };
+    for (int k = 0; k < 3; ++k) {
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 axis;
+            axis[k] = side;
+            offer_slab(width(axis), axis, found);
+        }
+    }
     double best = width(n);
-    for (double step = 0.3; step > 1e-12; step *= 0.5) {
+    int turn = 0;
+    for (double step = 0.2; step > 1e-11 && turn < kMostTilts;) {
         const Vec3 right = perpendicular(n);
         const Vec3 up = cross(n, right);
-        for (std::size_t i = 0; i < kTurns; ++i) {
-            const double angle = 2 * kPi * static_cast<double>(i) / kTurns;
+        bool better = false;
+        for (int i = 0; i < kTilts && !better; ++i) {
+            const double angle = 2.39996322972865332 * ++turn;  // the golden angle
             const Vec3 tilted =
                 normalize(n + step * (std::cos(angle) * right + std::sin(angle) * up));
             const double w = width(tilted);
-            if (w > best) {
+            better = w > best;
+            if (better) {
                 best = w;
                 n = tilted;
             }
         }
+        if (!better) step *= 0.5;
     }
-    // The unit normal is one but for roundings.
-    best *= 1 - 1e-15;
-    if (best > found.at_least) {
-        found.at_least = best;
-        found.slab_normal = n;
-    }
+    offer_slab(best, n, found);
 }
 
 /// The nearest pairs between two sets of points.
@@ -209,15 +229,7 @@ Clearance clearance(const LoneSolid& a, const LoneSolid& b, std::uint64_t seed) 
         return found;
     }
     found.at_most = best.distance;
-    const Vec3 across = unit_or(best.b.point - best.a.point, best.a.normal);
-    separate(a, b, across, found);
-    for (int k = 0; k < 3; ++k) {
-        for (const double side : {-1.0, 1.0}) {
-            Vec3 n;
-            n[k] = side;
-            separate(a, b, n, found);
-        }
-    }
+    separate(a, b, unit_or(best.b.point - best.a.point, best.a.normal), found);
     return found;
 }
 

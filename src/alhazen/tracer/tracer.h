@@ -22,6 +22,7 @@
 #include "alhazen/geometry/ray.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/aggregate.h"
+#include "alhazen/scene/spans.h"
 #include "alhazen/scene/surface.h"
 #include "alhazen/tracer/tracer_scene.h"
 
@@ -85,6 +86,10 @@ class Tracer {
     /// Where a hit of this very tracer lies and what it belongs to. `leaving_ray` (scene/surface.h)
     /// begins the next ray there. Throws Error (Usage) when nothing was hit.
     [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
+
+    /// Spans, thickness and points inside, of the geometry that bounds volumes. Finds out which does
+    /// (a sort of the edges of every mesh): to be made once. Shares the geometry with the tracer.
+    [[nodiscard]] SolidQueries solids() const { return SolidQueries(aggregate_); }
 
     /// Holds all geometry; empty for an empty scene, infinite with planes in it.
     [[nodiscard]] Box3 box() const { return aggregate_->box(); }

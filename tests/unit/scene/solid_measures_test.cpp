@@ -123,6 +123,24 @@ TEST(SolidMeasures, TheLensOfTwoSpheresIsTheirOverlap) {
     EXPECT_EQ(measure(Overlap(a, c), {.area = false}).volume.value, 0);
 }
 
+TEST(SolidMeasures, BicylindersAreRightToFiveDigits) {
+    // Two as the overlap of cylinders, 16 r^3 / 3; along the axes, and turned.
+    for (const Affine& placement :
+         {Affine{}, Affine::rotate({1, -2, 1}, 0.8) * Affine::scale({2, 2, 2})}) {
+        SceneMaker maker;
+        maker.add(Cylinder{{-2, 0, 0}, {2, 0, 0}, 1}, MaterialId{0}, placement);
+        maker.add(Cylinder{{0, -2, 0}, {0, 2, 0}, 1}, MaterialId{0}, placement);
+        const SolidList solids(maker.compile().aggregate);
+        const LoneSolid a(solids, SolidId{0}), b(solids, SolidId{1});
+        const SolidMeasures m =
+            measure(Overlap(a, b), {.relative_error = 1e-5, .seconds = 20, .area = false});
+        const double truth = 16.0 / 3 * std::abs(determinant(placement.linear));
+        EXPECT_TRUE(m.reached);
+        EXPECT_NEAR(m.volume.value, truth, 2 * m.volume.half_width);
+        EXPECT_LE(m.volume.half_width, 1e-5 * truth);
+    }
+}
+
 TEST(SolidMeasures, SectionsHaveTheAreaOfDiscsEllipsesAndRectangles) {
     SceneMaker maker;
     maker.add(Sphere{{1, 1, 1}, 2});

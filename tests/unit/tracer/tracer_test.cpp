@@ -213,6 +213,33 @@ TEST(Tracer, WrongUseIsRefused) {
     EXPECT_THROW((void)Tracer(TracerScene{}, {.accelerator = "magic"}), Error);
 }
 
+TEST(Tracer, SpansAndPointsInsideNameTheGeometry) {
+    TracerScene inner;
+    inner.add_sphere({0, 0, 0}, 1);
+    TracerScene scene;
+    scene.add(Plane{});
+    scene.add(BoxShape{{-1, -1, -1}, {1, 1, 1}});
+    scene.add_instance(Tracer(std::move(inner)),
+                       {.world_from_geometry = Affine::translate({5, 0, 0})});
+    const Tracer tracer(std::move(scene));
+    const SolidQueries solids = tracer.solids();
+    ASSERT_EQ(solids.solids().count(), 2u);
+    SpanList list;
+    const Ray ray{{0, 0, 0.5}, {1, 0, 0}};
+    solids.spans(ray, list);
+    ASSERT_EQ(list.spans.size(), 2u);
+    EXPECT_FALSE(list.spans[0].entry.is_crossing);
+    EXPECT_EQ(list.spans[0].exit.t, 1);
+    EXPECT_EQ(solids.solids().place(list.spans[1].solid).parts, (std::vector<std::uint32_t>{2, 0}));
+    EXPECT_NEAR(solids.entry_surface(ray, list.spans[1]).point.x, 5 - std::sqrt(0.75), 1e-14);
+    const std::vector<Vec3> points{{5, 0, 0}, {0, 0, 1}, {3, 0, 0}};
+    const auto found = solids.inside(points);
+    EXPECT_EQ(found[0], (std::vector<Containment>{{list.spans[1].solid, false}}));
+    EXPECT_EQ(found[1], (std::vector<Containment>{{list.spans[0].solid, true}}));
+    EXPECT_TRUE(found[2].empty());
+    EXPECT_NEAR(solids.thickness(ray, list).inside_any, 1 + 2 * std::sqrt(0.75), 1e-14);
+}
+
 TEST(Tracer, RaysLeaveTheSurfaceTheyStartOn) {
     TracerScene scene;
     scene.add_sphere({1e5, 0, 0}, 1);

@@ -1,0 +1,335 @@
+#include "alhazen/session/verify_exact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <set>
+
+#include "alhazen/math/unit_vector.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/csg_aggregate.h"
+#include "alhazen/scene/scene.h"
+#include "alhazen/scene/surface.h"
+#include "alhazen/session/exact_crossings.h"
+#include "alhazen/session/verify_rays.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kEpsilon = 0x1p-53;
+/// Stored solids that are checked; of more, as many spread over all.
+constexpr std::size_t kMostSolids = 256;
+/// Roundings of a ray's own numbers on the way to a crossing.
+constexpr double kRayRoundings = 16;
+/// Crossings of many leaves are sums of many calls: CSG objects with more are left to `roth`.
+constexpr std::uint32_t kMostLeaves = 4096;
+
+/// A solid by itself: what is traced, and what is true.
+struct ExactSolid {
+    std::shared_ptr<const Aggregate> aggregate;
+    const CsgSolid* csg = nullptr;
+    bool checked = false;
+
+    [[nodiscard]] ExactCrossings crossings(const ExactLine& line, Real128 least) const {
+        ExactCrossings found = csg != nullptr
+                                   ? exact_crossings(*csg, line, least)
+                                   : exact_crossings(aggregate->primitives(), PrimitiveId{0}, line);
+        drop_thin(found, least);
+        return found;
+    }
+};
+
+/// Collects what an aggregate stores; instances inward.
+class Collector {
+  public:
+    void add(const std::shared_ptr<const Aggregate>& aggregate) {
+        if (!seen_.insert(aggregate.get()).second) return;
+        if (const auto* csg = dynamic_cast<const CsgAggregate*>(aggregate.get())) {
+            const bool checked =
+                csg->solid().leaf_count() <= kMostLeaves && has_exact_crossings(csg->solid());
+            solids.push_back({aggregate, &csg->solid(), checked});
+            return;
+        }
+        add_inside(*aggregate);
+    }
+    std::vector<ExactSolid> solids;
+
+  private:
+    void add_inside(const Aggregate& aggregate) {
+        const PrimitiveTable& table = aggregate.primitives();
+        std::uint32_t kind = 0;
+        const auto visit = [&](const auto& column) {
+            const std::uint32_t first = table.first(kind++);
+            for (std::uint32_t i = 0; i < column.shapes.size(); ++i) {
+                if (column.shapes[i].closed()) add_shape(table, column, i, PrimitiveId{first + i});
+            }
+        };
+        std::apply([&](const auto&... column) { (visit(column), ...); }, table.columns);
+        for (const Instance& instance : table.instances) add(instance.aggregate);
+    }
+
+    template <class Column>
+    void add_shape(const PrimitiveTable& table, const Column& column, std::uint32_t i,
+                   PrimitiveId id) {
+        PrimitiveTable alone;
+        alone.material_opacity = {Opacity::Opaque};
+        auto& own = std::get<Column>(alone.columns);
+        own.shapes.push_back(column.shapes[i]);
+        own.materials.push_back(MaterialId{0});
+        own.placements.push_back(kNoPlacement);
+        if (column.placements[i] != kNoPlacement) {
+            own.placements.back() = 0;
+            alone.placements.push_back(table.placements[column.placements[i]]);
+        }
+        alone.finish();
+        solids.push_back({make_aggregate("list", std::move(alone), {}), nullptr,
+                          has_exact_crossings(table, id)});
+    }
+
+    std::set<const Aggregate*> seen_;
+};
+
+std::string describe(const std::vector<Hit>& hits) {
+    std::string text = fmt::format("{} crossings", hits.size());
+    for (std::size_t i = 0; i < std::min<std::size_t>(hits.size(), 6); ++i) {
+        text += fmt::format("; t={:.17g}", hits[i].t);
+    }
+    return text;
+}
+std::string describe(const ExactCrossings& crossings) {
+    std::string text = fmt::format("{} crossings", crossings.t.size());
+    for (std::size_t i = 0; i < std::min<std::size_t>(crossings.t.size(), 6); ++i) {
+        text += fmt::format("; t={:.17g}", static_cast<double>(crossings.t[i]));
+    }
+    return text;
+}
+
+class Checker {
+  public:
+    Checker(const ExactSolid& solid, const VerifyOptions& options, ExactReport& report)
+        : solid_(solid), options_(options), report_(report) {
+        const Box3 box = solid.aggregate->box();
+        reach_ = box.bounded() ? length(Vec3{std::max(std::abs(box.lo.x), std::abs(box.hi.x)),
+                                             std::max(std::abs(box.lo.y), std::abs(box.hi.y)),
+                                             std::max(std::abs(box.lo.z), std::abs(box.hi.z))})
+                               : 10.0;
+    }
+
+    void check(const VerifyRays::Sample& sample) {
+        Ray ray = sample.ray;
+        ray.t_min = -kInf;
+        ray.t_max = kInf;
+        hits_.clear();
+        solid_.aggregate->all_hits(ray, hits_, nullptr);
+        const double bound = bound_of(ray);
+        const double scale = length(ray.direction);
+        const Real128 least = bound / scale;
+        const ExactLine line{Vec3Of<Real128>(ray.origin), Vec3Of<Real128>(ray.direction)};
+        const ExactCrossings truth = solid_.crossings(line, least);
+        const ExactCrossings found = thick_hits(least);
+        ++report_.rays;
+        report_.crossings += hits_.size();
+        if (!is_close(found, truth, least)) {
+            if (is_among_displaced(found, line, ray, bound)) {
+                ++report_.grazing;
+            } else {
+                disagree(sample, "crossings", describe(hits_), describe(truth));
+            }
+        } else {
+            for (std::size_t i = 0; i < found.t.size(); ++i) {
+                const Real128 off = found.t[i] - truth.t[i];
+                const double share = std::abs(static_cast<double>(off / least));
+                report_.worst_crossing = std::max(report_.worst_crossing, share);
+            }
+        }
+        check_points(sample, ray);
+    }
+
+  private:
+    /// How far a line may be off that has the crossings that were found, scene units.
+    [[nodiscard]] double bound_of(const Ray& ray) const {
+        double largest = 0;
+        double t_reach = 0;
+        for (const Hit& hit : hits_) {
+            largest = std::max(largest, length(surface_at(*solid_.aggregate, ray, hit).error));
+            t_reach = std::max(t_reach, std::abs(hit.t) * length(ray.direction));
+        }
+        const double rounding = kRayRoundings * kEpsilon * (length(ray.origin) + t_reach + reach_);
+        const double tolerance = solid_.csg != nullptr ? 4 * solid_.csg->tolerance() : 0.0;
+        return 2 * largest + rounding + tolerance;
+    }
+
+    [[nodiscard]] ExactCrossings thick_hits(Real128 least) const {
+        ExactCrossings found;
+        for (const Hit& hit : hits_) found.t.push_back(hit.t);
+        drop_thin(found, least);
+        return found;
+    }
+
+    static bool is_close(const ExactCrossings& a, const ExactCrossings& b, Real128 least) {
+        if (a.t.size() != b.t.size()) return false;
+        for (std::size_t i = 0; i < a.t.size(); ++i) {
+            const Real128 off = a.t[i] - b.t[i];
+            if (!(off <= least && -off <= least)) return false;
+        }
+        return true;
+    }
+
+    /// Whether lines displaced by the bound to all sides have as many crossings, and the found ones
+    /// lie among theirs.
+    [[nodiscard]] bool is_among_displaced(const ExactCrossings& found, const ExactLine& line,
+                                          const Ray& ray, double bound) const {
+        const Vec3 d = unit_or(ray.direction, {0, 0, 1});
+        const Vec3 right = perpendicular(d), up = cross(d, right);
+        const Real128 least = bound / length(ray.direction);
+        std::vector<Real128> lo, hi;
+        bool any = false;
+        for (int i = 0; i < 9; ++i) {
+            ExactLine displaced = line;
+            if (i > 0) {
+                const double angle = 0.78539816339744831 * i;
+                const Vec3 aside = bound * (std::cos(angle) * right + std::sin(angle) * up);
+                displaced.origin = displaced.origin + Vec3Of<Real128>(aside);
+            }
+            const ExactCrossings truth = solid_.crossings(displaced, least);
+            if (truth.t.size() != found.t.size()) continue;
+            if (!any) lo = hi = truth.t;
+            any = true;
+            for (std::size_t k = 0; k < truth.t.size(); ++k) {
+                lo[k] = std::min(lo[k], truth.t[k]);
+                hi[k] = std::max(hi[k], truth.t[k]);
+            }
+        }
+        if (!any) return false;
+        for (std::size_t k = 0; k < found.t.size(); ++k) {
+            const Real128 room = hi[k] - lo[k] + least;
+            if (found.t[k] < lo[k] - room || found.t[k] > hi[k] + room) return false;
+        }
+        return true;
+    }
+
+    /// Distance of the points from the true surface along their normals.
+    void check_points(const VerifyRays::Sample& sample, const Ray& ray) {
+        for (const Hit& hit : hits_) {
+            const Surface surface = surface_at(*solid_.aggregate, ray, hit);
+            const ExactLine normal{Vec3Of<Real128>(surface.point), Vec3Of<Real128>(surface.normal)};
+            // Along the normal a thin sliver is as real as any.
+            const ExactCrossings truth = solid_.crossings(normal, 0);
+            Real128 nearest = kInf;
+            for (const Real128 t : truth.t) {
+                const Real128 distance = t < 0 ? -t : t;
+                if (distance < nearest) nearest = distance;
+            }
+            const double bound = length(surface.error);
+            const double off = static_cast<double>(nearest);
+            const double tolerance = solid_.csg != nullptr ? 4 * solid_.csg->tolerance() : 0.0;
+            if (off <= bound) {
+                report_.worst_point = std::max(report_.worst_point, off / bound);
+            } else if (off > bound + tolerance && !is_on_edge(surface)) {
+                disagree(sample, "error_bound", fmt::format("t={:.17g} off by {:.6g}", hit.t, off),
+                         fmt::format("at most {:.6g}", bound));
+            }
+        }
+    }
+
+    /// Near an edge or a tip the normal of one face need not meet any: then the point is right when
+    /// lines beside it, off by the bound, do.
+    [[nodiscard]] bool is_on_edge(const Surface& surface) const {
+        const double bound = length(surface.error);
+        const Vec3 right = perpendicular(surface.normal), up = cross(surface.normal, right);
+        for (int i = 0; i < 8; ++i) {
+            const double angle = 0.78539816339744831 * i;
+            const Vec3 aside = 2 * bound * (std::cos(angle) * right + std::sin(angle) * up);
+            const ExactLine line{Vec3Of<Real128>(surface.point) + Vec3Of<Real128>(aside),
+                                 Vec3Of<Real128>(surface.normal)};
+            for (const Real128 t : solid_.crossings(line, 0).t) {
+                if (t <= 4 * bound && -t <= 4 * bound) return true;
+            }
+        }
+        return false;
+    }
+
+    void disagree(const VerifyRays::Sample& sample, const char* query, std::string found,
+                  std::string expected) {
+        ++report_.disagreements;
+        if (report_.reported.size() < options_.max_reported) {
+            report_.reported.push_back(
+                {sample.kind, query, sample.ray, std::move(found), std::move(expected)});
+        }
+    }
+
+    const ExactSolid& solid_;
+    const VerifyOptions& options_;
+    ExactReport& report_;
+    std::vector<Hit> hits_;
+    double reach_ = 0;
+};
+
+/// Rays of all kinds, and every third nearly tangent to the surface.
+class ExactRays {
+  public:
+    ExactRays(const Aggregate& aggregate, std::uint64_t seed)
+        : aggregate_(aggregate),
+          usual_(aggregate.box(), nullptr, aggregate.primitives(), seed),
+          random_(seed + 99) {}
+
+    VerifyRays::Sample next() {
+        if (count_++ % 3 != 0) return usual_.next();
+        const VerifyRays::Sample sample = usual_.next();
+        Hit hit;
+        Ray ray = sample.ray;
+        ray.t_min = -kInf;
+        if (!aggregate_.closest(ray, hit, nullptr)) return sample;
+        const Surface surface = surface_at(aggregate_, ray, hit);
+        const Vec3 right = perpendicular(surface.normal);
+        const double angle = random_.uniform(0, 6.283185307179586);
+        const Vec3 along = std::cos(angle) * right + std::sin(angle) * cross(surface.normal, right);
+        // Off the tangent by anything from nothing to a thousandth.
+        const double slope = random_.below(4) == 0 ? 0 : std::pow(10.0, random_.uniform(-17, -3));
+        const Vec3 direction = along + slope * surface.normal;
+        const double back = random_.below(2) == 0 ? 0 : std::pow(10.0, random_.uniform(-2, 4));
+        return {"grazing", {surface.point - back * direction, direction}};
+    }
+
+  private:
+    const Aggregate& aggregate_;
+    VerifyRays usual_;
+    RandomStream random_;
+    std::uint64_t count_ = 0;
+};
+
+ExactReport check_all(const std::vector<ExactSolid>& all, const VerifyOptions& options) {
+    ExactReport report;
+    std::vector<const ExactSolid*> checked;
+    for (const ExactSolid& solid : all) {
+        if (solid.checked) checked.push_back(&solid);
+    }
+    const std::size_t count = std::min(checked.size(), kMostSolids);
+    report.unchecked = all.size() - count;
+    report.solids = count;
+    for (std::size_t i = 0; i < count; ++i) {
+        const ExactSolid& solid = *checked[i * checked.size() / count];
+        Checker checker(solid, options, report);
+        ExactRays rays(*solid.aggregate, options.seed + 7 * i);
+        const std::uint64_t share = std::max<std::uint64_t>(100, options.rays / count);
+        for (std::uint64_t k = 0; k < share; ++k) checker.check(rays.next());
+        if (options.progress != nullptr) options.progress->update("exact", i + 1, count);
+    }
+    return report;
+}
+
+}  // namespace
+
+ExactReport verify_exact(const SceneDescription& description, const VerifyOptions& options) {
+    const Scene scene =
+        compile(description, {.accelerator = options.accelerator, .build = options.build});
+    Collector collector;
+    collector.add(scene.aggregate);
+    return check_all(collector.solids, options);
+}
+
+}  // namespace alhazen

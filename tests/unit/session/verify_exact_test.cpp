@@ -1,0 +1,110 @@
+#include "alhazen/session/verify_exact.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/session/exact_crossings.h"
+#include "support/random.h"
+#include "support/random_shapes.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::Random;
+using testing::SceneMaker;
+
+std::string first_of(const ExactReport& report) {
+    if (report.reported.empty()) return "";
+    const Disagreement& d = report.reported.front();
+    std::ostringstream text;
+    text.precision(17);
+    text << d.kind << " " << d.query << " origin " << d.ray.origin.x << " " << d.ray.origin.y << " "
+         << d.ray.origin.z << " direction " << d.ray.direction.x << " " << d.ray.direction.y << " "
+         << d.ray.direction.z << " found " << d.found << " expected " << d.expected;
+    return text.str();
+}
+
+TEST(Real128, RootsAreRightToAllItsDigits) {
+    for (const double x : {2.0, 3.0, 1e-100, 7.5e120, 0.3}) {
+        const Real128 root = square_root(x);
+        const Real128 off = (root * root - x) / x;
+        EXPECT_LT(std::abs(static_cast<double>(off)), 1e-33) << x;
+    }
+    EXPECT_EQ(static_cast<double>(square_root(0)), 0);
+}
+
+TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
+    for (const bool lattice : {false, true}) {
+        Random random(lattice ? 3 : 4);
+        SceneMaker maker;
+        const testing::ShapeSource source{random, lattice};
+        for (int i = 0; i < 15; ++i) {
+            const Affine placement =
+                lattice ? Affine::translate(random.on_lattice(4, 0.5))
+                        : Affine::translate(random.in_cube(100)) *
+                              Affine::rotate(random.unit_vector(), random.uniform(0, 6)) *
+                              Affine::scale({1, random.uniform(0.5, 2), random.uniform(0.1, 5)});
+            maker.add(testing::random_shape<Sphere>(source), MaterialId{0}, placement);
+            maker.add(testing::random_shape<BoxShape>(source), MaterialId{0}, placement);
+            maker.add(testing::random_shape<Cylinder>(source), MaterialId{0}, placement);
+            maker.add(testing::random_shape<Cone>(source), MaterialId{0}, placement);
+        }
+        (void)maker.compile();
+        const ExactReport report = verify_exact(maker.description(), {.rays = 20000});
+        EXPECT_GT(report.solids, 40u);
+        EXPECT_EQ(report.unchecked, 0u);
+        EXPECT_GT(report.crossings, 10000u);
+        EXPECT_EQ(report.disagreements, 0u) << first_of(report);
+        EXPECT_LE(report.worst_point, 1.0);
+        EXPECT_GT(report.worst_point, 0.0);
+        // Most rays must be decided without recourse to displaced lines.
+        EXPECT_LT(report.grazing, report.rays / 4);
+    }
+}
+
+TEST(VerifyExact, SolidsMadeOfOthersAreRight) {
+    Random random(8);
+    SceneMaker maker;
+    for (int i = 0; i < 12; ++i) {
+        const ObjectIndex solid = maker.object("solid");
+        auto& object = maker.description().objects.back();
+        object.combine = i % 3 == 0   ? Combine::Union
+                         : i % 3 == 1 ? Combine::Intersection
+                                      : Combine::Difference;
+        const double far = i % 3 == 1 ? 0.3 : 1.0;
+        maker.add(Sphere{{0, 0, 0}, 1.5}, MaterialId{0}, {}, solid);
+        maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, MaterialId{0},
+                  Affine::translate(random.in_cube(far)) *
+                      Affine::rotate(random.unit_vector(), random.uniform(0, 6)),
+                  solid);
+        maker.add(Cylinder{{0, 0, -2}, {0, 0, 2}, 0.5}, MaterialId{0},
+                  Affine::rotate(random.unit_vector(), random.uniform(0, 6)), solid);
+        maker.add(solid, MaterialId{0}, Affine::translate({4.0 * i, 0, 0}));
+    }
+    (void)maker.compile();
+    const ExactReport report = verify_exact(maker.description(), {.rays = 6000});
+    EXPECT_EQ(report.solids, 12u);
+    EXPECT_EQ(report.disagreements, 0u) << first_of(report);
+    EXPECT_GT(report.crossings, 3000u);
+}
+
+TEST(VerifyExact, AMeshIsNotChecked) {
+    SceneMaker maker;
+    maker.add(maker.mesh(testing::tetrahedron()));
+    maker.add(Sphere{});
+    (void)maker.compile();
+    EXPECT_EQ(verify_exact(maker.description(), {.rays = 200}).solids, 1u);
+}
+
+TEST(ExactCrossings, AWrongCrossingIsFarFromTheTruth) {
+    // What the check rests on: the formula knows a sphere that is wrong in the last digits.
+    const ExactLine line{{-3, Real128(0.3), 0}, {1, 0, 0}};
+    const ExactCrossings truth = exact_crossings(Sphere{{0, 0, 0}, 1}, line);
+    const ExactCrossings wrong = exact_crossings(Sphere{{0, 0, 0}, 1 + 1e-15}, line);
+    ASSERT_EQ(truth.t.size(), 2u);
+    const double off = static_cast<double>(truth.t[0] - wrong.t[0]);
+    EXPECT_NEAR(off, 1e-15 / std::sqrt(1 - 0.09), 2e-16);
+}
+
+}  // namespace
+}  // namespace alhazen
