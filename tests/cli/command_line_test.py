@@ -249,13 +249,85 @@ class CommandLine(unittest.TestCase):
         result = run("verify", self.scene, "--rays", "500", "--json", "-", "-q")
         self.assertEqual(result.returncode, 0)
         self.assertTrue(all(report["holds"] for report in json.loads(result.stdout)))
+        result = run("verify", self.solids(), "--exact", "--rays", "300", "--json", "-", "-q")
+        exact = [report for report in json.loads(result.stdout) if report.get("exact")]
+        self.assertEqual([(report["solids"], report["unchecked"]) for report in exact], [(2, 0)])
+
+    def solids(self):
+        return self.write("solids.alhazen", """alhazen 1
+material "steel" { diffuse = (0.3, 0.4, 0.5); density = 2 }
+sphere "ball" { radius = 2; material = "steel" }
+box "block" { lo = (3, -1, -1); hi = (5, 1, 1) }
+plane { point = (0, 0, -9) }
+""")
+
+    def test_questions_about_solids_are_answered_in_lines_of_json(self):
+        scene = self.solids()
+        result = run("spans", scene, "--ray", "-4,0,0,2,0,0", "--rays", "-", "-q", input="0 0 0 0 0 1\n# none\n9,9,9,0,0,1\n")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual([len(line["spans"]) for line in lines], [2, 1, 0])
+        ball, block = lines[0]["spans"]
+        self.assertEqual((ball["name"], ball["entry"]["t"], ball["exit"]["t"]), ("ball", 1, 3))
+        self.assertEqual((ball["entry"]["normal"], ball["entry"]["material"]), ([-1, 0, 0], "steel"))
+        self.assertEqual((block["length"], block["exit"]["point"]), (2, [5, 0, 0]))
+        self.assertTrue(lines[1]["spans"][0]["entry"]["inside"])
+        result = run("thickness", scene, "--ray=-4,0,0,2,0,0")
+        self.assertEqual(json.loads(result.stdout)["thickness"], 6)
+        self.assertIn("bound no volume", result.stderr)
+        points = self.write("points.txt", "0 0 0\n3,0,0\n8 8 8\n")
+        lines = run("inside", scene, "--points", points).stdout.splitlines()
+        inside = [[(s["name"], s["on_surface"]) for s in json.loads(line)["inside"]] for line in lines]
+        self.assertEqual(inside, [[("ball", False)], [("block", True)], []])
+        for arguments in (["spans", scene], ["spans", scene, "--ray", "1,2,3"], ["inside", scene, "--point", "a,b,c"],
+                          ["spans", scene, "--ray", "0,0,0,0,0,0"], ["measure", scene, "nothing"],
+                          ["measure", scene, "--overlap", "ball"], ["section", scene, "--plane", "0,0,0,1"],
+                          ["section", scene, "--plane", "0,0,1"], ["section", scene, "--plane", "0,0,1,0", "-o", "x.gif"]):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertTrue(result.stderr)
+        self.assertEqual(run("spans", scene, "--rays", self.path("missing")).returncode, 4)
+
+    def test_measure_gives_figures_with_intervals(self):
+        scene = self.solids()
+        result = run("measure", scene, "--json", "-", "--error", "1e-3", "-q", "--section", "1,0,0,4",
+                     "--overlap", "0,1", "--clearance", "ball,block", "ball", "block")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads(result.stdout)
+        ball, block = report["solids"]
+        low, high = ball["volume"]["interval"]
+        self.assertLess(abs(ball["volume"]["value"] / 33.510321638 - 1), 2e-3)
+        self.assertLess(high - low, 0.1)
+        self.assertAlmostEqual(ball["mass"]["value"], 2 * ball["volume"]["value"])
+        self.assertAlmostEqual(block["volume"]["value"], 8, 9)
+        self.assertAlmostEqual(block["area"]["value"], 24, 9)
+        self.assertAlmostEqual(block["section_area"]["value"], 4, 9)
+        overlap, clearance = report["pairs"]
+        self.assertEqual(overlap["overlap_volume"]["value"], 0)
+        self.assertAlmostEqual(clearance["clearance"]["at_least"], 1, 9)
+        self.assertAlmostEqual(clearance["clearance"]["at_most"], 1, 9)
+        self.assertIn("volume", run("measure", scene, "block").stdout)
+        self.assertEqual(run("measure", scene, "--json", scene).returncode, 2)
+
+    def test_section_writes_a_picture_and_outlines(self):
+        scene = self.solids()
+        result = run("section", scene, "--plane", "0,0,1,0", "-o", self.path("cut.png"), "--size", "96x64", "--svg",
+                     self.path("cut.svg"), "--json", self.path("cut.json"), "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.read("cut.png")[:4], b"\x89PNG")
+        svg = self.read("cut.svg").decode()
+        self.assertIn('inkscape:label="ball"', svg)
+        self.assertEqual(svg.count("<path"), 2)
+        areas = [solid["area"]["value"] for solid in json.loads(self.read("cut.json"))["solids"]]
+        self.assertAlmostEqual(areas[0], 12.566370614, 4)
+        self.assertAlmostEqual(areas[1], 4, 9)
 
     def test_layers_go_into_the_exr_and_do_not_change_the_picture(self):
         result = self.render("--aov", "all", output="layers.exr")
         self.assertEqual(result.returncode, 0, result.stderr)
         header = self.read("layers.exr")[:8192]
         for channel in ("R", "A", "depth.Z", "N.X", "Ng.Y", "P.Z", "uv.U", "albedo.G", "id.object", "id.material",
-                        "id.instance", "count.rays", "count.node_visits", "count.primitive_tests", "time.seconds"):
+                        "id.instance", "error_bound", "count.rays", "count.node_visits", "count.primitive_tests", "time.seconds"):
             self.assertIn(b"\0" + channel.encode() + b"\0", header, channel)
         self.assertIn(b'"1":"mirror"', header)
         self.assertEqual(os.listdir(self.folder.name).count("layers.depth.png"), 0)

@@ -14,7 +14,7 @@
 namespace alhazen {
 
 /// Independent scramblings of every estimate.
-inline constexpr std::size_t kReplicates = 8;
+inline constexpr std::size_t kReplicates = 16;
 using Replicates = std::array<double, kReplicates>;
 
 /// Sums over spans of moments up to the second.

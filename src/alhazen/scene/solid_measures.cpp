@@ -15,11 +15,11 @@ namespace alhazen {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::uint32_t kPilotLines = 256;  ///< of each scrambling and direction
-constexpr std::uint32_t kFirstLines = 1024;
+constexpr std::uint32_t kPilotLines = 128;  ///< of each scrambling and direction
+constexpr std::uint32_t kFirstLines = 512;
 constexpr std::uint32_t kMostLines = std::uint32_t{1} << 27;
 /// Lines of each scrambling for Crofton's formula: a check, which converges slowly.
-constexpr std::uint32_t kCroftonLines = 4096;
+constexpr std::uint32_t kCroftonLines = 2048;
 /// How much wider than both intervals a difference may be.
 constexpr double kAgreement = 2.5;
 

@@ -11,7 +11,7 @@
 /// along the axis of a cylinder would scatter most. (2) Area is the sum over the three directions
 /// of a frame of |cosine| per crossing, which is exact, since the squares of the three cosines sum
 /// to one, and stays bounded where a line grazes. Crofton's count of isotropic lines is made
-/// besides. (3) The lines of every estimate are eight independent scramblings of a net; Student's
+/// besides. (3) The lines of every estimate are sixteen independent scramblings of a net; Student's
 /// interval of their mean is given. The rounding of the spans is added to it. Conventions: world
 /// units. Moments are those of density 1. Complexity and threads: errors fall as about N^-1.25 in
 /// the best direction (N^-0.75 where faces lie along all of them). Over all threads; the result

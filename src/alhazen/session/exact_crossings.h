@@ -168,6 +168,40 @@ CrossingsOf<R> exact_crossings(const Cone& c, const LineOf<R>& line) {
     return exact_frustum<R>(c.base, c.top, c.base_radius, c.top_radius, line);
 }
 
+template <class R>
+CrossingsOf<R> exact_crossings(const HalfSpace& half, const LineOf<R>& line) {
+    const Vec3Of<R> n(half.normal);
+    const R rate = dot(n, line.direction);
+    if (rate == 0) return {dot(n, line.origin - Vec3Of<R>(half.point)) < 0, {}};
+    return {rate > 0, {dot(n, Vec3Of<R>(half.point) - line.origin) / rate}};
+}
+
+/// The faces as they were prepared: points and unit normals.
+template <class R>
+CrossingsOf<R> exact_crossings(const Polyhedron& solid, const LineOf<R>& line) {
+    bool has_entry = false, has_exit = false;
+    R entry{}, exit{};
+    for (const OrientedPlane& face : solid.faces) {
+        const Vec3Of<R> n(face.normal);
+        const R rate = dot(n, line.direction);
+        const R height = dot(n, line.origin - Vec3Of<R>(face.point));
+        if (rate == 0) {
+            if (!(height < 0)) return {};
+            continue;
+        }
+        const R t = -height / rate;
+        if (rate < 0) {
+            if (!has_entry || t > entry) entry = t;
+            has_entry = true;
+        } else {
+            if (!has_exit || t < exit) exit = t;
+            has_exit = true;
+        }
+    }
+    if (!has_entry || !has_exit || !(entry < exit)) return {};
+    return {false, {entry, exit}};
+}
+
 template <class S>
 concept HasExactCrossings = requires(const S& shape, const ExactLine& line) {
     { exact_crossings(shape, line) } -> std::same_as<ExactCrossings>;

@@ -11,6 +11,7 @@
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/csg_aggregate.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/scene/solid_list.h"
 #include "alhazen/scene/surface.h"
 #include "alhazen/session/exact_crossings.h"
 #include "alhazen/session/verify_rays.h"
@@ -33,7 +34,14 @@ struct ExactSolid {
     std::shared_ptr<const Aggregate> aggregate;
     const CsgSolid* csg = nullptr;
     bool checked = false;
+    /// Of this one: says where lines begin.
+    std::shared_ptr<const SolidList> solids;
 
+    [[nodiscard]] bool begins_inside(const Ray& ray) const {
+        std::vector<SolidId> inside;
+        solids->inside_at_minus_infinity(ray, inside);
+        return !inside.empty();
+    }
     [[nodiscard]] ExactCrossings crossings(const ExactLine& line, Real128 least) const {
         ExactCrossings found = csg != nullptr
                                    ? exact_crossings(*csg, line, least)
@@ -51,7 +59,8 @@ class Collector {
         if (const auto* csg = dynamic_cast<const CsgAggregate*>(aggregate.get())) {
             const bool checked =
                 csg->solid().leaf_count() <= kMostLeaves && has_exact_crossings(csg->solid());
-            solids.push_back({aggregate, &csg->solid(), checked});
+            solids.push_back(
+                {aggregate, &csg->solid(), checked, std::make_shared<const SolidList>(aggregate)});
             return;
         }
         add_inside(*aggregate);
@@ -86,8 +95,9 @@ class Collector {
             alone.placements.push_back(table.placements[column.placements[i]]);
         }
         alone.finish();
-        solids.push_back({make_aggregate("list", std::move(alone), {}), nullptr,
-                          has_exact_crossings(table, id)});
+        const auto aggregate = make_aggregate("list", std::move(alone), {});
+        solids.push_back({aggregate, nullptr, has_exact_crossings(table, id),
+                          std::make_shared<const SolidList>(aggregate)});
     }
 
     std::set<const Aggregate*> seen_;
@@ -126,27 +136,24 @@ class Checker {
         hits_.clear();
         solid_.aggregate->all_hits(ray, hits_, nullptr);
         const double bound = bound_of(ray);
-        const double scale = length(ray.direction);
-        const Real128 least = bound / scale;
+        const Real128 least = bound / length(ray.direction);
         const ExactLine line{Vec3Of<Real128>(ray.origin), Vec3Of<Real128>(ray.direction)};
+        ExactCrossings found;
+        found.begins_inside = solid_.begins_inside(ray);
+        for (const Hit& hit : hits_) found.t.push_back(hit.t);
         const ExactCrossings truth = solid_.crossings(line, least);
-        const ExactCrossings found = thick_hits(least);
         ++report_.rays;
         report_.crossings += hits_.size();
-        if (!is_close(found, truth, least)) {
-            if (is_among_displaced(found, line, ray, bound)) {
+        switch (compare(found, truth, ray, bound)) {
+            case Match::Same:
+                break;
+            case Match::Grazing:
                 ++report_.grazing;
-            } else {
+                break;
+            case Match::Wrong:
                 disagree(sample, "crossings", describe(hits_), describe(truth));
-            }
-        } else {
-            for (std::size_t i = 0; i < found.t.size(); ++i) {
-                const Real128 off = found.t[i] - truth.t[i];
-                const double share = std::abs(static_cast<double>(off / least));
-                report_.worst_crossing = std::max(report_.worst_crossing, share);
-            }
         }
-        check_points(sample, ray);
+        check_points(sample, ray, bound);
     }
 
   private:
@@ -163,57 +170,59 @@ class Checker {
         return 2 * largest + rounding + tolerance;
     }
 
-    [[nodiscard]] ExactCrossings thick_hits(Real128 least) const {
-        ExactCrossings found;
-        for (const Hit& hit : hits_) found.t.push_back(hit.t);
-        drop_thin(found, least);
-        return found;
-    }
+    enum class Match { Same, Grazing, Wrong };
 
-    static bool is_close(const ExactCrossings& a, const ExactCrossings& b, Real128 least) {
-        if (a.t.size() != b.t.size()) return false;
-        for (std::size_t i = 0; i < a.t.size(); ++i) {
-            const Real128 off = a.t[i] - b.t[i];
-            if (!(off <= least && -off <= least)) return false;
+    /// Where the two differ about inside and outside for longer than the bound, points must be
+    /// nearer to the surface than the bound.
+    Match compare(const ExactCrossings& found, const ExactCrossings& truth, const Ray& ray,
+                  double bound) {
+        const Real128 least = bound / length(ray.direction);
+        const Real128 far = 4 * (length(ray.origin) + reach_) / length(ray.direction);
+        std::vector<Real128> t{-far, far};
+        t.insert(t.end(), found.t.begin(), found.t.end());
+        t.insert(t.end(), truth.t.begin(), truth.t.end());
+        std::sort(t.begin(), t.end());
+        Match match = Match::Same;
+        std::vector<ExactCrossings> displaced;
+        for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+            const Real128 middle = (t[i] + t[i + 1]) / 2, size = t[i + 1] - t[i];
+            const bool inside = found.inside_at(middle);
+            if (size == 0 || inside == truth.inside_at(middle)) continue;
+            if (!(size > least)) {
+                const double share = static_cast<double>(size / least);
+                report_.worst_crossing = std::max(report_.worst_crossing, share);
+                continue;
+            }
+            if (displaced.empty()) displaced = displaced_lines(ray, bound);
+            for (const double part : {-0.9, 0.0, 0.9}) {
+                const Real128 at = middle + part * (size / 2);
+                const bool near = std::any_of(
+                    displaced.begin(), displaced.end(),
+                    [&](const ExactCrossings& other) { return other.inside_at(at) == inside; });
+                if (!near) return Match::Wrong;
+            }
+            match = Match::Grazing;
         }
-        return true;
+        return match;
     }
 
-    /// Whether lines displaced by the bound to all sides have as many crossings, and the found ones
-    /// lie among theirs.
-    [[nodiscard]] bool is_among_displaced(const ExactCrossings& found, const ExactLine& line,
-                                          const Ray& ray, double bound) const {
+    /// The crossings of lines displaced by the bound to all sides.
+    [[nodiscard]] std::vector<ExactCrossings> displaced_lines(const Ray& ray, double bound) const {
         const Vec3 d = unit_or(ray.direction, {0, 0, 1});
         const Vec3 right = perpendicular(d), up = cross(d, right);
-        const Real128 least = bound / length(ray.direction);
-        std::vector<Real128> lo, hi;
-        bool any = false;
-        for (int i = 0; i < 9; ++i) {
-            ExactLine displaced = line;
-            if (i > 0) {
-                const double angle = 0.78539816339744831 * i;
-                const Vec3 aside = bound * (std::cos(angle) * right + std::sin(angle) * up);
-                displaced.origin = displaced.origin + Vec3Of<Real128>(aside);
-            }
-            const ExactCrossings truth = solid_.crossings(displaced, least);
-            if (truth.t.size() != found.t.size()) continue;
-            if (!any) lo = hi = truth.t;
-            any = true;
-            for (std::size_t k = 0; k < truth.t.size(); ++k) {
-                lo[k] = std::min(lo[k], truth.t[k]);
-                hi[k] = std::max(hi[k], truth.t[k]);
-            }
+        std::vector<ExactCrossings> lines;
+        for (int i = 0; i < 16; ++i) {
+            const double angle = 0.39269908169872415 * i;
+            const Vec3 aside = bound * (std::cos(angle) * right + std::sin(angle) * up);
+            const ExactLine line{Vec3Of<Real128>(ray.origin) + Vec3Of<Real128>(aside),
+                                 Vec3Of<Real128>(ray.direction)};
+            lines.push_back(solid_.crossings(line, 0));
         }
-        if (!any) return false;
-        for (std::size_t k = 0; k < found.t.size(); ++k) {
-            const Real128 room = hi[k] - lo[k] + least;
-            if (found.t[k] < lo[k] - room || found.t[k] > hi[k] + room) return false;
-        }
-        return true;
+        return lines;
     }
 
     /// Distance of the points from the true surface along their normals.
-    void check_points(const VerifyRays::Sample& sample, const Ray& ray) {
+    void check_points(const VerifyRays::Sample& sample, const Ray& ray, double line_bound) {
         for (const Hit& hit : hits_) {
             const Surface surface = surface_at(*solid_.aggregate, ray, hit);
             const ExactLine normal{Vec3Of<Real128>(surface.point), Vec3Of<Real128>(surface.normal)};
@@ -229,25 +238,25 @@ class Checker {
             const double tolerance = solid_.csg != nullptr ? 4 * solid_.csg->tolerance() : 0.0;
             if (off <= bound) {
                 report_.worst_point = std::max(report_.worst_point, off / bound);
-            } else if (off > bound + tolerance && !is_on_edge(surface)) {
+            } else if (off > bound + tolerance && !is_on_edge(surface, line_bound)) {
                 disagree(sample, "error_bound", fmt::format("t={:.17g} off by {:.6g}", hit.t, off),
                          fmt::format("at most {:.6g}", bound));
             }
         }
     }
 
-    /// Near an edge or a tip the normal of one face need not meet any: then the point is right when
-    /// lines beside it, off by the bound, do.
-    [[nodiscard]] bool is_on_edge(const Surface& surface) const {
-        const double bound = length(surface.error);
+    /// Near an edge or a tip the normal of one face need not meet any, and the point may lie beyond
+    /// the edge by what its ray is off: it is right when a point so near is on the surface.
+    [[nodiscard]] bool is_on_edge(const Surface& surface, double line_bound) const {
         const Vec3 right = perpendicular(surface.normal), up = cross(surface.normal, right);
-        for (int i = 0; i < 8; ++i) {
+        for (int i = 0; i < 32; ++i) {
             const double angle = 0.78539816339744831 * i;
-            const Vec3 aside = 2 * bound * (std::cos(angle) * right + std::sin(angle) * up);
+            const double away = line_bound * (i < 8 ? 1 : i < 16 ? 2 : i < 24 ? 4 : 0.5);
+            const Vec3 aside = away * (std::cos(angle) * right + std::sin(angle) * up);
             const ExactLine line{Vec3Of<Real128>(surface.point) + Vec3Of<Real128>(aside),
                                  Vec3Of<Real128>(surface.normal)};
             for (const Real128 t : solid_.crossings(line, 0).t) {
-                if (t <= 4 * bound && -t <= 4 * bound) return true;
+                if (t <= 16 * line_bound && -t <= 16 * line_bound) return true;
             }
         }
         return false;

