@@ -20,7 +20,8 @@ struct Sample {
     double t = 0;
     std::array<double, 3> at{};     ///< |x|, |y|, |z|
     std::array<double, 3> power{};  ///< |x|^p, |y|^p, |z|^q
-    bool inside = false;
+    bool inside = false;            ///< as it is computed
+    bool certain = false;           ///< not within the rounding of the surface
 };
 
 class CrossingSearch {
@@ -33,12 +34,14 @@ class CrossingSearch {
     void search(const Sample& a, const Sample& b, int depth) {
         Interval value;
         const bool one_way = monotone(a, b, value);
-        if (value.lo > 1.0 + kSlack * p_ || value.hi < 1.0 - kSlack * p_) return;
+        if (value.lo > 1.0 + slack() || value.hi < 1.0 - slack()) return;
         if (one_way || depth == 0) {
             if (a.inside != b.inside) put(bisected(a, b));
             return;
         }
-        const Sample middle = sample(0.5 * a.t + 0.5 * b.t);
+        Sample middle = sample(0.5 * a.t + 0.5 * b.t);
+        // Noise along a line that grazes must not look like crossings.
+        if (!middle.certain && a.inside == b.inside) middle.inside = a.inside;
         search(a, middle, depth - 1);
         search(middle, b, depth - 1);
     }
@@ -51,7 +54,9 @@ class CrossingSearch {
             s.at[k] = std::abs(o_[axis] + t * d_[axis]);
             s.power[k] = std::pow(s.at[k], k < 2 ? p_ : q_);
         }
-        s.inside = sum(s.power[0] + s.power[1], s.power[2]) < 1.0;
+        const double value = sum(s.power[0] + s.power[1], s.power[2]);
+        s.inside = value < 1.0;
+        s.certain = std::abs(value - 1.0) > slack();
         return s;
     }
 
@@ -59,6 +64,7 @@ class CrossingSearch {
     [[nodiscard]] int count() const { return count_; }
 
   private:
+    [[nodiscard]] double slack() const { return kSlack * (p_ + q_); }
     [[nodiscard]] double sum(double across, double along) const {
         return std::pow(across, q_ / p_) + along;
     }
@@ -170,7 +176,8 @@ int Superellipsoid::intersect(const Ray& ray, ShapeHit* hits) const {
     CrossingSearch search(*this, o, d);
     Sample before = search.sample(cuts[0]);
     for (std::size_t i = 1; i < count; ++i) {
-        const Sample after = search.sample(cuts[i]);
+        Sample after = search.sample(cuts[i]);
+        if (!after.certain) after.inside = before.inside && i + 1 < count;
         search.search(before, after, 40);
         before = after;
     }

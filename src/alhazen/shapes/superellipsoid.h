@@ -7,9 +7,9 @@
 /// 0 every term is monotone along the line, so interval arithmetic is exact at the ends; where the
 /// slope has one sign the ends decide, else the interval is halved. Conventions: exponents of 1
 /// make an ellipsoid, towards 0 a box, 2 an octahedron, above 2 a star. u runs around `axis_c` from
-/// `axis_a` (0 to 1), v is the angle above its equator, from -axis_c (0) to +axis_c (1). Sides of
-/// the surface that are closer than 2^-40 of the line's way through the box are not told apart:
-/// there the crossings are both reported or both left out.
+/// `axis_a` (0 to 1), v is the angle above its equator, from -axis_c (0) to +axis_c (1). A line
+/// that grazes within 2^-48 (2 / e + 2 / n) of the function's value 1 may be reported as a miss or
+/// with both crossings: powers are known to double only.
 
 #include "alhazen/shapes/solid_frame.h"
 
