@@ -6,7 +6,7 @@
 /// Rouillier and Zimmermann, "Efficient isolation of polynomial's real roots", Journal of
 /// Computational and Applied Mathematics 162, 2004.
 /// Differs: the coefficients carry a bound of their error, and a sign within it is unknown: one
-/// counts both what the unknown signs could make of the variations at least and at most. What is
+/// counts what the unknown signs could make of the variations at most. What is
 /// sought are the changes of sign, not the roots: a root of even multiplicity is none, two roots
 /// that cannot be told apart are none, an odd cluster is one, so that the number of crossings
 /// always agrees with the signs at both ends. Split where the coefficients are most unlike the
@@ -116,6 +116,19 @@ double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double gues
     return x;
 }
 
+/// [n][i] C(n, i).
+template <int N>
+inline constexpr std::array<std::array<double, N + 1>, N + 1> kBinomials = [] {
+    std::array<std::array<double, N + 1>, N + 1> table{};
+    for (std::size_t n = 0; n <= N; ++n) {
+        table[n][0] = 1.0;
+        for (std::size_t i = 1; i <= n; ++i) {
+            table[n][i] = table[n - 1][i - 1] + (i < n ? table[n - 1][i] : 0.0);
+        }
+    }
+    return table;
+}();
+
 /// C(n, i) b[i]: p(u) = (1 - u)^n q(u / (1 - u)) with these as the coefficients of q.
 template <int N>
 struct ScaledPolynomial {
@@ -123,11 +136,8 @@ struct ScaledPolynomial {
     std::array<double, N + 1> s;
 
     explicit ScaledPolynomial(const BernsteinPolynomial<double, N>& p) : degree(p.degree) {
-        double binomial = 1.0;
-        for (int i = 0; i <= degree; ++i) {
-            s[i] = binomial * p.b[i];
-            binomial = binomial * (degree - i) / (i + 1);
-        }
+        const auto& row = kBinomials<N>[static_cast<std::size_t>(degree)];
+        for (int i = 0; i <= degree; ++i) s[i] = row[i] * p.b[i];
     }
     void operator()(double w, double& value, double& slope) const {
         value = s[degree];
@@ -184,44 +194,41 @@ class SignChangeSearch {
         return 1;
     }
 
-    struct Variations {
-        int least = 0, most = 0;
-        double middle = 0.5;  ///< where the coefficients are most unlike the first one
-        double largest = 0;   ///< magnitude of a coefficient
-        bool all_tiny;        ///< no coefficient tells much from 0
-    };
-
-    Variations count(const Real* b, double error, int first, int last) const {
-        Variations v;
-        const int n = p_.degree;
-        int previous = first, unknown = 0, at = -1;
-        double lowest = 0.0;
-        v.largest = std::abs(leading(b[0]));
-        for (int i = 1; i <= n; ++i) {
-            const int s = i == n ? last : sign(b[i], error);
-            if (i < n && first * leading(b[i]) < lowest) {
-                lowest = first * leading(b[i]);
-                at = i;
-            }
-            v.largest = std::fmax(v.largest, std::abs(leading(b[i])));
+    /// How many changes of sign the coefficients have at most, whatever the unknown ones are.
+    int most_variations(const Real* b, double error, int first, int last) const {
+        int most = 0, previous = first, unknown = 0;
+        for (int i = 1; i <= p_.degree; ++i) {
+            const int s = i == p_.degree ? last : sign(b[i], error);
             if (s == 0) {
                 ++unknown;
                 continue;
             }
-            if (s == previous) {
-                v.most += (unknown + 1) / 2 * 2;
-            } else {
-                v.least += 1;
-                v.most += 1 + unknown / 2 * 2;
-            }
+            most += s == previous ? (unknown + 1) / 2 * 2 : 1 + unknown / 2 * 2;
             previous = s;
             unknown = 0;
         }
-        v.all_tiny = v.largest <= 8.0 * error;
-        if (at > 0) {
-            v.middle = std::clamp(std::round(8.0 * at / n) / 8.0, 0.125, 0.875);
+        return most;
+    }
+
+    struct Extremes {
+        double largest = 0;   ///< magnitude of a coefficient
+        double middle = 0.5;  ///< where the coefficients are most unlike the first one
+    };
+    Extremes extremes(const Real* b, int first) const {
+        Extremes e;
+        double lowest = 0.0;
+        int at = 0;
+        for (int i = 0; i <= p_.degree; ++i) {
+            const double value = leading(b[i]);
+            e.largest = std::max(e.largest, std::abs(value));
+            if (i == 0 || i == p_.degree || !(first * value < lowest)) continue;
+            lowest = first * value;
+            at = i;
         }
-        return v;
+        if (at > 0) {
+            e.middle = std::clamp(static_cast<int>(8.0 * at / p_.degree + 0.5), 1, 7) / 8.0;
+        }
+        return e;
     }
 
     /// Splits b at r: `left` and `right` are the coefficients of both sides.
@@ -236,13 +243,16 @@ class SignChangeSearch {
     }
 
     bool search(const Real* b, double error, double lo, double hi, int first, int last) {
-        const Variations v = count(b, error, first, last);
-        if (v.most == 0) return true;
-        if (v.most == 1) return emit(lo, hi, first);
-        if (!(hi - lo > 0x1p-52) || v.all_tiny) return cluster(lo, hi, first, last);
+        const int most = most_variations(b, error, first, last);
+        if (most == 0) return true;
+        if (most == 1) return emit(lo, hi, first);
+        const Extremes e = extremes(b, first);
+        if (!(hi - lo > 0x1p-52) || e.largest <= 8.0 * error) {
+            return cluster(lo, hi, first, last);
+        }
         Real left[N + 1], right[N + 1];
-        const double child_error = error + p_.degree * kRounding * v.largest;
-        const double candidates[] = {v.middle, 0.5, 0.375, 0.625, 0.25, 0.75};
+        const double child_error = error + p_.degree * kRounding * e.largest;
+        const double candidates[] = {e.middle, 0.5, 0.375, 0.625, 0.25, 0.75};
         int middle_sign = 0;
         double r = 0.5;
         for (const double candidate : candidates) {
