@@ -17,15 +17,20 @@ namespace alhazen::cli {
 namespace {
 
 void print_entry(const char* name, const char* description) {
-    print("  {:<14} {}\n", name, description);
+    print("  {:<18} {}\n", name, description);
 }
 
 void list_renderers() {
     for (const RendererEntry& entry : renderers()) print_entry(entry.name, entry.description);
 }
 void list_accelerators() {
-    for (const AcceleratorEntry& entry : accelerator_table())
+    for (const AcceleratorEntry& entry : accelerator_table()) {
         print_entry(entry.name, entry.description);
+        for (const SettingDescription& setting : entry.settings()) {
+            print("      {} = {}: {} ({})\n", setting.name, setting.fallback, setting.what,
+                  setting.values);
+        }
+    }
 }
 void list_csg() {
     for (const CsgEvaluatorEntry& entry : csg_evaluator_table())

@@ -85,8 +85,9 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->required()
         ->type_name("SCENE");
     command
-        .add_option("--accelerator", accelerator,
-                    "Accelerator by name; see `alhazen list accelerators`")
+        .add_option(
+            "--accelerator", accelerator,
+            "Accelerator, as NAME or NAME:SETTING=VALUE,...; see `alhazen list accelerators`")
         ->capture_default_str();
     command
         .add_option("--build", build_quality,

@@ -151,7 +151,7 @@ int run(const RenderArguments& args) {
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
     (void)make_renderer(options.renderer);
-    check_accelerator_name(args.scene.accelerator);
+    check_accelerator(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);
     check_effects(args);

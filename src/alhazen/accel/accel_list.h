@@ -4,10 +4,18 @@
 
 #include <tuple>
 
+#include "alhazen/accel/bounding_volumes.h"
+#include "alhazen/accel/goldsmith_salmon.h"
+#include "alhazen/accel/hierarchy.h"
+#include "alhazen/accel/kay_kajiya.h"
+#include "alhazen/accel/kd_tree.h"
 #include "alhazen/accel/list.h"
+#include "alhazen/accel/octree.h"
+#include "alhazen/accel/uniform_grid.h"
 
 namespace alhazen {
 
-using ScalarAccelerators = std::tuple<List>;
+using ScalarAccelerators =
+    std::tuple<List, BoundingVolumes, Hierarchy, KayKajiya, GoldsmithSalmon, UniformGrid, Octree, KdTree>;
 
 }  // namespace alhazen

@@ -1,8 +1,8 @@
 #pragma once
 /// Brute force: every ray is tested against every primitive, in the order of their ids. The oracle.
 ///
-/// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968. Differs: nothing.
-/// Complexity: O(n) per ray; no memory.
+/// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968. Differs:
+/// nothing. Complexity: O(n) per ray; no memory.
 
 #include "alhazen/accel/accelerator.h"
 
@@ -13,6 +13,7 @@ class List {
     static constexpr const char* kName = "list";
     static constexpr const char* kDescription = "brute force: every ray against every primitive";
     struct Config {};
+    [[nodiscard]] static Config configure(SettingsReader&) { return {}; }
 
     [[nodiscard]] static List build(const BoundsSource& source, const Config&) {
         List list;

@@ -8,11 +8,14 @@
 namespace alhazen {
 
 struct TraversalStats {
-    std::uint64_t box_tests = 0;         ///< ray-bound tests, one for each child of a wide node
-    std::uint64_t primitive_tests = 0;   ///< ray-primitive tests, padding lanes not counted
-    std::uint64_t primitive_hits = 0;    ///< tests that found a crossing in the ray's range
-    std::uint64_t mailbox_saved = 0;     ///< tests avoided by a mailbox
-    std::uint64_t node_visits = 0;       ///< nodes or cells entered
+    std::uint64_t box_tests = 0;        ///< ray-bound tests, one for each child of a wide node
+    std::uint64_t primitive_tests = 0;  ///< ray-primitive tests, padding lanes not counted
+    std::uint64_t primitive_hits = 0;   ///< tests that found a crossing in the ray's range
+    std::uint64_t mailbox_saved = 0;    ///< tests avoided by a mailbox
+    std::uint64_t node_visits = 0;      ///< nodes or cells entered
+    std::uint64_t empty_cells = 0;      ///< of these, cells without primitives
+    std::uint64_t slab_tests = 0;       ///< slabs examined in the tests of bounds made of slabs
+    std::uint64_t heap_pushes = 0;      ///< bounds put into a heap
 
     TraversalStats& operator+=(const TraversalStats& other) {
         box_tests += other.box_tests;
@@ -20,6 +23,9 @@ struct TraversalStats {
         primitive_hits += other.primitive_hits;
         mailbox_saved += other.mailbox_saved;
         node_visits += other.node_visits;
+        empty_cells += other.empty_cells;
+        slab_tests += other.slab_tests;
+        heap_pushes += other.heap_pushes;
         return *this;
     }
 };
@@ -32,6 +38,9 @@ struct CountingStats {
     void primitive_hits(std::uint64_t n) const { stats->primitive_hits += n; }
     void mailbox_saved(std::uint64_t n) const { stats->mailbox_saved += n; }
     void nodes(std::uint64_t n) const { stats->node_visits += n; }
+    void empty_cells(std::uint64_t n) const { stats->empty_cells += n; }
+    void slabs(std::uint64_t n) const { stats->slab_tests += n; }
+    void heap_pushes(std::uint64_t n) const { stats->heap_pushes += n; }
     [[nodiscard]] TraversalStats* sink() const { return stats; }  ///< for nested aggregates
 };
 
@@ -42,6 +51,9 @@ struct NoStats {
     void primitive_hits(std::uint64_t) const {}
     void mailbox_saved(std::uint64_t) const {}
     void nodes(std::uint64_t) const {}
+    void empty_cells(std::uint64_t) const {}
+    void slabs(std::uint64_t) const {}
+    void heap_pushes(std::uint64_t) const {}
     [[nodiscard]] TraversalStats* sink() const { return nullptr; }
 };
 

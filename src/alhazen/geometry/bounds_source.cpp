@@ -18,6 +18,19 @@ Interval BoundsSource::extent(std::size_t i, const Vec3& axis) const {
     return alhazen::extent(box(i), axis);
 }
 
+BoundingSphere BoundsSource::sphere(std::size_t i) const {
+    const Box3 b = box(i);
+    // The center is rounded, and so is the distance.
+    return {b.center(),
+            (1.0 + 1e-15) * (0.5 * length(b.size())) + 1e-15 * max_component(abs(b.center()))};
+}
+
+bool BoundsSource::overlaps(std::size_t i, const Box3& cell) const {
+    const Box3 b = box(i);
+    return b.lo.x <= cell.hi.x && cell.lo.x <= b.hi.x && b.lo.y <= cell.hi.y &&
+           cell.lo.y <= b.hi.y && b.lo.z <= cell.hi.z && cell.lo.z <= b.hi.z;
+}
+
 Box3 BoundsSource::clipped_box(std::size_t i, const Box3& cell) const {
     const Box3 b = box(i);
     return {

@@ -9,6 +9,11 @@
 
 namespace alhazen {
 
+struct BoundingSphere {
+    Vec3 center;
+    double radius = 0;
+};
+
 class BoundsSource {
   public:
     virtual ~BoundsSource() = default;
@@ -17,6 +22,11 @@ class BoundsSource {
     [[nodiscard]] virtual Box3 box(std::size_t i) const = 0;
     /// Range of dot(axis, p) over the points p of primitive `i`. By default that of its box.
     [[nodiscard]] virtual Interval extent(std::size_t i, const Vec3& axis) const;
+    /// A sphere that holds primitive `i`. By default the one around its box.
+    [[nodiscard]] virtual BoundingSphere sphere(std::size_t i) const;
+    /// Whether primitive `i` may have a point in `cell`; may say so of one that has none. By
+    /// default that of its box.
+    [[nodiscard]] virtual bool overlaps(std::size_t i, const Box3& cell) const;
     /// A box that holds the part of primitive `i` inside `cell`; empty when there is none. By
     /// default the intersection of the two boxes.
     [[nodiscard]] virtual Box3 clipped_box(std::size_t i, const Box3& cell) const;

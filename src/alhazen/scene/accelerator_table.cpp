@@ -11,29 +11,45 @@
 namespace alhazen {
 namespace {
 
+AcceleratorEntry wide_bvh_entry() {
+    return {WideBvhAggregate::kName, WideBvhAggregate::kDescription,
+            [] { return std::vector<SettingDescription>{}; },
+            [](PrimitiveTable table, const AcceleratorSettings& settings,
+               const BuildOptions& options) -> std::shared_ptr<const Aggregate> {
+                SettingsReader(WideBvhAggregate::kName, settings).finish();
+                return std::make_shared<const WideBvhAggregate>(std::move(table), options);
+            }};
+}
+
 template <class A>
-std::shared_ptr<const Aggregate> make(PrimitiveTable table, const BuildOptions& options) {
-    if constexpr (std::is_constructible_v<A, PrimitiveTable, const BuildOptions&>) {
-        return std::make_shared<const A>(std::move(table), options);
-    } else {
-        return std::make_shared<const A>(std::move(table));
-    }
+AcceleratorEntry entry() {
+    return {A::kName, A::kDescription,
+            [] {
+                const AcceleratorSettings none;
+                SettingsReader reader(A::kName, none);
+                (void)A::configure(reader);
+                return reader.described();
+            },
+            [](PrimitiveTable table, const AcceleratorSettings& settings,
+               const BuildOptions&) -> std::shared_ptr<const Aggregate> {
+                SettingsReader reader(A::kName, settings);
+                const typename A::Config config = A::configure(reader);
+                reader.finish();
+                return std::make_shared<const AggregateOf<A>>(std::move(table), config);
+            }};
 }
 
-/// Entries of the wide BVH and of all scalar accelerators.
+/// The wide BVH and all scalar accelerators.
 template <class... A>
-constexpr auto entries(std::tuple<A...>*) {
-    return std::array{AcceleratorEntry{WideBvhAggregate::kName, WideBvhAggregate::kDescription,
-                                       &make<WideBvhAggregate>},
-                      AcceleratorEntry{A::kName, A::kDescription, &make<AggregateOf<A>>}...};
+auto make_entries(std::tuple<A...>*) {
+    return std::array{wide_bvh_entry(), entry<A>()...};
 }
-
-constexpr auto kEntries = entries(static_cast<ScalarAccelerators*>(nullptr));
 
 }  // namespace
 
 std::span<const AcceleratorEntry> accelerator_table() {
-    return kEntries;
+    static const auto entries = make_entries(static_cast<ScalarAccelerators*>(nullptr));
+    return entries;
 }
 
 namespace {
@@ -50,13 +66,18 @@ const AcceleratorEntry& find_accelerator(const std::string& name) {
 
 }  // namespace
 
-void check_accelerator_name(const std::string& name) {
-    (void)find_accelerator(name);
+void check_accelerator(const std::string& accelerator) {
+    const AcceleratorChoice choice = parse_accelerator(accelerator);
+    // Of nothing: whatever can be wrong with settings is found without a scene.
+    PrimitiveTable nothing;
+    nothing.finish();
+    (void)find_accelerator(choice.name).make(std::move(nothing), choice.settings, {});
 }
 
-std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,
+std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator,
                                                 PrimitiveTable table, const BuildOptions& options) {
-    return find_accelerator(accelerator_name).make(std::move(table), options);
+    const AcceleratorChoice choice = parse_accelerator(accelerator);
+    return find_accelerator(choice.name).make(std::move(table), choice.settings, options);
 }
 
 }  // namespace alhazen

@@ -4,7 +4,9 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/wide_bvh/build_options.h"
 #include "alhazen/scene/aggregate.h"
 #include "alhazen/scene/primitive_table.h"
@@ -14,7 +16,11 @@ namespace alhazen {
 struct AcceleratorEntry {
     const char* name;
     const char* description;  ///< one line
-    std::shared_ptr<const Aggregate> (*make)(PrimitiveTable table, const BuildOptions& options);
+    std::vector<SettingDescription> (*settings)();
+    /// Throws Error(Usage) for settings it does not have.
+    std::shared_ptr<const Aggregate> (*make)(PrimitiveTable table,
+                                             const AcceleratorSettings& settings,
+                                             const BuildOptions& options);
 };
 
 /// The default one first.
@@ -22,12 +28,13 @@ struct AcceleratorEntry {
 
 inline constexpr const char* kDefaultAccelerator = "wide_bvh";
 
-/// Throws Error (Usage) with the valid names for an unknown one.
-void check_accelerator_name(const std::string& name);
+/// Throws Error (Usage) when `accelerator` ("NAME" or "NAME:SETTING=VALUE,...") is none, with what
+/// is valid.
+void check_accelerator(const std::string& accelerator);
 
-/// Builds the accelerator over a finished table. Throws Error(Usage) with the valid names for an
-/// unknown one. Accelerators that know no qualities are built as they are.
-[[nodiscard]] std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator_name,
+/// Builds the accelerator ("NAME" or "NAME:SETTING=VALUE,...") over a finished table. Throws as
+/// `check_accelerator` does. Accelerators that know no qualities are built as they are.
+[[nodiscard]] std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator,
                                                               PrimitiveTable table,
                                                               const BuildOptions& options = {});
 

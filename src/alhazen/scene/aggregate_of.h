@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "alhazen/accel/accelerator.h"
+#include "alhazen/accel/reentrant_stack.h"
 #include "alhazen/scene/aggregate.h"
 #include "alhazen/scene/bounded_primitives.h"
 #include "alhazen/scene/primitive_table.h"
@@ -71,8 +72,11 @@ class AggregateOf final : public Aggregate {
         const RayShear shear(ray.direction);
         const std::size_t before = hits.size();
         with_stats(query.stats, [&](auto policy) {
+            OnlyOnce once(hits);
             each(ray, policy, [&](PrimitiveId id) {
+                const std::size_t known = hits.size();
                 table_.all_hits(id, ray, shear, hits, policy, query.mask);
+                once.keep(id, known);
                 return false;
             });
         });
@@ -85,8 +89,12 @@ class AggregateOf final : public Aggregate {
         const RayShear shear(ray.direction);
         const std::size_t before = crossings.size();
         const bool opaque = with_stats(query.stats, [&](auto policy) {
+            OnlyOnce once(crossings);
             return each(ray, policy, [&](PrimitiveId id) {
-                return table_.shadowed(id, ray, shear, crossings, policy, query.mask);
+                const std::size_t known = crossings.size();
+                if (table_.shadowed(id, ray, shear, crossings, policy, query.mask)) return true;
+                once.keep(id, known);
+                return false;
             });
         });
         if (!opaque) sort_appended(crossings, before);
@@ -94,11 +102,37 @@ class AggregateOf final : public Aggregate {
     }
 
   private:
+    /// Where primitives lie in many cells: the crossings of one that is visited again are dropped.
+    class OnlyOnce {
+      public:
+        explicit OnlyOnce(std::vector<Hit>& hits) : hits_(hits) {}
+        /// What was appended beyond `known` came from `id`.
+        void keep(PrimitiveId id, std::size_t known) {
+            if constexpr (visits_repeatedly<A>()) {
+                if (hits_.size() == known) return;
+                if (std::find(seen_.begin(), seen_.end(), id) == seen_.end()) {
+                    seen_.push(id);
+                } else {
+                    hits_.resize(known);
+                }
+            }
+        }
+
+      private:
+        std::vector<Hit>& hits_;
+        ReentrantStack<PrimitiveId> seen_;
+    };
+
+    /// The reciprocal of what is smaller may be infinite, and so may be t where something is hit:
+    /// such a ray is tested against everything.
+    static constexpr double kLeastDirection = 0x1p-960;
+
     A build(const typename A::Config& config) {
         BoundedPrimitives bounded(table_);
         A accelerator = A::build(bounded, config);
         box_ = bounded.all();
         unbounded_ = bounded.unbounded();
+        bounded_count_ = static_cast<std::uint32_t>(bounded.size());
         bounded_ = bounded.take_bounded();
         return accelerator;
     }
@@ -122,6 +156,12 @@ class AggregateOf final : public Aggregate {
             }
         };
         Visitor visitor{ray, bounded_.empty() ? nullptr : bounded_.data(), test};
+        if (max_component(abs(ray.direction)) < kLeastDirection) {
+            for (std::uint32_t i = 0; i < bounded_count_; ++i) {
+                if (visitor.visit(i)) return true;
+            }
+            return false;
+        }
         accelerator_.traverse(ray, visitor, stats);
         return visitor.stopped;
     }
@@ -131,6 +171,7 @@ class AggregateOf final : public Aggregate {
     Box3 box_;
     std::vector<PrimitiveId> unbounded_;
     std::vector<std::uint32_t> bounded_;
+    std::uint32_t bounded_count_ = 0;
     A accelerator_;
 };
 

@@ -161,6 +161,11 @@ std::vector<std::pair<std::string, PrimitiveTable>> tables() {
             {"mixture with planes", random_mixture(100, 1, 0.4, 3)}};
 }
 
+/// Only the wide BVH has a kernel for each target: the others are compared on the first one.
+bool differs_by_target(const AcceleratorEntry& entry, const std::string& target) {
+    return entry.name == std::string("wide_bvh") || target == simd_targets().front();
+}
+
 TEST(Masks, EveryQueryOfEveryAcceleratorSeesWhatTheMasksLetItSee) {
     for (const auto& [name, table] : tables()) {
         Random random(4);
@@ -170,6 +175,7 @@ TEST(Masks, EveryQueryOfEveryAcceleratorSeesWhatTheMasksLetItSee) {
         for (const std::string& target : simd_targets()) {
             const SimdTargetOverride use(target);
             for (const AcceleratorEntry& entry : accelerator_table()) {
+                if (!differs_by_target(entry, target)) continue;
                 compare(*make_aggregate(entry.name, masked), *unmasked, rays_at(1, 5),
                         std::string(entry.name) + " on " + target + ", " + name);
             }
@@ -218,6 +224,7 @@ TEST(Masks, ThoseOfAllLevelsOfInstancesMustLetARayThrough) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride use(target);
         for (const AcceleratorEntry& entry : accelerator_table()) {
+            if (!differs_by_target(entry, target)) continue;
             compare(*nest(entry.name, true), *unmasked, rays_at(1, 12),
                     std::string(entry.name) + " on " + target + ", nested");
         }

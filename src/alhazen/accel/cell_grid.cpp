@@ -1,0 +1,52 @@
+#include "alhazen/accel/cell_grid.h"
+
+namespace alhazen {
+
+CellGrid::CellGrid(const Box3& around, double count, int most) {
+    const Vec3 extent = around.size();
+    const Vec3 reach{std::max(std::abs(around.lo.x), std::abs(around.hi.x)),
+                     std::max(std::abs(around.lo.y), std::abs(around.hi.y)),
+                     std::max(std::abs(around.lo.z), std::abs(around.hi.z))};
+    pad = 0x1p-32 * max_component(extent) + 0x1p-46 * max_component(reach) +
+          std::numeric_limits<double>::min();
+    box = {around.lo - Vec3{pad, pad, pad}, around.hi + Vec3{pad, pad, pad}};
+    const Vec3 size = box.size();
+    // Edges of a cube of the volume that is left to each cell; flat axes have one cell.
+    int flat = 0;
+    double volume = 1;
+    for (int k = 0; k < 3; ++k) {
+        if (size[k] <= 1e-6 * max_component(size)) {
+            ++flat;
+        } else {
+            volume *= size[k] / max_component(size);
+        }
+    }
+    const double edge =
+        flat == 3 ? 1.0 : max_component(size) * std::pow(volume / count, 1.0 / (3 - flat));
+    for (int k = 0; k < 3; ++k) {
+        const double n = std::clamp(std::round(size[k] / edge), 1.0, double(most));
+        cells[static_cast<std::size_t>(k)] = static_cast<int>(n);
+        cell_size[k] = size[k] / n;
+        per_cell_size[k] = n / size[k];
+    }
+}
+
+Box3 CellGrid::cell_box(const std::array<int, 3>& cell) const {
+    Box3 b;
+    for (int k = 0; k < 3; ++k) {
+        b.lo[k] = plane(k, cell[static_cast<std::size_t>(k)]);
+        b.hi[k] = plane(k, cell[static_cast<std::size_t>(k)] + 1);
+    }
+    return b;
+}
+
+std::array<std::array<int, 3>, 2> CellGrid::range(const Box3& b) const {
+    std::array<std::array<int, 3>, 2> ends{};
+    for (int k = 0; k < 3; ++k) {
+        ends[0][static_cast<std::size_t>(k)] = index(k, b.lo[k] - pad);
+        ends[1][static_cast<std::size_t>(k)] = index(k, b.hi[k] + pad);
+    }
+    return ends;
+}
+
+}  // namespace alhazen

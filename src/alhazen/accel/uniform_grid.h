@@ -1,0 +1,79 @@
+#pragma once
+/// A grid of equal cells, each with a list of the primitives in it.
+///
+/// Source: Fujimoto, Tanaka and Iwata, "ARTS: Accelerated Ray-Tracing System", IEEE CG&A 6(4),
+/// 1986; Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987;
+/// Lagae and Dutre, "Compact, Fast and Robust Grids for Ray Tracing", EGSR 2008 (lists by
+/// counting). Differs: rays from so far away that rounding could lead past a cell are tested
+/// against everything. Complexity: O(n + cells) to build and in memory.
+
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/accel/accelerator.h"
+#include "alhazen/accel/accelerator_settings.h"
+#include "alhazen/accel/cell_grid.h"
+#include "alhazen/accel/mailbox.h"
+
+namespace alhazen {
+
+class UniformGrid {
+  public:
+    static constexpr const char* kName = "uniform_grid";
+    static constexpr const char* kDescription = "equal cells, walked along the ray";
+    static constexpr bool kVisitsRepeatedly = true;
+    struct Config {
+        double density = 3;       ///< cells for each primitive
+        bool mailbox = true;      ///< a primitive in many cells is tested once a ray
+        bool hit_in_cell = true;  ///< false shows what goes wrong without the rule
+    };
+    [[nodiscard]] static Config configure(SettingsReader& reader);
+
+    /// Throws Error(Resource) for more than 2^32 entries in the lists.
+    [[nodiscard]] static UniformGrid build(const BoundsSource& source, const Config& config);
+
+    template <class Visitor, class Stats>
+    void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
+        if (starts_.empty()) return;
+        if (!grid_.covers(ray)) {
+            for (std::uint32_t i = 0; i < primitives_; ++i) {
+                if (visitor.visit(i)) return;
+            }
+            return;
+        }
+        const double t_max = visitor.t_max();
+        Mailbox mailbox;
+        for (CellWalk walk(grid_, ray, t_max); !walk.outside(); walk.step()) {
+            if (walk.entry() > visitor.t_max()) return;
+            const std::size_t cell = grid_.number(walk.cell());
+            stats.nodes(1);
+            if (starts_[cell] == starts_[cell + 1]) stats.empty_cells(1);
+            for (std::uint32_t e = starts_[cell]; e < starts_[cell + 1]; ++e) {
+                const std::uint32_t primitive = entries_[e];
+                if (config_.mailbox && !mailbox.is_new(primitive)) {
+                    stats.mailbox_saved(1);
+                    continue;
+                }
+                if (visitor.visit(primitive)) return;
+            }
+            // A hit beyond the cell may lie behind another one in the cells up to it.
+            const double known = config_.hit_in_cell ? walk.exit() : t_max;
+            if (visitor.t_max() < known) return;
+        }
+    }
+
+    [[nodiscard]] std::size_t memory_bytes() const {
+        return (starts_.capacity() + entries_.capacity()) * sizeof(std::uint32_t);
+    }
+    [[nodiscard]] const CellGrid& cells() const { return grid_; }
+
+  private:
+    Config config_;
+    CellGrid grid_;
+    std::uint32_t primitives_ = 0;
+    std::vector<std::uint32_t> starts_;   ///< [cell] and one more: its part of `entries_`
+    std::vector<std::uint32_t> entries_;  ///< primitives, cell after cell
+};
+static_assert(Accelerator<UniformGrid>);
+
+}  // namespace alhazen

@@ -1,0 +1,81 @@
+#include "alhazen/accel/octree.h"
+
+#include <gtest/gtest.h>
+
+#include "unit/accel/random_boxes.h"
+
+namespace alhazen {
+namespace {
+
+using namespace testing;
+
+/// The leaves that the walks go through, without those that a ray only touches.
+struct Walked {
+    std::vector<std::uint32_t> leaves;
+    double last;
+    bool operator()(std::uint32_t leaf, double exit) {
+        if (exit > last + 1e-9) leaves.push_back(leaf);
+        last = std::max(last, exit);
+        return false;
+    }
+};
+
+Ray random_ray(RandomStream& random) {
+    Ray ray;
+    for (int k = 0; k < 3; ++k) {
+        const double aim = random.uniform(-1, 1);
+        const bool across = random.below(5) == 0;
+        ray.origin[k] = across || random.below(6) == 0 ? aim : random.uniform(-4, 4);
+        ray.direction[k] =
+            across ? (random.below(2) == 0 ? 0.0 : -0.0) : random.uniform(-1, 1) - ray.origin[k];
+    }
+    if (ray.direction == Vec3{}) ray.direction.y = -1;
+    return ray;
+}
+
+TEST(Octree, TheFourWalksGoThroughTheSameLeavesInTheSameOrder) {
+    const Boxes boxes = random_boxes(400, 0.05, 1);
+    const OctreeCells cells(boxes, 7, 1);
+    ASSERT_GT(cells.nodes().size(), 1000u);
+    RandomStream random(2);
+    std::size_t walked = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Ray ray = random_ray(random);
+        const OctreeRay inside(cells, ray, ray.t_max);
+        if (inside.misses()) continue;
+        const auto leaves = [&](const auto& walk) {
+            Walked visit{{}, inside.enter()};
+            walk(visit);
+            return visit.leaves;
+        };
+        const auto located =
+            leaves([&](Walked& v) { walk_by_point_location(cells, inside, NoStats{}, v); });
+        EXPECT_EQ(located,
+                  leaves([&](Walked& v) { walk_by_neighbors(cells, inside, NoStats{}, v); }))
+            << "neighbors, ray " << i;
+        EXPECT_EQ(located, leaves([&](Walked& v) { walk_smart(cells, inside, NoStats{}, v); }))
+            << "smart, ray " << i;
+        EXPECT_EQ(located, leaves([&](Walked& v) { walk_parametric(cells, inside, NoStats{}, v); }))
+            << "parametric, ray " << i;
+        walked += located.size();
+    }
+    EXPECT_GT(walked, 20000u);
+}
+
+TEST(Octree, NeighborsAreFoundInFewerStepsThanPointsFromTheRoot) {
+    const OctreeCells cells(random_boxes(2000, 0.02, 3), 8, 1);
+    RandomStream random(4);
+    TraversalStats located, neighbors;
+    const auto nothing = [](std::uint32_t, double) { return false; };
+    for (int i = 0; i < 1000; ++i) {
+        const Ray ray = random_ray(random);
+        const OctreeRay inside(cells, ray, ray.t_max);
+        if (inside.misses()) continue;
+        walk_by_point_location(cells, inside, CountingStats{&located}, nothing);
+        walk_by_neighbors(cells, inside, CountingStats{&neighbors}, nothing);
+    }
+    EXPECT_LT(neighbors.node_visits, 0.9 * static_cast<double>(located.node_visits));
+}
+
+}  // namespace
+}  // namespace alhazen

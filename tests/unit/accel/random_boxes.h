@@ -1,0 +1,50 @@
+#pragma once
+/// Boxes to build over.
+
+#include <vector>
+
+#include "alhazen/geometry/bounds_source.h"
+#include "alhazen/math/random.h"
+
+namespace alhazen::testing {
+
+class Boxes final : public BoundsSource {
+  public:
+    explicit Boxes(std::vector<Box3> boxes) : boxes_(std::move(boxes)) {}
+    [[nodiscard]] std::size_t size() const override { return boxes_.size(); }
+    [[nodiscard]] Box3 box(std::size_t i) const override { return boxes_[i]; }
+
+  private:
+    std::vector<Box3> boxes_;
+};
+
+inline Boxes random_boxes(std::size_t count, double size, std::uint64_t seed) {
+    RandomStream random(seed);
+    std::vector<Box3> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+        Box3 box;
+        for (int k = 0; k < 3; ++k) {
+            box.lo[k] = random.uniform(-1, 1);
+            box.hi[k] = box.lo[k] + size * random.uniform();
+        }
+        boxes.push_back(box);
+    }
+    return Boxes(boxes);
+}
+
+/// With corners on whole numbers: many coincide, touch or are flat.
+inline Boxes lattice_boxes(std::size_t count, std::uint64_t reach, std::uint64_t seed) {
+    RandomStream random(seed);
+    std::vector<Box3> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+        Box3 box;
+        for (int k = 0; k < 3; ++k) {
+            box.lo[k] = static_cast<double>(random.below(reach));
+            box.hi[k] = box.lo[k] + static_cast<double>(random.below(3));
+        }
+        boxes.push_back(box);
+    }
+    return Boxes(boxes);
+}
+
+}  // namespace alhazen::testing
