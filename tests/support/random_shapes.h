@@ -166,3 +166,5 @@ S random_shape(const ShapeSource& from) {
 }
 
 }  // namespace alhazen::testing
+
+#include "support/random_profiles.h"

@@ -287,6 +287,30 @@ inline bool same(const Polyhedron& a, const Polyhedron& b) {
     return all_same(a.planes, b.planes, a.vertices, b.vertices, a.corners, b.corners, a.face_ends,
                     b.face_ends);
 }
+inline bool same(const ProfileCurve& a, const ProfileCurve& b) {
+    return all_same(a.p[0], b.p[0], a.p[3], b.p[3], a.line, b.line) &&
+           (a.line || all_same(a.p[1], b.p[1], a.p[2], b.p[2]));
+}
+inline bool same(const Profile& a, const Profile& b) {
+    return all_same(a.curves, b.curves, a.loop_ends, b.loop_ends);
+}
+inline bool same(const Prism& a, const Prism& b) {
+    return all_same(a.profile, b.profile, a.h0, b.h0, a.h1, b.h1, a.top_scale, b.top_scale);
+}
+inline bool same(const Lathe& a, const Lathe& b) {
+    return same(a.profile, b.profile);
+}
+inline bool same(const BlobComponent& a, const BlobComponent& b) {
+    return all_same(a.base, b.base, a.radius, b.radius, a.strength, b.strength, a.rod, b.rod) &&
+           (!a.rod || same(a.top, b.top));
+}
+inline bool same(const Blob& a, const Blob& b) {
+    return all_same(a.components, b.components, a.threshold, b.threshold);
+}
+inline bool same(const HeightField& a, const HeightField& b) {
+    return all_same(a.columns, b.columns, a.rows, b.rows, *a.heights, *b.heights, a.lo, b.lo, a.hi,
+                    b.hi, a.base, b.base);
+}
 inline bool same(const Part& a, const Part& b) {
     const auto& [a1, a2, a3, a4, a5, a6] = a;
     const auto& [b1, b2, b3, b4, b5, b6] = b;

@@ -133,7 +133,7 @@ inline constexpr std::array<std::array<double, N + 1>, N + 1> kBinomials = [] {
 template <int N>
 struct ScaledPolynomial {
     int degree;
-    std::array<double, N + 1> s;
+    std::array<double, N + 1> s{};  // the compiler does not see that no more is read than written
 
     explicit ScaledPolynomial(const BernsteinPolynomial<double, N>& p) : degree(p.degree) {
         const auto& row = kBinomials<N>[static_cast<std::size_t>(degree)];

@@ -1,5 +1,7 @@
 #include "alhazen/scene/validate_solids.h"
 
+#include "alhazen/shapes/mesh_edges.h"
+
 #include <fmt/format.h>
 
 namespace alhazen {
@@ -75,9 +77,10 @@ class SolidValidator {
         } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
             const auto i = static_cast<std::size_t>(*mesh);
             if (i >= d_.meshes.size() || !d_.meshes[i].mesh || is_closed(i)) return;
-            error(part.location, fmt::format("mesh '{}' is not closed, so it cannot be part of a "
-                                             "solid: each edge must be shared by two triangles",
-                                             d_.meshes[i].name));
+            error(part.location,
+                  fmt::format("mesh '{}' is not closed, so it cannot be part of a solid: each edge "
+                              "must be shared by two triangles, but {}",
+                              d_.meshes[i].name, mesh_edges(*d_.meshes[i].mesh).description()));
         }
     }
 

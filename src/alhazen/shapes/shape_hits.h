@@ -34,6 +34,8 @@ class ShapeHits {
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }
+    /// How many the caller reads at most.
+    [[nodiscard]] std::size_t wanted() const { return wanted_; }
     /// True when a shape need not look for crossings behind those it has appended.
     [[nodiscard]] bool enough() const { return size_ >= wanted_; }
 

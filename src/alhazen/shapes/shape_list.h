@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "alhazen/shapes/algebraic.h"
+#include "alhazen/shapes/blob.h"
 #include "alhazen/shapes/box_shape.h"
 #include "alhazen/shapes/cone.h"
 #include "alhazen/shapes/cylinder.h"
@@ -14,11 +15,14 @@
 #include "alhazen/shapes/elliptic_cone.h"
 #include "alhazen/shapes/elliptic_cylinder.h"
 #include "alhazen/shapes/half_space.h"
+#include "alhazen/shapes/height_field.h"
 #include "alhazen/shapes/hyperboloid.h"
+#include "alhazen/shapes/lathe.h"
 #include "alhazen/shapes/paraboloid.h"
 #include "alhazen/shapes/plane.h"
 #include "alhazen/shapes/polygon.h"
 #include "alhazen/shapes/polyhedron.h"
+#include "alhazen/shapes/prism.h"
 #include "alhazen/shapes/quadric.h"
 #include "alhazen/shapes/rectangle.h"
 #include "alhazen/shapes/sphere.h"
@@ -37,10 +41,10 @@ struct ShapeTypes {
     static constexpr std::size_t kCount = sizeof...(S);
 };
 
-using AnalyticShapes =
-    ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon, HalfSpace,
-               Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid,
-               Hyperboloid, TwoSheetHyperboloid, Quadric, Algebraic, Superellipsoid>;
+using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon,
+                                  HalfSpace, Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone,
+                                  Tgc, Torus, Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric,
+                                  Algebraic, Superellipsoid, Prism, Lathe, Blob, HeightField>;
 
 /// Any one analytic shape by value.
 using AnyShape = AnalyticShapes::Variant;

@@ -97,6 +97,59 @@ TEST(NativeImporter, ReadsConvexPolyhedraInTheirThreeForms) {
                     .says("numbers of vertices"));
 }
 
+TEST(NativeImporter, ReadsOutlinesAndClosesThoseOfPrisms) {
+    const Imported i = import_native(
+        "prism { profile = [(0,0), (2,0), curve((2,1), (1,2), (0,2))]; h0 = -1; h1 = 3;\n"
+        "  top_scale = 0.5 }\n"
+        "prism { loops = [[(0,0), (1,0), (0,1), (0,0)], [(3,3), (4,3), (4,4)]] }\n"
+        "lathe { profile = [(0,0), (1,0), curve((1,1), (0.5,1), (0,2))] }\n");
+    ASSERT_EQ(i.messages(), "");
+    const Prism& prism = testing::shape_of<Prism>(i, 0);
+    ASSERT_EQ(prism.profile.curves.size(), 3u);
+    EXPECT_FALSE(prism.profile.curves[1].line);
+    EXPECT_EQ(prism.profile.curves[2].p[3], (Vec2{0, 0}));
+    EXPECT_EQ(prism.h1, 3);
+    EXPECT_EQ(prism.top_scale, 0.5);
+    EXPECT_EQ(testing::shape_of<Prism>(i, 1).profile.loop_ends, (std::vector<std::uint32_t>{3, 6}));
+    EXPECT_TRUE(testing::shape_of<Lathe>(i, 2).closed());
+    EXPECT_EQ(testing::shape_of<Lathe>(i, 2).profile.curves.size(), 2u);
+    EXPECT_TRUE(import_native("prism { }").says("either 'profile"));
+    EXPECT_TRUE(import_native("prism { profile = [(0,0), curve((1,1), (2,2))] }").says("curve("));
+    EXPECT_TRUE(import_native("lathe { profile = [(0,0,0), (1,1)] }").says("profile"));
+}
+
+TEST(NativeImporter, ReadsBlobsAndHeights) {
+    const Imported i = import_native(
+        "blob { threshold = 0.25; components = [sphere((0,0,0), 1, 2),\n"
+        "  cylinder((0,0,0), (1,0,0), 0.5, -1)] }\n"
+        "height_field { columns = 3; heights = [0, 1, 2, 3, 4, 5]; lo = (0, 0); hi = (2, 1) }\n");
+    ASSERT_EQ(i.messages(), "");
+    const Blob& blob = testing::shape_of<Blob>(i, 0);
+    ASSERT_EQ(blob.components.size(), 2u);
+    EXPECT_TRUE(blob.components[1].rod);
+    EXPECT_EQ(blob.components[1].strength, -1);
+    EXPECT_EQ(testing::shape_of<HeightField>(i, 1).rows, 2u);
+    EXPECT_TRUE(import_native("blob { components = [box((0,0,0), 1, 2)] }").says("sphere(center"));
+    EXPECT_TRUE(import_native("blob { }").says("components"));
+    EXPECT_TRUE(import_native("height_field { }").says("either 'heights"));
+    EXPECT_TRUE(import_native("height_field { columns = 4; heights = [1, 2, 3] }").says("divide"));
+}
+
+TEST(NativeImporter, HeightsMayComeFromAPicture) {
+    const Imported i = testing::import_text<NativeImporter>(
+        "alhazen 1\nheight_field { file = \"checker.png\"; low = 1; high = 3; base = 0 }\n",
+        std::filesystem::path(ALHAZEN_SOURCE_DIR) / "scenes/heights.alhazen");
+    ASSERT_EQ(i.messages(), "");
+    const HeightField& field = testing::shape_of<HeightField>(i, 0);
+    EXPECT_GE(field.columns, 2u);
+    EXPECT_EQ(field.heights->size(), std::size_t{field.columns} * field.rows);
+    for (const float h : *field.heights) {
+        ASSERT_GE(h, 1.f);
+        ASSERT_LE(h, 3.f);
+    }
+    EXPECT_TRUE(import_native("height_field { file = \"no_such.png\" }").says("no_such.png"));
+}
+
 TEST(NativeImporter, StringsMayEscapeQuotesAndBytes) {
     const Imported i = import_native("sphere \"a \\\"b\\\" \\\\ \\x41\\n\" { }");
     ASSERT_EQ(i.messages(), "");

@@ -267,6 +267,28 @@ TEST(NativeWriter, ShapesComeBackInOrderWithNamesAndPlacements) {
     ring.loop_ends = {4, 9};
     Polygon plain;
     plain.vertices = ring.vertices;
+    const auto flat = [&] { return Vec2{n.any(), n.any()}; };
+    Prism prism{.h0 = n.any(), .h1 = n.any(), .top_scale = 0.5};
+    Lathe lathe;
+    for (int loop = 0; loop < 2; ++loop) {
+        const Vec2 a = flat(), b = flat(), c = flat();
+        for (Profile* profile : {&prism.profile, &lathe.profile}) {
+            profile->curves.push_back(line_curve(a, b));
+            profile->curves.push_back(cubic_curve(b, flat(), flat(), c));
+            profile->curves.push_back(line_curve(c, a));
+            profile->loop_ends.push_back(static_cast<std::uint32_t>(profile->curves.size()));
+        }
+    }
+    lathe.profile.curves.pop_back();  // open
+    lathe.profile.loop_ends = {3, 5};
+    Blob blob{.threshold = n.positive()};
+    blob.components = {{.base = n.point(), .radius = n.positive(), .strength = n.any()},
+                       {.base = n.point(), .top = n.point(), .strength = n.any(), .rod = true}};
+    HeightField field{.columns = 3, .rows = 2};
+    field.heights = std::make_shared<std::vector<float>>(
+        std::vector<float>{0.1f, 1e-3f, 3.f, 7.25f, 1.f / 3, 2.f});
+    field.hi = flat();
+    field.base = n.any();
     Polyhedron planes;
     for (int i = 0; i < 5; ++i) planes.planes.push_back({n.point(), n.point()});
     Quadric quadric{n.point(), n.point(), n.point(), n.positive()};

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/shapes/mesh_edges.h"
 #include "support/quad.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"
@@ -66,6 +67,27 @@ TEST(TriangleMesh, OpenMeshesAreRecognised) {
     EXPECT_FALSE(four_at_an_edge.closed());
     EXPECT_FALSE(TriangleMesh{}.closed());
     EXPECT_FALSE((TriangleMesh{.positions = {{0, 0, 0}}, .triangles = {{0, 0, 0}}}).closed());
+}
+
+TEST(TriangleMesh, WhatKeepsItOpenIsCounted) {
+    const TriangleMesh closed = sphere_mesh(2);
+    EXPECT_TRUE(mesh_edges(closed).oriented());
+    EXPECT_EQ(mesh_edges(closed).description(), "closed");
+    EXPECT_EQ(mesh_edges(closed).count, closed.triangles.size() * 3 / 2);
+    TriangleMesh hole = closed;
+    hole.triangles.pop_back();
+    EXPECT_EQ(mesh_edges(hole).open, 3u);
+    EXPECT_NE(mesh_edges(hole).description().find("3 of "), std::string::npos);
+    TriangleMesh turned = closed;
+    std::swap(turned.triangles[4][0], turned.triangles[4][1]);
+    EXPECT_TRUE(mesh_edges(turned).closed());
+    EXPECT_FALSE(mesh_edges(turned).oriented());
+    EXPECT_EQ(mesh_edges(turned).turned, 3u);
+    TriangleMesh twice = closed;
+    twice.triangles.push_back(closed.triangles[0]);
+    EXPECT_EQ(mesh_edges(twice).crowded, 3u);
+    EXPECT_NE(mesh_edges(twice).description().find("to more than two"), std::string::npos);
+    EXPECT_EQ(mesh_edges({}).description(), "no triangles");
 }
 
 TEST(TriangleMesh, ClosednessOfPositionsThatAreNotNumbersIsAnswered) {

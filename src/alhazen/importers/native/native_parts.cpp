@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "alhazen/importers/native/native_height_picture.h"
 #include "alhazen/importers/native/native_include.h"
 #include "alhazen/importers/native/native_materials.h"
 #include "alhazen/importers/native/native_meshes.h"
@@ -29,7 +30,9 @@ Part placed_part(BlockReader& reader, const NativeBlock& block, const NativeScop
 void read_shape(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
     BlockReader reader = context.reader(*block.block, block.type);
     Part part = placed_part(reader, block, scope);
-    part.what = read_native_shape(block.type, reader);
+    AnyShape shape = read_native_shape(block.type, reader);
+    read_native_height_picture(reader, context, scope, shape);
+    part.what = std::move(shape);
     part.material = read_part_material(reader, context, scope);
     reader.finish();
     context.count_elements(1, block.location);

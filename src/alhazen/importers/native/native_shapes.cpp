@@ -109,6 +109,10 @@ constexpr ShapeEntry kShapes[] = {
     {Quadric::kName, read_native_quadric},
     {Algebraic::kName, read_native_algebraic},
     {Superellipsoid::kName, read_native_superellipsoid},
+    {Prism::kName, read_native_prism},
+    {Lathe::kName, read_native_lathe},
+    {Blob::kName, read_native_blob},
+    {HeightField::kName, read_native_height_field},
 };
 // clang-format on
 

@@ -77,4 +77,72 @@ AnyShape read_native_polyhedron(BlockReader& reader) {
     return solid;
 }
 
+namespace {
+
+/// sphere(center, radius, strength) or cylinder(base, top, radius, strength).
+bool read_component(TextNode entry, const ValueReader& values, BlobComponent& component) {
+    component.rod = entry.is(NodeKind::Entry, "cylinder");
+    const std::size_t count = component.rod ? 4 : 3;
+    if ((!component.rod && !entry.is(NodeKind::Entry, "sphere")) || entry.empty() ||
+        !entry.first().is(NodeKind::List) || entry.first().size() != count) {
+        return values.fail(entry, "components",
+                           "sphere(center, radius, strength) or "
+                           "cylinder(base, top, radius, strength)");
+    }
+    auto field = entry.first().begin();
+    if (!values.read(*field, "components", component.base)) return false;
+    component.top = component.base;
+    if (component.rod && !values.read(*++field, "components", component.top)) return false;
+    return values.read(*++field, "radius of a component", component.radius) &&
+           values.read(*++field, "strength of a component", component.strength);
+}
+
+}  // namespace
+
+AnyShape read_native_blob(BlockReader& reader) {
+    Blob blob;
+    reader.read("threshold", blob.threshold);
+    reader.require("components");
+    const auto components = reader.find("components");
+    if (!components || !reader.values().is_list(*components, "components")) return blob;
+    for (const TextNode entry : *components) {
+        BlobComponent component;
+        if (read_component(entry, reader.values(), component)) {
+            blob.components.push_back(component);
+        }
+    }
+    return blob;
+}
+
+AnyShape read_native_height_field(BlockReader& reader) {
+    HeightField field;
+    reader.read("lo", field.lo);
+    reader.read("hi", field.hi);
+    reader.read("base", field.base);
+    auto heights = std::make_shared<std::vector<float>>();
+    field.heights = heights;
+    const auto list = reader.find("heights");
+    if (reader.has("heights") == reader.has("file")) {
+        reader.error(reader.block(), "expected either 'heights = ...' or 'file = ...'");
+    }
+    if (!reader.has("heights")) return field;
+    int columns = 0;
+    reader.require("columns");
+    if (!reader.read("columns", columns) || !list) return field;
+    if (!reader.values().is_list(*list, "heights")) return field;
+    for (const TextNode value : *list) {
+        double height = 0;
+        if (!reader.values().read(value, "heights", height)) return field;
+        heights->push_back(static_cast<float>(height));
+    }
+    if (columns < 2 || heights->size() % static_cast<std::size_t>(columns) != 0) {
+        reader.error(reader.block(), "height_field: 'columns' must be at least 2 and divide the " +
+                                         std::to_string(heights->size()) + " heights into rows");
+        return field;
+    }
+    field.columns = static_cast<std::uint32_t>(columns);
+    field.rows = static_cast<std::uint32_t>(heights->size()) / field.columns;
+    return field;
+}
+
 }  // namespace alhazen

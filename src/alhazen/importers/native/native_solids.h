@@ -7,5 +7,10 @@
 namespace alhazen {
 
 [[nodiscard]] AnyShape read_native_polyhedron(BlockReader& reader);
+[[nodiscard]] AnyShape read_native_prism(BlockReader& reader);
+[[nodiscard]] AnyShape read_native_lathe(BlockReader& reader);
+[[nodiscard]] AnyShape read_native_blob(BlockReader& reader);
+/// Without the heights of a picture: see native_height_picture.h.
+[[nodiscard]] AnyShape read_native_height_field(BlockReader& reader);
 
 }  // namespace alhazen

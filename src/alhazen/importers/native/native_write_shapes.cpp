@@ -87,6 +87,51 @@ void add_fields(NativeBlockText& block, const Polyhedron& s) {
     block.add("faces", native_list(faces));
 }
 
+/// `[[(x, y), curve((x, y), (x, y), (x, y)), ...], ...]`.
+std::string profile_text(const Profile& profile) {
+    std::vector<std::string> loops;
+    std::size_t begin = 0;
+    for (const std::size_t end : profile.loop_ends) {
+        std::vector<std::string> steps;
+        for (std::size_t i = begin; i < end; ++i) {
+            const ProfileCurve& c = profile.curves[i];
+            if (i == begin) steps.push_back(native_value(c.p[0]));
+            steps.push_back(c.line ? native_value(c.p[3])
+                                   : "curve(" + native_value(c.p[1]) + ", " + native_value(c.p[2]) +
+                                         ", " + native_value(c.p[3]) + ")");
+        }
+        loops.push_back(native_list(steps));
+        begin = end;
+    }
+    return native_list(loops);
+}
+void add_fields(NativeBlockText& block, const Prism& s) {
+    block.add("loops", profile_text(s.profile));
+    block.add("h0", native_value(s.h0));
+    block.add("h1", native_value(s.h1));
+    block.add_unless("top_scale", s.top_scale, 1.0);
+}
+void add_fields(NativeBlockText& block, const Lathe& s) {
+    block.add("loops", profile_text(s.profile));
+}
+void add_fields(NativeBlockText& block, const Blob& s) {
+    block.add("threshold", native_value(s.threshold));
+    block.add("components", native_list_of(s.components, [](const BlobComponent& c) {
+                  const std::string rest =
+                      ", " + native_value(c.radius) + ", " + native_value(c.strength) + ")";
+                  if (!c.rod) return "sphere(" + native_value(c.base) + rest;
+                  return "cylinder(" + native_value(c.base) + ", " + native_value(c.top) + rest;
+              }));
+}
+void add_fields(NativeBlockText& block, const HeightField& s) {
+    block.add("columns", native_value(static_cast<int>(s.columns)));
+    block.add("heights",
+              native_list_of(*s.heights, [](float h) { return native_value(double{h}); }));
+    block.add("lo", native_value(s.lo));
+    block.add("hi", native_value(s.hi));
+    block.add("base", native_value(s.base));
+}
+
 }  // namespace
 
 void add_shape_fields(NativeBlockText& block, const AnyShape& shape) {

@@ -1,0 +1,370 @@
+#include "alhazen/shapes/blob.h"
+
+#include <algorithm>
+
+#include "alhazen/math/bernstein_roots.h"
+#include "alhazen/shapes/shape_numerics.h"
+
+namespace alhazen {
+
+namespace {
+
+template <class Real>
+constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
+
+/// Where a quadratic 1 - (distance / radius)^2 of a component holds along the ray.
+enum class Region : std::uint8_t { Base, Middle, Top };
+struct Piece {
+    std::uint32_t component;
+    Region region;
+    double in, out;  ///< from the local origin
+};
+struct Event {
+    double t;
+    std::uint32_t piece;
+    bool begins;
+};
+
+template <class Real>
+struct Vec3Of {
+    Real x, y, z;
+};
+template <class Real>
+Vec3Of<Real> cross_of(const Vec3Of<Real>& a, const Vec3Of<Real>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class Real>
+Real dot_of(const Vec3Of<Real>& a, const Vec3Of<Real>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+double quotient(double a, double b) {
+    return a / b;
+}
+/// The ray from a point near the blob, and the polynomials along it.
+struct LocalRay {
+    const Blob& blob;
+    const Ray& given;
+    double shift = 0;
+    Vec3 o;
+    double far;  ///< size of the numbers that made o
+
+    LocalRay(const Blob& b, const Ray& ray) : blob(b), given(ray), o(ray.origin) {
+        const Vec3 from_center = ray.origin - b.bounds.center();
+        // Close by, the shift would only round away digits of a small t.
+        if (length_squared(from_center) > 4.0 * length_squared(b.bounds.size())) {
+            shift = -dot(from_center, ray.direction) / length_squared(ray.direction);
+            o = ray.origin + shift * ray.direction;
+        }
+        far = max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(ray.direction));
+    }
+
+    /// The point at t (from the local origin) relative to `center`.
+    template <class Real>
+    [[nodiscard]] Vec3Of<Real> from(const Vec3& center, double t) const {
+        const auto along = [&](int k) {
+            const Real start = Real(given.origin[k]) + Real(shift) * Real(given.direction[k]);
+            return (start - Real(center[k])) + Real(t) * Real(given.direction[k]);
+        };
+        return {along(0), along(1), along(2)};
+    }
+
+    /// Adds strength * q^2 of the piece, q its quadratic, in Bernstein form on [t0, t1].
+    template <class Real>
+    void add(const Piece& piece, double t0, double t1, BernsteinPolynomial<Real, 4>& sum) const {
+        const BlobComponent& c = blob.components[piece.component];
+        const Vec3& center = piece.region == Region::Top ? c.top : c.base;
+        Vec3Of<Real> a = from<Real>(center, t0), b = from<Real>(center, t1);
+        Real scale = Real(c.radius) * Real(c.radius);
+        if (piece.region == Region::Middle) {
+            const Vec3Of<Real> e{Real(c.top.x) - Real(c.base.x), Real(c.top.y) - Real(c.base.y),
+                                 Real(c.top.z) - Real(c.base.z)};
+            a = cross_of(a, e);
+            b = cross_of(b, e);
+            scale = scale * dot_of(e, e);
+        }
+        // The blossom of the quadratic.
+        const Real q0 = Real(1.0) - quotient(dot_of(a, a), scale);
+        const Real q1 = Real(1.0) - quotient(dot_of(a, b), scale);
+        const Real q2 = Real(1.0) - quotient(dot_of(b, b), scale);
+        const Real s = c.strength;
+        sum.b[0] -= s * (q0 * q0);
+        sum.b[1] -= s * (q0 * q1);
+        sum.b[2] -= s * quotient(q0 * q2 + Real(2.0) * (q1 * q1), Real(3.0));
+        sum.b[3] -= s * (q1 * q2);
+        sum.b[4] -= s * (q2 * q2);
+        // Rounding of the points over the radius, of the quadratics, of the products.
+        const double span = piece.region == Region::Middle ? length(c.top - c.base) : 0.0;
+        const double point = 48.0 * (far + blob.reach + max_component(abs(o)) + span) / c.radius;
+        sum.error += kRounding<Real> * std::abs(c.strength) * (4.0 * point + 128.0);
+    }
+};
+
+/// Where the line, given by its squared distance (|m|^2 least at t) from an axis or a centre, is
+/// closer than the radius.
+Interval within(double middle, double distance, double radius, double speed) {
+    if (!(distance < radius)) return {};
+    const double half = std::sqrt((radius - distance) * (radius + distance)) / speed;
+    return {middle - half, middle + half};
+}
+
+Interval within_ball(const LocalRay& ray, const Vec3& center, double radius) {
+    const Vec3 f = ray.o - center;
+    const Vec3& d = ray.given.direction;
+    const double dd = length_squared(d), middle = -dot(f, d) / dd;
+    return within(middle, length(f + middle * d), radius, std::sqrt(dd));
+}
+
+Interval within_rod(const LocalRay& ray, const BlobComponent& c) {
+    const Vec3 axis = unit_or(c.top - c.base, {0, 0, 1});
+    const Vec3 f = cross(ray.o - c.base, axis), d = cross(ray.given.direction, axis);
+    const double dd = length_squared(d);
+    if (dd <= 1e-24 * length_squared(ray.given.direction)) {
+        return length(f) < c.radius ? Interval{-kInfinity, kInfinity} : Interval{};
+    }
+    const double middle = -dot(f, d) / dd;
+    return within(middle, length(f + middle * d), c.radius, std::sqrt(dd));
+}
+
+/// What is common to both.
+Interval meeting(const Interval& a, const Interval& b) {
+    return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+
+void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
+    const BlobComponent& c = ray.blob.components[number];
+    const auto add = [&](Region region, const Interval& t) {
+        if (t.lo < t.hi && std::isfinite(t.lo) && std::isfinite(t.hi)) {
+            pieces.push_back({number, region, t.lo, t.hi});
+        }
+    };
+    if (!c.rod) return add(Region::Base, within_ball(ray, c.base, c.radius));
+    const Vec3 e = c.top - c.base;
+    const double start = dot(ray.o - c.base, e), speed = dot(ray.given.direction, e);
+    Interval before{-kInfinity, kInfinity}, between = before, behind = before;
+    if (speed == 0.0) {
+        if (start >= 0.0) before = {};
+        if (start < 0.0 || start > length_squared(e)) between = {};
+        if (start <= length_squared(e)) behind = {};
+    } else {
+        const double at_base = -start / speed, at_top = (length_squared(e) - start) / speed;
+        between = {std::min(at_base, at_top), std::max(at_base, at_top)};
+        before = {-kInfinity, between.lo};
+        behind = {between.hi, kInfinity};
+        if (speed < 0.0) std::swap(before, behind);
+    }
+    add(Region::Base, meeting(before, within_ball(ray, c.base, c.radius)));
+    add(Region::Middle, meeting(between, within_rod(ray, c)));
+    add(Region::Top, meeting(behind, within_ball(ray, c.top, c.radius)));
+}
+
+/// What one ray needs; kept from ray to ray so that nothing is allocated.
+struct Workspace {
+    std::vector<Piece> pieces;
+    std::vector<Event> events;
+    std::vector<std::uint32_t> active;
+};
+
+/// The crossings of the spans, one after another.
+class SpanWalk {
+  public:
+    SpanWalk(const LocalRay& ray, const Workspace& work, ShapeHits& hits)
+        : ray_(ray), work_(work), hits_(hits) {}
+
+    /// The components in work.active hold on [t0, t1].
+    void span(double t0, double t1) {
+        gap(t0);
+        last_ = t1;
+        double most = 0.0;
+        for (const std::uint32_t i : work_.active) {
+            most += std::max(0.0, ray_.blob.components[work_.pieces[i].component].strength);
+        }
+        // Too weak together, rounding included.
+        if (most < 0.999 * ray_.blob.threshold) {
+            if (skipped_) inside_ = skipped_ = false;
+            return leave(t0);
+        }
+        SignChanges<4> changes;
+        find_certified_sign_changes<4>(
+            [&]<class Real>(BernsteinPolynomial<Real, 4>& p) {
+                p.degree = 4;
+                p.error = 0.0;
+                for (int k = 0; k <= 4; ++k) p.b[k] = Real(ray_.blob.threshold);
+                for (const std::uint32_t i : work_.active) ray_.add(work_.pieces[i], t0, t1, p);
+                const double terms = ray_.blob.threshold + most;
+                p.error *= 1.0 + kRounding<Real> * double(work_.active.size());
+                p.error += kRounding<Real> * 4.0 * double(work_.active.size()) * terms;
+            },
+            changes);
+        if (skipped_) inside_ = changes.negative_at_start;
+        skipped_ = false;
+        if (changes.negative_at_start != inside_) turn(t0);
+        for (int k = 0; k < changes.count; ++k) turn(t0 + changes.u[k] * (t1 - t0));
+    }
+    /// A span that ends before the ray begins.
+    void skip(double t1) {
+        last_ = t1;
+        skipped_ = true;
+    }
+    /// Nothing lies between the last span and t.
+    void gap(double t) {
+        if (t == last_) return;
+        if (skipped_) inside_ = skipped_ = false;
+        leave(last_);
+    }
+    /// From here on there is nothing.
+    void leave(double t) {
+        if (inside_) turn(t);
+    }
+
+  private:
+    void turn(double t) {
+        const double at = ray_.shift + t;
+        inside_ = !inside_;
+        if (ray_.given.covers(at)) hits_.push_back({at, 0, inside_ ? -1.0 : 1.0, 0});
+    }
+
+    const LocalRay& ray_;
+    const Workspace& work_;
+    ShapeHits& hits_;
+    double last_ = -kInfinity;
+    bool inside_ = false;
+    bool skipped_ = false;  ///< whether it is inside here is not known
+};
+
+struct Density {
+    double value = 0;
+    Vec3 gradient{};
+    double rounding = 0;
+};
+
+Density density_at(const Blob& blob, const Vec3& p) {
+    Density sum;
+    blob.tree->for_point(p, [&](std::uint32_t i) {
+        const BlobComponent& c = blob.components[i];
+        Vec3 nearest = c.base;
+        if (c.rod) {
+            const Vec3 e = c.top - c.base;
+            nearest += std::clamp(dot(p - c.base, e) / length_squared(e), 0.0, 1.0) * e;
+        }
+        const Vec3 r = p - nearest;
+        const double q = 1.0 - length_squared(r) / (c.radius * c.radius);
+        if (q <= 0.0) return;
+        sum.value += c.strength * q * q;
+        sum.gradient -= (4.0 * c.strength * q / (c.radius * c.radius)) * r;
+        sum.rounding += std::abs(c.strength) * (8.0 + 4.0 * max_component(abs(p)) / c.radius);
+    });
+    return sum;
+}
+
+}  // namespace
+
+void Blob::prepare() {
+    std::vector<Box3> boxes;
+    bounds = {};
+    for (const BlobComponent& c : components) {
+        const Vec3 half{c.radius, c.radius, c.radius};
+        Box3 box = outward_box(c.base, half);
+        if (c.rod) box.include(outward_box(c.top, half));
+        bounds.include(box);
+        boxes.push_back(box);
+    }
+    reach = std::max(max_component(abs(bounds.lo)), max_component(abs(bounds.hi)));
+    tree = std::make_shared<const BlobTree>(boxes);
+}
+
+void Blob::validate(const FileLocation& where, Diagnostics& diagnostics) const {
+    FieldChecks checks(kName, where, diagnostics);
+    if (components.empty()) return checks.fail("at least one sphere or cylinder must be given");
+    checks.length("threshold", threshold);
+    for (const BlobComponent& c : components) {
+        checks.point("center or base of a component", c.base);
+        if (c.rod) checks.point("top of a component", c.top);
+        checks.length("radius of a component", c.radius);
+        if (!(std::abs(c.strength) <= kMaxCoordinate)) {
+            checks.fail("strength of a component must be a number below 1e70");
+        }
+        if (checks.ok() && c.rod) {
+            checks.length("distance from base to top of a component", length(c.top - c.base));
+        }
+        if (!checks.ok()) return;
+    }
+}
+
+Interval Blob::extent(const Vec3& axis) const {
+    Interval range;
+    for (const BlobComponent& c : components) {
+        const double half = c.radius * length(axis);
+        range = hull(range, outward_extent(axis, c.base, half));
+        if (c.rod) range = hull(range, outward_extent(axis, c.top, half));
+    }
+    return range;
+}
+
+void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
+    static thread_local Workspace work;
+    work.pieces.clear();
+    work.events.clear();
+    work.active.clear();
+    const LocalRay local(*this, ray);
+    if (!is_finite(local.o)) return;
+    const double pad = 0x1p-48 * (local.far + reach);
+    tree->for_line(local.o, ray.direction, pad,
+                   [&](std::uint32_t i) { add_pieces(local, i, work.pieces); });
+    for (std::uint32_t i = 0; i < work.pieces.size(); ++i) {
+        work.events.push_back({work.pieces[i].in, i, true});
+        work.events.push_back({work.pieces[i].out, i, false});
+    }
+    std::sort(work.events.begin(), work.events.end(), [](const Event& a, const Event& b) {
+        return a.t != b.t ? a.t < b.t : a.piece < b.piece;
+    });
+    SpanWalk walk(local, work, hits);
+    double last = 0.0;
+    for (const Event& event : work.events) {
+        if (!work.active.empty() && last < event.t) {
+            if (event.t + local.shift < ray.t_min) {
+                walk.skip(event.t);
+            } else if (last + local.shift > ray.t_max || hits.enough()) {
+                return walk.gap(last);
+            } else {
+                walk.span(last, event.t);
+            }
+        }
+        last = event.t;
+        if (event.begins) {
+            work.active.push_back(event.piece);
+        } else {
+            work.active.erase(std::find(work.active.begin(), work.active.end(), event.piece));
+        }
+    }
+    walk.gap(kInfinity);
+}
+
+ShapeSurface Blob::surface(const Ray& ray, const ShapeHit& hit) const {
+    ShapeSurface surface;
+    surface.point = ray.at(hit.t);
+    Density there = density_at(*this, surface.point);
+    double steepness = length(there.gradient);
+    if (steepness > 0.0) {
+        // One step to the surface; no farther than what the ray rounds.
+        const double off = (threshold - there.value) / steepness;
+        const double room = 0x1p-48 * (max_component(abs(ray.origin)) + reach);
+        surface.point += (std::clamp(off, -room, room) / steepness) * there.gradient;
+        there = density_at(*this, surface.point);
+        steepness = length(there.gradient);
+    }
+    surface.normal = unit_or(-there.gradient, -unit_or(ray.direction, {0, 0, 1}));
+    // Whether the ray enters here (v = -1) or leaves is known from all its crossings.
+    if (dot(surface.normal, ray.direction) * hit.v < 0.0) surface.normal = -surface.normal;
+    surface.shading_normal = surface.normal;
+    const Vec3 from_center = unit_or(surface.point - bounds.center(), {1, 0, 0});
+    surface.uv = {turn_fraction(from_center.x, from_center.y),
+                  0.5 + std::atan2(from_center.z, std::hypot(from_center.x, from_center.y)) / kPi};
+    // What the density rounds, over its steepness; where that hardly tells, the last digits of all.
+    const double most = gamma_bound(48) * reach;
+    const double off = 0x1p-53 * there.rounding / steepness + gamma_bound(4) * reach;
+    const double error = off < most ? off : most;
+    surface.error = {error, error, error};
+    return surface;
+}
+
+}  // namespace alhazen

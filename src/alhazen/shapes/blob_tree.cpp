@@ -1,0 +1,55 @@
+#include "alhazen/shapes/blob_tree.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace alhazen {
+
+BlobTree::BlobTree(const std::vector<Box3>& boxes) : order_(boxes.size()), boxes_(boxes) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+}
+
+// Halves make it at most 33 deep.
+void BlobTree::build(const std::vector<Box3>& boxes, std::uint32_t first, std::uint32_t end) {
+    const std::size_t at = nodes_.size();
+    nodes_.emplace_back();
+    Box3 box;
+    for (std::uint32_t i = first; i < end; ++i) box.include(boxes[order_[i]]);
+    nodes_[at].box = box;
+    if (end - first <= kLeafSize) {
+        nodes_[at].first = first;
+        nodes_[at].count = end - first;
+        return;
+    }
+    const Vec3 size = box.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    const std::uint32_t middle = first + (end - first) / 2;
+    const auto begin = order_.begin();
+    std::nth_element(begin + first, begin + middle, begin + end,
+                     [&](std::uint32_t a, std::uint32_t b) {
+                         const double ca = boxes[a].lo[axis] + boxes[a].hi[axis];
+                         const double cb = boxes[b].lo[axis] + boxes[b].hi[axis];
+                         return ca != cb ? ca < cb : a < b;
+                     });
+    build(boxes, first, middle);
+    nodes_[at].second_child = static_cast<std::uint32_t>(nodes_.size());
+    build(boxes, middle, end);
+}
+
+bool BlobTree::meets_line(const Box3& box, const Vec3& o, const Vec3& d, double pad) {
+    double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
+    for (int k = 0; k < 3; ++k) {
+        const double lo = box.lo[k] - pad - o[k], hi = box.hi[k] + pad - o[k];
+        if (d[k] == 0.0) {
+            if (lo > 0.0 || hi < 0.0) return false;
+            continue;
+        }
+        const double a = lo / d[k], b = hi / d[k];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return !(enter > leave);
+}
+
+}  // namespace alhazen

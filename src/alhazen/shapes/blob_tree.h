@@ -1,0 +1,66 @@
+#pragma once
+/// A small tree of boxes over the components of a blob: which of them a line or a point may touch.
+///
+/// Source: Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (slabs); split at the median
+/// of the longest axis. Differs: boxes are tested with room for what the origin rounds.
+/// Conventions: answers may hold too many, never too few. Threads: const functions may be called
+/// from many.
+
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/geometry/box.h"
+
+namespace alhazen {
+
+class BlobTree {
+  public:
+    explicit BlobTree(const std::vector<Box3>& boxes);
+
+    /// Calls f(component) for all whose box, grown by `pad`, the line o + t d meets.
+    template <class F>
+    void for_line(const Vec3& o, const Vec3& d, double pad, F f) const {
+        visit([&](const Box3& box) { return meets_line(box, o, d, pad); }, f);
+    }
+    /// Calls f(component) for all whose box holds the point.
+    template <class F>
+    void for_point(const Vec3& p, F f) const {
+        visit([&](const Box3& box) { return box.contains(p); }, f);
+    }
+
+  private:
+    static constexpr std::uint32_t kLeafSize = 4;
+    struct Node {
+        Box3 box;
+        std::uint32_t first = 0, count = 0;  ///< of a leaf: where in order_; else count is 0
+        std::uint32_t second_child = 0;      ///< of an inner node; the first one follows it
+    };
+
+    void build(const std::vector<Box3>& boxes, std::uint32_t first, std::uint32_t end);
+    static bool meets_line(const Box3& box, const Vec3& o, const Vec3& d, double pad);
+
+    template <class Test, class F>
+    void visit(Test test, F f) const {
+        std::uint32_t stack[64];
+        int depth = 0;
+        stack[depth++] = 0;
+        while (depth > 0) {
+            const std::uint32_t at = stack[--depth];
+            const Node& node = nodes_[at];
+            if (!test(node.box)) continue;
+            for (std::uint32_t i = 0; i < node.count; ++i) {
+                const std::uint32_t component = order_[node.first + i];
+                if (node.count == 1 || test(boxes_[component])) f(component);
+            }
+            if (node.count > 0) continue;
+            stack[depth++] = node.second_child;
+            stack[depth++] = at + 1;
+        }
+    }
+
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Box3> boxes_;
+};
+
+}  // namespace alhazen
