@@ -73,6 +73,9 @@ struct SeenBlock {
 struct FilteredGroup {
     LaneMask<float, kGroupRays> candidates, sure;
     GroupFloats lo, hi;
+
+    // As that of LaneMask: not defaulted, for the sake of the target.
+    HWY_INLINE FilteredGroup() {}
 };
 
 /// As `filter_triangles`; false when no ray hits the triangle for all one knows.

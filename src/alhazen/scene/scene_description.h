@@ -116,6 +116,14 @@ struct AnimationInfo {
 enum class UpAxis { Y, Z };
 
 struct SceneDescription {
+    // Compiled once, not in every file that has a description.
+    SceneDescription();
+    SceneDescription(const SceneDescription&);
+    SceneDescription(SceneDescription&&) noexcept;
+    SceneDescription& operator=(const SceneDescription&);
+    SceneDescription& operator=(SceneDescription&&) noexcept;
+    ~SceneDescription();
+
     std::string format;  ///< name of the importer
     std::filesystem::path path;
     std::set<std::filesystem::path> files;   ///< others that were read, or that it names

@@ -46,7 +46,17 @@ using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cyli
                                   Tgc, Torus, Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric,
                                   Algebraic, Superellipsoid, Prism, Lathe, Blob, HeightField>;
 
-/// Any one analytic shape by value.
-using AnyShape = AnalyticShapes::Variant;
+/// Any one analytic shape by value: the variant, but copied, moved and destroyed by functions that
+/// are compiled once, not in every file that has parts.
+class AnyShape : public AnalyticShapes::Variant {
+  public:
+    using AnalyticShapes::Variant::Variant;
+    AnyShape();
+    AnyShape(const AnyShape&);
+    AnyShape(AnyShape&&) noexcept;
+    AnyShape& operator=(const AnyShape&);
+    AnyShape& operator=(AnyShape&&) noexcept;
+    ~AnyShape();
+};
 
 }  // namespace alhazen

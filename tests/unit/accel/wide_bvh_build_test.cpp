@@ -29,14 +29,15 @@ class Leaves final : public LeafSink {
     void resize(const std::array<std::size_t, kLeafKinds>& blocks) override {
         for (std::size_t kind = 0; kind < kLeafKinds; ++kind) leaves[kind].resize(blocks[kind]);
     }
-    void pack(std::uint32_t kind, std::size_t offset,
-              std::span<const BuildReference> references) override {
+    float pack(std::uint32_t kind, std::size_t offset,
+               std::span<const BuildReference> references) override {
         Leaf& leaf = leaves[kind].at(offset);
         for (const BuildReference& r : references) {
             leaf.ids.push_back(r.id);
             leaf.box.include(r.box());
             leaf.one_kind = leaf.one_kind && r.kind == kind;
         }
+        return 0;
     }
 
     /// [kind][offset]
@@ -91,7 +92,7 @@ WideBvh build_and_check(BuildQuality quality, std::vector<BuildReference> refere
     };
     if (!tree.empty && tree.root.is_leaf()) check_leaf(tree.root, binary.nodes[0].box);
     for (const WideNode& node : tree.nodes) {
-        for (std::size_t i = 0; i < kWideNodeWidth; ++i) {
+        for (std::size_t i = 0; i < WideNode::kWidth; ++i) {
             const FloatBox box = node.box(i);
             if (i >= node.child_count()) {
                 EXPECT_EQ(box, FloatBox{}) << name << ": a free slot can be hit";

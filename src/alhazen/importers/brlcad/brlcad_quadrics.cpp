@@ -10,13 +10,13 @@ namespace {
 
 /// Half the width of a conic's section at a depth from 0 (the base) to 1 (the apex) is, squared,
 /// scale * q(depth) with q(0) = 1: coefficients of q - 1, by powers of the depth.
-struct Profile {
+struct ConicProfile {
     double linear = -1, square = 0;
 };
 
 /// Of a parabola, or of a hyperbola whose asymptotes meet at `c` above the apex, in units of the
 /// depth: ((1 + c - s)^2 - c^2) / ((1 + c)^2 - c^2).
-Profile profile(bool hyperbolic, double c) {
+ConicProfile profile(bool hyperbolic, double c) {
     if (!hyperbolic) return {};
     const double whole = 1.0 + 2.0 * c;
     return {-2.0 * (1.0 + c) / whole, 1.0 / whole};
@@ -31,7 +31,7 @@ Vec3 across(const Vec3& a, const Vec3& b, double wanted) {
 }  // namespace
 
 BrlcadQuadric brlcad_quadric(const BrlcadConicCylinder& solid) {
-    const Profile p = profile(solid.hyperbolic, solid.apex_distance / length(solid.breadth));
+    const ConicProfile p = profile(solid.hyperbolic, solid.apex_distance / length(solid.breadth));
     BrlcadQuadric made;
     made.shape.squares = {1, -p.square, 0};
     made.shape.linear = {0, -p.linear, 0};
@@ -44,7 +44,7 @@ BrlcadQuadric brlcad_quadric(const BrlcadConicCylinder& solid) {
 }
 
 BrlcadQuadric brlcad_quadric(const BrlcadConicDome& solid) {
-    const Profile p = profile(solid.hyperbolic, solid.apex_distance / length(solid.height));
+    const ConicProfile p = profile(solid.hyperbolic, solid.apex_distance / length(solid.height));
     BrlcadQuadric made;
     made.shape.squares = {1, 1, -p.square};
     made.shape.linear = {0, 0, -p.linear};
