@@ -139,14 +139,14 @@ void add_options(CLI::App& command, Arguments& args) {
         ->type_name("NX,NY,NZ,D");
     command.add_option("--overlap", args.overlaps, "Volume that two solids share; may be repeated")
         ->type_name("A,B")
-        ->expected(1)
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     command
         .add_option("--clearance", args.clearances,
                     "Smallest distance of two solids, from below and above; may be repeated")
         ->type_name("A,B")
-        ->expected(1)
-        ->take_all();
+        ->take_all()
+        ->allow_extra_args(false);
     command.add_option("--seed", args.seed, "Seed of the lines")->capture_default_str();
     command.add_flag("--all", args.all, "Measure all solids, however many");
     command.add_option("--json", args.json, "Write the report as JSON; - for stdout")
