@@ -57,7 +57,7 @@ void OctreeCells::divide(std::uint32_t index, std::vector<std::uint32_t> inside,
     const std::int32_t half = span(nodes_[index]) / 2;
     std::array<Node, 8> children;
     std::array<std::vector<std::uint32_t>, 8> parts;
-    bool parted = false;
+    std::size_t sum = 0;
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
         Node& child = children[octant];
         child = {0,
@@ -74,9 +74,10 @@ void OctreeCells::divide(std::uint32_t index, std::vector<std::uint32_t> inside,
         for (const std::uint32_t i : inside) {
             if (source.overlaps(i, cell)) parts[octant].push_back(i);
         }
-        parted = parted || parts[octant].size() < inside.size();
+        sum += parts[octant].size();
     }
-    if (!parted) return make_leaf(index, inside);
+    // Most lie in most children: they fill the cell, and smaller ones would not part them.
+    if (sum > 5 * inside.size()) return make_leaf(index, inside);
     if (nodes_.size() + 8 >= kNone) {
         throw Error(ErrorKind::Resource, "octree: more than 4294967286 nodes");
     }
