@@ -43,10 +43,13 @@ inline SphereRoots<Real> sphere_roots(const SphereLine<Real>& line, const Real& 
     const Real c = (f - radius) * (f + radius);
     // Roots of a t^2 + 2 b t + c = 0: -q / a and -c / q; the larger in magnitude is the former.
     const Real big = -(q / a);
-    const Real small = -(c / q);
-    // b > 0: q > 0 and `big` is the nearer (more negative) root.
+    // Where the origin lies on the sphere and the line grazes it, c and q are both noise: their
+    // quotient is anything, the true root is no larger than the other.
     using std::fmax;
     using std::fmin;
+    const Real reach = copysign(big, a);
+    const Real small = fmax(-reach, fmin(reach, -(c / q)));
+    // b > 0: q > 0 and `big` is the nearer (more negative) root.
     return {line.discriminant, fmin(big, small), fmax(big, small)};
 }
 

@@ -59,6 +59,24 @@ TEST(SphereRoots, TheRootNearASurfaceOriginIsRelativelyAccurate) {
     }
 }
 
+TEST(SphereRoots, OfALineThatGrazesFromTheSurfaceAreBothNearItsOrigin) {
+    // How far a line that is off by some roundings can run inside: sqrt(2 r off) on either side.
+    Random random(96);
+    int crossed = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const Vec3 n = random.unit_vector();
+        const double slope = random.coin() ? 0.0 : random.log_uniform(1e-17, 1e-9);
+        const Vec3 d = perpendicular(n) + (random.coin() ? slope : -slope) * n;
+        const double radius = random.log_uniform(1e-3, 1e3);
+        const auto roots = solve(d, radius * n, radius);
+        if (!(roots.discriminant >= 0.0)) continue;
+        ++crossed;
+        ASSERT_LE(std::abs(roots.t_near), 1e-7 * radius) << "seed 96, case " << i;
+        ASSERT_LE(std::abs(roots.t_far), 1e-7 * radius) << "seed 96, case " << i;
+    }
+    EXPECT_GT(crossed, 30000);
+}
+
 TEST(SphereRoots, NeverAscendTheWrongWay) {
     Random random(95);
     for (int i = 0; i < 200000; ++i) {
