@@ -31,6 +31,55 @@ struct LaterCrossing {
     }
 };
 
+/// Parts of a ray on which one operand alone decides the value of the solid: the one at hand and
+/// the next one. What is there of others changes nothing.
+class DecidedParts {
+  public:
+    /// What is within `margin` of the ends matters.
+    explicit DecidedParts(double margin) : margin_(margin) {}
+
+    void add(double begin, double end) {
+        if (!(end - begin > 4.0 * margin_)) return;
+        if (!now_.joins(begin, end) && !next_.joins(begin, end)) {
+            if (now_.empty()) {
+                now_ = {begin, end};
+            } else if (next_.empty() && begin > now_.end) {
+                next_ = {begin, end};
+            }
+        }
+        if (!next_.empty() && now_.joins(next_.begin, next_.end)) next_ = {};
+    }
+    /// False where nothing of the bound matters; else it is made to begin where something does.
+    bool shorten(Bound& bound) {
+        if (bound.enter >= now_.end - margin_ && !next_.empty()) {
+            now_ = next_;
+            next_ = {};
+        }
+        const double end = now_.end - margin_;
+        if (!(bound.enter > now_.begin + margin_ && bound.enter < end)) return true;
+        if (bound.exit < end) return false;
+        bound.enter = end;
+        return true;
+    }
+
+  private:
+    struct Part {
+        double begin = kInfinite, end = -kInfinite;
+
+        [[nodiscard]] bool empty() const { return !(begin < end); }
+        /// Takes in what overlaps it.
+        bool joins(double other_begin, double other_end) {
+            if (!(other_begin <= end && other_end >= begin)) return false;
+            begin = std::min(begin, other_begin);
+            end = std::max(end, other_end);
+            return true;
+        }
+    };
+
+    double margin_;
+    Part now_, next_;
+};
+
 struct Scratch {
     std::vector<Bound> bounds;        ///< heap
     std::vector<CsgCrossing> events;  ///< heap
@@ -50,7 +99,8 @@ class Walk {
           slabs_(bvh.slabs(ray.line, ray.pad)),
           s_(scratch),
           stats_(stats),
-          last_t_(ray.t_max + ray.tau) {
+          last_t_(ray.t_max + ray.tau),
+          decided_(2.0 * ray.tau) {
         s_.bounds.clear();
         s_.events.clear();
         s_.hits.clear();
@@ -135,7 +185,8 @@ class Walk {
         }
         bvh_.children(node, slabs_, [&](std::uint32_t child, double enter, double exit) {
             if (exit < ray_.t_min || enter > last_t_) return;
-            push(Bound{std::max(enter, ray_.t_min), exit, child});
+            Bound bound{std::max(enter, ray_.t_min), exit, child};
+            if (decided_.shorten(bound)) push(bound);
         });
     }
 
@@ -147,17 +198,33 @@ class Walk {
         auto crossing = s_.crossings.begin();
         for (; crossing != s_.crossings.end() && crossing->t < begin; ++crossing) inside = !inside;
         if (inside) push(CsgCrossing{begin, 0, 0, 0, leaf | kSilent});
+        const bool decides = decides_alone(leaf);
+        double since = begin;
         for (; crossing != s_.crossings.end() && crossing->t <= exit; ++crossing) {
+            if (decides && inside) decided_.add(since, crossing->t);
+            since = crossing->t;
             inside = !inside;
             if (crossing->t <= last_t_) push(*crossing);
         }
+        if (decides && inside) decided_.add(since, exit);
         if (inside && exit <= last_t_) push(CsgCrossing{exit, 0, 0, 0, leaf | kSilent});
+    }
+    /// Walls between media are transitions too, whatever lies inside of a union.
+    [[nodiscard]] bool decides_alone(std::uint32_t leaf) const {
+        const CsgTree::Leaf& l = solid_.tree().leaves()[leaf];
+        return l.decides && (l.complement || !solid_.has_media());
     }
 
     void open_nearest() {
         std::pop_heap(s_.bounds.begin(), s_.bounds.end(), LaterBound{});
-        const Bound bound = s_.bounds.back();
+        Bound bound = s_.bounds.back();
         s_.bounds.pop_back();
+        const double enter = bound.enter;
+        if (!decided_.shorten(bound)) return;
+        if (bound.enter > enter) {
+            push(bound);
+            return;
+        }
         if ((bound.child & CsgBvh::kLeafBit) != 0) {
             open_leaf(bound.child & ~CsgBvh::kLeafBit, bound.enter, bound.exit);
         } else {
@@ -214,6 +281,7 @@ class Walk {
     Scratch& s_;
     TraversalStats* stats_;
     double last_t_;  ///< events behind this are not looked at
+    DecidedParts decided_;
     bool begins_inside_ = false;
     bool is_wall_ = false;
 };

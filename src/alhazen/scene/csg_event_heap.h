@@ -8,6 +8,9 @@
 /// Differs: one tree of boxes over the S-bounds of all leaves, whatever the operators; crossings
 /// wait in a second heap until no bound in front of them is unopened; the state of the solid is
 /// kept as counts of true operands and changed from the leaf upward, only as far as it changes.
+/// Where one operand alone decides (a ray within a hole), bounds that begin and end there are left
+/// unopened, and others opened where it ends: active zones of Rossignac and Voelcker, "Active Zones
+/// in CSG for Accelerating Boundary Evaluation", ACM TOG 8(1), 1989, found along the ray.
 /// Outside its S-bound a leaf counts as outside; that it does not for the whole solid is argued in
 /// docs/architecture.md and tested against the evaluation of every leaf.
 /// Complexity and threads: O(k log k) for k leaves pierced before the transition, and the way to

@@ -27,6 +27,9 @@ struct CsgTree::Draft {
 CsgTree::CsgTree(const CsgExpression& expression, std::span<const Box3> boxes) {
     Draft draft;
     flatten(expression, draft);
+    for (Leaf& leaf : leaves_) {
+        leaf.decides = leaf.parent == 0 && draft.is_union.front() != leaf.complement;
+    }
     set_needs(draft);
     tighten(draft, boxes);
 }
@@ -61,7 +64,7 @@ void CsgTree::flatten(const CsgExpression& expression, Draft& draft) {
             const bool complement = next.complement != subtracted;
             first = false;
             if (operand.is_leaf()) {
-                leaves_[operand.index()] = {here, complement};
+                leaves_[operand.index()] = {here, complement, false};
                 ++draft.operand_count[here];
             } else {
                 open.push_back({operand.index(), here, complement});

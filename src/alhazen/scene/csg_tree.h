@@ -33,6 +33,9 @@ class CsgTree {
     struct Leaf {
         std::uint32_t parent = kNone;
         bool complement = false;
+        /// Inside its primitive the root has one value, whatever the others are: an operand of a
+        /// union, or one that is taken away, at the root itself.
+        bool decides = false;
     };
 
     CsgTree() = default;
