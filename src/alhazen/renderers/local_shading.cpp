@@ -65,6 +65,11 @@ MaterialSample material_at(const Scene& scene, const Surface& surface,
                         surface.weights[2], sample(2));
 }
 
+MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id) {
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color};
+    return evaluate(scene.materials[static_cast<std::size_t>(id)], scene.textures, lookup);
+}
+
 std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
                                         double width) {
     // The circle across the ray, projected along it onto the plane: its radius stays across the
@@ -84,18 +89,31 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
 
 namespace {
 
-BehindSurface behind_surface(const Scene& scene, const Surface& surface) {
-    const SurfaceMedia& media = surface.media;
-    if (!media.known) return {};
-    const auto sample = [&](MaterialId id) {
-        const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color};
-        return evaluate(scene.materials[static_cast<std::size_t>(id)], scene.textures, lookup);
-    };
-    const double air = scene.conventions.air_index;
-    const double here = media.before ? sample(*media.before).index : air;
-    if (!media.after) return {true, false, here / air, {}};
-    const MaterialSample after = sample(*media.after);
-    return {true, true, here / after.index, after.absorption};
+/// What the ray came through and what it finds behind the surface. The material must be as it is
+/// seen.
+void set_media(const Scene& scene, ShadingPoint& point) {
+    const SurfaceMedia& media = point.surface.media;
+    point.behind = {};
+    point.passing = point.medium = point.material.transmissive;
+    point.medium_is_physical = point.material.physical;
+    if (!media.known) return;
+    point.behind.known = true;
+    double here = scene.conventions.air_index, beyond = here;
+    if (media.before) {
+        const MaterialSample before = medium_at(scene, point.surface, *media.before);
+        here = before.index;
+        point.medium = before.transmissive;
+        point.medium_is_physical = before.physical;
+        // The wall's own material is that of what is entered.
+        if (media.after) point.passing = point.passing * before.transmissive;
+    }
+    if (media.after) {
+        const MaterialSample after = medium_at(scene, point.surface, *media.after);
+        beyond = after.index;
+        point.behind.inside = true;
+        point.behind.absorption = after.absorption;
+    }
+    point.behind.eta = here / beyond;
 }
 
 }  // namespace
@@ -109,7 +127,6 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
         footprint = footprint_at(point.surface, ray.direction, width);
     }
     point.material = material_at(scene, point.surface, footprint);
-    point.behind = behind_surface(scene, point.surface);
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
@@ -131,6 +148,7 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
         const bool from_inside = inside && !point.entering && !m.transmissive.is_black();
         turn_to_view(m, dot(point.view, point.normal), from_inside);
     }
+    set_media(scene, point);
 }
 
 bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,
@@ -158,7 +176,7 @@ Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
                              ? m.diffuse
                              : m.ambient;
     if (conventions.ambient_inside_times_kt && point.inside) {
-        ambient_factor = ambient_factor * m.transmissive;
+        ambient_factor = ambient_factor * point.medium;
     }
     Rgb sum = m.emission;
     for (const Light& light : scene.lights) sum += ambient_factor * ambient_of(light);

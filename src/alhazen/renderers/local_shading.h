@@ -26,14 +26,20 @@ struct ShadingPoint {
     bool inside = false;   ///< the ray came through the inside of something transparent
     bool entering = true;  ///< the ray met the outside (by the geometric normal)
     BehindSurface behind;
-    Vec3 geometric;  ///< unit geometric normal towards the ray's origin
-    Vec3 normal;     ///< unit shading normal, turned towards the ray's origin
-    Vec3 view;       ///< unit, towards the ray's origin
+    Rgb passing;                      ///< kt of going through: at a wall, of both media
+    Rgb medium;                       ///< kt of what the ray came through, where it is inside
+    bool medium_is_physical = false;  ///< it absorbs by its own law
+    Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
+    Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
+    Vec3 view;                        ///< unit, towards the ray's origin
 };
 
 /// `footprint`: what the ray's cone cuts out of both sets of texture coordinates.
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
                                          const std::array<UvFootprint, 2>& footprint = {});
+
+/// What fills one side of the surface (`surface.media`), textures looked up as on the surface.
+[[nodiscard]] MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id);
 
 /// What a cone of diameter `width` around `direction` cuts out of the surface, in both sets of
 /// texture coordinates.

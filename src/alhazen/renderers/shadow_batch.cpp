@@ -83,17 +83,26 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     media_.clear();
     if (path.inside) media_.push_back(path.absorption);
     double last = 0.0;
+    bool in_wall = false;  // the first of the two crossings of a wall lies behind
     for (const Hit& crossing : crossings_) {
         const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
-        const MaterialSample material = material_at(scene_, surface);
+        MaterialSample material = material_at(scene_, surface);
         if (material.coverage == 0.0) continue;
-        const bool leaving = dot(ray.direction, surface.normal) >= 0.0;
+        bool leaving = dot(ray.direction, surface.normal) >= 0.0;
+        MaterialSample medium = material;
+        if (const SurfaceMedia& media = surface.media; media.before || media.after) {
+            const bool wall = media.before && media.after;
+            leaving = media.before && !in_wall;
+            in_wall = wall && leaving;
+            medium = medium_at(scene_, surface, leaving ? *media.before : *media.after);
+            if (wall) material = medium;
+        }
         // Light that comes to the back of a surface without one passes.
         if (!leaving && is_unseen_from_behind(material)) continue;
-        Rgb through = light_through(material, leaving, crossing.t - last);
-        if (material.physical && !material.thin) {
+        Rgb through = light_through(material, medium, leaving, crossing.t - last);
+        if (medium.physical && !medium.thin) {
             tint = tint * through_medium(crossing.t - last);
-            enter_or_leave(leaving, material.absorption);
+            enter_or_leave(leaving, medium.absorption);
         }
         if (material.coverage < 1.0) {
             const double open = 1.0 - material.coverage;
@@ -101,20 +110,22 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
         }
         tint = tint * through;
         if (tint.is_black()) return tint;
-        if (!material.physical || !material.thin) last = crossing.t;
+        if (!medium.physical || !medium.thin) last = crossing.t;
     }
     if (std::isfinite(ray.t_max)) tint = tint * through_medium(ray.t_max - last);
     return tint;
 }
 
-/// What one surface lets through; `inside`: the way since the last one.
-Rgb ShadowBatch::light_through(const MaterialSample& material, bool leaving, double inside) const {
+/// What one surface lets through of light that enters or leaves `medium` there; `inside`: the way
+/// since the last one.
+Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSample& medium,
+                               bool leaving, double inside) const {
     const Rgb& kt = material.transmissive;
     if (material.physical || kt.is_black() ||
         scene_.conventions.shadow_tint == ShadowTint::PerCrossing) {
         return kt;
     }
-    return leaving ? power(kt, inside) : Rgb{1, 1, 1};
+    return leaving ? power(medium.transmissive, inside) : Rgb{1, 1, 1};
 }
 
 /// What is left after a way through the innermost volume that was entered.

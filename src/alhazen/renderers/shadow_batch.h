@@ -41,8 +41,8 @@ class ShadowBatch {
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
     /// What the transparent surfaces in `crossings_` leave of light along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
-    [[nodiscard]] Rgb light_through(const MaterialSample& material, bool leaving,
-                                    double inside) const;
+    [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
+                                    bool leaving, double inside) const;
     [[nodiscard]] Rgb through_medium(double distance) const;
     void enter_or_leave(bool leaving, const Rgb& absorption);
 

@@ -162,8 +162,8 @@ class Tracer {
         }
         met.filtered =
             conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
-            seen.path.inside && !point.material.physical;
-        if (met.filtered) met.filter = power(point.material.transmissive, seen.t);
+            seen.path.inside && !point.medium_is_physical;
+        if (met.filtered) met.filter = power(point.medium, seen.t);
     }
 
     void add_direct_light(const Seen& seen, Rgb& sum) {
@@ -201,7 +201,7 @@ class Tracer {
     void transmit(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         const MaterialSample& material = point.material;
-        const Rgb& kt = material.transmissive;
+        const Rgb& kt = point.passing;
         onward.kind = RayKind::Refraction;
         onward.contribution = onward.contribution * kt;
         if (kt.is_black() || onward.contribution.max() < conventions_.min_contribution) return;

@@ -119,8 +119,10 @@ CsgAggregate::Look CsgAggregate::look(const CsgRay& ray, double t, PrimitiveId p
     const bool is_wall = look.media.before && look.media.after;
     if (of_minuend) {
         look.material = look.media.after ? look.media.after : look.media.before;
-    } else if (is_wall && solid_.medium(sides.after) == CsgSolid::kOpaque) {
-        look.material = look.media.after;
+    } else if (is_wall && solid_.medium(sides.after) != CsgSolid::kMixture) {
+        // What is entered is seen, and nothing from inside of what is opaque.
+        const bool opaque_before = solid_.medium(sides.before) == CsgSolid::kOpaque;
+        look.material = opaque_before ? look.media.before : look.media.after;
     }
     return look;
 }
