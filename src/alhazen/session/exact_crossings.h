@@ -3,81 +3,19 @@
 /// by other formulas than those that trace rays.
 ///
 /// Source: the definitions in the headers of the shapes. Differs: written for any number type, and
-/// for plainness. To add a shape: an overload of `exact_crossings` below; one without is not
-/// checked. Conventions: ascending; each crossing changes between inside and outside. Infinite
-/// where an unbounded solid has no end.
+/// for plainness. To add a shape: an overload of `exact_crossings` below, or in
+/// exact_polynomials.h; one without is not checked. Conventions: ascending; each crossing changes
+/// between inside and outside. Infinite where an unbounded solid has no end.
 
-#include <algorithm>
-#include <optional>
-#include <type_traits>
-#include <vector>
+#include <concepts>
 
-#include "alhazen/math/real128.h"
 #include "alhazen/scene/csg_solid.h"
+#include "alhazen/session/exact_polynomials.h"
 #include "alhazen/shapes/shape_list.h"
 
 namespace alhazen {
 
-template <class R>
-struct Vec3Of {
-    R x, y, z;
-
-    Vec3Of() = default;
-    Vec3Of(R x_, R y_, R z_) : x(x_), y(y_), z(z_) {}
-    explicit Vec3Of(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
-    friend Vec3Of operator+(const Vec3Of& a, const Vec3Of& b) {
-        return {a.x + b.x, a.y + b.y, a.z + b.z};
-    }
-    friend Vec3Of operator-(const Vec3Of& a, const Vec3Of& b) {
-        return {a.x - b.x, a.y - b.y, a.z - b.z};
-    }
-    friend Vec3Of operator*(const R& s, const Vec3Of& a) { return {s * a.x, s * a.y, s * a.z}; }
-    friend R dot(const Vec3Of& a, const Vec3Of& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-    [[nodiscard]] const R& operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
-};
-
-template <class R>
-struct LineOf {
-    Vec3Of<R> origin, direction;
-};
-using ExactLine = LineOf<Real128>;
-
-template <class R>
-LineOf<R> transformed(const Affine& m, const LineOf<R>& line) {
-    const auto linear = [&](const Vec3Of<R>& v) {
-        return v.x * Vec3Of<R>(m.linear.x_axis) + v.y * Vec3Of<R>(m.linear.y_axis) +
-               v.z * Vec3Of<R>(m.linear.z_axis);
-    };
-    return {linear(line.origin) + Vec3Of<R>(m.translation), linear(line.direction)};
-}
-
-/// Where a line is inside of a solid: it begins there or not, and changes at each crossing.
-template <class R>
-struct CrossingsOf {
-    bool begins_inside = false;
-    std::vector<R> t;
-
-    [[nodiscard]] bool inside_at(const R& at) const {
-        const auto before = std::upper_bound(t.begin(), t.end(), at) - t.begin();
-        return begins_inside != (before % 2 != 0);
-    }
-};
-using ExactCrossings = CrossingsOf<Real128>;
-
 // ---- formulas
-
-/// a t^2 + 2 b t + c = 0 for a != 0, ascending; none, or two.
-template <class R>
-std::vector<R> quadratic_roots(const R& a, const R& b, const R& c) {
-    const R discriminant = b * b - a * c;
-    if (!(discriminant > 0)) return {};
-    const R s = square_root(discriminant);
-    const R q = b > 0 ? -(b + s) : s - b;
-    const R t0 = q / a;
-    const R t1 = q != 0 ? c / q : t0;
-    if (t0 < t1) return {t0, t1};
-    return {t1, t0};
-}
 
 template <class R>
 CrossingsOf<R> exact_crossings(const Sphere& sphere, const LineOf<R>& line) {
@@ -85,19 +23,6 @@ CrossingsOf<R> exact_crossings(const Sphere& sphere, const LineOf<R>& line) {
     const R radius = sphere.radius;
     return {false, quadratic_roots<R>(dot(line.direction, line.direction), dot(f, line.direction),
                                       dot(f, f) - radius * radius)};
-}
-
-/// The part of a line between two numbers in one coordinate; a line along a face is outside.
-template <class R>
-struct SlabOf {
-    bool empty = false, unlimited = false;
-    R lo{}, hi{};
-};
-template <class R>
-SlabOf<R> slab(const R& origin, const R& direction, const R& lo, const R& hi) {
-    if (direction == 0) return {!(lo < origin && origin < hi), true};
-    const R a = (lo - origin) / direction, b = (hi - origin) / direction;
-    return {false, false, a < b ? a : b, a < b ? b : a};
 }
 
 template <class R>

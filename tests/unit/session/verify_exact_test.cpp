@@ -33,8 +33,6 @@ TEST(Real128, RootsAreRightToAllItsDigits) {
     EXPECT_EQ(static_cast<double>(square_root(0)), 0);
 }
 
-// Without spheres: rays that begin on one and graze it find it too far away, which this check
-// found (next test).
 TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
     for (const bool lattice : {false, true}) {
         Random random(lattice ? 3 : 4);
@@ -46,6 +44,7 @@ TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
                         : Affine::translate(random.in_cube(100)) *
                               Affine::rotate(random.unit_vector(), random.uniform(0, 6)) *
                               Affine::scale({1, random.uniform(0.5, 2), random.uniform(0.1, 5)});
+            maker.add(testing::random_shape<Sphere>(source), MaterialId{0}, placement);
             maker.add(testing::random_shape<BoxShape>(source), MaterialId{0}, placement);
             maker.add(testing::random_shape<Cylinder>(source), MaterialId{0}, placement);
             maker.add(testing::random_shape<Cone>(source), MaterialId{0}, placement);
@@ -65,19 +64,40 @@ TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
     }
 }
 
-TEST(VerifyExact, SpheresAreRightButForGrazingRaysFromTheirSurface) {
-    Random random(4);
+template <class S>
+ExactReport verified(int count, std::uint64_t rays, int seed) {
+    Random random(static_cast<std::uint64_t>(seed));
     SceneMaker maker;
-    const testing::ShapeSource source{random, false};
-    for (int i = 0; i < 40; ++i) {
-        maker.add(testing::random_shape<Sphere>(source), MaterialId{0},
-                  Affine::translate(random.in_cube(100)));
+    for (int i = 0; i < count; ++i) {
+        const testing::ShapeSource source{random, i % 2 == 0};
+        S shape = testing::random_shape<S>(source);
+        if constexpr (requires { shape.capped; }) shape.capped = true;
+        const Affine placement = i % 2 == 0 ? Affine::translate(random.on_lattice(4, 0.5))
+                                            : Affine::translate(random.in_cube(20)) *
+                                                  Affine::rotate(random.unit_vector(), 0.7) *
+                                                  Affine::scale({1, random.uniform(0.5, 2), 1});
+        maker.add(shape, MaterialId{0}, placement);
     }
     (void)maker.compile();
-    const ExactReport report = verify_exact(maker.description(), {.rays = 20000});
-    EXPECT_EQ(report.solids, 40u);
-    for (const Disagreement& d : report.reported) EXPECT_EQ(d.kind, "grazing");
-    EXPECT_LE(report.disagreements, 20u) << first_of(report);
+    return verify_exact(maker.description(), {.rays = rays});
+}
+
+template <class S>
+class VerifyExactShape : public ::testing::Test {};
+using PolynomialShapes =
+    ::testing::Types<Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid, Hyperboloid,
+                     TwoSheetHyperboloid, Quadric, Algebraic>;
+TYPED_TEST_SUITE(VerifyExactShape, PolynomialShapes);
+
+TYPED_TEST(VerifyExactShape, IsRight) {
+    const ExactReport report = verified<TypeParam>(10, 1500, 5);
+    EXPECT_EQ(report.solids, 10u);
+    EXPECT_EQ(report.unchecked, 0u);
+    EXPECT_GT(report.crossings, 500u);
+    EXPECT_EQ(report.disagreements, 0u) << first_of(report);
+    EXPECT_GT(report.worst_point, 0.0);
+    EXPECT_LE(report.worst_point, 1.0);
+    EXPECT_LT(report.grazing, report.rays / 3);
 }
 
 TEST(VerifyExact, SolidsMadeOfOthersAreRight) {
