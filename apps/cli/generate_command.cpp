@@ -1,5 +1,10 @@
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+#include "alhazen/base/lower_case.h"
 #include "alhazen/session/convert.h"
 #include "alhazen/session/generate.h"
 #include "commands.h"
@@ -11,16 +16,29 @@ namespace {
 
 struct GenerateArguments {
     std::string name, output;
-    std::uint64_t size = 1000;
+    std::optional<std::uint64_t> size;
+    std::optional<int> digits;
     bool quiet = false;
 };
 
-int run(const GenerateArguments& args) {
+/// Returns the bytes written.
+std::uint64_t write_nff(const GenerateArguments& args) {
+    const std::string text =
+        generate_nff(args.name, args.size, args.digits.value_or(NffText::kPublishedDigits));
+    write_file_atomically(args.output, text);
+    return text.size();
+}
+
+std::uint64_t write_scene(const GenerateArguments& args) {
+    if (args.digits) throw Error(ErrorKind::Usage, "--digits is for .nff files");
     check_convert_target({}, args.output);
-    const ConvertReport report = convert(generate(args.name, args.size), args.output);
-    if (!args.quiet) {
-        tell("{}: {:.1f} MB\n", args.output, 1e-6 * static_cast<double>(report.bytes));
-    }
+    return convert(generate(args.name, args.size), args.output).bytes;
+}
+
+int run(const GenerateArguments& args) {
+    const bool nff = lower_suffix(args.output) == ".nff";
+    const std::uint64_t bytes = nff ? write_nff(args) : write_scene(args);
+    if (!args.quiet) tell("{}: {:.1f} MB\n", args.output, 1e-6 * static_cast<double>(bytes));
     return kDone;
 }
 
@@ -29,15 +47,20 @@ int run(const GenerateArguments& args) {
 void add_generate(CLI::App& app, int& exit_status) {
     std::string names;
     for (const GeneratorEntry& entry : generators()) {
-        names += fmt::format("\n  {:<18}{} (SIZE: {})", entry.name, entry.description, entry.size);
+        names += fmt::format("\n  {:<21}{} (SIZE: {}, {})", entry.name, entry.description,
+                             entry.size, entry.default_size);
     }
-    CLI::App* command =
-        app.add_subcommand("generate", "Write a scene of any size in the native format");
+    CLI::App* command = app.add_subcommand(
+        "generate", "Write a scene of any size: the standard databases and others");
     command->footer("Names:" + names);
     const auto args = std::make_shared<GenerateArguments>();
     command->add_option("name", args->name, "Which one; see below")->required()->type_name("NAME");
-    command->add_option("--size", args->size, "How much of it")->capture_default_str();
-    command->add_option("-o,--output", args->output, "File to write, .alhazen")
+    command->add_option("--size", args->size, "How much of it; by default as listed below");
+    command->add_option("--digits", args->digits,
+                        "Significant digits of the numbers in .nff (6, as published)");
+    command
+        ->add_option("-o,--output", args->output,
+                     "File to write: .alhazen; .nff of the SPD; .ply .obj .stl of triangles")
         ->required()
         ->type_name("OUT");
     command->add_flag("-q,--quiet", args->quiet, "No summary");

@@ -1,30 +1,46 @@
 #pragma once
 /// Scenes of any size by name, to measure and to look at: `alhazen generate`.
 ///
-/// Conventions: what a size counts is the generator's; the scene has a camera, lights and at least
-/// that size. The same name and size give the same scene on every machine. z is up.
+/// Conventions: what a size counts is the generator's. Scenes that it does not say otherwise of
+/// have at least that many of what it counts. They have a camera and lights. The same name and size
+/// give the same scene on every machine.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "alhazen/scene/scene_description.h"
+#include "alhazen/session/generators/nff_text.h"
 
 namespace alhazen {
 
 struct GeneratorEntry {
     const char* name;
-    const char* size;         ///< what its size counts, one word
+    const char* size;            ///< what its size counts, one word
+    std::uint64_t default_size;  ///< of a database the published one
+    std::uint64_t max_size;
     const char* description;  ///< one line
+    /// One of the two: a description, or the text of an NFF file.
     SceneDescription (*make)(std::uint64_t size);
+    void (*write_nff)(std::uint64_t size, NffText& out);
 };
 
 /// ADD A SCENE in generate.cpp: one entry of this table.
 [[nodiscard]] std::span<const GeneratorEntry> generators();
 
-/// The scene, valid. Throws Error: Usage with the valid names for an unknown one, and for a size of
-/// 0 or above kMaxGeneratedSize.
-[[nodiscard]] SceneDescription generate(const std::string& name, std::uint64_t size);
-inline constexpr std::uint64_t kMaxGeneratedSize = 100'000'000;
+/// Throws Error: Usage with the valid names for an unknown one.
+[[nodiscard]] const GeneratorEntry& find_generator(const std::string& name);
+
+/// The scene, valid; of a database that of its NFF file with six digits. Throws Error: Usage as
+/// above, and for a size of 0 or above the generator's largest.
+[[nodiscard]] SceneDescription generate(const std::string& name,
+                                        std::optional<std::uint64_t> size = {});
+
+/// The NFF file of a database. `digits`: significant ones of its numbers, 1 to 17. Throws Error:
+/// Usage as above, and for a scene that NFF cannot hold.
+[[nodiscard]] std::string generate_nff(const std::string& name,
+                                       std::optional<std::uint64_t> size = {},
+                                       int digits = NffText::kPublishedDigits);
 
 }  // namespace alhazen

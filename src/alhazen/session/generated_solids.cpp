@@ -3,43 +3,20 @@
 #include <cmath>
 #include <utility>
 
-#include "alhazen/math/angle.h"
+#include "alhazen/session/generators/generated_scene.h"
 
 namespace alhazen {
 
 namespace {
 
-/// The looks that all of them share; the root has no parts yet.
 SceneDescription begin_scene(const Vec3& eye, const Vec3& target) {
-    SceneDescription scene;
-    scene.format = "generated";
-    scene.up_axis = UpAxis::Z;
-    constexpr double kFov = 40.0 / 180.0 * kPi;
-    scene.cameras.push_back({"main", look_along(eye, target - eye, {0, 0, 1}, kFov, 1.0), 1.0, {}});
-    scene.lights.push_back({"sky", AmbientLight{{0.25, 0.25, 0.25}}, {}});
-    scene.lights.push_back(
-        {"sun", DirectionalLight{.to_light = {0.3, -0.5, 0.8}, .color = {0.8, 0.8, 0.75}}, {}});
-    scene.picture = {512, 512, Rgb{0.02, 0.02, 0.05}};
-    const auto add_material = [&](const char* name, const Rgb& color) {
-        Material material;
-        material.name = name;
-        material.diffuse.color = material.ambient.color = color;
-        scene.materials.push_back({material, {}});
-    };
-    add_material("skin", {0.7, 0.7, 0.75});
-    add_material("cut", {0.8, 0.45, 0.2});
-    scene.objects.push_back({"scene", {}, {}});
+    SceneDescription scene = generated_scene({eye, target, 40.0});
+    add_material(scene, "skin", {0.7, 0.7, 0.75});
+    add_material(scene, "cut", {0.8, 0.45, 0.2});
     return scene;
 }
 
 constexpr MaterialId kSkin{0}, kCut{1};
-
-Part part_of(AnyShape shape, MaterialId material) {
-    Part part;
-    part.what = std::move(shape);
-    part.material = material;
-    return part;
-}
 
 void place(SceneDescription& scene, ObjectDescription solid) {
     solid.combine = Combine::Difference;

@@ -7,6 +7,7 @@
 
 #include "alhazen/session/exact_bounds.h"
 #include "alhazen/session/mesh_figures.h"
+#include "alhazen/session/unique_bytes.h"
 
 namespace alhazen {
 
@@ -140,6 +141,9 @@ json memory_json(const LoadedScene& loaded) {
                    {"accelerator_bytes", census.accelerator_bytes},
                    {"peak_after_load_bytes", loaded.load_peak_bytes},
                    {"peak_after_build_bytes", loaded.build_peak_bytes}};
+    const std::optional<double> effective = bytes_per_effective_primitive(census);
+    memory["unique_bytes"] = unique_bytes(census);
+    memory["bytes_per_effective_primitive"] = effective ? json(*effective) : json(nullptr);
     if (census.triangles > 0) {
         const auto each = [&](const char* key) {
             return memory[key].get<double>() / static_cast<double>(census.triangles);

@@ -173,6 +173,11 @@ void add_memory(Report& report, const json& info) {
                             bytes("accelerator_bytes")));
     report.line("", fmt::format("peak {} after reading, {} after building",
                                 bytes("peak_after_load_bytes"), bytes("peak_after_build_bytes")));
+    if (info["instances"].get<std::uint64_t>() > 0) {
+        report.line("", fmt::format("{} for {} primitives as rays see them: {:.3g} bytes each",
+                                    bytes("unique_bytes"), count_text(info["effective_primitives"]),
+                                    memory["bytes_per_effective_primitive"].get<double>()));
+    }
     if (!memory.contains("per_triangle")) return;
     const json& each = memory["per_triangle"];
     std::string peaks;

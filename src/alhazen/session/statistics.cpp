@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "alhazen/session/unique_bytes.h"
+
 namespace alhazen {
 
 const char* version() {
@@ -28,6 +30,8 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
     rays["refraction"]["total_internal"] = counters.total_internal;
     const TraversalStats& tests = counters.tests;
     const SceneCensus& census = loaded.scene.census;
+    const std::optional<double> each = bytes_per_effective_primitive(census);
+    const json bytes_each = each ? json(*each) : json(nullptr);
     return {
         {"scene", scene_name},
         {"renderer", options.renderer},
@@ -55,7 +59,9 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
          {{"accelerator_bytes", census.accelerator_bytes},
           {"scene_bytes", census.scene_bytes},
           {"peak_rss_bytes", peak_rss_bytes()},
-          {"effective_primitives", census.effective_primitives}}},
+          {"effective_primitives", census.effective_primitives},
+          {"unique_bytes", unique_bytes(census)},
+          {"bytes_per_effective_primitive", bytes_each}}},
         {"seconds",
          {{"load", loaded.load_seconds},
           {"build", loaded.build_seconds},

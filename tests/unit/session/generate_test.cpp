@@ -10,8 +10,9 @@
 namespace alhazen {
 namespace {
 
-TEST(Generate, EveryGeneratorMakesValidScenesOfAtLeastTheSize) {
-    for (const GeneratorEntry& entry : generators()) {
+TEST(Generate, TheGeneratorsOfSolidsMakeValidScenesOfAtLeastTheSize) {
+    for (const char* name : {"perforated_plate", "menger_sponge", "drilled_spheres"}) {
+        const GeneratorEntry& entry = find_generator(name);
         for (const std::uint64_t size : {1u, 2u, 30u, 100u}) {
             const SceneDescription description = generate(entry.name, size);
             Diagnostics diagnostics;
@@ -79,6 +80,7 @@ TEST(Generate, UnknownNamesAndSizesAreUsageErrors) {
     };
     EXPECT_NE(message("sponge", 5).find("perforated_plate, menger_sponge, drilled_spheres"),
               std::string::npos);
+    EXPECT_NE(message("balls", 8).find("expected 1 to 7"), std::string::npos);
     EXPECT_NE(message("menger_sponge", 0).find("expected 1 to"), std::string::npos);
 }
 

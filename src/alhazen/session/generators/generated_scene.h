@@ -1,0 +1,28 @@
+#pragma once
+/// What generated scenes in the native terms have in common: a camera, a sun, a pale sky.
+
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen {
+
+struct GeneratedView {
+    Vec3 eye, target;
+    double fov_deg = 40;  ///< of both sides of the square picture
+};
+
+/// A scene without materials, whose root is an object without parts. z is up; 512 x 512 pixels.
+[[nodiscard]] SceneDescription generated_scene(const GeneratedView& view);
+
+/// Adds a matt material, and returns it.
+MaterialId add_material(SceneDescription& scene, const char* name, const Rgb& color);
+
+/// Adds an object without parts; its index is good whatever is added later.
+ObjectIndex add_object(SceneDescription& scene, const char* name);
+
+MeshIndex add_mesh(SceneDescription& scene, const char* name, TriangleMesh mesh);
+
+[[nodiscard]] Part part_of(AnyShape shape, MaterialId material);
+[[nodiscard]] Part part_of(MeshIndex mesh, MaterialId material);
+[[nodiscard]] Part part_of(ObjectIndex object, const Affine& outer_from_object);
+
+}  // namespace alhazen
