@@ -40,7 +40,7 @@ void add_blade(RandomStream& random, const Vec3& root, TriangleMesh& mesh) {
         const Vec3 half = (0.5 * width * (1.0 - 0.9 * s * s)) * side;
         mesh.positions.push_back(middle - half);
         mesh.positions.push_back(middle + half);
-        const VertexColor c = color(0.10 + 0.22 * s * fresh, 0.22 + 0.38 * s, 0.05 + 0.06 * s);
+        const VertexColor c = color(0.15 + 0.35 * s * fresh, 0.35 + 0.6 * s, 0.08 + 0.1 * s);
         mesh.colors.insert(mesh.colors.end(), 2, c);
     }
     for (std::uint32_t i = 0; i < 8; i += 2) {

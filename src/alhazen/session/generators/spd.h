@@ -15,9 +15,10 @@
 /// - gears beyond size 4: the colours go on by the rule found in the files of sizes 1 and 4, and
 /// the
 ///   gears get thinner where they would touch;
-/// - balls beyond size 4: where a ball points straight down, which way its own are turned was left
-///   to rounding by the original; ours turn about y, but for the one place where the published
-///   file does not.
+/// - balls beyond size 4: where a ball points straight down, the original left to rounding which
+/// way
+///   its own are turned; ours turn about y, but for the one place where the published file does
+///   not.
 /// Conventions: the size factor is at least 1 and at most the largest that `generators()` names;
 /// the number of primitives is stated with each.
 

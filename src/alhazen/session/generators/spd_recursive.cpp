@@ -66,10 +66,11 @@ class BallWriter {
             } else if (ball.direction.z > 0) {
                 direction = w;
             } else {
-                // All half turns are equally short. Below the sixth of the first nine the published
-                // file has the one about x.
-                const bool about_x = depth_ == 2 && parent_place == 5;
-                direction = about_x ? Vec3{w.x, -w.y, -w.z} : Vec3{-w.x, w.y, -w.z};
+                // All half turns are equally short: about y. Where the sixth of the first nine has
+                // such a ball, the published file has mirrored them through the centre (the axis
+                // of the original's rotation came out as zero there).
+                const bool mirrored = depth_ == 2 && parent_place == 5;
+                direction = mirrored ? -w : Vec3{-w.x, w.y, -w.z};
             }
             ++depth_;
             write({ball.center + (ball.radius * 4 / 3) * direction, direction, ball.radius / 3,

@@ -87,7 +87,7 @@ SceneDescription thin_sticks(std::uint64_t sticks) {
     SceneDescription scene = generated_scene({{2.3, -2.8, 2.0}, {0, 0, 0}, 40});
     const MaterialId wood = add_material(scene, "wood", {0.75, 0.6, 0.4});
     const MaterialId painted = add_material(scene, "painted", {0.3, 0.5, 0.8});
-    constexpr double kLength = 1.5, kRadius = kLength / 2000.0;
+    constexpr double kLength = 1.5, kRadius = kLength / 1000.0;
     RandomStream random(1);
     for (std::uint64_t i = 0; i < sticks; ++i) {
         const Vec3 middle{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};

@@ -16,7 +16,7 @@ namespace alhazen {
 /// its size: cells fit for one hold all of the other.
 [[nodiscard]] SceneDescription stadium(std::uint64_t triangles);
 
-/// `sticks` cylinders through a cube, in all directions, 1000 times as long as thick: their boxes
+/// `sticks` cylinders through a cube, in all directions, 500 times as long as thick: their boxes
 /// are nearly all empty, and overlap.
 [[nodiscard]] SceneDescription thin_sticks(std::uint64_t sticks);
 
