@@ -1,0 +1,27 @@
+/// What rays do in the Standard Procedural Databases does not depend on the accelerator: small
+/// sizes, every accelerator of the table (`spd_invariants_heavy_test.cpp`: the published sizes).
+
+#include "spd_counters.h"
+
+namespace alhazen {
+namespace {
+
+constexpr int kSide = 24;
+
+TEST(SpdInvariants, HoldForEveryAcceleratorAtSmallSizes) {
+    for (const std::string& name : testing::databases()) {
+        const bool large = name == "gears" || name == "sombrero";
+        const SceneDescription description = generate(name, large ? 1 : name == "tree" ? 5 : 2);
+        const RayCounters expected = testing::spd_counters(description, "list", kSide);
+        EXPECT_EQ(expected[RayKind::Eye].cast, static_cast<std::uint64_t>(kSide * kSide));
+        EXPECT_GT(expected[RayKind::Eye].hit, 50u) << name;
+        EXPECT_GT(expected[RayKind::Shadow].cast, 20u) << name;
+        for (const AcceleratorEntry& entry : accelerator_table()) {
+            testing::expect_same_counters(testing::spd_counters(description, entry.name, kSide),
+                                          expected, name + " " + entry.name);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen
