@@ -52,6 +52,7 @@ CsgBvh::CsgBvh(std::span<const Box3> boxes) {
         }
     }
     if (bounded.empty()) return;
+    ranges_ = csg_ranges_kernel();
     frame_ = LocalFrame(all);
     std::vector<BuildReference> references;
     references.reserve(bounded.size());

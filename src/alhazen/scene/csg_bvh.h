@@ -1,27 +1,29 @@
 #pragma once
-/// A tree of boxes around the leaves of a solid, four to a node, each child with the range of t in
+/// A tree of boxes around the leaves of a solid, eight to a node, each child with the range of t in
 /// which a ray passes its box.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for single
 /// rays); Kay and Kajiya, SIGGRAPH 1986 (slabs).
-/// Differs: built by the binary builder of wide_bvh, then four grandchildren to a node; each leaf
-/// holds one box. What is computed of a ray is double, what is stored of boxes float.
-/// Conventions: ranges hold the true ones with `pad` to spare on every side. Boxes that are not
-/// finite are listed apart.
+/// Differs: built by the binary builder of wide_bvh, then eight descendants to a node; each leaf
+/// holds one box. What is computed of a ray is double, what is stored of boxes float; the boxes of
+/// a node are tested together, with the same bits on every instruction set. Conventions: ranges
+/// hold the true ones with `pad` to spare on every side. Boxes that are not finite are listed
+/// apart.
 
-#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "alhazen/accel/wide_bvh/local_frame.h"
+#include "alhazen/base/huge_pages.h"
 #include "alhazen/geometry/ray.h"
 
 namespace alhazen {
 
 class CsgBvh {
   public:
-    static constexpr std::size_t kWidth = 4;
+    static constexpr std::size_t kWidth = 8;
     /// A child: a node, or a leaf (its number with this bit).
     static constexpr std::uint32_t kLeafBit = 1u << 31;
 
@@ -36,6 +38,13 @@ class CsgBvh {
         double near_origin[3], far_origin[3], inverse[3];
         bool negative[3];
     };
+
+    /// Where the line is in the box of each child of a node, and which of them it passes: bit i for
+    /// child i.
+    struct alignas(64) Ranges {
+        double enter[kWidth], exit[kWidth];
+    };
+    using RangesKernel = std::uint32_t (*)(const Node&, const RaySlabs&, Ranges&);
 
     CsgBvh() = default;
     /// Empty boxes are left out.
@@ -55,7 +64,8 @@ class CsgBvh {
     void children(std::uint32_t node, const RaySlabs& ray, Visit&& visit) const;
 
   private:
-    std::vector<Node> nodes_;
+    HugeVector<Node> nodes_;
+    RangesKernel ranges_ = nullptr;
     std::vector<std::uint32_t> unbounded_;
     LocalFrame frame_;
 };
@@ -63,24 +73,14 @@ class CsgBvh {
 template <class Visit>
 void CsgBvh::children(std::uint32_t index, const RaySlabs& ray, Visit&& visit) const {
     const Node& node = nodes_[index];
-    double enter[kWidth], exit[kWidth];
-    for (std::size_t i = 0; i < kWidth; ++i) {
-        enter[i] = -std::numeric_limits<double>::infinity();
-        exit[i] = std::numeric_limits<double>::infinity();
-    }
-    for (int k = 0; k < 3; ++k) {
-        const float* near = ray.negative[k] ? node.hi[k] : node.lo[k];
-        const float* far = ray.negative[k] ? node.lo[k] : node.hi[k];
-        for (std::size_t i = 0; i < kWidth; ++i) {
-            const double t0 = (static_cast<double>(near[i]) - ray.near_origin[k]) * ray.inverse[k];
-            const double t1 = (static_cast<double>(far[i]) - ray.far_origin[k]) * ray.inverse[k];
-            enter[i] = t0 > enter[i] ? t0 : enter[i];
-            exit[i] = t1 < exit[i] ? t1 : exit[i];
-        }
-    }
-    for (std::size_t i = 0; i < kWidth; ++i) {
-        if (enter[i] <= exit[i]) visit(node.child[i], enter[i], exit[i]);
+    Ranges ranges;
+    for (std::uint32_t passed = ranges_(node, ray, ranges); passed != 0; passed &= passed - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(passed));
+        visit(node.child[i], ranges.enter[i], ranges.exit[i]);
     }
 }
+
+/// The kernel for the instruction set that was chosen.
+[[nodiscard]] CsgBvh::RangesKernel csg_ranges_kernel();
 
 }  // namespace alhazen
