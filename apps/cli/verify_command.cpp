@@ -100,7 +100,7 @@ void add_verify(CLI::App& app, int& exit_status) {
         SceneArguments scene;
         VerifyOptions verify;
         std::string json;
-        bool exact = false, quiet = false;
+        bool exact = true, quiet = false;
     };
     CLI::App* command = app.add_subcommand(
         "verify",
@@ -112,8 +112,8 @@ void add_verify(CLI::App& app, int& exit_status) {
         ->check(CLI::Range(1.0, 1e15));
     command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
-    command->add_flag("--exact", args->exact,
-                      "Also shoot the exact solids again in numbers of 113 binary digits");
+    command->add_flag("--exact,!--no-exact", args->exact,
+                      "Shoot the exact solids again in numbers of 113 binary digits (the default)");
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
@@ -142,6 +142,11 @@ void add_verify(CLI::App& app, int& exit_status) {
             reports.push_back(to_json(report));
             if (args->json != "-") print_report(report);
         };
+        if (args->scene.accelerator == "all") {
+            for (const AcceleratorEntry& entry : accelerator_table()) check(entry.name);
+        } else {
+            check(args->scene.accelerator);
+        }
         if (args->exact) {
             VerifyOptions options = args->verify;
             options.accelerator = "list";
@@ -153,12 +158,8 @@ void add_verify(CLI::App& app, int& exit_status) {
             progress.finish();
             holds = holds && report.holds();
             reports.push_back(to_json(report));
-            if (args->json != "-") print_report(report);
-        }
-        if (args->scene.accelerator == "all") {
-            for (const AcceleratorEntry& entry : accelerator_table()) check(entry.name);
-        } else {
-            check(args->scene.accelerator);
+            const bool any = report.solids + report.unchecked > 0;
+            if (any && args->json != "-") print_report(report);
         }
         if (!args->json.empty()) write_report(args->json, reports.dump(2) + "\n");
         exit_status = holds ? kDone : kCheckFailed;

@@ -49,6 +49,26 @@ struct ExactSolid {
         drop_thin(found, least);
         return found;
     }
+    /// The distance along the line from its origin to the nearest surface: of the solid, or of any
+    /// leaf, as walls between media are.
+    [[nodiscard]] Real128 nearest(const ExactLine& line, bool of_any_leaf) const {
+        Real128 nearest = kInf;
+        const auto take = [&](const ExactCrossings& crossings) {
+            for (const Real128 t : crossings.t) {
+                const Real128 distance = t < 0 ? -t : t;
+                if (distance < nearest) nearest = distance;
+            }
+        };
+        if (csg == nullptr || !of_any_leaf) {
+            // A thin sliver is as real as any.
+            take(crossings(line, 0));
+            return nearest;
+        }
+        for (const PrimitiveId leaf : csg->expression().leaves) {
+            take(exact_crossings(csg->table(), leaf, line));
+        }
+        return nearest;
+    }
 };
 
 /// Collects what an aggregate stores; instances inward.
@@ -226,15 +246,9 @@ class Checker {
         for (const Hit& hit : hits_) {
             const Surface surface = surface_at(*solid_.aggregate, ray, hit);
             const ExactLine normal{Vec3Of<Real128>(surface.point), Vec3Of<Real128>(surface.normal)};
-            // Along the normal a thin sliver is as real as any.
-            const ExactCrossings truth = solid_.crossings(normal, 0);
-            Real128 nearest = kInf;
-            for (const Real128 t : truth.t) {
-                const Real128 distance = t < 0 ? -t : t;
-                if (distance < nearest) nearest = distance;
-            }
+            const bool is_wall = surface.media.before && surface.media.after;
             const double bound = length(surface.error);
-            const double off = static_cast<double>(nearest);
+            const double off = static_cast<double>(solid_.nearest(normal, is_wall));
             const double tolerance = solid_.csg != nullptr ? 4 * solid_.csg->tolerance() : 0.0;
             if (off <= bound) {
                 report_.worst_point = std::max(report_.worst_point, off / bound);
@@ -246,17 +260,20 @@ class Checker {
     }
 
     /// Near an edge or a tip the normal of one face need not meet any, and the point may lie beyond
-    /// the edge by what its ray is off: it is right when a point so near is on the surface.
+    /// the edge by what its ray is off: it is right when a point so near is on the surface, by
+    /// whatever way.
     [[nodiscard]] bool is_on_edge(const Surface& surface, double line_bound) const {
+        const bool is_wall = surface.media.before && surface.media.after;
         const Vec3 right = perpendicular(surface.normal), up = cross(surface.normal, right);
-        for (int i = 0; i < 32; ++i) {
-            const double angle = 0.78539816339744831 * i;
-            const double away = line_bound * (i < 8 ? 1 : i < 16 ? 2 : i < 24 ? 4 : 0.5);
-            const Vec3 aside = away * (std::cos(angle) * right + std::sin(angle) * up);
-            const ExactLine line{Vec3Of<Real128>(surface.point) + Vec3Of<Real128>(aside),
-                                 Vec3Of<Real128>(surface.normal)};
-            for (const Real128 t : solid_.crossings(line, 0).t) {
-                if (t <= 16 * line_bound && -t <= 16 * line_bound) return true;
+        for (const Vec3& along : {surface.normal, right, up}) {
+            const Vec3 first = perpendicular(along), second = cross(along, first);
+            for (int i = 0; i < 32; ++i) {
+                const double angle = 0.78539816339744831 * i;
+                const double away = line_bound * (i < 8 ? 1 : i < 16 ? 2 : i < 24 ? 4 : 0.5);
+                const Vec3 aside = away * (std::cos(angle) * first + std::sin(angle) * second);
+                const ExactLine line{Vec3Of<Real128>(surface.point) + Vec3Of<Real128>(aside),
+                                     Vec3Of<Real128>(along)};
+                if (solid_.nearest(line, is_wall) <= 16 * line_bound) return true;
             }
         }
         return false;
