@@ -34,7 +34,8 @@ TABLE = {
     "importers": ["scene"],
     "session": ["renderers", "importers"],
     "cluster": ["session"],
-    "apps": ["cluster"],
+    "laboratory": ["session"],
+    "apps": ["cluster", "laboratory"],
 }
 
 # Start of an include -> the folders that may include it. Unlisted ones (standard, POSIX, fmt) are free.
@@ -48,7 +49,7 @@ LIBRARIES = {
     "png.h": {"imaging"},
     "jpeglib.h": {"imaging"},
     "yaml-cpp/": {"importers"},
-    "nlohmann/": {"importers", "session", "cluster", "apps"},
+    "nlohmann/": {"importers", "session", "laboratory", "cluster", "apps"},
     "CLI/": {"apps"},
     "mpi.h": {"cluster"},
 }

@@ -23,6 +23,7 @@ void add_convert(CLI::App& app, int& exit_status);
 void add_generate(CLI::App& app, int& exit_status);
 void add_info(CLI::App& app, int& exit_status);
 void add_verify(CLI::App& app, int& exit_status);
+void add_compare(CLI::App& app, int& exit_status);
 void add_solid_queries(CLI::App& app, int& exit_status);  ///< spans, inside, thickness
 void add_measure(CLI::App& app, int& exit_status);
 void add_section(CLI::App& app, int& exit_status);

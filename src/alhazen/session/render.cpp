@@ -69,13 +69,7 @@ void check(const RenderOptions& options) {
 Scene adjusted(const Scene& scene, const RenderOptions& options) {
     Scene result = scene;
     ShadingConventions& conventions = result.conventions;
-    if (options.protocol == Protocol::Spd) {
-        conventions.pixel_sample = ShadingConventions::PixelSample::FrameCorners;
-        conventions.max_depth = 4;
-        conventions.min_contribution = 0.0;
-        conventions.transmitting_surfaces_reflect = true;
-        conventions.correct_interpolated_normals = false;
-    }
+    if (options.protocol == Protocol::Spd) apply_spd(conventions);
     if (options.max_depth) conventions.max_depth = *options.max_depth;
     return result;
 }
@@ -100,6 +94,14 @@ class TileReport {
 };
 
 }  // namespace
+
+void apply_spd(ShadingConventions& conventions) {
+    conventions.pixel_sample = ShadingConventions::PixelSample::FrameCorners;
+    conventions.max_depth = 4;
+    conventions.min_contribution = 0.0;
+    conventions.transmitting_surfaces_reflect = true;
+    conventions.correct_interpolated_normals = false;
+}
 
 double free_aspect(const PictureSettings& picture, const RenderOptions& options) {
     constexpr double kAspect = 4.0 / 3.0;

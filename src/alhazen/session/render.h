@@ -21,6 +21,9 @@ enum class Protocol {
     Spd,
 };
 
+/// What Protocol::Spd says of a scene; it also fixes the size, 513 x 513.
+void apply_spd(ShadingConventions& conventions);
+
 struct RenderOptions {
     std::string renderer = "whitted";
     std::string camera;                ///< name or position; empty = the first

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+#include "alhazen/importers/importer_list.h"
+#include "alhazen/laboratory/compare.h"
+#include "alhazen/laboratory/compare_page.h"
+#include "alhazen/laboratory/compare_report.h"
+#include "alhazen/session/scene_files.h"
+#include "commands.h"
+#include "messages.h"
+#include "options.h"
+#include "progress_display.h"
+#include "stop_signals.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+struct CompareArguments {
+    std::vector<std::string> scenes, allow_paths;
+    std::string accelerators = "all", size, protocol, json, html;
+    CompareOptions compare;
+    int depth = -1;
+    bool no_tuning = false, quiet = false;
+};
+
+CompareOptions compare_options(const CompareArguments& args) {
+    CompareOptions options = args.compare;
+    options.accelerators = parse_accelerators(args.accelerators);
+    options.tune = !args.no_tuning;
+    if (!args.size.empty()) {
+        const Size size = parse_size(args.size);
+        options.trial.width = size.width;
+        options.trial.height = size.height;
+    }
+    if (args.depth >= 0) options.trial.max_depth = args.depth;
+    if (args.protocol == "spd") {
+        if (!args.size.empty() || args.depth >= 0) {
+            throw Error(ErrorKind::Usage, "the protocol fixes size and depth");
+        }
+        options.trial.spd = true;
+    } else if (!args.protocol.empty()) {
+        throw Error(ErrorKind::Usage, fmt::format("--protocol '{}': expected spd", args.protocol));
+    }
+    return options;
+}
+
+std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args) {
+    std::vector<std::filesystem::path> outputs;
+    for (const std::string& name : {args.json, args.html}) {
+        if (name.empty() || name == "-") continue;
+        check_writable(name);
+        outputs.emplace_back(name);
+    }
+    if (!args.json.empty() && args.json == args.html) {
+        throw Error(ErrorKind::Usage, "--json and --html name the same file");
+    }
+    return outputs;
+}
+
+SceneDescription read_scene(const CompareArguments& args, const std::string& scene,
+                            std::span<const std::filesystem::path> outputs) {
+    LoadOptions options;
+    options.import.allowed_folders.assign(args.allow_paths.begin(), args.allow_paths.end());
+    Diagnostics diagnostics;
+    SceneDescription description = load_description(scene, options, diagnostics);
+    check_spares_scene(description, outputs);
+    if (!args.quiet) print_warnings(diagnostics);
+    return description;
+}
+
+int run(const CompareArguments& args) {
+    CompareOptions options = compare_options(args);
+    const std::vector<std::filesystem::path> outputs = checked_outputs(args);
+    ProgressDisplay progress(args.quiet);
+    options.progress = &progress;
+    options.stop = &stop_on_signals();
+    std::vector<Comparison> comparisons;
+    bool holds = true;
+    for (const std::string& scene : args.scenes) {
+        SceneDescription description = read_scene(args, scene, outputs);
+        comparisons.push_back(
+            compare(std::move(description), std::filesystem::path(scene).filename(), options));
+        progress.finish();
+        holds = holds && comparisons.back().holds();
+        if (args.json != "-") print("{}\n", comparison_table(comparisons.back()));
+    }
+    if (!args.json.empty()) write_report(args.json, comparison_json(comparisons).dump(2) + "\n");
+    if (!args.html.empty()) write_report(args.html, comparison_page(comparisons));
+    if (!holds) tell("alhazen: the accelerators do not agree\n");
+    return holds ? kDone : kCheckFailed;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit_status) {
+    CLI::App* command = app.add_subcommand(
+        "compare",
+        "Measure accelerators side by side on the same rays; exit 0 only when they agree");
+    const auto args = std::make_shared<CompareArguments>();
+    command->add_option("scenes", args->scenes, "Scene files")->required()->type_name("SCENE...");
+    command
+        ->add_option("--accelerators", args->accelerators,
+                     "Which, as NAME,NAME:SETTING=VALUE,... or all; list and wide_bvh always are")
+        ->type_name("LIST")
+        ->capture_default_str();
+    command->add_flag("--no-tuning", args->no_tuning,
+                      "Do not look for the best settings of each accelerator");
+    command
+        ->add_option("--time-limit", args->compare.time_limit,
+                     "Seconds for counting the rays of one accelerator, as many for timing them, "
+                     "and for its picture; what takes longer is measured on a sample")
+        ->type_name("SECONDS")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1e6));
+    command
+        ->add_option("--size", args->size,
+                     "Picture size in pixels; default: the scene's, at most 256")
+        ->type_name("WxH");
+    command->add_option("--depth", args->depth, "Recursion depth, 0 = eye rays only")
+        ->check(CLI::Range(0, 1000));
+    command->add_option("--camera", args->compare.trial.camera, "Camera by name or position")
+        ->type_name("NAME|INDEX");
+    command->add_option("--protocol", args->protocol,
+                        "Count as published: spd = 513x513 corner rays, depth 5");
+    command
+        ->add_option("--allow-path", args->allow_paths,
+                     "Another folder that files named by the scene may lie in; may be repeated")
+        ->type_name("DIR")
+        ->expected(1)
+        ->take_all();
+    command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
+        ->type_name("FILE");
+    command->add_option("--html", args->html, "Write the report as one HTML page")
+        ->type_name("FILE");
+    command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
+    command->callback([args, &exit_status] { exit_status = run(*args); });
+}
+
+}  // namespace alhazen::cli

@@ -1,0 +1,87 @@
+#pragma once
+/// Many accelerators on one scene, measured alike: what `alhazen compare` does (docs/compare.md).
+///
+/// Source: Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999, and
+/// Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987 (what is
+/// counted). Differs: every accelerator is asked the same recorded rays, and its answers are
+/// compared bit by bit; it also renders the picture, which must have the same bits, and cast the
+/// same rays. Conventions: seconds are of processor time on one thread. The accelerator `list` and
+/// others that would take too long are measured on a sample, and say so.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/base/progress.h"
+#include "alhazen/laboratory/scene_trial.h"
+
+namespace alhazen {
+
+struct CompareOptions {
+    /// "NAME" or "NAME:SETTING=VALUE,..."; `list` and `wide_bvh` are added where they are missing.
+    std::vector<std::string> accelerators;
+    bool tune = true;        ///< also measure those without settings with the best ones found
+    double time_limit = 10;  ///< seconds for each of: counts, times, picture; twice for the search
+    TrialOptions trial;
+    ProgressSink* progress = nullptr;
+    const StopFlag* stop = nullptr;
+};
+
+/// Cuts "a,b:x=1,y=2,c" into its accelerators; "all" is every one there is. Throws Error (Usage)
+/// for one that is none, or for its settings.
+[[nodiscard]] std::vector<std::string> parse_accelerators(std::string_view list);
+
+/// The picture by one accelerator, beside that of the reference.
+struct PictureCheck {
+    std::uint64_t pixels = 0;     ///< compared
+    std::uint64_t differing = 0;  ///< of these, in any bit
+    bool complete = true;         ///< else tiles spread by chance were rendered
+    bool same_rays = true;        ///< cast and hit, by kind
+};
+
+struct Measurement {
+    enum class Variant { Default, Tuned, Given };
+
+    std::string accelerator;  ///< as it was built
+    Variant variant = Variant::Default;
+    std::string unavailable;  ///< why it could not be built; empty: it was
+    double build_seconds = 0;
+    std::uint64_t bytes = 0;  ///< of the acceleration structures
+    ReplayFigures figures;
+    PictureCheck picture;
+    int tried = 0;  ///< builds of the search; 0 without
+    bool search_cut_short = false;
+    /// Nodes and cells visited and primitives tested for each pixel, all its rays together; NaN
+    /// where it was not rendered. [height][width].
+    std::vector<float> cost;
+
+    [[nodiscard]] bool agrees() const {
+        return figures.disagreements == 0 && picture.differing == 0 && picture.same_rays;
+    }
+    [[nodiscard]] std::string name() const { return accelerator.substr(0, accelerator.find(':')); }
+    /// Empty for the defaults.
+    [[nodiscard]] std::string settings() const;
+};
+
+struct Comparison {
+    std::string scene;
+    int width = 0, height = 0;
+    SceneCensus census;
+    RayCounters rays;  ///< of the picture
+    std::array<std::uint64_t, kRayKindCount> recorded{};
+    std::vector<double> picture;  ///< radiance [height][width][3]
+    bool linear_output = false;
+    std::vector<Measurement> measurements;
+
+    /// The default of that name, or null.
+    [[nodiscard]] const Measurement* find(std::string_view name) const;
+    [[nodiscard]] bool holds() const;  ///< all that could be built agree
+};
+
+/// `scene` is for messages and reports. Throws Error as SceneTrial does, and Error (Render) when it
+/// is stopped.
+[[nodiscard]] Comparison compare(SceneDescription description, const std::string& scene,
+                                 const CompareOptions& options);
+
+}  // namespace alhazen

@@ -1,0 +1,18 @@
+#pragma once
+/// A comparison as text for a terminal, and as JSON (docs/compare.md).
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+
+#include "alhazen/laboratory/compare.h"
+
+namespace alhazen {
+
+/// Two tables: of all rays, and by kind of ray.
+[[nodiscard]] std::string comparison_table(const Comparison& comparison);
+
+/// Of all scenes, with the version of the format.
+[[nodiscard]] nlohmann::ordered_json comparison_json(std::span<const Comparison> comparisons);
+
+}  // namespace alhazen

@@ -1,0 +1,30 @@
+#pragma once
+/// Renders the picture of a trial by another accelerator, and compares it with the reference: every
+/// bit of every pixel, and how many rays of each kind were cast and hit something.
+///
+/// Conventions: where the whole picture would take too long, square tiles of it are rendered,
+/// spread evenly by chance with a fixed seed, and compared each with its own rays.
+
+#include <vector>
+
+#include "alhazen/laboratory/compare.h"
+
+namespace alhazen {
+
+class PictureChecker {
+  public:
+    explicit PictureChecker(const SceneTrial& trial) : trial_(trial) {}
+
+    /// Takes about `seconds`, by the times in `figures`. Returns Measurement::cost.
+    [[nodiscard]] std::vector<float> check(const Scene& scene, const ReplayFigures& figures,
+                                           double seconds, PictureCheck& check) const;
+
+  private:
+    [[nodiscard]] RenderOptions options_for(const PixelBox* crop) const;
+    void compare(const RenderResult& found, const RenderResult& expected, std::vector<float>& cost,
+                 PictureCheck& check) const;
+
+    const SceneTrial& trial_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,84 @@
+#include "alhazen/laboratory/ray_stream.h"
+
+#include "alhazen/math/random.h"
+
+namespace alhazen {
+namespace {
+
+/// Single questions of one sort are put together up to here.
+constexpr std::size_t kMostTogether = 512;
+
+RayKind kind_of(RayMask mask) {
+    for (std::size_t k = 0; k < kRayKindCount; ++k) {
+        if (mask == mask_of(static_cast<RayKind>(k))) return static_cast<RayKind>(k);
+    }
+    return RayKind::Eye;
+}
+
+}  // namespace
+
+std::array<std::uint64_t, kRayKindCount> RayStream::by_kind() const {
+    std::array<std::uint64_t, kRayKindCount> counts{};
+    for (const RayBatch& batch : batches) {
+        counts[static_cast<std::size_t>(batch.kind)] += batch.count;
+    }
+    return counts;
+}
+
+void RayRecorder::record(std::span<const Ray> rays, RayQuestion question, RayMask mask,
+                         Coherence coherence) const {
+    if (rays.empty()) return;
+    // Single questions are kept or left out together, as batches are.
+    const std::uint64_t number = asked_so_far_++ / (rays.size() == 1 ? kMostTogether : 1);
+    if (stream_.share < 1 && random_at(1, number, rays.size() == 1, 0) >= stream_.share) return;
+    const RayKind kind = kind_of(mask);
+    const std::size_t first = stream_.rays.size();
+    stream_.rays.insert(stream_.rays.end(), rays.begin(), rays.end());
+    if (rays.size() == 1 && !stream_.batches.empty()) {
+        RayBatch& last = stream_.batches.back();
+        if (last.kind == kind && last.question == question && last.coherence == coherence &&
+            last.count < kMostTogether && question == RayQuestion::Shadowed) {
+            ++last.count;
+            return;
+        }
+    }
+    stream_.batches.push_back({first, rays.size(), kind, question, coherence});
+}
+
+bool RayRecorder::closest(const Ray& ray, Hit& hit, RayQuery query) const {
+    record({&ray, 1}, RayQuestion::Closest, query.mask, Coherence::Any);
+    return asked_.closest(ray, hit, query);
+}
+
+bool RayRecorder::occluded(const Ray& ray, RayQuery query) const {
+    record({&ray, 1}, RayQuestion::Occluded, query.mask, Coherence::Any);
+    return asked_.occluded(ray, query);
+}
+
+void RayRecorder::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
+    asked_.all_hits(ray, hits, query);
+}
+
+bool RayRecorder::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
+    record({&ray, 1}, RayQuestion::Shadowed, query.mask, Coherence::Any);
+    return asked_.shadowed(ray, crossings, query);
+}
+
+void RayRecorder::complete(const Ray& ray, double t, PrimitiveId primitive,
+                           Surface& surface) const {
+    asked_.complete(ray, t, primitive, surface);
+}
+
+void RayRecorder::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                                Coherence coherence) const {
+    record(rays, RayQuestion::Closest, query.mask, coherence);
+    asked_.closest_batch(rays, hits, query, coherence);
+}
+
+void RayRecorder::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
+                                 RayQuery query, Coherence coherence) const {
+    record(rays, RayQuestion::Occluded, query.mask, coherence);
+    asked_.occluded_batch(rays, occluded, query, coherence);
+}
+
+}  // namespace alhazen

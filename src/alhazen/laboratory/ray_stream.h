@@ -1,0 +1,71 @@
+#pragma once
+/// The rays of a picture, written down once, so that every accelerator is asked the same ones.
+///
+/// Source: Kirk and Arvo, "Improved Ray Tagging for Voxel-Based Ray Tracing", Graphics Gems II,
+/// 1991, and Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987 (rays
+/// and tests by kind, told apart). Differs: the rays are recorded at the border between renderer
+/// and accelerator, in the batches in which the renderer asks them.
+/// Conventions: kinds of rays are those of geometry/ray_mask.h. Of a large picture a share of the
+/// batches is recorded, chosen by chance with a fixed seed.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/geometry/ray_mask.h"
+#include "alhazen/scene/aggregate.h"
+
+namespace alhazen {
+
+/// What a renderer wants to know of a ray.
+enum class RayQuestion : std::uint8_t { Closest, Occluded, Shadowed };
+
+/// Rays that are asked together, next to each other in the stream.
+struct RayBatch {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    RayKind kind = RayKind::Eye;
+    RayQuestion question = RayQuestion::Closest;
+    Coherence coherence = Coherence::Any;
+};
+
+struct RayStream {
+    std::vector<Ray> rays;
+    std::vector<RayBatch> batches;
+    double share = 1;  ///< of the batches that are recorded, about
+
+    /// Recorded rays by kind.
+    [[nodiscard]] std::array<std::uint64_t, kRayKindCount> by_kind() const;
+};
+
+/// Passes every question on to another aggregate, and writes it down. One thread at a time. The
+/// queries must say of what kind the rays are (Scene::has_masks).
+class RayRecorder final : public Aggregate {
+  public:
+    /// Both must outlive the recorder.
+    RayRecorder(const Aggregate& asked, RayStream& stream) : asked_(asked), stream_(stream) {}
+
+    [[nodiscard]] const PrimitiveTable& primitives() const override { return asked_.primitives(); }
+    [[nodiscard]] Box3 box() const override { return asked_.box(); }
+    [[nodiscard]] std::size_t memory_bytes() const override { return asked_.memory_bytes(); }
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override;
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
+    [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                RayQuery query) const override;
+    void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                       Coherence coherence) const override;
+    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
+                        Coherence coherence) const override;
+
+  private:
+    void record(std::span<const Ray> rays, RayQuestion question, RayMask mask,
+                Coherence coherence) const;
+
+    const Aggregate& asked_;
+    RayStream& stream_;
+    mutable std::uint64_t asked_so_far_ = 0;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,93 @@
+#include "alhazen/laboratory/scene_trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "alhazen/laboratory/cpu_clock.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/session/framing.h"
+
+namespace alhazen {
+namespace {
+
+/// As Protocol::Spd, written into the scene.
+constexpr int kSpdRays = 513;
+
+RenderOptions render_options_of(const SceneDescription& description, const TrialOptions& options) {
+    RenderOptions render;
+    render.camera = options.camera;
+    render.threads = 1;
+    render.max_depth = options.max_depth;
+    render.width = options.width;
+    render.height = options.height;
+    if (options.spd) {
+        render.width = render.height = kSpdRays;
+    } else if (!options.width && !options.height) {
+        const PictureSettings& picture = description.picture;
+        const bool has_size = picture.width || picture.height || description.cameras.empty();
+        const double aspect =
+            has_size ? free_aspect(picture, render) : description.cameras.front().aspect;
+        const int longest =
+            std::min(options.longest_side, std::max(picture.width.value_or(options.longest_side),
+                                                    picture.height.value_or(options.longest_side)));
+        const auto shorter = [&](double ratio) {
+            return std::max(1, static_cast<int>(std::lround(longest * ratio)));
+        };
+        render.width = aspect >= 1 ? longest : shorter(aspect);
+        render.height = aspect >= 1 ? shorter(1 / aspect) : longest;
+    }
+    return render;
+}
+
+}  // namespace
+
+SceneTrial::SceneTrial(SceneDescription description, const TrialOptions& options)
+    : description_(std::move(description)),
+      csg_(options.csg),
+      picture_(Film(1, 1, PixelBox{0, 0, 1, 1})) {
+    if (options.spd) apply_spd(description_.conventions);
+    reference_ = build(kDefaultAccelerator);
+    FramingOptions framing;
+    framing.camera = options.camera;
+    render_options_ = render_options_of(description_, options);
+    framing.aspect = static_cast<double>(*render_options_.width) / *render_options_.height;
+    (void)complete_view(description_, reference_.scene, framing);
+
+    // A first picture tells how many rays there are, a second one records them.
+    RenderOptions counting = render_options_;
+    counting.count_tests = true;  // questions do not depend on earlier answers then
+    picture_ = render(reference_.scene, description_.picture, counting);
+    const auto all = static_cast<double>(picture_.counters.total_cast());
+    stream_.share = std::min(1.0, static_cast<double>(options.most_rays) / std::max(all, 1.0));
+    stream_.rays.reserve(
+        static_cast<std::size_t>(std::min(all, static_cast<double>(options.most_rays)) * 1.1));
+    Scene recording = reference_.scene;
+    recording.aggregate = std::make_shared<const RayRecorder>(*reference_.scene.aggregate, stream_);
+    recording.has_masks = true;  // every question says of what kind its rays are
+    (void)render(recording, description_.picture, counting);
+}
+
+BuiltScene SceneTrial::build(const std::string& accelerator) const {
+    BuiltScene built;
+    ThreadLimit(1).run([&] {
+        const CpuClock clock;
+        built.scene = compile(description_, {.accelerator = accelerator, .csg = csg_});
+        built.seconds = clock.seconds();
+    });
+    return built;
+}
+
+ReplayFigures SceneTrial::ask(const Scene& scene, const ReplayOptions& options) {
+    ReplayFigures figures;
+    ThreadLimit(1).run([&] {
+        if (answers_.empty() && !stream_.rays.empty()) {
+            (void)replay(stream_, *reference_.scene.aggregate, {.repetitions = 0}, answers_);
+        }
+        figures = replay(stream_, *scene.aggregate, options, answers_);
+    });
+    return figures;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,67 @@
+#pragma once
+/// A scene, the rays of its picture, and what each accelerator makes of them.
+///
+/// Conventions: everything runs on one thread; seconds are of processor time. The rays are those
+/// that the renderer `whitted` asks of the accelerator `wide_bvh`; every accelerator finds the same
+/// hits, so they are those of every other one, too, and that is checked.
+
+#include <optional>
+#include <string>
+
+#include "alhazen/laboratory/replay.h"
+#include "alhazen/scene/scene.h"
+#include "alhazen/session/render.h"
+
+namespace alhazen {
+
+struct TrialOptions {
+    std::optional<int> width, height;  ///< default: the scene's
+    int longest_side = 256;            ///< of the picture, where no size is given
+    bool spd = false;                  ///< count as published: Protocol::Spd
+    std::optional<int> max_depth;      ///< default: the scene's
+    std::string camera;
+    std::string csg = "event_heap";
+    std::size_t most_rays = 2'000'000;  ///< that are recorded; 72 bytes each
+};
+
+/// A scene that was built.
+struct BuiltScene {
+    Scene scene;
+    double seconds = 0;
+};
+
+class SceneTrial {
+  public:
+    /// Renders the picture and records its rays. `description` must be valid; it gets a camera and
+    /// a light where it has none. Throws Error as `compile`, `render` and `complete_view` do.
+    SceneTrial(SceneDescription description, const TrialOptions& options);
+
+    [[nodiscard]] const SceneDescription& description() const { return description_; }
+    [[nodiscard]] const Scene& reference() const { return reference_.scene; }
+    [[nodiscard]] const RayStream& stream() const { return stream_; }
+    /// By `wide_bvh`.
+    [[nodiscard]] const RenderResult& picture() const { return picture_; }
+    /// Size, depth and camera, on one thread.
+    [[nodiscard]] const RenderOptions& render_options() const { return render_options_; }
+    [[nodiscard]] const PictureSettings& picture_settings() const { return description_.picture; }
+
+    /// Throws Error as `compile` does.
+    [[nodiscard]] BuiltScene build(const std::string& accelerator) const;
+    /// Compares with the answers of `wide_bvh`.
+    [[nodiscard]] ReplayFigures ask(const Scene& scene, const ReplayOptions& options);
+    /// Both, for callers with nothing else to do.
+    [[nodiscard]] ReplayFigures ask(const std::string& accelerator, const ReplayOptions& options) {
+        return ask(build(accelerator).scene, options);
+    }
+
+  private:
+    SceneDescription description_;
+    std::string csg_;
+    RenderOptions render_options_;
+    BuiltScene reference_;
+    RenderResult picture_;
+    RayStream stream_;
+    Answers answers_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,108 @@
+#include "alhazen/laboratory/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "alhazen/base/error.h"
+#include "alhazen/laboratory/compare_report.h"
+#include "alhazen/scene/accelerator_table.h"
+#include "unit/laboratory/small_scene.h"
+
+namespace alhazen {
+namespace {
+
+using testing::small_scene;
+
+CompareOptions options_with(std::vector<std::string> accelerators) {
+    CompareOptions options;
+    options.accelerators = std::move(accelerators);
+    options.tune = false;
+    return options;
+}
+
+TEST(ParseAccelerators, TellsSettingsFromNames) {
+    EXPECT_EQ(parse_accelerators("list,octree:walk=smart,max_depth=4,kd_tree"),
+              (std::vector<std::string>{"list", "octree:walk=smart,max_depth=4", "kd_tree"}));
+    EXPECT_EQ(parse_accelerators("all").size(), accelerator_table().size());
+    for (const char* wrong : {"", "octopus", "list,", "walk=smart", "octree:walk=crawl",
+                              "octree:walk=smart,walk=smart"}) {
+        EXPECT_THROW((void)parse_accelerators(wrong), Error) << wrong;
+    }
+}
+
+TEST(Compare, EveryAcceleratorGivesTheSamePictureAndRays) {
+    const Comparison c = compare(small_scene(), "small", options_with(parse_accelerators("all")));
+    EXPECT_EQ(c.measurements.size(), accelerator_table().size());
+    EXPECT_TRUE(c.holds());
+    for (const Measurement& m : c.measurements) {
+        EXPECT_TRUE(m.agrees()) << m.accelerator << " " << m.figures.first_disagreement;
+        EXPECT_EQ(m.unavailable, "") << m.accelerator;
+        EXPECT_EQ(m.picture.pixels, 40u * 30u) << m.accelerator;
+        EXPECT_GT(m.figures.each(&TraversalStats::primitive_tests), 0.0) << m.accelerator;
+        for (const float cost : m.cost) EXPECT_TRUE(std::isfinite(cost)) << m.accelerator;
+    }
+}
+
+TEST(Compare, FindsAnAcceleratorThatDiffers) {
+    const Comparison c =
+        compare(small_scene(), "small", options_with({"uniform_grid:hit_in_cell=off"}));
+    EXPECT_FALSE(c.holds());
+    ASSERT_EQ(c.measurements.size(), 3u);
+    EXPECT_GT(c.measurements[2].figures.disagreements, 0u);
+    EXPECT_GT(c.measurements[2].picture.differing, 0u);
+    EXPECT_NE(comparison_table(c).find("DIFFERS"), std::string::npos);
+    EXPECT_EQ(comparison_json({&c, 1})["scenes"][0]["all_agree"], false);
+}
+
+TEST(Compare, MeasuresTilesByChanceWhereThePictureWouldTakeTooLong) {
+    CompareOptions options = options_with({});
+    options.time_limit = 0.02;
+    options.trial.width = 200;
+    options.trial.height = 150;
+    const Comparison c = compare(small_scene(600), "small", options);
+    const Measurement& list = *c.find("list");
+    EXPECT_FALSE(list.figures.all_counted);
+    EXPECT_FALSE(list.picture.complete);
+    EXPECT_GT(list.picture.pixels, 0u);
+    EXPECT_LT(list.picture.pixels, 200u * 150u);
+    EXPECT_TRUE(list.agrees());
+    std::uint64_t known = 0;
+    for (const float cost : list.cost) known += std::isfinite(cost);
+    EXPECT_EQ(known, list.picture.pixels);
+}
+
+TEST(Compare, TheSearchAddsALineOnlyWhereItFoundSomething) {
+    CompareOptions options = options_with({"octree"});
+    options.tune = true;
+    options.time_limit = 0.2;
+    const Comparison c = compare(small_scene(), "small", options);
+    ASSERT_GE(c.measurements.size(), 3u);
+    ASSERT_LE(c.measurements.size(), 4u);
+    if (c.measurements.size() == 4) {
+        EXPECT_EQ(c.measurements[3].variant, Measurement::Variant::Tuned);
+        EXPECT_NE(c.measurements[3].settings(), "");
+        EXPECT_GT(c.measurements[3].tried, 0);
+    }
+    EXPECT_TRUE(c.holds());
+}
+
+TEST(Compare, TheReportHasEveryAcceleratorAndTheCountsByKind) {
+    const Comparison c = compare(small_scene(), "small", options_with({"kd_tree"}));
+    const auto json = comparison_json({&c, 1});
+    const auto& scene = json["scenes"][0];
+    ASSERT_EQ(scene["accelerators"].size(), 3u);
+    const auto& list = scene["accelerators"][1];
+    EXPECT_EQ(list["accelerator"], "list");
+    EXPECT_EQ(list["by_kind"]["eye"]["tests"]["primitive"], 43 * 40 * 30);
+    EXPECT_EQ(list["time_over_list"], 1.0);
+    EXPECT_TRUE(list["agrees"]);
+    const std::string table = comparison_table(c);
+    for (const char* name : {"wide_bvh", "list", "kd_tree"}) {
+        EXPECT_NE(table.find(name), std::string::npos) << name;
+    }
+}
+
+}  // namespace
+}  // namespace alhazen
