@@ -90,7 +90,8 @@ std::string axis_of(const LogScale& scale) {
     double last = -100;
     for (const double tick : scale.ticks()) {
         const double place = scale.place(tick);
-        if (place - last < 14) continue;
+        // The first one stands to the right of its line, the others in the middle of theirs.
+        if (place - last < (last == 0 ? 20 : 14)) continue;
         last = place;
         axis += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", place, short_number(tick));
     }
@@ -179,9 +180,9 @@ std::string dots(const Comparison& c, const std::string& title, const std::strin
 std::string short_number(double x) {
     if (x == 0) return "0";
     const double size = std::abs(x);
-    if (size >= 9.995e9) return fmt::format("{:.0f} G", x * 1e-9);
-    if (size >= 9.995e6) return fmt::format("{:.0f} M", x * 1e-6);
-    if (size >= 9.995e3) return fmt::format("{:.0f} k", x * 1e-3);
+    if (size >= 9.995e9) return fmt::format("{:.3g} G", x * 1e-9);
+    if (size >= 9.995e6) return fmt::format("{:.3g} M", x * 1e-6);
+    if (size >= 9.995e3) return fmt::format("{:.3g} k", x * 1e-3);
     if (size >= 99.95) return fmt::format("{:.0f}", x);
     return fmt::format("{:.3g}", x);
 }
