@@ -42,6 +42,25 @@ struct RayShear {
 
 #include "alhazen/geometry/watertight_triangle_formulas-inl.h"
 
+/// Sign of a b - c d where the products, or what is rounded off them, may underflow.
+inline int sign_of_tiny_difference(double a, double b, double c, double d) {
+    if (a == 0.0 || b == 0.0 || c == 0.0 || d == 0.0) {
+        const auto product_sign = [](double x, double y) {
+            return ((x > 0.0) - (x < 0.0)) * ((y > 0.0) - (y < 0.0));
+        };
+        return product_sign(a, b) - product_sign(c, d);
+    }
+    int ea, eb, ec, ed;
+    a = std::frexp(a, &ea);
+    b = std::frexp(b, &eb);
+    c = std::frexp(c, &ec);
+    d = std::frexp(d, &ed);
+    // Beyond 2^8 the other product only has a sign.
+    b = std::ldexp(b, std::clamp(ea + eb - ec - ed, -8, 8));
+    const double exact = difference_of_products(a, b, c, d);
+    return (exact > 0.0) - (exact < 0.0);
+}
+
 /// Sign of the edge function with zeros resolved: exactly, then by the symbolic displacement. 0
 /// only for a == b.
 inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVertex<double>& b) {
@@ -51,6 +70,10 @@ inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVerte
     if (p != q) return sign(p - q);
     const double exact = std::fma(a.x, b.y, -p) - std::fma(a.y, b.x, -q);
     if (exact != 0.0) return sign(exact);
+    if (std::abs(p) < 0x1p-900) {
+        const int tiny = sign_of_tiny_difference(a.x, b.y, a.y, b.x);
+        if (tiny != 0) return tiny;
+    }
     if (a.y != b.y) return sign(a.y - b.y);
     return sign(b.x - a.x);
 }
@@ -64,6 +87,26 @@ inline bool seen_nearly_edge_on(double det, const ShearedVertex<double>& a,
     };
     const double reach = std::max(reach_of(a), std::max(reach_of(b), reach_of(c)));
     return !(std::abs(det) > 0x1p-8 * reach * reach);
+}
+
+/// The power of two that takes the largest of three numbers to about 1; 1 where all are 0.
+inline double to_unit_size(double a, double b, double c) {
+    const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
+    return largest > 0.0 ? std::ldexp(1.0, std::min(-std::ilogb(largest), 1000)) : 1.0;
+}
+
+/// The edge functions of triangle (a, b, c), each to its last digits, after scaling all x and all
+/// y.
+inline void precise_edge_functions(ShearedVertex<double> a, ShearedVertex<double> b,
+                                   ShearedVertex<double> c, double scale_x, double scale_y,
+                                   double& eu, double& ev, double& ew) {
+    for (ShearedVertex<double>* v : {&a, &b, &c}) {
+        v->x *= scale_x;
+        v->y *= scale_y;
+    }
+    eu = difference_of_products(b.x, c.y, b.y, c.x);
+    ev = difference_of_products(c.x, a.y, c.y, a.x);
+    ew = difference_of_products(a.x, b.y, a.y, b.x);
 }
 
 /// Tests triangle (a, b, c); on a hit inside [ray.t_min, ray.t_max] fills t, u (weight of b), v (of
@@ -89,14 +132,11 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
     }
     // Also when all three are false zeros; not all are true zeros.
     if (seen_nearly_edge_on(eu + ev + ew, va, vb, vc)) {
-        eu = difference_of_products(vb.x, vc.y, vb.y, vc.x);
-        ev = difference_of_products(vc.x, va.y, vc.y, va.x);
-        ew = difference_of_products(va.x, vb.y, va.y, vb.x);
-        // Only their ratios count; their products with lengths must not underflow.
+        precise_edge_functions(va, vb, vc, 1.0, 1.0, eu, ev, ew);
+        // Only their ratios count; neither they nor their products with lengths may underflow.
         if (std::max({std::abs(eu), std::abs(ev), std::abs(ew)}) < 0x1p-300) {
-            eu *= 0x1p600;
-            ev *= 0x1p600;
-            ew *= 0x1p600;
+            precise_edge_functions(va, vb, vc, to_unit_size(va.x, vb.x, vc.x),
+                                   to_unit_size(va.y, vb.y, vc.y), eu, ev, ew);
         }
     }
     const TriangleSolution<double> s = solve_triangle(eu, ev, ew, va.z, vb.z, vc.z, shear.sz);

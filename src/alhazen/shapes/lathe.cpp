@@ -66,6 +66,7 @@ void make_polynomial(const Lathe& lathe, const LocalRay& ray, const Ray& given,
     static constexpr double kCubic[4][4] = {{1, 3, 3, 1}, {3, 9, 9, 3}, {3, 9, 9, 3}, {1, 3, 3, 1}};
     static constexpr double kCubicSum[7] = {1, 6, 15, 20, 15, 6, 1};
     p.degree = 2 * n;
+    p.shared_ends = true;
     for (int k = 0; k <= p.degree; ++k) {
         Real sum = 0.0;
         for (int i = std::max(0, k - n); i <= std::min(k, n); ++i) {
@@ -128,6 +129,7 @@ void level_crossings(const Lathe& lathe, const LocalRay& ray, ShapeHits& found) 
             [&]<class Real>(BernsteinPolynomial<Real, 3>& p) {
                 p.degree = curve.degree();
                 p.error = 0.0;
+                p.shared_ends = true;
                 for (int k = 0; k <= p.degree; ++k) p.b[k] = Real(curve.control(k).y) - Real(z);
             },
             changes);

@@ -101,6 +101,7 @@ bool inside_profile(const Profile& profile, Vec2 q) {
         [&]<class Real>(const ProfileCurve& curve, BernsteinPolynomial<Real, 3>& p) {
             p.degree = curve.degree();
             p.error = 0.0;
+            p.shared_ends = true;
             for (int i = 0; i <= p.degree; ++i) p.b[i] = Real(curve.control(i).y) - Real(q.y);
         },
         [&](std::uint32_t i, double s) {
@@ -119,6 +120,7 @@ bool side_crossings(const Prism& prism, const Ray& ray, const LocalRay& local, S
         const auto fill = [&](const ProfileLine<Real>& exact) {
             p.degree = curve.degree();
             p.error = exact.error;
+            p.shared_ends = true;
             for (int i = 0; i <= p.degree; ++i) p.b[i] = exact.at(curve.control(i));
         };
         if constexpr (std::is_same_v<Real, double>) {
