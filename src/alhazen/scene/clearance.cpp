@@ -125,51 +125,103 @@ Pair improve(LineGap& gap, Pair best, double size) {
     return best;
 }
 
-/// Where two solids have an edge or a corner the width of a slab has a ridge: directions that go
-/// round with every step find along it.
-constexpr int kTilts = 24;
-constexpr int kMostTilts = 20000;
+/// The separating slabs of two solids by their directions: the width along n is b's least extent
+/// over a's largest. Times |n| it is concave in n, being the support function of the difference of
+/// the two hulls turned over.
+class SlabSearch {
+  public:
+    SlabSearch(const LoneSolid& a, const LoneSolid& b) : a_(a), b_(b) {}
 
-void offer_slab(double width, const Vec3& normal, Clearance& found) {
-    // The unit normal is one but for roundings.
-    width *= 1 - 1e-15;
-    if (width > found.at_least) {
-        found.at_least = width;
-        found.slab_normal = normal;
-    }
-}
-
-/// The widest slab between the two, near the direction that is given; and those along the axes.
-void separate(const LoneSolid& a, const LoneSolid& b, Vec3 n, Clearance& found) {
-    const auto width = [&](const Vec3& axis) { return b.extent(axis).lo - a.extent(axis).hi; };
-    for (int k = 0; k < 3; ++k) {
-        for (const double side : {-1.0, 1.0}) {
-            Vec3 axis;
-            axis[k] = side;
-            offer_slab(width(axis), axis, found);
-        }
-    }
-    double best = width(n);
-    int turn = 0;
-    for (double step = 0.2; step > 1e-11 && turn < kMostTilts;) {
-        const Vec3 right = perpendicular(n);
-        const Vec3 up = cross(n, right);
-        bool better = false;
-        for (int i = 0; i < kTilts && !better; ++i) {
-            const double angle = 2.39996322972865332 * ++turn;  // the golden angle
-            const Vec3 tilted =
-                normalize(n + step * (std::cos(angle) * right + std::sin(angle) * up));
-            const double w = width(tilted);
-            better = w > best;
-            if (better) {
-                best = w;
-                n = tilted;
+    /// The widest slab, from a direction near it on, into `found`; and those along the axes.
+    void run(const Vec3& start, Clearance& found) {
+        best_normal_ = start;
+        best_ = width(start);
+        for (int k = 0; k < 3; ++k) {
+            for (const double side : {-1.0, 1.0}) {
+                Vec3 axis;
+                axis[k] = side;
+                offer(axis);
             }
         }
-        if (!better) step *= 0.5;
+        tilt();
+        // Where edges face each other the width has a ridge, along which small turns do not climb.
+        for (double half = 0.25; half > 1e-9 && best_ > 0; half *= 0.05) climb_ridges(half);
+        if (!(best_ > 0)) return;
+        // The unit normal is one but for roundings.
+        found.at_least = best_ * (1 - 1e-15);
+        found.slab_normal = best_normal_;
     }
-    offer_slab(best, n, found);
-}
+
+  private:
+    static constexpr int kTilts = 24;
+    static constexpr int kSections = 32;  ///< of an interval, by the golden ratio
+
+    [[nodiscard]] double width(const Vec3& n) const { return b_.extent(n).lo - a_.extent(n).hi; }
+
+    double offer(const Vec3& n) {
+        const double w = width(n);
+        if (w > best_) {
+            best_ = w;
+            best_normal_ = n;
+        }
+        return w;
+    }
+
+    /// Small turns in all directions, for as long as they find wider slabs.
+    void tilt() {
+        int turn = 0;
+        for (double step = 0.2; step > 1e-4;) {
+            const Vec3 n = best_normal_, right = perpendicular(n), up = cross(n, right);
+            const double before = best_;
+            for (int i = 0; i < kTilts && best_ == before; ++i) {
+                const double angle = 2.39996322972865332 * ++turn;  // the golden angle
+                offer(normalize(n + step * (std::cos(angle) * right + std::sin(angle) * up)));
+            }
+            if (!(best_ > before + 1e-9 * std::abs(before))) step *= 0.5;
+        }
+    }
+
+    /// The directions n + x right + y up, x and y up to `half`: where slabs have a width at all it
+    /// has one maximum over y for each x, and these have one over x.
+    void climb_ridges(double half) {
+        const Vec3 n = best_normal_, right = perpendicular(n), up = cross(n, right);
+        (void)golden_section(half, [&](double x) {
+            return golden_section(
+                half, [&](double y) { return offer(normalize(n + x * right + y * up)); });
+        });
+    }
+
+    /// The largest value of f on [-half, half], of one maximum. Source: Kiefer, "Sequential minimax
+    /// search for a maximum", Proc. AMS 4, 1953.
+    template <class F>
+    static double golden_section(double half, F f) {
+        constexpr double kGolden = 0.61803398874989485;
+        double lo = -half, hi = half;
+        double x0 = hi - kGolden * (hi - lo), x1 = lo + kGolden * (hi - lo);
+        double f0 = f(x0), f1 = f(x1);
+        for (int i = 0; i < kSections; ++i) {
+            if (f0 > f1) {
+                hi = x1;
+                x1 = x0;
+                f1 = f0;
+                x0 = hi - kGolden * (hi - lo);
+                f0 = f(x0);
+            } else {
+                lo = x0;
+                x0 = x1;
+                f0 = f1;
+                x1 = lo + kGolden * (hi - lo);
+                f1 = f(x1);
+            }
+        }
+        return std::max(f0, f1);
+    }
+
+    const LoneSolid& a_;
+    const LoneSolid& b_;
+    double best_ = 0;
+    Vec3 best_normal_;
+};
 
 /// The nearest pairs between two sets of points.
 std::vector<Pair> nearest_pairs(const std::vector<SurfacePoint>& on_a,
@@ -229,7 +281,7 @@ Clearance clearance(const LoneSolid& a, const LoneSolid& b, std::uint64_t seed) 
         return found;
     }
     found.at_most = best.distance;
-    separate(a, b, unit_or(best.b.point - best.a.point, best.a.normal), found);
+    SlabSearch(a, b).run(unit_or(best.b.point - best.a.point, best.a.normal), found);
     return found;
 }
 
