@@ -45,6 +45,13 @@ if(ALHAZEN_SANITIZE)
     target_link_options(alhazen_flags INTERFACE -fsanitize=${ALHAZEN_SANITIZE})
 endif()
 
+# alhazen_precompile(TARGET header...): where ALHAZEN_PRECOMPILE is on, compiles these once for the target.
+function(alhazen_precompile target)
+    if(ALHAZEN_PRECOMPILE)
+        target_precompile_headers(${target} PRIVATE ${ARGN})
+    endif()
+endfunction()
+
 # alhazen_library(NAME SOURCES file... DEPENDS folder... LIBRARIES target... PRIVATE_LIBRARIES target...)
 # makes the target alhazen_NAME of one folder of src/alhazen. Without sources it is header-only. Our flags stay
 # inside of this build: who uses an installed library has the few of AlhazenInstall.cmake.
@@ -70,6 +77,9 @@ function(alhazen_test name)
     add_executable(${target} ${ARG_SOURCES})
     target_link_libraries(${target} PRIVATE alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES}
                           GTest::gtest_main)
+    if(ALHAZEN_PRECOMPILE)
+        target_precompile_headers(${target} REUSE_FROM alhazen_test_headers)
+    endif()
     target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}/tests")
     target_compile_definitions(${target} PRIVATE
         ALHAZEN_TEST_DATA_DEFAULT="${ALHAZEN_TEST_DATA}"

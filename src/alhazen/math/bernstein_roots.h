@@ -13,9 +13,9 @@
 /// ends. Conventions: p(u) = sum b[i] C(n, i) (1 - u)^(n - i) u^i. In double the search gives up
 /// where it cannot be certain; it is then repeated in double-double, with coefficients made anew,
 /// where it always answers: a value it cannot tell from 0 has the sign of its surroundings (of the
-/// next coefficient at the ends, but see shared_ends; all unknown is positive, "outside"), and roots closer than 2^-52
-/// cancel in pairs. `find_certified_sign_changes` does both. Complexity: O(n^2) per split; mostly
-/// no split for 0 or 1 crossing, one or two for 2.
+/// next coefficient at the ends, but see shared_ends; all unknown is positive, "outside"), and
+/// roots closer than 2^-52 cancel in pairs. `find_certified_sign_changes` does both. Complexity:
+/// O(n^2) per split; mostly no split for 0 or 1 crossing, one or two for 2.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ namespace alhazen {
 template <class Real, int N>
 struct BernsteinPolynomial {
     int degree = 0;
-    double error = 0;           ///< no coefficient is farther from the true one
+    double error = 0;  ///< no coefficient is farther from the true one
     /// Both ends are also those of other polynomials: pieces of one curve, say. A value there that
     /// cannot be told from 0 is then positive for all of them, or the crossings of all together
     /// would not agree with the signs.
