@@ -242,6 +242,31 @@ class CommandLine(unittest.TestCase):
         for key in ("load", "build", "render", "write"):
             self.assertGreaterEqual(stats["seconds"][key], 0)
 
+    def test_databases_are_generated_as_nff_and_as_native_scenes(self):
+        for name in ("tetra.nff", "tetra.alhazen"):
+            result = run("generate", "tetra", "--size", "2", "-q", "-o", self.path(name))
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            info = json.loads(run("info", self.path(name), "--json").stdout)
+            self.assertEqual(info["triangles"], 16)
+        run("render", self.path("tetra.nff"), "-o", self.path("a.pfm"), "--size", "64x64", "-q")
+        run("render", self.path("tetra.alhazen"), "-o", self.path("b.pfm"), "--size", "64x64", "-q")
+        self.assertEqual(self.read("a.pfm"), self.read("b.pfm"))
+        run("generate", "balls", "--size", "1", "--digits", "3", "-q", "-o", self.path("b.nff"))
+        self.assertIn(b"\ns 0.272 0.272 0.544 0.167\n", self.read("b.nff"))
+        for wrong in (["balls", "--size", "9", "-o", "x.nff"], ["field", "-o", "x.nff"],
+                      ["balls", "--digits", "3", "-o", "x.alhazen"], ["ball", "-o", "x.nff"],
+                      ["balls", "--digits", "30", "-o", "x.nff"], ["balls", "-o", "x.png"]):
+            result = run("generate", *wrong)
+            self.assertEqual(result.returncode, 2, wrong)
+            self.assertTrue(result.stderr, wrong)
+
+    def test_the_bytes_of_instances_are_told(self):
+        run("generate", "field", "--size", "1000000", "-q", "-o", self.path("field.alhazen"))
+        memory = json.loads(run("info", self.path("field.alhazen"), "--json").stdout)["memory"]
+        self.assertLess(memory["bytes_per_effective_primitive"], 2)
+        self.assertIn("primitives as rays see them",
+                      run("info", self.path("field.alhazen")).stdout)
+
     def test_info_and_verify(self):
         info = json.loads(run("info", self.scene, "--json").stdout)
         self.assertEqual(info["parts"], {"plane": 1, "sphere": 1})

@@ -1,9 +1,9 @@
 #pragma once
 /// Scenes of any size by name, to measure and to look at: `alhazen generate`.
 ///
-/// Conventions: what a size counts is the generator's. Scenes that it does not say otherwise of
-/// have at least that many of what it counts. They have a camera and lights. The same name and size
-/// give the same scene on every machine.
+/// Conventions: what a size counts is the generator's, and so is whether it is met or at least
+/// reached. All have a camera and lights. The same name and size give the same scene everywhere, to
+/// the last bits of the sines of the C library.
 
 #include <cstdint>
 #include <optional>
