@@ -6,7 +6,7 @@
 /// t_max()` is how far the ray still needs to go (it shrinks as hits are found; primitives at
 /// exactly t_max must still be visited), `bool visit(std::uint32_t primitive)` tests one primitive
 /// and returns true to stop. An accelerator that may visit a primitive more than once for a ray
-/// says so: `kVisitsRepeatedly = true`.
+/// says so: `kVisitsRepeatedly = true`. A visitor may say what its rays ask for (`kAsksFor`).
 
 #include <concepts>
 #include <cstddef>
@@ -18,6 +18,14 @@
 #include "alhazen/geometry/ray.h"
 
 namespace alhazen {
+
+/// What a ray wants to know: an accelerator that knows may leave out more.
+enum class AsksFor {
+    AllHits,    ///< every primitive that is hit
+    Closest,    ///< the nearest hit
+    AnyHit,     ///< whether there is any
+    AnyBlocker  ///< whether light is blocked, or else every primitive that is hit
+};
 
 /// A visitor to check the concept with.
 struct ArchetypeVisitor {
@@ -37,6 +45,15 @@ concept Accelerator = requires(const A& accelerator, const BoundsSource& source,
     { accelerator.traverse(ray, visitor, stats) } -> std::same_as<void>;
     { accelerator.memory_bytes() } -> std::same_as<std::size_t>;
 };
+
+template <class Visitor>
+consteval AsksFor asks_for() {
+    if constexpr (requires { Visitor::kAsksFor; }) {
+        return Visitor::kAsksFor;
+    } else {
+        return AsksFor::AllHits;
+    }
+}
 
 template <class A>
 consteval bool visits_repeatedly() {

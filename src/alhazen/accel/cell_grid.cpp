@@ -2,7 +2,7 @@
 
 namespace alhazen {
 
-CellGrid::CellGrid(const Box3& around, double count, int most) {
+void CellGrid::set_box(const Box3& around) {
     const Vec3 extent = around.size();
     const Vec3 reach{std::max(std::abs(around.lo.x), std::abs(around.hi.x)),
                      std::max(std::abs(around.lo.y), std::abs(around.hi.y)),
@@ -10,6 +10,24 @@ CellGrid::CellGrid(const Box3& around, double count, int most) {
     pad = 0x1p-32 * max_component(extent) + 0x1p-46 * max_component(reach) +
           std::numeric_limits<double>::min();
     box = {around.lo - Vec3{pad, pad, pad}, around.hi + Vec3{pad, pad, pad}};
+}
+
+void CellGrid::divide(const std::array<int, 3>& along) {
+    cells = along;
+    for (int k = 0; k < 3; ++k) {
+        const double n = along[static_cast<std::size_t>(k)];
+        cell_size[k] = box.size()[k] / n;
+        per_cell_size[k] = n / box.size()[k];
+    }
+}
+
+CellGrid::CellGrid(const Box3& around, const std::array<int, 3>& along) {
+    set_box(around);
+    divide(along);
+}
+
+CellGrid::CellGrid(const Box3& around, double count, int most) {
+    set_box(around);
     const Vec3 size = box.size();
     // Edges of a cube of the volume that is left to each cell; flat axes have one cell.
     int flat = 0;
@@ -23,12 +41,12 @@ CellGrid::CellGrid(const Box3& around, double count, int most) {
     }
     const double edge =
         flat == 3 ? 1.0 : max_component(size) * std::pow(volume / count, 1.0 / (3 - flat));
+    std::array<int, 3> along{};
     for (int k = 0; k < 3; ++k) {
-        const double n = std::clamp(std::round(size[k] / edge), 1.0, double(most));
-        cells[static_cast<std::size_t>(k)] = static_cast<int>(n);
-        cell_size[k] = size[k] / n;
-        per_cell_size[k] = n / size[k];
+        along[static_cast<std::size_t>(k)] =
+            static_cast<int>(std::clamp(std::round(size[k] / edge), 1.0, double(most)));
     }
+    divide(along);
 }
 
 Box3 CellGrid::cell_box(const std::array<int, 3>& cell) const {

@@ -27,6 +27,8 @@ struct CellGrid {
     CellGrid() = default;
     /// About `count` cells, as near to cubes as can be, at most `most` along an axis.
     CellGrid(const Box3& around, double count, int most);
+    /// So many along each axis.
+    CellGrid(const Box3& around, const std::array<int, 3>& along);
 
     [[nodiscard]] std::size_t size() const {
         return std::size_t(cells[0]) * std::size_t(cells[1]) * std::size_t(cells[2]);
@@ -53,6 +55,10 @@ struct CellGrid {
     [[nodiscard]] bool covers(const Ray& ray) const {
         return max_component(abs(ray.origin)) <= 0x1p44 * pad;
     }
+
+  private:
+    void set_box(const Box3& around);
+    void divide(const std::array<int, 3>& along);
 };
 
 /// The cells that a ray goes through, one after the other.

@@ -113,7 +113,8 @@ void KdTree::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
     stack.push({0, begin, end});
     while (!stack.empty()) {
         Segment at = stack.pop();
-        if (at.begin > visitor.t_max()) return;
+        // Not the end: where the ray runs in a plane, nearer segments may lie deeper in the stack.
+        if (at.begin > visitor.t_max()) continue;
         for (;;) {
             const Node& node = nodes_[at.node];
             stats.nodes(1);

@@ -16,6 +16,8 @@ struct TraversalStats {
     std::uint64_t empty_cells = 0;      ///< of these, cells without primitives
     std::uint64_t slab_tests = 0;       ///< slabs examined in the tests of bounds made of slabs
     std::uint64_t heap_pushes = 0;      ///< bounds put into a heap
+    std::uint64_t cache_lookups = 0;    ///< questions to a cache: of cells, of last occluders
+    std::uint64_t cache_hits = 0;       ///< of these, the ones it had the answer to
 
     TraversalStats& operator+=(const TraversalStats& other) {
         box_tests += other.box_tests;
@@ -26,6 +28,8 @@ struct TraversalStats {
         empty_cells += other.empty_cells;
         slab_tests += other.slab_tests;
         heap_pushes += other.heap_pushes;
+        cache_lookups += other.cache_lookups;
+        cache_hits += other.cache_hits;
         return *this;
     }
 };
@@ -41,6 +45,10 @@ struct CountingStats {
     void empty_cells(std::uint64_t n) const { stats->empty_cells += n; }
     void slabs(std::uint64_t n) const { stats->slab_tests += n; }
     void heap_pushes(std::uint64_t n) const { stats->heap_pushes += n; }
+    void cache_lookup(bool hit) const {
+        ++stats->cache_lookups;
+        stats->cache_hits += hit;
+    }
     [[nodiscard]] TraversalStats* sink() const { return stats; }  ///< for nested aggregates
 };
 
@@ -54,6 +62,7 @@ struct NoStats {
     void empty_cells(std::uint64_t) const {}
     void slabs(std::uint64_t) const {}
     void heap_pushes(std::uint64_t) const {}
+    void cache_lookup(bool) const {}
     [[nodiscard]] TraversalStats* sink() const { return nullptr; }
 };
 

@@ -31,6 +31,11 @@ void for_cells(const CellGrid& grid, const BoundsSource& source, std::size_t i, 
 UniformGrid::Config UniformGrid::configure(SettingsReader& reader) {
     Config config;
     config.density = reader.number("density", "cells for each primitive", 3, 1e-6, 1000);
+    static constexpr const char* kAlong[] = {"nx", "ny", "nz"};
+    for (std::size_t k = 0; k < 3; ++k) {
+        config.cells[k] = reader.count(kAlong[k], "cells along the axis, 0: by the density", 0, 0,
+                                       kMostAlongAxis);
+    }
     config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
     config.hit_in_cell =
         reader.flag("hit_in_cell", "off: a hit beyond its cell counts (wrong pictures)", true);
@@ -47,6 +52,14 @@ UniformGrid UniformGrid::build(const BoundsSource& source, const Config& config)
     made.grid_ =
         CellGrid(all, std::min(kMostCells, config.density * static_cast<double>(source.size())),
                  kMostAlongAxis);
+    std::array<int, 3> along = made.grid_.cells;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (config.cells[k] > 0) along[k] = config.cells[k];
+    }
+    if (double(along[0]) * along[1] * along[2] > kMostCells) {
+        throw Error(ErrorKind::Usage, "uniform_grid: nx, ny and nz make more than 134217728 cells");
+    }
+    if (along != made.grid_.cells) made.grid_ = CellGrid(all, along);
 
     std::vector<std::uint32_t> counts(made.grid_.size() + 1, 0);
     std::uint64_t total = 0;

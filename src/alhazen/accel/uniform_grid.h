@@ -23,9 +23,10 @@ class UniformGrid {
     static constexpr const char* kDescription = "equal cells, walked along the ray";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        double density = 3;       ///< cells for each primitive
-        bool mailbox = true;      ///< a primitive in many cells is tested once a ray
-        bool hit_in_cell = true;  ///< false shows what goes wrong without the rule
+        double density = 3;          ///< cells for each primitive
+        std::array<int, 3> cells{};  ///< along each axis, by hand; 0: by the density
+        bool mailbox = true;         ///< a primitive in many cells is tested once a ray
+        bool hit_in_cell = true;     ///< false shows what goes wrong without the rule
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
 

@@ -38,4 +38,16 @@ Box3 BoundsSource::clipped_box(std::size_t i, const Box3& cell) const {
         {std::min(b.hi.x, cell.hi.x), std::min(b.hi.y, cell.hi.y), std::min(b.hi.z, cell.hi.z)}};
 }
 
+std::optional<std::array<Vec3, 3>> BoundsSource::triangle(std::size_t) const {
+    return std::nullopt;
+}
+
+bool BoundsSource::blocks_light(std::size_t) const {
+    return false;
+}
+
+std::span<const RayEnd> BoundsSource::ray_ends() const {
+    return {};
+}
+
 }  // namespace alhazen

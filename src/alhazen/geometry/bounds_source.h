@@ -1,9 +1,13 @@
 #pragma once
-/// What a builder may ask about the things it builds over: nothing but bounds.
+/// What a builder may ask about the things it builds over: bounds, and what little else helps to
+/// sort rays and things.
 ///
 /// The one virtual interface of the build phase; traversal never calls it.
 
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <span>
 
 #include "alhazen/geometry/box.h"
 
@@ -12,6 +16,13 @@ namespace alhazen {
 struct BoundingSphere {
     Vec3 center;
     double radius = 0;
+};
+
+/// Where many rays end or begin, such as a light: known beforehand, so that something can be
+/// prepared for these rays.
+struct RayEnd {
+    Vec3 place;                ///< or, at infinity, the unit direction towards it
+    bool at_infinity = false;  ///< all its rays are parallel
 };
 
 class BoundsSource {
@@ -30,6 +41,13 @@ class BoundsSource {
     /// A box that holds the part of primitive `i` inside `cell`; empty when there is none. By
     /// default the intersection of the two boxes.
     [[nodiscard]] virtual Box3 clipped_box(std::size_t i, const Box3& cell) const;
+    /// The vertices of primitive `i` where it is a triangle and nothing else. By default nothing.
+    [[nodiscard]] virtual std::optional<std::array<Vec3, 3>> triangle(std::size_t i) const;
+    /// True when primitive `i` stops every ray that asks for what is in the light's way, of
+    /// whatever kind, wherever it is hit. By default not.
+    [[nodiscard]] virtual bool blocks_light(std::size_t i) const;
+    /// By default none. A hint: rays are free to go elsewhere.
+    [[nodiscard]] virtual std::span<const RayEnd> ray_ends() const;
 };
 
 /// Range of dot(axis, p) over the points of a box.

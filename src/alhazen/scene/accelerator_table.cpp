@@ -1,11 +1,9 @@
 #include "alhazen/scene/accelerator_table.h"
 
-#include <array>
 #include <utility>
 
-#include "alhazen/accel/accel_list.h"
 #include "alhazen/base/error.h"
-#include "alhazen/scene/aggregate_of.h"
+#include "alhazen/scene/accelerator_entries.h"
 #include "alhazen/scene/wide_bvh_aggregate.h"
 
 namespace alhazen {
@@ -21,34 +19,19 @@ AcceleratorEntry wide_bvh_entry() {
             }};
 }
 
-template <class A>
-AcceleratorEntry entry() {
-    return {A::kName, A::kDescription,
-            [] {
-                const AcceleratorSettings none;
-                SettingsReader reader(A::kName, none);
-                (void)A::configure(reader);
-                return reader.described();
-            },
-            [](PrimitiveTable table, const AcceleratorSettings& settings,
-               const BuildOptions&) -> std::shared_ptr<const Aggregate> {
-                SettingsReader reader(A::kName, settings);
-                const typename A::Config config = A::configure(reader);
-                reader.finish();
-                return std::make_shared<const AggregateOf<A>>(std::move(table), config);
-            }};
-}
-
 /// The wide BVH and all scalar accelerators.
-template <class... A>
-auto make_entries(std::tuple<A...>*) {
-    return std::array{wide_bvh_entry(), entry<A>()...};
+std::vector<AcceleratorEntry> all_entries() {
+    std::vector<AcceleratorEntry> entries{wide_bvh_entry()};
+    for (auto* more : {&bound_accelerators, &cell_accelerators, &direction_accelerators}) {
+        for (const AcceleratorEntry& entry : more()) entries.push_back(entry);
+    }
+    return entries;
 }
 
 }  // namespace
 
 std::span<const AcceleratorEntry> accelerator_table() {
-    static const auto entries = make_entries(static_cast<ScalarAccelerators*>(nullptr));
+    static const std::vector<AcceleratorEntry> entries = all_entries();
     return entries;
 }
 

@@ -8,6 +8,7 @@
 /// with the visitor in it. Const functions may be called from many threads.
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "alhazen/accel/accelerator.h"
@@ -49,7 +50,7 @@ class AggregateOf final : public Aggregate {
         Ray shrinking = ray;
         const RayShear shear(ray.direction);
         with_stats(query.stats, [&](auto policy) {
-            each(shrinking, policy, [&](PrimitiveId id) {
+            each<AsksFor::Closest>(shrinking, policy, [&](PrimitiveId id) {
                 table_.closest(id, shrinking, shear, hit, policy, query.mask);
                 return false;
             });
@@ -61,7 +62,7 @@ class AggregateOf final : public Aggregate {
         if (!is_valid(ray)) return false;
         const RayShear shear(ray.direction);
         return with_stats(query.stats, [&](auto policy) {
-            return each(ray, policy, [&](PrimitiveId id) {
+            return each<AsksFor::AnyHit>(ray, policy, [&](PrimitiveId id) {
                 return table_.occluded(id, ray, shear, policy, query.mask);
             });
         });
@@ -73,7 +74,7 @@ class AggregateOf final : public Aggregate {
         const std::size_t before = hits.size();
         with_stats(query.stats, [&](auto policy) {
             OnlyOnce once(hits);
-            each(ray, policy, [&](PrimitiveId id) {
+            each<AsksFor::AllHits>(ray, policy, [&](PrimitiveId id) {
                 const std::size_t known = hits.size();
                 table_.all_hits(id, ray, shear, hits, policy, query.mask);
                 once.keep(id, known);
@@ -90,7 +91,7 @@ class AggregateOf final : public Aggregate {
         const std::size_t before = crossings.size();
         const bool opaque = with_stats(query.stats, [&](auto policy) {
             OnlyOnce once(crossings);
-            return each(ray, policy, [&](PrimitiveId id) {
+            return each<AsksFor::AnyBlocker>(ray, policy, [&](PrimitiveId id) {
                 const std::size_t known = crossings.size();
                 if (table_.shadowed(id, ray, shear, crossings, policy, query.mask)) return true;
                 once.keep(id, known);
@@ -137,25 +138,29 @@ class AggregateOf final : public Aggregate {
         return accelerator;
     }
 
+    template <AsksFor kWanted, class Test>
+    struct Visitor {
+        static constexpr AsksFor kAsksFor = kWanted;
+        const Ray& ray;
+        const std::uint32_t* ids;  ///< null: the accelerator's numbers are the table's ids
+        Test& test;
+        bool stopped = false;
+        [[nodiscard]] double t_max() const { return ray.t_max; }
+        bool visit(std::uint32_t i) {
+            stopped = test(PrimitiveId{ids != nullptr ? ids[i] : i});
+            return stopped;
+        }
+    };
+
     /// Calls `test(id)` for every primitive the ray may meet until it returns true; true when it
     /// did.
-    template <class Stats, class Test>
+    template <AsksFor kWanted, class Stats, class Test>
     bool each(const Ray& ray, Stats stats, Test&& test) const {
         for (const PrimitiveId id : unbounded_) {
             if (test(id)) return true;
         }
-        struct Visitor {
-            const Ray& ray;
-            const std::uint32_t* ids;  ///< null: the accelerator's numbers are the table's ids
-            Test& test;
-            bool stopped = false;
-            [[nodiscard]] double t_max() const { return ray.t_max; }
-            bool visit(std::uint32_t i) {
-                stopped = test(PrimitiveId{ids != nullptr ? ids[i] : i});
-                return stopped;
-            }
-        };
-        Visitor visitor{ray, bounded_.empty() ? nullptr : bounded_.data(), test};
+        Visitor<kWanted, std::remove_reference_t<Test>> visitor{
+            ray, bounded_.empty() ? nullptr : bounded_.data(), test};
         if (max_component(abs(ray.direction)) < kLeastDirection) {
             for (std::uint32_t i = 0; i < bounded_count_; ++i) {
                 if (visitor.visit(i)) return true;

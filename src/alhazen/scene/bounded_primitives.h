@@ -25,6 +25,22 @@ class BoundedPrimitives final : public BoundsSource {
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override {
         return table_.extent(id(i), axis);
     }
+    [[nodiscard]] BoundingSphere sphere(std::size_t i) const override {
+        return table_.sphere(id(i));
+    }
+    [[nodiscard]] bool overlaps(std::size_t i, const Box3& cell) const override {
+        return table_.overlaps(id(i), cell);
+    }
+    [[nodiscard]] Box3 clipped_box(std::size_t i, const Box3& cell) const override {
+        return table_.clipped_box(id(i), cell);
+    }
+    [[nodiscard]] std::optional<std::array<Vec3, 3>> triangle(std::size_t i) const override {
+        return table_.triangle(id(i));
+    }
+    [[nodiscard]] bool blocks_light(std::size_t i) const override {
+        return table_.blocks_light(id(i));
+    }
+    [[nodiscard]] std::span<const RayEnd> ray_ends() const override { return table_.ray_ends(); }
 
     /// The id in the table of the i-th bounded primitive; ascending.
     [[nodiscard]] std::uint32_t id(std::size_t i) const {

@@ -32,6 +32,20 @@ Opacity opacity_of(const Material& material) {
     return material.double_sided ? Opacity::Opaque : Opacity::OpaqueFromFront;
 }
 
+/// Where shadow rays end.
+std::vector<RayEnd> ray_ends_at(const std::vector<LightDescription>& lights) {
+    std::vector<RayEnd> ends;
+    for (const LightDescription& light : lights) {
+        std::visit(
+            [&]<class L>(const L& l) {
+                if constexpr (requires { l.position; }) ends.push_back({l.position, false});
+                if constexpr (requires { l.to_light; }) ends.push_back({l.to_light, true});
+            },
+            light.light);
+    }
+    return ends;
+}
+
 /// An aggregate with what the census needs to know about it.
 struct Built {
     std::shared_ptr<const Aggregate> aggregate;
@@ -107,15 +121,20 @@ class Compiler {
         if (!built_objects_[index].aggregate) {
             Draft draft;
             add_parts(index, Affine{}, kAllRays, draft);
-            built_objects_[index] = seal(std::move(draft));
+            if (index == static_cast<std::size_t>(d_.root)) {
+                draft.table.known_ray_ends = ray_ends_at(d_.lights);
+            }
+            const std::string& own = d_.objects[index].accelerator;
+            built_objects_[index] = seal(std::move(draft), options_.own_accelerators ? own : "");
         }
         return built_objects_[index];
     }
 
-    Built seal(Draft draft) {
+    /// `accelerator`: of the object itself, or empty.
+    Built seal(Draft draft, const std::string& accelerator = {}) {
         Built built = finish(draft);
-        built.aggregate =
-            make_aggregate(options_.accelerator, std::move(draft.table), options_.build);
+        built.aggregate = make_aggregate(accelerator.empty() ? options_.accelerator : accelerator,
+                                         std::move(draft.table), options_.build);
         census_.accelerator_bytes += built.aggregate->memory_bytes();
         return built;
     }
@@ -249,13 +268,20 @@ class Compiler {
             } else {
                 const std::size_t child =
                     static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
-                if (object_uses_[child] == 1 && d_.objects[child].combine == Combine::Group) {
+                if (is_dissolved(child)) {
                     add_parts(child, placed.outer_from_part, placed.visible_to, draft);
                 } else {
                     add_instance(build_object(child), placed, draft);
                 }
             }
         }
+    }
+
+    /// Whether the parts of a child become parts of the object around it.
+    [[nodiscard]] bool is_dissolved(std::size_t child) const {
+        const ObjectDescription& object = d_.objects[child];
+        return object_uses_[child] == 1 && object.combine == Combine::Group &&
+               object.accelerator.empty();
     }
 
     static void add_shape(const AnyShape& shape, const PlacedPart& placed, PrimitiveTable& table) {

@@ -6,6 +6,8 @@
 /// mesh, then the instances; a primitive's type follows from the range its id lies in.
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -85,6 +87,7 @@ class PrimitiveTable final : public BoundsSource {
     std::vector<Instance> instances;
     std::vector<Placement> placements;
     std::vector<Opacity> material_opacity;  ///< [material]
+    std::vector<RayEnd> known_ray_ends;     ///< lights, in the frame of the aggregate
 
     /// Prepares the shapes and computes the id ranges. Call once, when the columns are complete.
     void finish();
@@ -134,6 +137,16 @@ class PrimitiveTable final : public BoundsSource {
     // ---- bounds; empty for what cannot be hit: a triangle with two equal vertices
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
+    /// Exact for spheres that are not placed, except for rounding.
+    [[nodiscard]] BoundingSphere sphere(std::size_t i) const override;
+    /// Exact for triangles and for spheres that are not placed (their surface, which is all that
+    /// rays meet), except for rounding.
+    [[nodiscard]] bool overlaps(std::size_t i, const Box3& cell) const override;
+    /// Of triangles exactly what is inside, except for rounding.
+    [[nodiscard]] Box3 clipped_box(std::size_t i, const Box3& cell) const override;
+    [[nodiscard]] std::optional<std::array<Vec3, 3>> triangle(std::size_t i) const override;
+    [[nodiscard]] bool blocks_light(std::size_t i) const override;
+    [[nodiscard]] std::span<const RayEnd> ray_ends() const override { return known_ray_ends; }
     /// Of a shape or an instance in its own frame; not for triangles.
     [[nodiscard]] Box3 inner_box(PrimitiveId id) const;
     /// Where a shape or an instance stands; null: in the frame of the table.

@@ -45,6 +45,8 @@ struct CompileOptions {
     std::string accelerator = "wide_bvh";
     std::string csg = "event_heap";  ///< who evaluates solids made of others
     BuildOptions build{};
+    /// Objects that name an accelerator get it; false: everything is traced with the one above.
+    bool own_accelerators = true;
 };
 
 /// Builds the scene. The description must have passed `validate`. Throws Error: Usage for an

@@ -65,6 +65,9 @@ struct ObjectDescription {
     FileLocation location;
     Combine combine = Combine::Group;
     CutMaterial cut_material = CutMaterial::Own;  ///< for a difference
+    /// Of a group: "NAME" or "NAME:SETTING=VALUE,..."; such an object is never dissolved in the one
+    /// around it. Empty: it is traced like the rest of the scene.
+    std::string accelerator;
 };
 
 struct MeshDescription {
@@ -143,7 +146,7 @@ struct SceneDescription {
 /// Adds every finding about `description` to `diagnostics`: values that are not finite, singular
 /// transforms, bad shapes and meshes, ids out of range, objects that contain themselves, nesting
 /// deeper than kMaxInstanceDepth, masks of no kind of ray, operands of a solid that bound no
-/// volume, nothing to see (warning).
+/// volume, accelerators that there are not, nothing to see (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace alhazen

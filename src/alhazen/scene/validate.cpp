@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "alhazen/base/error.h"
+#include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/scene_description.h"
 #include "alhazen/scene/validate_materials.h"
 #include "alhazen/scene/validate_solids.h"
@@ -30,6 +32,7 @@ class Validator {
         for (const ObjectDescription& object : d_.objects) {
             for (const Part& part : object.parts) check_part(part);
         }
+        check_accelerators();
         check_nesting();
         validate_solids(d_, out_);
         check_picture();
@@ -160,6 +163,25 @@ class Validator {
             error(part.location,
                   fmt::format("refers to material {} of {}",
                               static_cast<std::uint32_t>(part.material), d_.materials.size()));
+        }
+    }
+
+    void check_accelerators() {
+        for (std::size_t i = 0; i < d_.objects.size(); ++i) {
+            const ObjectDescription& object = d_.objects[i];
+            if (object.accelerator.empty()) continue;
+            if (object.combine != Combine::Group) {
+                error(object.location, "a solid made of others has no accelerator of its own");
+            } else if (i == static_cast<std::size_t>(d_.root)) {
+                error(object.location,
+                      "the root of the scene is traced with what the command line says: it has no "
+                      "accelerator of its own");
+            }
+            try {
+                check_accelerator(object.accelerator);
+            } catch (const Error& e) {
+                error(object.location, e.what());
+            }
         }
     }
 

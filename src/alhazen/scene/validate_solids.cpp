@@ -29,6 +29,12 @@ class SolidValidator {
                           object.combine == Combine::Difference ? "difference" : "intersection",
                           object.name));
             }
+            if (object.combine == Combine::Group && !object.accelerator.empty()) {
+                out_.warning(object.location,
+                             fmt::format("object '{}' is part of a solid, which its accelerator "
+                                         "has no effect on",
+                                         object.name));
+            }
             for (const Part& part : object.parts) check_part(part);
         }
     }

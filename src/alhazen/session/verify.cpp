@@ -209,7 +209,9 @@ VerifyReport verify(const SceneDescription& description, const VerifyOptions& op
     const Scene fast =
         compile(description,
                 {.accelerator = options.accelerator, .csg = options.csg, .build = options.build});
-    const Scene brute = compile(description, {.accelerator = "list", .csg = "roth"});
+    const Scene brute =
+        compile(description,
+                {.accelerator = "list", .csg = "roth", .build = {}, .own_accelerators = false});
     const Camera* camera =
         fast.cameras.empty() ? nullptr : &find_camera(fast, options.camera).camera;
     VerifyRays rays(fast.aggregate->box(), camera, fast.aggregate->primitives(), options.seed);

@@ -1,7 +1,7 @@
 #pragma once
 /// The scenes and rays on which every accelerator must say what brute force says: random, on a
 /// lattice, empty, of one primitive, coincident, flat, huge, tiny, nested; rays inside, on faces,
-/// axis-parallel, with -0.0, from far away.
+/// axis-parallel, with -0.0, from far away, to lights.
 
 #include <cmath>
 
@@ -113,6 +113,44 @@ inline PrimitiveTable far_table(const Vec3& there) {
     return builder.finish();
 }
 
+/// Lights that the table names, some close behind large triangles.
+inline PrimitiveTable lit_table() {
+    Random random(19);
+    TableBuilder builder;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 a = uniform_point(random, 1);
+        builder.add_triangle(a, a + uniform_point(random, 0.3), a + uniform_point(random, 0.3),
+                             random() % 3 != 0);
+        if (i % 4 == 0) builder.add_sphere(a, 0.1, random() % 3 != 0);
+    }
+    builder.add_triangle({-2, -2, 1.5}, {2, -2, 1.5}, {0, 3, 1.5});
+    builder.add_triangle({1, 0.2, -0.5}, {0.2, 0, -1}, {1, -1, -1});
+    builder.add_triangle({-1, -1, 0}, {-1, 1, 0}, {-1, 0, 2}, false);
+    builder.table.known_ray_ends = {
+        {{0, 0, 2}}, {{1, 0, -1}}, {{-1.25, 0, 0.5}}, {{0, 0, 1}, true}};
+    return builder.finish();
+}
+
+/// Shadow rays: to each of the lights, from anywhere, some a little beside it, some not all the way
+/// or beyond.
+inline MakeRay rays_to(std::vector<RayEnd> ends) {
+    return [ends = std::move(ends)](Random& random) {
+        const RayEnd& end = ends[random() % ends.size()];
+        Ray ray{uniform_point(random, 2), end.place, 0x1p-1000, 1e300};
+        if (end.at_infinity) return ray;
+        ray.direction = end.place - ray.origin;
+        ray.t_max = 1;
+        if (random() % 2 == 0) {
+            ray.t_max = length(ray.direction);
+            ray.direction = normalize(ray.direction);
+        }
+        if (random() % 4 == 0) ray.direction = ray.direction + uniform_point(random, 1e-13);
+        if (random() % 4 == 0) ray.t_max *= uniform(random, 0.1, 1.5);
+        if (random() % 4 == 0) ray.t_min = 0.5 * ray.t_max;
+        return ray;
+    };
+}
+
 inline std::vector<ConformanceScene> conformance_scenes() {
     std::vector<ConformanceScene> scenes;
     const auto add = [&](std::string name, PrimitiveTable table, MakeRay rays) {
@@ -133,6 +171,7 @@ inline std::vector<ConformanceScene> conformance_scenes() {
     add("nested scales", nested_scales_table(), random_rays(1));
     add("nested scales, from outside", nested_scales_table(), random_rays(1e6));
     add("sticks", sticks_table(), random_rays(1));
+    add("rays to lights", lit_table(), rays_to(lit_table().known_ray_ends));
     for (const double size : {1e-100, 1e-6, 1e6, 1e100}) {
         std::ostringstream name;
         name << "size " << size;

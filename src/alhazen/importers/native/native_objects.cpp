@@ -92,6 +92,7 @@ void read_native_object(const NativeBlock& block, NativeContext& context, Native
     }
     reader.read("name", object.name);
     read_combination(reader, object);
+    reader.read("accelerator", object.accelerator);
     reader.finish(true);
     read_native_items(*block.block, context, inner);
     define_object(block, std::move(object), context);

@@ -180,6 +180,10 @@ void write_native_objects(NativeWriteContext& context) {
         for (const auto& [key, word] : combination_of(scene.objects[i])) {
             context.text += "    " + key + " = " + word + "\n";
         }
+        if (!scene.objects[i].accelerator.empty()) {
+            context.text +=
+                "    accelerator = " + native_string(scene.objects[i].accelerator) + "\n";
+        }
         for (const Part& part : scene.objects[i].parts) write_part(context, part, 4);
         context.text += "}\n";
     }

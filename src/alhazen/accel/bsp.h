@@ -1,0 +1,163 @@
+#pragma once
+/// A BSP tree: every node divides its convex cell by any plane, by the surface area heuristic over
+/// the exact cells.
+///
+/// Source: Fuchs, Kedem and Naylor, "On Visible Surface Generation by A Priori Tree Structures",
+/// SIGGRAPH 1980 (the tree); Ize, Wald and Parker, "Ray Tracing with the BSP Tree", RT 2008
+/// (`planes=polygons`: planes of triangles and through their edges, exact areas of cells, a cheaper
+/// step at planes across an axis); Kammaje and Mora, "A Study of Restricted BSP Trees for Ray
+/// Tracing", RT 2007 (`planes=directions7` or `directions13`: few directions, prepared once a ray,
+/// as Kay and Kajiya do). Differs: in nodes of many primitives the planes that are weighed are a
+/// fixed number, chosen by rank among those of evenly chosen primitives; a triangle is never in a
+/// plane of its own but beside it, so that it lies on one side. What is no triangle is clipped to
+/// nothing, only tested against each plane. Rays from so far away that rounding could lead past a
+/// cell are tested against everything. Complexity: O(n log n) to build, with a large factor.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/accel/accelerator.h"
+#include "alhazen/accel/accelerator_settings.h"
+#include "alhazen/accel/bounds.h"
+#include "alhazen/accel/mailbox.h"
+#include "alhazen/accel/padded_box.h"
+#include "alhazen/accel/reentrant_stack.h"
+
+namespace alhazen {
+
+class Bsp {
+  public:
+    static constexpr const char* kName = "bsp";
+    static constexpr const char* kDescription =
+        "planes of any direction by the surface area heuristic";
+    static constexpr bool kVisitsRepeatedly = true;
+    struct Config {
+        int directions = 13;         ///< 3, 7 or 13: those that planes across them are looked for
+        bool polygons = false;       ///< planes of triangles as well
+        int candidates = 16;         ///< planes for each direction; triangles that offer theirs
+        double axis_cost = 15;       ///< of a step at a plane across an axis
+        double traversal_cost = 25;  ///< of a step at any other plane
+        double test_cost = 20;       ///< of a primitive
+        double empty_factor = 0.8;   ///< of the cost of a split that cuts off empty space
+        int max_depth = 0;           ///< 0: 8 + 1.3 log2 n
+        bool mailbox = true;
+    };
+    [[nodiscard]] static Config configure(SettingsReader& reader);
+
+    /// Throws Error(Resource) for more than 2^32 entries in the leaves.
+    [[nodiscard]] static Bsp build(const BoundsSource& source, const Config& config);
+
+    /// A leaf has `normal` kLeaf and the primitives entries[index .. index + count); an inner node
+    /// divides by normals[normal] . p = offset, with its lower child right after it and the upper
+    /// one at `index`.
+    struct Node {
+        static constexpr std::uint32_t kLeaf = 0xFFFFFFFFu;
+        double offset = 0;
+        std::uint32_t index = 0;
+        std::uint32_t count = 0;
+        std::uint32_t normal = kLeaf;
+
+        [[nodiscard]] bool is_leaf() const { return normal == kLeaf; }
+    };
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+    /// Unit vectors; the axes first.
+    [[nodiscard]] const std::vector<Vec3>& normals() const { return normals_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
+    /// The root's cell.
+    [[nodiscard]] const Box3& box() const { return space_.box; }
+
+    template <class Visitor, class Stats>
+    void traverse(const Ray& ray, Visitor& visitor, Stats stats) const;
+
+    [[nodiscard]] std::size_t memory_bytes() const {
+        return nodes_.capacity() * sizeof(Node) + normals_.capacity() * sizeof(Vec3) +
+               entries_.capacity() * sizeof(std::uint32_t);
+    }
+
+  private:
+    friend class BspBuilder;
+    struct Segment {
+        std::uint32_t node;
+        double begin, end;
+    };
+    /// Where a ray is along a direction, and how fast it goes there.
+    struct Along {
+        double place, inverse;
+    };
+    [[nodiscard]] static Along along(const Vec3& normal, const Ray& ray) {
+        return {dot(normal, ray.origin), 1.0 / dot(normal, ray.direction)};
+    }
+
+    Config config_;
+    PaddedBox space_;
+    std::uint32_t primitives_ = 0;
+    std::vector<Node> nodes_;
+    std::vector<Vec3> normals_;
+    std::vector<std::uint32_t> entries_;
+};
+
+template <class Visitor, class Stats>
+void Bsp::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
+    if (nodes_.empty()) return;
+    if (!space_.covers(ray)) return visit_all(primitives_, visitor);
+    const RaySpan span(space_.box, ray, visitor.t_max());
+    if (span.empty()) return;
+    std::array<Along, 13> prepared{};
+    const auto directions = static_cast<std::uint32_t>(config_.directions);
+    for (std::uint32_t k = 0; k < directions; ++k) prepared[k] = along(normals_[k], ray);
+
+    // Both sides where the ray runs within the room for rounding of the plane.
+    const double room = 0.5 * space_.pad;
+    Mailbox mailbox;
+    ReentrantStack<Segment> stack;
+    stack.push({0, span.begin, span.end});
+    while (!stack.empty()) {
+        Segment at = stack.pop();
+        // Not the end: where the ray runs in a plane, nearer segments may lie deeper in the stack.
+        if (at.begin > visitor.t_max()) continue;
+        for (;;) {
+            const Node& node = nodes_[at.node];
+            stats.nodes(1);
+            if (node.is_leaf()) break;
+            const Along a = node.normal < directions ? prepared[node.normal]
+                                                     : along(normals_[node.normal], ray);
+            const double from = a.place - node.offset;
+            const std::uint32_t lower = at.node + 1, upper = node.index;
+            if (std::isinf(a.inverse)) {
+                if (from > room) {
+                    at.node = upper;
+                } else {
+                    if (from >= -room) stack.push({upper, at.begin, at.end});
+                    at.node = lower;
+                }
+                continue;
+            }
+            const bool up = a.inverse > 0.0;
+            const std::uint32_t first = up ? lower : upper, second = up ? upper : lower;
+            const double t = -from * a.inverse;
+            const double slack = room * std::abs(a.inverse);
+            if (t - slack > at.end) {
+                at.node = first;
+            } else if (t + slack < at.begin) {
+                at.node = second;
+            } else {
+                stack.push({second, std::max(at.begin, t - slack), at.end});
+                at.node = first;
+                at.end = std::min(at.end, t + slack);
+            }
+        }
+        const Node& leaf = nodes_[at.node];
+        if (leaf.count == 0) stats.empty_cells(1);
+        for (std::uint32_t e = leaf.index; e < leaf.index + leaf.count; ++e) {
+            if (config_.mailbox && !mailbox.is_new(entries_[e])) {
+                stats.mailbox_saved(1);
+                continue;
+            }
+            if (visitor.visit(entries_[e])) return;
+        }
+    }
+}
+static_assert(Accelerator<Bsp>);
+
+}  // namespace alhazen

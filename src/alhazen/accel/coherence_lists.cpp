@@ -1,0 +1,160 @@
+#include "alhazen/accel/coherence_lists.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace alhazen {
+namespace {
+
+/// A cell of directions as a cone around it.
+struct DirectionCone {
+    Vec3 axis;  ///< unit
+    double cosine = 1, sine = 0;
+
+    DirectionCone(const DirectionCube& cube, std::size_t cell) {
+        const auto n = static_cast<std::size_t>(cube.resolution());
+        const int face = static_cast<int>(cell / (n * n));
+        const auto corners =
+            cube.corners(face, static_cast<int>(cell % n), static_cast<int>(cell / n % n));
+        axis = normalize(corners[0] + corners[1] + corners[2] + corners[3]);
+        for (const Vec3& c : corners) cosine = std::min(cosine, dot(axis, normalize(c)));
+        sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    }
+};
+
+bool touches(const BoundingSphere& sphere, double room, const Box3& box) {
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double beside = std::max(
+            0.0, std::max(box.lo[k] - sphere.center[k], sphere.center[k] - box.hi[k]) - room);
+        square += beside * beside;
+    }
+    return !(square > sphere.radius * sphere.radius);
+}
+
+}  // namespace
+
+CoherenceLists::CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights,
+                               double room, int resolution, std::size_t most_bytes)
+    : primitives_(source.size()),
+      room_(room),
+      cube_(resolution),
+      most_bytes_(most_bytes),
+      slots_(source.size() + lights.size()) {
+    Box3 all;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        spheres_.push_back(source.sphere(i));
+        all.include(source.box(i));
+    }
+    for (const Vec3& light : lights) spheres_.push_back({light, 0});
+    grid_ = CellGrid(all, static_cast<double>(source.size()), 256);
+    sort_into_cells();
+    used_ = spheres_.capacity() * sizeof(spheres_[0]) + slots_.size() * sizeof(slots_[0]) +
+            (starts_.capacity() + entries_.capacity()) * sizeof(std::uint32_t);
+}
+
+void CoherenceLists::sort_into_cells() {
+    std::vector<std::uint32_t> by_radius(primitives_);
+    std::iota(by_radius.begin(), by_radius.end(), 0u);
+    std::stable_sort(by_radius.begin(), by_radius.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return spheres_[a].radius < spheres_[b].radius;
+    });
+    std::vector<std::vector<std::uint32_t>> lists(grid_.size());
+    for (const std::uint32_t i : by_radius) {
+        const BoundingSphere& s = spheres_[i];
+        const Vec3 half{s.radius, s.radius, s.radius};
+        const auto [first, last] = grid_.range({s.center - half, s.center + half});
+        for (int z = first[2]; z <= last[2]; ++z) {
+            for (int y = first[1]; y <= last[1]; ++y) {
+                for (int x = first[0]; x <= last[0]; ++x) {
+                    if (touches(s, room_, grid_.cell_box({x, y, z}))) {
+                        lists[grid_.number({x, y, z})].push_back(i);
+                    }
+                }
+            }
+        }
+    }
+    starts_.push_back(0);
+    for (const auto& list : lists) {
+        entries_.insert(entries_.end(), list.begin(), list.end());
+        starts_.push_back(static_cast<std::uint32_t>(entries_.size()));
+    }
+}
+
+CoherenceLists::Origin CoherenceLists::origin_at(const Vec3& point) const {
+    Origin found;
+    if (!grid_.box.contains(point)) return found;
+    const std::size_t cell =
+        grid_.number({grid_.index(0, point.x), grid_.index(1, point.y), grid_.index(2, point.z)});
+    for (std::uint32_t e = starts_[cell]; e < starts_[cell + 1]; ++e) {
+        const BoundingSphere& s = spheres_[entries_[e]];
+        ++found.tested;
+        const double reach = s.radius + 0.5 * room_;
+        if (length_squared(point - s.center) <= reach * reach) {
+            found.primitive = entries_[e];
+            return found;
+        }
+    }
+    return found;
+}
+
+CoherenceLists::Slot* CoherenceLists::slots_of(std::uint32_t origin) const {
+    Slot* slots = slots_[origin].load(std::memory_order_acquire);
+    if (slots != nullptr) return slots;
+    const std::lock_guard lock(making_);
+    slots = slots_[origin].load(std::memory_order_relaxed);
+    const std::size_t bytes = cube_.size() * sizeof(Slot);
+    if (slots != nullptr || used_ + bytes > most_bytes_) return slots;
+    slots = made_slots_.emplace_back(std::make_unique<Slot[]>(cube_.size())).get();
+    used_ += bytes;
+    slots_[origin].store(slots, std::memory_order_release);
+    return slots;
+}
+
+const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
+                                                 const Vec3& direction) const {
+    Slot* slots = slots_of(origin);
+    if (slots == nullptr) return nullptr;
+    const std::size_t cell = cube_.cell_of(direction);
+    const List* known = slots[cell].load(std::memory_order_acquire);
+    if (known != nullptr) return known;
+    auto made = std::make_unique<const List>(make(origin, cell));
+    const std::lock_guard lock(making_);
+    known = slots[cell].load(std::memory_order_relaxed);
+    const std::size_t bytes = sizeof(List) + made->capacity() * sizeof(Candidate);
+    if (known != nullptr || used_ + bytes > most_bytes_) return known;
+    used_ += bytes;
+    ++lists_made_;
+    candidates_made_ += made->size();
+    known = made_lists_.emplace_back(std::move(made)).get();
+    slots[cell].store(known, std::memory_order_release);
+    return known;
+}
+
+CoherenceLists::List CoherenceLists::make(std::uint32_t origin, std::size_t cell) const {
+    const DirectionCone cone(cube_, cell);
+    const BoundingSphere& from = spheres_[origin];
+    List list;
+    for (std::uint32_t i = 0; i < primitives_; ++i) {
+        const Vec3 between = spheres_[i].center - from.center;
+        const double distance = length(between);
+        const double radii = from.radius + spheres_[i].radius + 2 * room_;
+        double begin = 0;
+        if (distance > radii) {
+            // The cosine of the sum of the angles of both cones, less what that rounds.
+            const double sine = radii / distance;
+            const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+            const double least = cone.cosine * cosine - cone.sine * sine - 1e-12;
+            if (dot(cone.axis, between) < least * distance) continue;
+            begin = distance - radii;
+        }
+        list.push_back({begin, i});
+    }
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.begin < b.begin; });
+    list.shrink_to_fit();
+    return list;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,81 @@
+#pragma once
+/// For each sphere around a primitive, and each light, cells of directions whose lists say what
+/// rays that begin in the sphere may meet.
+///
+/// Source: Ohta and Maekawa, "Ray Coherence Theorem and Constant Time Ray Tracing Algorithm",
+/// Computer Graphics International 1987: a ray from a sphere of radius r1 meets another one of
+/// radius r2 at distance d only when its angle with the line between the centers is at most
+/// asin((r1 + r2) / d).
+/// Differs: stated in accel/ray_coherence.h.
+/// Conventions: origins are the primitives, then the lights. Lists are ascending by the least
+/// distance between the two spheres.
+/// Threads: `find` may be called from many; a list does not depend on who asks first.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "alhazen/accel/cell_grid.h"
+#include "alhazen/accel/direction_cube.h"
+#include "alhazen/geometry/bounds_source.h"
+
+namespace alhazen {
+
+class CoherenceLists {
+  public:
+    struct Candidate {
+        double begin;  ///< no nearer than this to where a ray begins
+        std::uint32_t primitive;
+    };
+    using List = std::vector<Candidate>;
+
+    /// `room` is how far rays may pass beside where they should; lists take `most_bytes` at most.
+    CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights, double room,
+                   int resolution, std::size_t most_bytes);
+    CoherenceLists(const CoherenceLists&) = delete;
+    CoherenceLists& operator=(const CoherenceLists&) = delete;
+
+    struct Origin {
+        std::optional<std::uint32_t> primitive;  ///< none where the point is in no sphere
+        std::uint32_t tested = 0;                ///< spheres that were looked at
+    };
+    /// The primitive with the least sphere that holds the point.
+    [[nodiscard]] Origin origin_at(const Vec3& point) const;
+    [[nodiscard]] std::uint32_t origin_of_light(std::size_t light) const {
+        return static_cast<std::uint32_t>(primitives_ + light);
+    }
+    /// Null when there is no memory left for the list.
+    [[nodiscard]] const List* find(std::uint32_t origin, const Vec3& direction) const;
+
+    [[nodiscard]] std::size_t memory_bytes() const { return used_; }
+    /// What has been made so far.
+    [[nodiscard]] std::size_t lists_made() const { return lists_made_; }
+    [[nodiscard]] std::size_t candidates_made() const { return candidates_made_; }
+
+  private:
+    using Slot = std::atomic<const List*>;
+
+    void sort_into_cells();
+    [[nodiscard]] Slot* slots_of(std::uint32_t origin) const;
+    [[nodiscard]] List make(std::uint32_t origin, std::size_t cell) const;
+
+    std::vector<BoundingSphere> spheres_;  ///< [origin]
+    std::size_t primitives_ = 0;
+    double room_;
+    DirectionCube cube_;
+    std::size_t most_bytes_;
+    /// Which spheres a point may be in, by radius.
+    CellGrid grid_;
+    std::vector<std::uint32_t> starts_, entries_;
+
+    mutable std::vector<std::atomic<Slot*>> slots_;  ///< [origin] null, or one for each cell
+    mutable std::mutex making_;
+    mutable std::vector<std::unique_ptr<Slot[]>> made_slots_;
+    mutable std::vector<std::unique_ptr<const List>> made_lists_;
+    mutable std::atomic<std::size_t> used_{0}, lists_made_{0}, candidates_made_{0};
+};
+
+}  // namespace alhazen

@@ -1,0 +1,74 @@
+#pragma once
+/// The box around all primitives, widened so that rounding cannot lead a ray past a cell in it:
+/// what the structures that divide space begin with.
+///
+/// Conventions: primitives are put into all cells within `pad` of them; where rays that begin at
+/// most 2^44 `pad` from the origin of coordinates come to a plane is off by far less (`covers`).
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "alhazen/geometry/bounds_source.h"
+#include "alhazen/geometry/ray.h"
+
+namespace alhazen {
+
+struct PaddedBox {
+    Box3 box;  ///< padded
+    double pad = 0;
+
+    PaddedBox() = default;
+    explicit PaddedBox(const BoundsSource& source) {
+        if (source.size() == 0) return;
+        Box3 all;
+        for (std::size_t i = 0; i < source.size(); ++i) all.include(source.box(i));
+        const double reach = std::max(max_component(abs(all.lo)), max_component(abs(all.hi)));
+        pad = 0x1p-32 * max_component(all.size()) + 0x1p-46 * reach +
+              std::numeric_limits<double>::min();
+        box = widened(all);
+    }
+
+    [[nodiscard]] Box3 widened(const Box3& b) const {
+        return {b.lo - Vec3{pad, pad, pad}, b.hi + Vec3{pad, pad, pad}};
+    }
+    /// Whether the ray begins so near that rounding stays far below `pad`.
+    [[nodiscard]] bool covers(const Ray& ray) const {
+        return max_component(abs(ray.origin)) <= 0x1p44 * pad;
+    }
+};
+
+/// The part of a ray that lies in a box.
+struct RaySpan {
+    double begin, end;  ///< begin > end where the ray misses the box
+    Vec3 inverse;       ///< of the direction; infinite where it runs across the axis
+
+    RaySpan(const Box3& box, const Ray& ray, double t_max) : begin(ray.t_min), end(t_max) {
+        for (int k = 0; k < 3; ++k) {
+            inverse[k] = 1.0 / ray.direction[k];
+            // Also for components so small that only infinity tells how far they lead.
+            if (std::isinf(inverse[k])) {
+                if (ray.origin[k] < box.lo[k] || ray.origin[k] > box.hi[k]) {
+                    end = -std::numeric_limits<double>::infinity();
+                }
+                continue;
+            }
+            const double a = (box.lo[k] - ray.origin[k]) * inverse[k];
+            const double b = (box.hi[k] - ray.origin[k]) * inverse[k];
+            begin = std::max(begin, std::min(a, b));
+            end = std::min(end, std::max(a, b));
+        }
+    }
+    [[nodiscard]] bool empty() const { return begin > end; }
+};
+
+/// For rays that a structure does not cover: every primitive.
+template <class Visitor>
+void visit_all(std::uint32_t primitives, Visitor& visitor) {
+    for (std::uint32_t i = 0; i < primitives; ++i) {
+        if (visitor.visit(i)) return;
+    }
+}
+
+}  // namespace alhazen

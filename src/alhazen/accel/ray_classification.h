@@ -1,0 +1,74 @@
+#pragma once
+/// Rays are sorted into classes of neighbouring places and directions; each class has a list of
+/// what its rays may meet.
+///
+/// Source: Arvo and Kirk, "Fast Ray Tracing by Ray Classification", SIGGRAPH 1987; Arvo and Kirk,
+/// "A Survey of Ray Tracing Acceleration Techniques", in Glassner (ed.), "An Introduction to Ray
+/// Tracing", 1989. Differs: what a class may meet is found by five planes around its beam and the
+/// extents of triangles, or of the box and sphere around all else, along their normals, where Arvo
+/// and Kirk take cones or linear programs. Lists are not cut off behind blockers, nor by faces that
+/// are turned away. When the memory is used up, no list is made shorter any more (they throw away
+/// what was not used lately). A thread remembers its last four classes for each dominant axis,
+/// whatever its rays are for. Rays from so far away that rounding could lead beside their class are
+/// tested against everything.
+/// Complexity and threads: classes are divided as rays come to them, by all threads at once; a ray
+/// costs the depth of its class, or nothing where it is that of a ray before.
+
+#include <cstddef>
+#include <memory>
+
+#include "alhazen/accel/accelerator.h"
+#include "alhazen/accel/accelerator_settings.h"
+#include "alhazen/accel/ray_hypercubes.h"
+
+namespace alhazen {
+
+class RayClassification {
+  public:
+    static constexpr const char* kName = "ray_classification";
+    static constexpr const char* kDescription =
+        "lists for classes of rays of neighbouring places and directions";
+    using Config = RayHypercubes::Limits;
+    [[nodiscard]] static Config configure(SettingsReader& reader);
+
+    [[nodiscard]] static RayClassification build(const BoundsSource& source, const Config& config) {
+        RayClassification made;
+        if (source.size() > 0) made.classes_ = std::make_unique<RayHypercubes>(source, config);
+        return made;
+    }
+
+    template <class Visitor, class Stats>
+    void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
+        if (classes_ == nullptr) return;
+        const PaddedBox& space = classes_->space();
+        if (!space.covers(ray)) return visit_all(classes_->bodies().size(), visitor);
+        const RaySpan span(space.box, ray, visitor.t_max());
+        if (span.empty()) return;
+        const ClassifiedRay classified(ray, span.begin);
+        const RayHypercubes::Found found = classes_->find(classified);
+        stats.cache_lookup(found.cached);
+        stats.nodes(static_cast<std::uint64_t>(found.nodes));
+        if (found.list->empty()) stats.empty_cells(1);
+        const int direction = classified.direction;
+        const double sign = direction % 2 == 0 ? 1.0 : -1.0;
+        for (const std::uint32_t i : *found.list) {
+            // Whatever comes later in the list begins behind what was found.
+            const double reached = sign * ray.at(visitor.t_max())[direction / 2];
+            if (classes_->begin_along(i, direction) > reached + space.pad) return;
+            if (visitor.visit(i)) return;
+        }
+    }
+
+    /// Grows while rays are traced.
+    [[nodiscard]] std::size_t memory_bytes() const {
+        return classes_ == nullptr ? 0 : classes_->memory_bytes();
+    }
+    /// Null over nothing.
+    [[nodiscard]] const RayHypercubes* classes() const { return classes_.get(); }
+
+  private:
+    std::unique_ptr<RayHypercubes> classes_;
+};
+static_assert(Accelerator<RayClassification>);
+
+}  // namespace alhazen
