@@ -90,6 +90,20 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
             "Accelerator, as NAME or NAME:SETTING=VALUE,...; see `alhazen list accelerators`")
         ->capture_default_str();
     command
+        .add_option_function<std::string>(
+            "--bound",
+            [this, default_accelerator](const std::string& bound) {
+                if (accelerator != default_accelerator) {
+                    throw Error(ErrorKind::Usage,
+                                "--bound stands for --accelerator bounding_volumes:bound=...: give "
+                                "one of the two");
+                }
+                accelerator = "bounding_volumes:bound=" + bound;
+            },
+            "A bound around every primitive and no hierarchy: sphere, ellipsoid, box, slabs3, "
+            "slabs7 or slabs13; short for --accelerator bounding_volumes:bound=NAME")
+        ->type_name("NAME");
+    command
         .add_option("--build", build_quality,
                     "Work that goes into the accelerator: fast, default or high")
         ->type_name("QUALITY")

@@ -319,10 +319,10 @@ inline bool same(const Part& a, const Part& b) {
     return all_same(a1, b1, a2, b2, a4, b4, a6, b6) && (object || same(a3, b3));
 }
 inline bool same(const ObjectDescription& a, const ObjectDescription& b) {
-    const auto& [a1, a2, a3, a4, a5] = a;
-    const auto& [b1, b2, b3, b4, b5] = b;
+    const auto& [a1, a2, a3, a4, a5, a6] = a;
+    const auto& [b1, b2, b3, b4, b5, b6] = b;
     (void)a3, (void)b3;
-    return all_same(a1, b1, a2, b2, a4, b4, a5, b5);
+    return all_same(a1, b1, a2, b2, a4, b4, a5, b5, a6, b6);
 }
 inline bool same(const MeshDescription& a, const MeshDescription& b) {
     const auto& [a1, a2, a3] = a;

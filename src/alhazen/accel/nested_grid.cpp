@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "alhazen/base/error.h"
 
@@ -89,9 +90,9 @@ class NestedGridBuilder {
     Cell make_cell(const std::vector<std::uint32_t>& inside, const Box3& box, int depth) {
         const bool divides = depth < config_.max_depth &&
                              inside.size() > static_cast<std::size_t>(config_.leaf_size);
-        if (!divides) return make_list(inside);
-        const Draft draft = divide(inside, box);
         // The outermost one is always there: a list of everything would be no grid at all.
+        if (!divides || (depth > 0 && fill(inside, box))) return make_list(inside);
+        const Draft draft = divide(inside, box);
         if (depth > 0 && !pays(draft, inside.size(), box)) return make_list(inside);
         return make_grid(draft, depth);
     }
@@ -143,17 +144,27 @@ class NestedGridBuilder {
         }
         std::vector<std::uint32_t> counts(
             std::size_t(draft.cells[0]) * draft.cells[1] * draft.cells[2] + 1, 0);
-        std::uint64_t total = 0;
-        for_overlaps(inside, draft, [&](std::size_t cell, std::uint32_t) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+        for_overlaps(inside, draft, [&](std::size_t cell, std::uint32_t i) {
             ++counts[cell + 1];
-            check_room(++total);
+            check_room(found.size());
+            found.emplace_back(static_cast<std::uint32_t>(cell), i);
         });
         std::partial_sum(counts.begin(), counts.end(), counts.begin());
         draft.starts = counts;
-        draft.entries.resize(total);
-        for_overlaps(inside, draft,
-                     [&](std::size_t cell, std::uint32_t i) { draft.entries[counts[cell]++] = i; });
+        draft.entries.resize(found.size());
+        for (const auto& [cell, i] : found) draft.entries[counts[cell]++] = i;
         return draft;
+    }
+
+    /// Whether the primitives are so large in the box that a ray through it comes near most of
+    /// them anyway: known before a grid is made.
+    [[nodiscard]] bool fill(const std::vector<std::uint32_t>& inside, const Box3& box) const {
+        double met = 0;
+        for (const std::uint32_t i : inside) {
+            met += area(source_.clipped_box(i, made_.space_.widened(box)).size());
+        }
+        return !(met < kSaving * static_cast<double>(inside.size()) * area(box.size()));
     }
 
     static std::vector<double> equal_planes(const Box3& box, int axis, std::uint32_t cells) {

@@ -25,6 +25,11 @@ std::span<const TunedAccelerator> tuning_table() {
         TunedAccelerator{"goldsmith_salmon", {{"orders", {"0", "10"}}, {"reinsert", {"2", "5"}}}},
         TunedAccelerator{"uniform_grid",
                          {{"density", {"1", "5", "10", "20", "50"}}, {"mailbox", {"off"}}}},
+        TunedAccelerator{"nested_grid",
+                         {{"planes", {"balanced"}},
+                          {"density", {"1", "8"}},
+                          {"max_depth", {"2", "5"}},
+                          {"mailbox", {"off"}}}},
         TunedAccelerator{"octree",
                          {{"walk", {"neighbor_finding", "smart", "point_location"}},
                           {"max_depth", {"6", "10", "12"}},
@@ -34,6 +39,13 @@ std::span<const TunedAccelerator> tuning_table() {
                          {{"traversal_cost", {"5", "10", "30"}},
                           {"empty_factor", {"0.5", "1"}},
                           {"mailbox", {"off"}}}},
+        TunedAccelerator{
+            "bsp", {{"planes", {"directions3", "directions7", "polygons"}}, {"mailbox", {"off"}}}},
+        TunedAccelerator{"ray_classification",
+                         {{"leaf_size", {"4", "16"}}, {"max_depth", {"6", "10"}}}},
+        TunedAccelerator{"light_buffer",
+                         {{"others", {"kd_tree"}}, {"resolution", {"16", "64", "128"}}}},
+        TunedAccelerator{"ray_coherence", {{"others", {"kd_tree"}}, {"resolution", {"4", "16"}}}},
     };
     return table;
 }

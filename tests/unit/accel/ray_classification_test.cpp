@@ -63,7 +63,7 @@ TEST(RayHypercubes, TheListOfARayHasAllThatItMeetsInOrder) {
                 << "ray " << i << ", box " << b;
         }
     }
-    EXPECT_GT(met, 5000u);
+    EXPECT_GT(met, 1000u);
     EXPECT_LT(listed, 5000u * 100);
 }
 

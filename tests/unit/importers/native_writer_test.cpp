@@ -373,6 +373,7 @@ TEST(NativeWriter, ObjectsKeepTheirNumbersWhateverTheirOrder) {
     scene = empty_scene();
     scene.materials.push_back({Material{}, {}});
     scene.objects.push_back({"leaf", {}, {}});
+    scene.objects.back().accelerator = "octree:leaf_size=3,mailbox=off";
     place(1, AnyShape{Sphere{}}, "");
     place(0, ObjectIndex{1}, "");
     EXPECT_EQ(RoundTrip(scene).text.find("objects"), std::string::npos);
