@@ -158,19 +158,35 @@ struct RobustQuery : LeafQuery<Derived> {
     HWY_INLINE bool hits_triangle(const TriangleBlock& block, std::size_t lane,
                                   ShapeHit& hit) const {
         const BlockId id = block.ids[lane];
-        if (id.exact()) {
+        if (HWY_LIKELY(id.exact())) {
             const LocalFrame& frame = scene.layout->frame;
-            return intersect_triangle(ray, this->shear(), frame.world(block.corner(0, lane)),
-                                      frame.world(block.corner(1, lane)),
-                                      frame.world(block.corner(2, lane)), hit);
+            const std::uint32_t axis[3] = {filter.kx, filter.ky, filter.kz};
+            double corner[3][3];
+            HWY_UNROLL(3)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double center = (&frame.center.x)[axis[k]];
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const auto x = static_cast<double>(block.vertex[i][axis[k]][lane]);
+                    corner[i][k] = frame.inverse_scale * x + center;
+                }
+            }
+            const PlainVerdict verdict = intersect_plain(ray, axis, corner, hit);
+            if (HWY_LIKELY(verdict != PlainVerdict::Unsure)) return verdict == PlainVerdict::Hit;
         }
+        return hits_with_care(id, hit);
+    }
+
+  private:
+    HWY_NOINLINE bool hits_with_care(BlockId id, ShapeHit& hit) const {
         const auto [a, b, c] = scene.table->triangle_vertices(this->triangle(id.id()));
         return intersect_triangle(ray, this->shear(), a, b, c, hit);
     }
 };
 
 /// The nearest hit. Triangles are remembered as the filter finds them, each that is sure ends the
-/// search behind it, and the test in double decides among the few that are left in the end.
+/// search behind it, and the test in double decides among the few that are left in the end. Those
+/// that are not sure are mostly those that the ray leaves, which are missed: not worth an
+/// interruption.
 struct ClosestQuery : RobustQuery<ClosestQuery> {
     static constexpr bool kOrdered = true;
     static constexpr std::uint32_t kMaxPending = 8;
@@ -200,14 +216,9 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
             // Written so that a NaN is not passed over.
             if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
             if (!scene.sees(block.ids[lane].id())) continue;
-            if ((found.sure >> lane & 1) == 0) {
-                // It ends the search as well, if it is hit.
-                decide(block, lane, stats);
-                continue;
-            }
             if (pending_count == kMaxPending) finish(stats);
             pending[pending_count++] = {&block, lane, found.lo[lane]};
-            if (found.hi[lane] < s_max) s_max = found.hi[lane];
+            if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
         }
         return false;
     }

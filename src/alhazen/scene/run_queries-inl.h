@@ -9,6 +9,9 @@
 #define ALHAZEN_SCENE_RUN_QUERIES_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
+#include <algorithm>
 #include <new>
 #include <span>
 
@@ -50,6 +53,9 @@ class BatchSource {
     HWY_INLINE bool start(void* place) {
         while (next_ < rays_.size()) {
             const std::size_t i = next_++;
+            const std::size_t soon = std::min(i + kSoon, rays_.size() - 1);
+            hwy::Prefetch(&rays_[soon]);
+            hwy::Prefetch(&results_[soon]);
             if (done(results_[i])) continue;
             if ((new (place) Query(scene_, rays_[i], results_[i]))->valid) return true;
         }
@@ -72,6 +78,9 @@ class BatchSource {
     }
 
   private:
+    /// Rays so far ahead are fetched.
+    static constexpr std::size_t kSoon = 6;
+
     static bool done(const Hit&) { return false; }
     static bool done(bool occluded) { return occluded; }
 
@@ -84,7 +93,7 @@ class BatchSource {
 
 /// Trees up to this size are near enough without prefetching: measured with a second-level cache of
 /// 2 MB.
-constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
+constexpr std::size_t kCachedBytes = 0;
 
 template <class Query, std::size_t W, class Result>
 HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,

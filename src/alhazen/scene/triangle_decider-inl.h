@@ -14,7 +14,9 @@
 
 #include <hwy/cache_control.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <span>
 
 #include "alhazen/geometry/watertight_triangle.h"
@@ -29,6 +31,42 @@ namespace triangle_lanes {
 #include "alhazen/geometry/watertight_triangle_formulas-inl.h"
 
 }  // namespace triangle_lanes
+
+enum class PlainVerdict { Missed, Hit, Unsure };
+
+/// `intersect_triangle` for one ray and the cases that need no care, without a call into code for
+/// another instruction set. `axis` is the order of axes of RayShear for a direction whose largest
+/// component is the third of them and no other; corners are [corner][axis in that order].
+HWY_INLINE PlainVerdict intersect_plain(const Ray& ray, const std::uint32_t (&axis)[3],
+                                        const double (&corner)[3][3], ShapeHit& hit) {
+    using triangle_lanes::edge_function;
+    const auto at = [&](const Vec3& v, std::size_t k) { return (&v.x)[axis[k]]; };
+    const double dx = at(ray.direction, 0), dy = at(ray.direction, 1), dz = at(ray.direction, 2);
+    if (!(std::abs(dz) > std::abs(dx) && std::abs(dz) > std::abs(dy))) return PlainVerdict::Unsure;
+    const double ox = at(ray.origin, 0), oy = at(ray.origin, 1), oz = at(ray.origin, 2);
+    const double sx = dx / dz, sy = dy / dz, sz = 1.0 / dz;
+    triangle_lanes::ShearedVertex<double> p[3];
+    double reach = 0;
+    HWY_UNROLL(3)
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = triangle_lanes::sheared<double>(corner[i][0], corner[i][1], corner[i][2], ox, oy, oz,
+                                               sx, sy);
+        reach = std::max(reach, std::max(std::abs(p[i].x), std::abs(p[i].y)));
+    }
+    const double eu = edge_function(p[1], p[2]);
+    const double ev = edge_function(p[2], p[0]);
+    const double ew = edge_function(p[0], p[1]);
+    const double least = std::min(std::min(eu, ev), ew), most = std::max(std::max(eu, ev), ew);
+    // Written so that a NaN and a zero are not plain.
+    if (!(least > 0.0 || most < 0.0)) {
+        return least < 0.0 && most > 0.0 ? PlainVerdict::Missed : PlainVerdict::Unsure;
+    }
+    if (!(std::abs(eu + ev + ew) > 0x1p-8 * reach * reach)) return PlainVerdict::Unsure;
+    const auto s = triangle_lanes::solve_triangle(eu, ev, ew, p[0].z, p[1].z, p[2].z, sz);
+    if (!ray.covers(s.t)) return PlainVerdict::Missed;
+    hit = {s.t, s.u, s.v, 0};
+    return PlainVerdict::Hit;
+}
 
 /// Eight rays, each with a triangle of its own; [..][lane].
 struct TrianglePairs {

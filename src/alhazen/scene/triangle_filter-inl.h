@@ -10,6 +10,8 @@
 #define ALHAZEN_SCENE_TRIANGLE_FILTER_INL_H_
 #endif
 
+#include <cstring>
+
 #include "alhazen/accel/wide_bvh/slab_ray-inl.h"
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/scene/triangle_filter.h"
@@ -29,28 +31,27 @@ struct FilteredTriangles {
 /// `slabs` and `local` are of the same ray.
 HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& local,
                                          TriangleFilterRay& filter) {
-    static constexpr std::uint8_t kNext[4] = {1, 2, 0, 1};
+    // Slots of the axes x, y, z when the main one is 0, 1, 2, and one more that means nothing.
+    HWY_ALIGN static constexpr std::int32_t kTurned[3][4] = {
+        {1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
     const std::uint32_t kz = local.main_axis;
-    const std::uint32_t kx = kNext[kz], ky = kNext[kz + 1];
-    filter.kx = kx;
-    filter.ky = ky;
-    filter.kz = kz;
-    filter.origin[0] = local.origin[kx];
-    filter.origin[1] = local.origin[ky];
-    filter.origin[2] = local.origin[kz];
     const float sz = slabs.reciprocal[kz];
-    filter.sx = local.direction[kx] * sz;
-    filter.sy = local.direction[ky] * sz;
+    const auto turned = [&](const float* axes) HWY_ATTR { return permuted(axes, kTurned[kz]); };
+    // The fourth of each is set below.
+    store_lanes(turned(local.origin), filter.origin);
+    store_lanes(turned(local.direction) * AxisLanes::F(sz), &filter.sx);
+    std::memcpy(&filter.kx, kTurned[kz], sizeof(kTurned[kz]));
     filter.sz = sz;
     constexpr float e = 0x1p-24f;
     const float error = 13.2f * e * local.reach + 4.0f * local.delta;
+    filter.near_error = 2.2f * e * local.reach + 4.0f * local.delta;
     filter.edge_slack = 5.12f * error;
     filter.edge_slack_min = 2.12f * error * error;
     filter.s_slack = (14.2f * e * local.reach + 4.0f * local.delta) * std::abs(sz);
     filter.sure_min = local.above[0];
     filter.sure_max = local.below[1];
     if (HWY_UNLIKELY(!local.regular)) {
-        filter.edge_slack = std::numeric_limits<float>::infinity();
+        filter.edge_slack = filter.near_error = std::numeric_limits<float>::infinity();
     }
 }
 
@@ -95,6 +96,10 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     std::uint32_t candidates = kAllLanes & ~bits_of((least < -error) & (most > error));
     if (candidates == 0) return false;
 
+    // Few blocks come so far: here it pays to know how far off the triangles are.
+    const Floats depth = max_lanes(max_lanes(abs(v[0].z), abs(v[1].z)), abs(v[2].z));
+    const Floats off = mul_add(far + depth, Floats(7.3f * 0x1p-24f), Floats(ray.near_error));
+    const Floats fine = off * mul_add(far, Floats(5.12f), off * Floats(2.12f));
     const Floats sz(ray.sz);
     const Floats sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
     const Floats det = eu + ev + ew;
@@ -105,12 +110,13 @@ HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilte
     const Floats place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
     const Floats s = min_lanes(max_lanes(place, first), last);
     const Floats slack =
-        mul_add(Floats(25.0f) * error * (last - first), abs(inverse), Floats(ray.s_slack));
+        mul_add(Floats(25.0f) * fine * (last - first), abs(inverse), off * Floats(1.6f) * abs(sz));
     const Floats lo = s - slack, hi = s + slack;
-    candidates &= ~bits_of((lo > Floats(s_max)) | (hi < Floats(s_min)));
+    candidates &=
+        ~bits_of(((least < -fine) & (most > fine)) | (lo > Floats(s_max)) | (hi < Floats(s_min)));
     if (candidates == 0) return false;
     out.candidates = candidates;
-    out.sure = candidates & bits_of(((least > error) | (most < -error)) &
+    out.sure = candidates & bits_of(((least > fine) | (most < -fine)) &
                                     (lo >= Floats(ray.sure_min)) & (hi <= Floats(ray.sure_max)));
     store_lanes(lo, out.lo);
     store_lanes(hi, out.hi);

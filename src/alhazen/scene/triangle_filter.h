@@ -23,6 +23,11 @@
 /// - the rest of the place's error, in parameters of the ray (R |S_z| is the reach): z is off by
 ///   2 e R and its scale by 3 e; three products, two sums and a quotient of parts of one sign round
 ///   9 e R: 14 e R, and 4 delta for the test in double.
+/// The same for a triangle whose sheared coordinates are at most L across and Z along: rounding of
+/// v and o gives 2 e R, all the rest 2 e L + 7 e Z, so E is within 2.2 e R + 7.3 e (L + Z) +
+/// 4 delta, a fraction of the above where the ray begins; 4 e L^2 <= E L still holds. The rest of
+/// the place's error is e R + 13 e Z and 4 delta, within 1.6 E. It is computed only for blocks that
+/// the bound for all triangles lets pass.
 /// Free lanes may lie farther off than R; who reads a result looks at the lane's id.
 /// The test in double must not leave the range of exponents: rays of which that is not sure have an
 /// infinite slack (see `LocalRay::regular`), pass every triangle and are sure of none.
@@ -36,12 +41,13 @@ namespace alhazen {
 /// A ray made ready, one cache line.
 struct alignas(64) TriangleFilterRay {
     float origin[3];           ///< along the axes below
-    float sx, sy, sz;          ///< as in RayShear, for local parameters
     float edge_slack;          ///< 5.1 E
+    float sx, sy, sz;          ///< as in RayShear, for local parameters
     float edge_slack_min;      ///< 2.1 E^2
-    float s_slack;             ///< error of a local parameter beside that of the weights
-    float sure_min, sure_max;  ///< within these it is in the ray's range for sure
     std::uint32_t kx, ky, kz;  ///< as in RayShear
+    float s_slack;             ///< error of a local parameter beside that of the weights
+    float near_error;          ///< the part of E that is the same for all triangles
+    float sure_min, sure_max;  ///< within these it is in the ray's range for sure
 };
 static_assert(sizeof(TriangleFilterRay) == 64);
 

@@ -85,7 +85,7 @@ HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const double (&raw)[
     // A sum of three is at most three times the largest.
     return bits_of((away <= F(8.0f)) & (across <= F(0x1p40f)) &
                    (across >= F(3.0f * frame.slack.least_length))) &
-           bits_of(t_min <= t_max);
+           bits_of((t_min <= t_max) & (t_min >= D(0.0)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -44,7 +44,7 @@ HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalR
     // Written so that a NaN is not near.
     const std::uint32_t usual = bits_of((away <= F(8.0f)) & (across <= F(0x1p40f)));
     if (usual != 15 || !(first_lane(axes.length) >= frame.slack.least_length) ||
-        !(ray.t_min <= ray.t_max)) {
+        !(ray.t_min <= ray.t_max) || !(ray.t_min >= 0.0)) {
         return false;
     }
     local.main_axis = static_cast<std::uint32_t>(std::countr_zero(bits_of(across >= axes.length)));
@@ -55,14 +55,14 @@ HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalR
     local.valid = local.regular = true;
     local.parameter = {frame.scale, 0.0};
     // The scale is a power of two: only the rounding to float counts. The ends are finite in float
-    // and beyond every scene.
+    // and beyond every scene, and not negative.
     using D2 = Lanes<double, 2>;
+    using F2 = Lanes<float, 2>;
     static_assert(offsetof(Ray, t_max) == offsetof(Ray, t_min) + sizeof(double));
-    const D2 range =
-        min_lanes(max_lanes(load_unaligned<2>(&ray.t_min) * D2(frame.scale), D2(-1e37)), D2(1e37));
-    const D2 step = abs(range) * D2(0x1p-23) + D2(0x1p-100);
-    store_lanes(as_floats(range - step), local.below);
-    store_lanes(as_floats(range + step), local.above);
+    const F2 range =
+        min_lanes(as_floats(load_unaligned<2>(&ray.t_min) * D2(frame.scale)), F2(1e37f));
+    store_lanes(mul_sub(range, F2(1.0f - 0x1p-22f), F2(0x1p-100f)), local.below);
+    store_lanes(mul_add(range, F2(1.0f + 0x1p-22f), F2(0x1p-100f)), local.above);
     return true;
 }
 
@@ -70,15 +70,15 @@ HWY_INLINE bool local_ray_nearby(const LocalFrame& frame, const Ray& ray, LocalR
 HWY_INLINE void make_slab_ray(const AxisLanes& axes, const AxisLanes::F& slack,
                               const LocalRay& local, SlabRay& slabs) {
     using F = AxisLanes::F;
-    const F steep =
-        copysign(max_lanes(abs(axes.direction), axes.length * F(0x1p-60f)), axes.direction);
+    // The length is at least 2^-40; no bound of the components in it has to be waited for.
+    const F steep = copysign(larger_by_bits(abs(axes.direction), F(0x1p-100f)), axes.direction);
     const F reciprocal = F(1.0f) / steep;
     const F c = -(axes.origin * reciprocal);
     const F aside = slack * abs(reciprocal);
     store_lanes(reciprocal, slabs.reciprocal);
     store_lanes(c - aside, slabs.near_offset);
     store_lanes(c + aside, slabs.far_offset);
-    slabs.s_min = local.below[0];
+    slabs.s_min = std::max(local.below[0], 0.0f);
     slabs.s_max = local.above[1];
     slabs.near = kNearRows[bits_of(steep < F(0.0f)) & 7];
 }
@@ -108,7 +108,8 @@ HWY_INLINE bool make_ray(const LocalFrame& frame, const DistanceBound& bound, co
         AxisLanes axes;
         if (HWY_LIKELY(local_ray_nearby(frame, ray, local, axes))) {
             using F = AxisLanes::F;
-            make_slab_ray(axes, axes.distance * F(bound.slope) + F(bound.constant), local, slabs);
+            make_slab_ray(axes, mul_add(axes.distance, F(bound.slope), F(bound.constant)), local,
+                          slabs);
             then(local);
             return true;
         }

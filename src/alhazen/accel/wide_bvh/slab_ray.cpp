@@ -15,13 +15,14 @@ LocalRay local_ray_from_afar(const LocalFrame& frame, const Ray& ray) {
     // or in the test in double, whose products have the third power of a length.
     local.regular = frame.usual && distance <= 0x1p40 && length >= 0x1p-200 && length <= 0x1p200;
     if (!local.regular) {
-        local.below[0] = -std::numeric_limits<float>::infinity();
         local.above[1] = std::numeric_limits<float>::infinity();
         return local;
     }
     const int exponent = std::ilogb(length);
     const Vec3 d = std::ldexp(1.0, -exponent) * ray.direction;
-    const double shift = distance > 2.0 ? -dot(origin, d) / dot(d, d) : 0.0;
+    // To the point nearest to the center, and so far back that the scene begins at 0 or later.
+    const bool near = distance <= 2.0 && ray.t_min >= 0.0;
+    const double shift = near ? 0.0 : -dot(origin, d) / dot(d, d) - 2.0;
     const Vec3 o = origin + shift * d;
     for (int k = 0; k < 3; ++k) {
         local.origin[k] = static_cast<float>(o[k]);
@@ -49,7 +50,7 @@ void pass_everything(SlabRay& slabs) {
         slabs.far_offset[k] = 1e30f;
     }
     slabs.near = kNearRows[0];
-    slabs.s_min = -std::numeric_limits<float>::infinity();
+    slabs.s_min = 0.0f;
     slabs.s_max = std::numeric_limits<float>::infinity();
 }
 

@@ -16,11 +16,11 @@
 /// together 6.01 e R A; 6.5 are taken. `delta` is a displacement in space on top of that, which
 /// covers everything done in double: the local frame, the shift of the origin, the rounding inside
 /// the exact tests (whose computed hit lies that near to the ray). A direction component below
-/// 2^-60 of the largest is replaced by that: inside the scene this displaces the ray by 2^-60 R.
-/// An origin that is not near the scene is first moved along the ray to the point nearest to the
-/// scene's center.
-/// Conventions: parameters in the local frame, s = t * scale - shift (`LocalParameter`). A ray from
-/// farther than 2^40 scene sizes passes every box: doubles say nothing at that distance.
+/// 2^-100, which is 2^-60 of the largest or less, is replaced by that: inside the scene this
+/// displaces the ray by 2^-60 R. An origin that is not near the scene is first moved along the ray
+/// to the point nearest to the scene's center. Conventions: parameters in the local frame, s = t *
+/// scale - shift (`LocalParameter`). A ray from farther than 2^40 scene sizes passes every box:
+/// doubles say nothing at that distance.
 
 #include <array>
 #include <cmath>

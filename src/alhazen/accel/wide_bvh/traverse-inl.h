@@ -29,20 +29,20 @@ HWY_INLINE LaneMask<float, W> meet_children(const WideNodeOf<W>& node, const Sla
                                             float s_max, Lanes<float, W>& entry) {
     using F = Lanes<float, W>;
     const float* planes = node.planes[0];
-    F nearest(ray.s_min);
-    F farthest(s_max);
+    F near[3], far[3];
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) {
         const F reciprocal(ray.reciprocal[k]);
-        const F near = mul_add(load_lanes<W>(planes + W / 4 * ray.near.row[k]), reciprocal,
-                               F(ray.near_offset[k]));
-        const F far = mul_add(load_lanes<W>(planes + W / 4 * ray.near.far_row(k)), reciprocal,
-                              F(ray.far_offset[k]));
-        nearest = max_lanes(nearest, near);
-        farthest = min_lanes(farthest, far);
+        near[k] = mul_add(load_lanes<W>(planes + W / 4 * ray.near.row[k]), reciprocal,
+                          F(ray.near_offset[k]));
+        far[k] = mul_add(load_lanes<W>(planes + W / 4 * ray.near.far_row(k)), reciprocal,
+                         F(ray.far_offset[k]));
     }
-    entry = nearest;
-    return nearest <= farthest;
+    // s_min is not negative: what lies behind it may be compared as it comes.
+    entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(ray.s_min)));
+    const F exit =
+        smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+    return entry <= exit;
 }
 
 struct StackEntry {
