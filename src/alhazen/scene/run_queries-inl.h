@@ -91,10 +91,6 @@ class BatchSource {
     TriangleDecider decider_;
 };
 
-/// Trees up to this size are near enough without prefetching: measured with a second-level cache of
-/// 2 MB.
-constexpr std::size_t kCachedBytes = 0;
-
 template <class Query, std::size_t W, class Result>
 HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
                           std::span<Result> results, TraversalStats* stats) {
@@ -110,11 +106,7 @@ HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
         {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
          sizeof(FrustumBlock), sizeof(BoxBlock)});
     with_policy(stats, [&](auto policy) HWY_ATTR {
-        if (layout.memory_bytes() > kCachedBytes) {
-            traverse_stream<Query, true>(nodes, root, places, source, policy);
-        } else {
-            traverse_stream<Query, false>(nodes, root, places, source, policy);
-        }
+        traverse_stream<Query>(nodes, root, places, source, policy);
         source.finish_all(policy);
     });
 }

@@ -213,9 +213,9 @@ ALHAZEN_LANES_COMPARE(operator<=, hn::Le(a.part[i], b.part[i]))
 ALHAZEN_LANES_COMPARE(operator>, hn::Gt(a.part[i], b.part[i]))
 ALHAZEN_LANES_COMPARE(operator>=, hn::Ge(a.part[i], b.part[i]))
 
-/// Of floats that are no NaN, compared as integers, which is faster: right where the larger (of
-/// `larger_by_bits`) or both (of `smaller_by_bits`) are at least +0; else some negative one. The
-/// comparison is right where `b` is at least +0 or both are negative and equal.
+/// The larger and the smaller of floats that are no NaN, compared as integers, which takes one
+/// cycle and not four: right where one (for the larger) or both (for the smaller) are at least +0;
+/// else one of the two that is negative.
 ALHAZEN_LANES_BINARY(larger_by_bits,
                      hn::BitCast(LaneTag<T, N>(), hn::Max(bits_as_integers<T, N>(a.part[i]),
                                                           bits_as_integers<T, N>(b.part[i]))))

@@ -17,10 +17,13 @@
 /// covers everything done in double: the local frame, the shift of the origin, the rounding inside
 /// the exact tests (whose computed hit lies that near to the ray). A direction component below
 /// 2^-100, which is 2^-60 of the largest or less, is replaced by that: inside the scene this
-/// displaces the ray by 2^-60 R. An origin that is not near the scene is first moved along the ray
-/// to the point nearest to the scene's center. Conventions: parameters in the local frame, s = t *
-/// scale - shift (`LocalParameter`). A ray from farther than 2^40 scene sizes passes every box:
-/// doubles say nothing at that distance.
+/// displaces the ray by 2^-60 R.
+/// The range of a ray begins at s >= 0, so that boxes may be compared by the bits of numbers: one
+/// with a negative t_min, or with an origin that is not near the scene, is first moved along itself
+/// to the point nearest to the scene's center and back by twice the direction, so that the scene
+/// lies in front of it.
+/// Conventions: parameters in the local frame, s = t * scale - shift (`LocalParameter`). A ray from
+/// farther than 2^40 scene sizes passes every box: doubles say nothing at that distance.
 
 #include <array>
 #include <cmath>

@@ -173,7 +173,7 @@ struct StreamSlot {
 };
 
 /// One node or leaf of one ray; false when the ray is done.
-template <bool kPrefetch, class Query, std::size_t W, class Stats>
+template <class Query, std::size_t W, class Stats>
 HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
                         const Places& places, Stats stats) {
     Query& query = slot.query();
@@ -195,13 +195,12 @@ HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
                                                       query.slabs.near.octant);
     }
     slot.height = height;
-    if (kPrefetch) places.prefetch(stack.child[height - 1]);
+    places.prefetch(stack.child[height - 1]);
     return true;
 }
 
-/// Takes every ray of `source` through the tree. Prefetching pays where the tree is much larger
-/// than the caches near the core; else it only takes time.
-template <class Query, bool kPrefetch, std::size_t W, class Source, class Stats>
+/// Takes every ray of `source` through the tree.
+template <class Query, std::size_t W, class Source, class Stats>
 HWY_INLINE void traverse_stream(const WideNodeOf<W>* nodes, NodeRef root, const Places& places,
                                 Source& source, Stats stats) {
     StreamSlot<Query, W> slots[kStreamSlots];
@@ -222,7 +221,7 @@ HWY_INLINE void traverse_stream(const WideNodeOf<W>* nodes, NodeRef root, const 
     while (count > 0) {
         for (std::size_t i = 0; i < count; ++i) {
             StreamSlot<Query, W>& slot = *active[i];
-            if (advance<kPrefetch>(slot, nodes, places, stats)) continue;
+            if (advance(slot, nodes, places, stats)) continue;
             source.finish(slot.query(), stats);
             if (!start(slot)) active[i--] = active[--count];
         }
