@@ -139,6 +139,26 @@ TEST(Field, HasAtLeastItsPrimitivesInFewBytes) {
     EXPECT_LT(*bytes_per_effective_primitive(large), 1e-5);
 }
 
+/// Tests of boxes and triangles for the eye rays of a small picture.
+double tests_of_field(std::uint64_t size) {
+    const Scene scene = compile(generate("field", size));
+    TraversalStats stats;
+    for (int i = 0; i < 900; ++i) {
+        Hit hit;
+        (void)scene.aggregate->closest(
+            eye_ray(scene.cameras.at(0).camera, (i % 30 + 0.5) / 30, (i / 30 + 0.5) / 30), hit,
+            &stats);
+    }
+    return static_cast<double>(stats.box_tests + stats.primitive_tests);
+}
+
+TEST(Field, CostsAThousandTimesThePrimitivesFewTestsMore) {
+    const double million = tests_of_field(2'000'000), milliard = tests_of_field(2'000'000'000);
+    EXPECT_LT(milliard, 3 * million);
+    EXPECT_GT(milliard, million);
+    EXPECT_LT(tests_of_field(1'000'000'000'000), 3 * tests_of_field(1'000'000'000));
+}
+
 TEST(Field, GivesTheSameHitsThroughInstancesOfInstances) {
     // Large enough that patches are instanced too.
     const SceneDescription description = generate("field", 5'000'000);
