@@ -48,6 +48,8 @@ constexpr std::array kGenerators{
                    "SIZE spheres in heaps of 64 with one centre", &coincident_clusters, nullptr},
     GeneratorEntry{"field", "triangles", 2000 * kMillion, 100 * kMillion* kMillion,
                    "a meadow of SIZE triangles, instances of instances of 4000", &field, nullptr},
+    GeneratorEntry{"field_of_grids", "triangles", 2000 * kMillion, 100 * kMillion* kMillion,
+                   "the same as grids in grids, put together by hand", &field_of_grids, nullptr},
     GeneratorEntry{"perforated_plate", "holes", 1000, 100 * kMillion,
                    "one plate without SIZE cylinders", &perforated_plate, nullptr},
     GeneratorEntry{"menger_sponge", "leaves", 1000, 100 * kMillion,

@@ -159,24 +159,32 @@ TEST(Field, CostsAThousandTimesThePrimitivesFewTestsMore) {
     EXPECT_LT(tests_of_field(1'000'000'000'000), 3 * tests_of_field(1'000'000'000));
 }
 
-TEST(Field, GivesTheSameHitsThroughInstancesOfInstances) {
+TEST(Field, GivesTheSameHitsInGridsPutTogetherByHand) {
     // Large enough that patches are instanced too.
     const SceneDescription description = generate("field", 5'000'000);
-    EXPECT_EQ(compile(description).census.instance_depth, 2);
     const Scene fast = compile(description);
-    const Scene grid = compile(description, {.accelerator = "uniform_grid"});
+    EXPECT_EQ(fast.census.instance_depth, 2);
+    const Scene other = compile(description, {.accelerator = "kd_tree"});
+    const Scene grids = compile(generate("field_of_grids", 5'000'000));
+    EXPECT_EQ(grids.census.instance_depth, 3);  // the rows are an instance there
     int hits = 0;
     for (int i = 0; i < 400; ++i) {
         const Ray ray =
             eye_ray(fast.cameras.at(0).camera, (i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20);
-        Hit a, b;
+        Hit a, b, c;
         EXPECT_EQ(fast.aggregate->closest(ray, a, nullptr),
-                  grid.aggregate->closest(ray, b, nullptr))
+                  other.aggregate->closest(ray, b, nullptr))
             << i;
         EXPECT_EQ(a.t, b.t) << i;
         EXPECT_EQ(a.primitive, b.primitive) << i;
         EXPECT_TRUE(std::equal(a.path.begin(), a.path.end(), b.path.begin(), b.path.end())) << i;
-        hits += a.path.size() == 2;
+        EXPECT_EQ(grids.aggregate->closest(ray, c, nullptr), a.found()) << i;
+        EXPECT_EQ(a.t, c.t) << i;
+        EXPECT_EQ(a.primitive, c.primitive) << i;
+        if (a.path.empty()) continue;  // sky or ground
+        ++hits;
+        ASSERT_EQ(c.path.size(), a.path.size() + 1) << i;
+        EXPECT_TRUE(std::equal(a.path.begin(), a.path.end() - 1, c.path.begin())) << i;
     }
     EXPECT_GT(hits, 100);
 }

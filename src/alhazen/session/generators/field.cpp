@@ -1,5 +1,7 @@
 #include "alhazen/session/generators/field.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -132,10 +134,9 @@ void lay_out(SceneDescription& scene, ObjectIndex object, const Rows& rows, cons
     }
 }
 
-}  // namespace
-
-SceneDescription field(std::uint64_t triangles) {
-    SceneDescription scene = generated_scene({{0.3, -1.0, 1.1}, {0, 5, 0.25}, 40});
+/// The rows stand in an object of their own beside the ground, so that they can have a grid.
+Rows make_field(std::uint64_t triangles, SceneDescription& scene) {
+    scene = generated_scene({{0.3, -1.0, 1.1}, {0, 5, 0.25}, 40});
     scene.picture.background = Rgb{0.55, 0.7, 0.9};
     const MaterialId plants = add_material(scene, "plants", {1, 1, 1});
     const MaterialId soil = add_material(scene, "soil", {0.16, 0.2, 0.07});
@@ -163,7 +164,31 @@ SceneDescription field(std::uint64_t triangles) {
     }
     const auto columns = static_cast<std::uint64_t>(std::ceil(std::sqrt(count())));
     const Rows rows{columns, (count() - 1) / columns + 1, width};
-    lay_out(scene, scene.root, rows, {0, 0, 0}, units, tufts, random);
+    const ObjectIndex all = add_object(scene, "rows");
+    lay_out(scene, all, rows, {0, 0, 0}, units, tufts, random);
+    scene.objects.front().parts.push_back(part_of(all, Affine{}));
+    return rows;
+}
+
+}  // namespace
+
+SceneDescription field(std::uint64_t triangles) {
+    SceneDescription scene;
+    (void)make_field(triangles, scene);
+    return scene;
+}
+
+SceneDescription field_of_grids(std::uint64_t triangles) {
+    SceneDescription scene;
+    const Rows rows = make_field(triangles, scene);
+    const auto grid_of = [](std::uint64_t columns, std::uint64_t lines) {
+        return fmt::format("uniform_grid:nx={},ny={},nz=1", columns, lines);
+    };
+    for (ObjectDescription& object : scene.objects) {
+        if (object.name == "tuft") object.accelerator = "uniform_grid";
+        if (object.name == "plot") object.accelerator = grid_of(kSide, kSide);
+        if (object.name == "rows") object.accelerator = grid_of(rows.columns, rows.rows);
+    }
     return scene;
 }
 
