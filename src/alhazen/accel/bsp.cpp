@@ -95,7 +95,10 @@ class BspBuilder {
         return plane.direction < 3 ? config_.axis_cost : config_.traversal_cost;
     }
     [[nodiscard]] double cost(const Candidate& c, double p_lower, double p_upper) const {
-        const double factor = c.lower == 0 || c.upper == 0 ? config_.empty_factor : 1.0;
+        // Empty space is there to cut off in every direction: with a bonus for all of them nothing
+        // else would be done.
+        const bool bonus = c.plane.direction < 3 && (c.lower == 0 || c.upper == 0);
+        const double factor = bonus ? config_.empty_factor : 1.0;
         return factor * (step_cost(c.plane) + config_.test_cost * (p_lower * double(c.lower) +
                                                                    p_upper * double(c.upper)));
     }
@@ -325,7 +328,8 @@ Bsp::Config Bsp::configure(SettingsReader& reader) {
         reader.number("traversal_cost", "of a step at any other plane", 25, 0.001, 1e6);
     config.test_cost = reader.number("test_cost", "of a primitive", 20, 0.001, 1e6);
     config.empty_factor = reader.number(
-        "empty_factor", "of the cost of a split that cuts off empty space", 0.8, 0.01, 1);
+        "empty_factor", "of the cost of a split across an axis that cuts off empty space", 0.8,
+        0.01, 1);
     config.max_depth =
         reader.count("max_depth", "of the tree, 0: by the number of primitives", 0, 0, 64);
     config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);

@@ -39,8 +39,9 @@ class Bsp {
         double axis_cost = 15;       ///< of a step at a plane across an axis
         double traversal_cost = 25;  ///< of a step at any other plane
         double test_cost = 20;       ///< of a primitive
-        double empty_factor = 0.8;   ///< of the cost of a split that cuts off empty space
-        int max_depth = 0;           ///< 0: 8 + 1.3 log2 n
+        double empty_factor =
+            0.8;            ///< of the cost of a split across an axis that cuts off empty space
+        int max_depth = 0;  ///< 0: 8 + 1.3 log2 n
         bool mailbox = true;
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);

@@ -40,6 +40,7 @@ CoherenceLists::CoherenceLists(const BoundsSource& source, const std::vector<Vec
     : primitives_(source.size()),
       room_(room),
       cube_(resolution),
+      light_cube_(4 * resolution),
       most_bytes_(most_bytes),
       slots_(source.size() + lights.size()) {
     Box3 all;
@@ -104,9 +105,10 @@ CoherenceLists::Slot* CoherenceLists::slots_of(std::uint32_t origin) const {
     if (slots != nullptr) return slots;
     const std::lock_guard lock(making_);
     slots = slots_[origin].load(std::memory_order_relaxed);
-    const std::size_t bytes = cube_.size() * sizeof(Slot);
+    const std::size_t cells = cube_of(origin).size();
+    const std::size_t bytes = cells * sizeof(Slot);
     if (slots != nullptr || used_ + bytes > most_bytes_) return slots;
-    slots = made_slots_.emplace_back(std::make_unique<Slot[]>(cube_.size())).get();
+    slots = made_slots_.emplace_back(std::make_unique<Slot[]>(cells)).get();
     used_ += bytes;
     slots_[origin].store(slots, std::memory_order_release);
     return slots;
@@ -116,7 +118,7 @@ const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
                                                  const Vec3& direction) const {
     Slot* slots = slots_of(origin);
     if (slots == nullptr) return nullptr;
-    const std::size_t cell = cube_.cell_of(direction);
+    const std::size_t cell = cube_of(origin).cell_of(direction);
     const List* known = slots[cell].load(std::memory_order_acquire);
     if (known != nullptr) return known;
     auto made = std::make_unique<const List>(make(origin, cell));
@@ -133,7 +135,7 @@ const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
 }
 
 CoherenceLists::List CoherenceLists::make(std::uint32_t origin, std::size_t cell) const {
-    const DirectionCone cone(cube_, cell);
+    const DirectionCone cone(cube_of(origin), cell);
     const BoundingSphere& from = spheres_[origin];
     List list;
     for (std::uint32_t i = 0; i < primitives_; ++i) {

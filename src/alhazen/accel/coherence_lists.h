@@ -32,7 +32,8 @@ class CoherenceLists {
     };
     using List = std::vector<Candidate>;
 
-    /// `room` is how far rays may pass beside where they should; lists take `most_bytes` at most.
+    /// Lights have four times the `resolution`: they are points, so their cones are thin. `room` is
+    /// how far rays may pass beside where they should; lists take `most_bytes` at most.
     CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights, double room,
                    int resolution, std::size_t most_bytes);
     CoherenceLists(const CoherenceLists&) = delete;
@@ -59,13 +60,16 @@ class CoherenceLists {
     using Slot = std::atomic<const List*>;
 
     void sort_into_cells();
+    [[nodiscard]] const DirectionCube& cube_of(std::uint32_t origin) const {
+        return origin < primitives_ ? cube_ : light_cube_;
+    }
     [[nodiscard]] Slot* slots_of(std::uint32_t origin) const;
     [[nodiscard]] List make(std::uint32_t origin, std::size_t cell) const;
 
     std::vector<BoundingSphere> spheres_;  ///< [origin]
     std::size_t primitives_ = 0;
     double room_;
-    DirectionCube cube_;
+    DirectionCube cube_, light_cube_;
     std::size_t most_bytes_;
     /// Which spheres a point may be in, by radius.
     CellGrid grid_;

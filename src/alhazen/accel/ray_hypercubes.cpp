@@ -156,13 +156,17 @@ const RayHypercubes::List* RayHypercubes::list_of(Node& child, const List& paren
     return known;
 }
 
-RayHypercubes::Found RayHypercubes::find(const ClassifiedRay& ray) const {
+RayHypercubes::Found RayHypercubes::find(ClassifiedRay ray) const {
+    Hypercube cube = root();
+    // Rays from outside begin in a face of the space, as near as rounding lets them.
+    for (std::size_t k = 0; k < 5; ++k) {
+        ray.point[k] = std::clamp(ray.point[k], cube.lo[k], cube.hi[k]);
+    }
     Recent& recent = Recent::of_thread();
     if (const List* list = recent.find(id_, ray)) return {list, 1, true};
     const auto d = static_cast<std::size_t>(ray.direction);
     Node* node = &roots_[d];
     const List* list = &everything_[d];
-    Hypercube cube = root();
     int depth = 0;
     while (list->size() > limits_.leaf_size && depth < limits_.max_depth) {
         Node* children = children_of(*node);

@@ -63,7 +63,8 @@ class RayHypercubes {
         int nodes;         ///< hypercubes that were entered on the way to it
         bool cached;       ///< found among those that the thread used last
     };
-    [[nodiscard]] Found find(const ClassifiedRay& ray) const;
+    /// Of a ray that begins in the space, or is off it by rounding.
+    [[nodiscard]] Found find(ClassifiedRay ray) const;
 
     [[nodiscard]] const PaddedBox& space() const { return space_; }
     [[nodiscard]] const BoundedBodies& bodies() const { return bodies_; }
