@@ -107,7 +107,7 @@ TEST(Bsp, TheCellsOfLeavesFillTheRoot) {
 }
 
 TEST(Bsp, ThePlanesLeadEveryPointOfAPrimitiveToALeafThatHasIt) {
-    const Sticks sticks(300);
+    const Sticks sticks(120);
     for (const int directions : {3, 7, 13}) {
         const Bsp tree =
             Bsp::build(sticks, {.directions = directions, .polygons = directions == 3});
