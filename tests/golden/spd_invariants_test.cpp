@@ -10,8 +10,9 @@ constexpr int kSide = 24;
 
 TEST(SpdInvariants, HoldForEveryAcceleratorAtSmallSizes) {
     for (const std::string& name : testing::databases()) {
-        const bool large = name == "gears" || name == "sombrero";
-        const SceneDescription description = generate(name, large ? 1 : name == "tree" ? 5 : 2);
+        if (name == "sombrero") continue;  // its smallest has 1922 triangles: the heavy test
+        const bool one = name == "gears" || name == "rings" || name == "shells";
+        const SceneDescription description = generate(name, name == "tree" ? 4 : one ? 1 : 2);
         const RayCounters expected = testing::spd_counters(description, "list", kSide);
         EXPECT_EQ(expected[RayKind::Eye].cast, static_cast<std::uint64_t>(kSide * kSide));
         EXPECT_GT(expected[RayKind::Eye].hit, 50u) << name;
