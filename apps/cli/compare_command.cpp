@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -7,9 +9,11 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/importers/importer_list.h"
+#include "alhazen/laboratory/claims.h"
 #include "alhazen/laboratory/compare.h"
 #include "alhazen/laboratory/compare_page.h"
 #include "alhazen/laboratory/compare_report.h"
+#include "alhazen/laboratory/traversal_figure.h"
 #include "alhazen/session/scene_files.h"
 #include "commands.h"
 #include "messages.h"
@@ -23,7 +27,8 @@ namespace {
 
 struct CompareArguments {
     std::vector<std::string> scenes, allow_paths;
-    std::string accelerators = "all", size, protocol, json, html;
+    std::string accelerators = "all", size, protocol, json, html, claims, markdown, trace_ray, svg,
+                along;
     CompareOptions compare;
     int depth = -1;
     bool no_tuning = false, quiet = false;
@@ -52,7 +57,7 @@ CompareOptions compare_options(const CompareArguments& args) {
 
 std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args) {
     std::vector<std::filesystem::path> outputs;
-    for (const std::string& name : {args.json, args.html}) {
+    for (const std::string& name : {args.json, args.html, args.markdown, args.svg}) {
         if (name.empty() || name == "-") continue;
         check_writable(name);
         outputs.emplace_back(name);
@@ -74,7 +79,83 @@ SceneDescription read_scene(const CompareArguments& args, const std::string& sce
     return description;
 }
 
+struct PixelPlace {
+    int x, y;
+};
+
+PixelPlace parse_pixel(const std::string& text) {
+    PixelPlace pixel{};
+    int read = 0;
+    if (std::sscanf(text.c_str(), "%d,%d%n", &pixel.x, &pixel.y, &read) != 2 ||
+        static_cast<std::size_t>(read) != text.size()) {
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("--trace-ray '{}': expected X,Y in pixels from the top left", text));
+    }
+    return pixel;
+}
+
+/// Options that would change nothing are mistakes.
+void check_effects(const CompareArguments& args) {
+    const auto need = [](bool has_effect, const char* message) {
+        if (!has_effect) throw Error(ErrorKind::Usage, message);
+    };
+    const bool claims = !args.claims.empty();
+    need(claims || !args.scenes.empty(), "compare needs scenes, or --claim");
+    need(!claims || args.scenes.empty(), "--claim makes its own scenes: none can be given");
+    need(claims || args.markdown.empty(), "--markdown is for --claim");
+    const bool figure = !args.trace_ray.empty();
+    need(figure == !args.svg.empty(), "--trace-ray needs --svg, and --svg needs --trace-ray");
+    need(figure || args.along.empty(), "--along is for --trace-ray");
+    need(!figure || (!claims && args.json.empty() && args.html.empty()),
+         "--trace-ray makes a figure and nothing else");
+    need(!claims || (args.json.empty() && args.html.empty()),
+         "--json and --html are for scenes, --claim has --markdown");
+}
+
+int run_claims(const CompareArguments& args) {
+    const std::vector<std::string> ids = parse_claims(args.claims);
+    (void)checked_outputs(args);
+    ProgressDisplay progress(args.quiet);
+    ClaimOptions options;
+    options.time_limit = args.compare.time_limit;
+    options.progress = &progress;
+    options.stop = &stop_on_signals();
+    const std::vector<ClaimReport> reports =
+        check_claims(ids, options, [&](const ClaimReport& report) {
+            progress.finish();
+            if (args.markdown != "-") print("{}", claims_table({&report, 1}));
+        });
+    const bool holds = std::all_of(reports.begin(), reports.end(), [](const ClaimReport& r) {
+        return r.verdict == Verdict::Holds;
+    });
+    if (!args.markdown.empty()) write_report(args.markdown, claims_markdown(reports));
+    return holds ? kDone : kCheckFailed;
+}
+
+int run_figure(const CompareArguments& args) {
+    CompareOptions options = compare_options(args);
+    if (options.accelerators.size() != 1 || args.scenes.size() != 1) {
+        throw Error(ErrorKind::Usage, "--trace-ray needs one scene, and --accelerators with one: " +
+                                          traceable_accelerators());
+    }
+    const std::vector<std::filesystem::path> outputs = checked_outputs(args);
+    const PixelPlace pixel = parse_pixel(args.trace_ray);
+    options.trial.max_depth = 0;
+    options.trial.most_rays = 1;
+    const SceneTrial trial(read_scene(args, args.scenes.front(), outputs), options.trial);
+    const TraversalTrace trace = trace_traversal(trial.reference(), options.accelerators.front(),
+                                                 trial.eye_ray_of(pixel.x, pixel.y));
+    const FigureView view =
+        args.along.empty() ? natural_view(trace.ray) : parse_figure_view(args.along);
+    write_report(args.svg, traversal_svg(trial.reference(), trace, view));
+    return kDone;
+}
+
 int run(const CompareArguments& args) {
+    check_effects(args);
+    if (!args.trace_ray.empty()) return run_figure(args);
+    if (!args.claims.empty()) return run_claims(args);
     CompareOptions options = compare_options(args);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args);
     ProgressDisplay progress(args.quiet);
@@ -103,7 +184,18 @@ void add_compare(CLI::App& app, int& exit_status) {
         "compare",
         "Measure accelerators side by side on the same rays; exit 0 only when they agree");
     const auto args = std::make_shared<CompareArguments>();
-    command->add_option("scenes", args->scenes, "Scene files")->required()->type_name("SCENE...");
+    command->add_option("scenes", args->scenes, "Scene files")->type_name("SCENE...");
+    std::string footer = "Claims of the literature, measured again by --claim:";
+    for (const ClaimEntry& entry : claims()) {
+        footer += fmt::format("\n  {:<4} {}", entry.id, entry.claim);
+    }
+    command->footer(footer);
+    command
+        ->add_option("--claim", args->claims,
+                     "Measure claims of the literature again: ID,ID,... or all; see below")
+        ->type_name("LIST");
+    command->add_option("--markdown", args->markdown, "Write the claims as a table; - for stdout")
+        ->type_name("FILE");
     command
         ->add_option("--accelerators", args->accelerators,
                      "Which, as NAME,NAME:SETTING=VALUE,... or all; list and wide_bvh always are")
@@ -138,6 +230,16 @@ void add_compare(CLI::App& app, int& exit_status) {
         ->type_name("FILE");
     command->add_option("--html", args->html, "Write the report as one HTML page")
         ->type_name("FILE");
+    command
+        ->add_option("--trace-ray", args->trace_ray,
+                     "Draw what one accelerator does for the eye ray of this pixel, from the top "
+                     "left")
+        ->type_name("X,Y");
+    command->add_option("--svg", args->svg, "Where to draw it")->type_name("FILE");
+    command
+        ->add_option("--along", args->along,
+                     "From where: x, y, z or isometric; default: across the ray")
+        ->type_name("AXIS");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }

@@ -13,6 +13,7 @@
 #include "alhazen/accel/accelerator.h"
 #include "alhazen/accel/depth_first.h"
 #include "alhazen/accel/hierarchy.h"
+#include "alhazen/accel/traversal_trace.h"
 
 namespace alhazen {
 
@@ -43,6 +44,7 @@ class KayKajiya {
         std::visit([&](const auto& tree) { by_heap(tree, ray, visitor, stats); }, tree_);
     }
 
+    [[nodiscard]] const AnyBoundTree& tree() const { return tree_; }
     [[nodiscard]] std::size_t memory_bytes() const { return alhazen::memory_bytes(tree_); }
 
   private:
@@ -54,6 +56,7 @@ class KayKajiya {
         ReentrantStack<ReachedNode> heap;
         const auto push_if_met = [&](std::uint32_t node) {
             const auto t = probe.enter(tree.nodes[node].bound, visitor.t_max(), stats);
+            note_bound(stats, node, t.has_value());
             if (!t) return;
             heap.push({node, *t});
             std::push_heap(heap.begin(), heap.end(), farther);

@@ -22,6 +22,7 @@
 #include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/mailbox.h"
 #include "alhazen/accel/reentrant_stack.h"
+#include "alhazen/accel/traversal_trace.h"
 
 namespace alhazen {
 
@@ -57,6 +58,8 @@ class KdTree {
     };
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
+    /// The root's, a little wider than what is in it.
+    [[nodiscard]] const Box3& box() const { return box_; }
     /// The expected cost of a ray that meets the root's box, by the heuristic.
     [[nodiscard]] double expected_cost() const { return expected_cost_; }
 
@@ -148,6 +151,7 @@ void KdTree::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
             }
         }
         const Node& leaf = nodes_[at.node];
+        note_cell(stats, at.node);
         if (leaf.count == 0) stats.empty_cells(1);
         for (std::uint32_t e = leaf.index; e < leaf.index + leaf.count; ++e) {
             if (config_.mailbox && !mailbox.is_new(entries_[e])) {

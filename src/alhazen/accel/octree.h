@@ -11,6 +11,7 @@
 #include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/mailbox.h"
 #include "alhazen/accel/octree_walks.h"
+#include "alhazen/accel/traversal_trace.h"
 
 namespace alhazen {
 
@@ -68,6 +69,7 @@ class Octree {
     bool test(std::uint32_t leaf, double exit, Mailbox& mailbox, Visitor& visitor,
               Stats stats) const {
         const OctreeCells::Node& cell = cells_.nodes()[leaf];
+        note_cell(stats, leaf);
         if (cell.count == 0) stats.empty_cells(1);
         for (std::uint32_t e = cell.first; e < cell.first + cell.count; ++e) {
             const std::uint32_t primitive = cells_.entries()[e];

@@ -14,6 +14,7 @@
 #include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/cell_grid.h"
 #include "alhazen/accel/mailbox.h"
+#include "alhazen/accel/traversal_trace.h"
 
 namespace alhazen {
 
@@ -48,6 +49,7 @@ class UniformGrid {
             if (walk.entry() > visitor.t_max()) return;
             const std::size_t cell = grid_.number(walk.cell());
             stats.nodes(1);
+            note_cell(stats, cell);
             if (starts_[cell] == starts_[cell + 1]) stats.empty_cells(1);
             for (std::uint32_t e = starts_[cell]; e < starts_[cell + 1]; ++e) {
                 const std::uint32_t primitive = entries_[e];

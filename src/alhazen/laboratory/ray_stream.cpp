@@ -1,11 +1,13 @@
 #include "alhazen/laboratory/ray_stream.h"
 
+#include <algorithm>
+
 #include "alhazen/math/random.h"
 
 namespace alhazen {
 namespace {
 
-/// Single questions of one sort are put together up to here.
+/// Single questions are put together up to here.
 constexpr std::size_t kMostTogether = 512;
 
 RayKind kind_of(RayMask mask) {
@@ -25,24 +27,41 @@ std::array<std::uint64_t, kRayKindCount> RayStream::by_kind() const {
     return counts;
 }
 
+void RayStream::thin_out() {
+    share *= 0.5;
+    std::size_t kept_batches = 0, kept_rays = 0;
+    for (RayBatch batch : batches) {
+        if (batch.lot >= share) continue;
+        std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(batch.first), batch.count,
+                    rays.begin() + static_cast<std::ptrdiff_t>(kept_rays));
+        batch.first = kept_rays;
+        kept_rays += batch.count;
+        batches[kept_batches++] = batch;
+    }
+    rays.resize(kept_rays);
+    batches.resize(kept_batches);
+}
+
 void RayRecorder::record(std::span<const Ray> rays, RayQuestion question, RayMask mask,
                          Coherence coherence) const {
     if (rays.empty()) return;
     // Single questions are kept or left out together, as batches are.
     const std::uint64_t number = asked_so_far_++ / (rays.size() == 1 ? kMostTogether : 1);
-    if (stream_.share < 1 && random_at(1, number, rays.size() == 1, 0) >= stream_.share) return;
+    const double lot = random_at(1, number, rays.size() == 1, 0);
+    if (lot >= stream_.share) return;
     const RayKind kind = kind_of(mask);
     const std::size_t first = stream_.rays.size();
     stream_.rays.insert(stream_.rays.end(), rays.begin(), rays.end());
     if (rays.size() == 1 && !stream_.batches.empty()) {
         RayBatch& last = stream_.batches.back();
         if (last.kind == kind && last.question == question && last.coherence == coherence &&
-            last.count < kMostTogether && question == RayQuestion::Shadowed) {
+            last.lot == lot && question == RayQuestion::Shadowed) {
             ++last.count;
             return;
         }
     }
-    stream_.batches.push_back({first, rays.size(), kind, question, coherence});
+    stream_.batches.push_back({first, rays.size(), kind, question, coherence, lot});
+    while (stream_.rays.size() > stream_.most && stream_.batches.size() > 1) stream_.thin_out();
 }
 
 bool RayRecorder::closest(const Ray& ray, Hit& hit, RayQuery query) const {

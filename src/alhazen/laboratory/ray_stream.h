@@ -27,15 +27,19 @@ struct RayBatch {
     RayKind kind = RayKind::Eye;
     RayQuestion question = RayQuestion::Closest;
     Coherence coherence = Coherence::Any;
+    double lot = 0;  ///< by chance, in [0, 1): those below RayStream::share are kept
 };
 
 struct RayStream {
     std::vector<Ray> rays;
     std::vector<RayBatch> batches;
-    double share = 1;  ///< of the batches that are recorded, about
+    double share = 1;              ///< of the batches that are kept
+    std::size_t most = 2'000'000;  ///< rays; whenever there are more, half of the batches go
 
     /// Recorded rays by kind.
     [[nodiscard]] std::array<std::uint64_t, kRayKindCount> by_kind() const;
+    /// Halves the share.
+    void thin_out();
 };
 
 /// Passes every question on to another aggregate, and writes it down. One thread at a time. The

@@ -1,11 +1,15 @@
 #include "alhazen/laboratory/scene_trial.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "alhazen/base/error.h"
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/eye_samples.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/framing.h"
 
@@ -55,18 +59,26 @@ SceneTrial::SceneTrial(SceneDescription description, const TrialOptions& options
     framing.aspect = static_cast<double>(*render_options_.width) / *render_options_.height;
     (void)complete_view(description_, reference_.scene, framing);
 
-    // A first picture tells how many rays there are, a second one records them.
     RenderOptions counting = render_options_;
     counting.count_tests = true;  // questions do not depend on earlier answers then
-    picture_ = render(reference_.scene, description_.picture, counting);
-    const auto all = static_cast<double>(picture_.counters.total_cast());
-    stream_.share = std::min(1.0, static_cast<double>(options.most_rays) / std::max(all, 1.0));
-    stream_.rays.reserve(
-        static_cast<std::size_t>(std::min(all, static_cast<double>(options.most_rays)) * 1.1));
+    stream_.most = options.most_rays;
     Scene recording = reference_.scene;
     recording.aggregate = std::make_shared<const RayRecorder>(*reference_.scene.aggregate, stream_);
     recording.has_masks = true;  // every question says of what kind its rays are
-    (void)render(recording, description_.picture, counting);
+    picture_ = render(recording, description_.picture, counting);
+}
+
+Ray SceneTrial::eye_ray_of(int x, int y) const {
+    const Film& film = picture_.film;
+    const int width = film.frame_width(), height = film.frame_height();
+    if (x < 0 || x >= width || y < 0 || y >= height) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("pixel {},{} is not in a picture of {}x{}", x, y, width, height));
+    }
+    const CameraDescription& camera = find_camera(reference_.scene, render_options_.camera);
+    const Vec2 p = single_sample(reference_.scene.conventions.pixel_sample, x, y, width, height);
+    return eye_ray(with_aspect(camera.camera, camera.aspect, static_cast<double>(width) / height),
+                   p.x, p.y);
 }
 
 BuiltScene SceneTrial::build(const std::string& accelerator) const {

@@ -21,7 +21,7 @@ struct TrialOptions {
     std::optional<int> max_depth;      ///< default: the scene's
     std::string camera;
     std::string csg = "event_heap";
-    std::size_t most_rays = 2'000'000;  ///< that are recorded; 72 bytes each
+    std::size_t most_rays = 2'000'000;  ///< that are recorded, at most; 72 bytes each
 };
 
 /// A scene that was built.
@@ -44,6 +44,9 @@ class SceneTrial {
     /// Size, depth and camera, on one thread.
     [[nodiscard]] const RenderOptions& render_options() const { return render_options_; }
     [[nodiscard]] const PictureSettings& picture_settings() const { return description_.picture; }
+
+    /// The eye ray of a pixel, counted from the top left. Throws Error (Usage) for one outside.
+    [[nodiscard]] Ray eye_ray_of(int x, int y) const;
 
     /// Throws Error as `compile` does.
     [[nodiscard]] BuiltScene build(const std::string& accelerator) const;

@@ -31,6 +31,7 @@ TEST(RayStream, HoldsAShareOfTheRaysWhereThereIsNoRoom) {
     const SceneTrial some(small_scene(), {.most_rays = half});
     EXPECT_LT(some.stream().rays.size(), all.stream().rays.size());
     EXPECT_GT(some.stream().rays.size(), half / 3);
+    EXPECT_LE(some.stream().rays.size(), half);
 }
 
 TEST(Replay, CountsWhatTheRendererCounts) {

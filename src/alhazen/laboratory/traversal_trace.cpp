@@ -1,0 +1,179 @@
+#include "alhazen/laboratory/traversal_trace.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "alhazen/accel/kay_kajiya.h"
+#include "alhazen/accel/kd_tree.h"
+#include "alhazen/accel/octree.h"
+#include "alhazen/accel/uniform_grid.h"
+#include "alhazen/base/error.h"
+#include "alhazen/laboratory/convex_corners.h"
+#include "alhazen/scene/bounded_primitives.h"
+
+namespace alhazen {
+namespace {
+
+using Kind = TraversalStep::Kind;
+
+/// Writes down what it is told.
+struct TracingStats : NoStats {
+    std::vector<TraversalStep>* steps = nullptr;
+    void cell(std::size_t number) const {
+        steps->push_back({Kind::Cell, true, static_cast<std::uint32_t>(number), {}});
+    }
+    void bound(std::size_t node, bool met) const {
+        steps->push_back({Kind::Bound, met, static_cast<std::uint32_t>(node), {}});
+    }
+};
+
+/// Asks for the closest hit, as an aggregate does.
+class TracingVisitor {
+  public:
+    TracingVisitor(const PrimitiveTable& table, const BoundedPrimitives& bounded,
+                   TraversalTrace& trace)
+        : table_(table),
+          bounded_(bounded),
+          trace_(trace),
+          ray_(trace.ray),
+          shear_(ray_.direction) {}
+
+    [[nodiscard]] double t_max() const { return ray_.t_max; }
+    bool visit(std::uint32_t i) {
+        test(PrimitiveId{bounded_.id(i)});
+        return false;
+    }
+    void test(PrimitiveId id) {
+        Hit alone;
+        Ray whole = trace_.ray;
+        table_.closest(id, whole, shear_, alone, NoStats{}, kAllRays);
+        trace_.steps.push_back(
+            {Kind::Primitive, alone.found(), static_cast<std::uint32_t>(id), {}});
+        table_.closest(id, ray_, shear_, trace_.hit, NoStats{}, kAllRays);
+    }
+
+  private:
+    const PrimitiveTable& table_;
+    const BoundedPrimitives& bounded_;
+    TraversalTrace& trace_;
+    Ray ray_;
+    RayShear shear_;
+};
+
+std::vector<Vec3> corners_of(const Box3& box) {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 8; ++i) corners.push_back(box.corner(i));
+    return corners;
+}
+
+std::vector<Vec3> shape_of(const UniformGrid& grid, const TraversalStep& step) {
+    const CellGrid& cells = grid.cells();
+    const auto nx = static_cast<std::uint32_t>(cells.cells[0]);
+    const auto ny = static_cast<std::uint32_t>(cells.cells[1]);
+    return corners_of(
+        cells.cell_box({static_cast<int>(step.number % nx), static_cast<int>(step.number / nx % ny),
+                        static_cast<int>(step.number / nx / ny)}));
+}
+
+std::vector<Vec3> shape_of(const Octree& octree, const TraversalStep& step) {
+    const OctreeCells& cells = octree.cells();
+    const OctreeCells::Node& node = cells.nodes()[step.number];
+    Box3 box;
+    for (int k = 0; k < 3; ++k) {
+        const std::int32_t from = node.origin[static_cast<std::size_t>(k)];
+        box.lo[k] = cells.plane(k, from);
+        box.hi[k] = cells.plane(k, from + cells.span(node));
+    }
+    return corners_of(box);
+}
+
+/// Down to the leaf: nodes lie in the order depth first, the lower child before the upper one.
+std::vector<Vec3> shape_of(const KdTree& tree, const TraversalStep& step) {
+    Box3 box = tree.box();
+    std::uint32_t at = 0;
+    while (at != step.number) {
+        const KdTree::Node& node = tree.nodes()[at];
+        const bool upper = step.number >= node.index;
+        (upper ? box.lo : box.hi)[node.axis] = node.plane;
+        at = upper ? node.index : at + 1;
+    }
+    return corners_of(box);
+}
+
+std::vector<Vec3> shape_of(const KayKajiya& kay_kajiya, const TraversalStep& step) {
+    const auto of_bound = []<int K>(const SlabBound<K>& bound) {
+        std::vector<HalfSpaceOfPoints> sides;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(K); ++k) {
+            const Vec3& n = SlabDirections<K>::all()[k];
+            sides.push_back({n, bound.range[k].hi});
+            sides.push_back({-n, -bound.range[k].lo});
+        }
+        return convex_corners(sides);
+    };
+    return std::visit(
+        [&](const auto& tree) {
+            const auto& bound = tree.nodes[step.number].bound;
+            if constexpr (requires { of_bound(bound); }) {
+                return of_bound(bound);
+            } else {
+                return std::vector<Vec3>{};  // spheres: this accelerator has none
+            }
+        },
+        kay_kajiya.tree());
+}
+
+template <class A>
+void trace(const Scene& scene, const AcceleratorChoice& choice, TraversalTrace& result) {
+    const PrimitiveTable& table = scene.aggregate->primitives();
+    const BoundedPrimitives bounded(table);
+    SettingsReader reader(choice.name, choice.settings);
+    const typename A::Config config = A::configure(reader);
+    reader.finish();
+    const A accelerator = A::build(bounded, config);
+    TracingVisitor visitor(table, bounded, result);
+    for (const PrimitiveId id : bounded.unbounded()) visitor.test(id);
+    TracingStats stats;
+    stats.steps = &result.steps;
+    Ray ray = result.ray;
+    accelerator.traverse(ray, visitor, stats);
+    for (TraversalStep& step : result.steps) {
+        if (step.kind != Kind::Primitive) step.corners = shape_of(accelerator, step);
+    }
+}
+
+struct Traceable {
+    const char* name;
+    void (*trace)(const Scene&, const AcceleratorChoice&, TraversalTrace&);
+};
+constexpr Traceable kTraceable[] = {{KayKajiya::kName, &trace<KayKajiya>},
+                                    {UniformGrid::kName, &trace<UniformGrid>},
+                                    {Octree::kName, &trace<Octree>},
+                                    {KdTree::kName, &trace<KdTree>}};
+
+}  // namespace
+
+std::string traceable_accelerators() {
+    std::string names;
+    for (const Traceable& entry : kTraceable) {
+        names += names.empty() ? entry.name : std::string(", ") + entry.name;
+    }
+    return names;
+}
+
+TraversalTrace trace_traversal(const Scene& scene, const std::string& accelerator, const Ray& ray) {
+    const AcceleratorChoice choice = parse_accelerator(accelerator);
+    TraversalTrace result;
+    result.accelerator = accelerator;
+    result.ray = ray;
+    for (const Traceable& entry : kTraceable) {
+        if (choice.name != entry.name) continue;
+        entry.trace(scene, choice, result);
+        return result;
+    }
+    throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be traced; those that can are: {}",
+                                              choice.name, traceable_accelerators()));
+}
+
+}  // namespace alhazen

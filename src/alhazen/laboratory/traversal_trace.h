@@ -1,0 +1,41 @@
+#pragma once
+/// What an accelerator does for one ray: the cells it visits, the bounds it tests, the primitives
+/// it tests, in order, as shapes that can be drawn.
+///
+/// Source: the figures of the papers on each accelerator.
+/// Differs: the steps are those of the real traversal, told by it (accel/traversal_trace.h), none
+/// is drawn up for the figure.
+
+#include <string>
+#include <vector>
+
+#include "alhazen/scene/scene.h"
+
+namespace alhazen {
+
+struct TraversalStep {
+    enum class Kind { Cell, Bound, Primitive };
+
+    Kind kind = Kind::Cell;
+    bool met = true;            ///< a bound that the ray goes through; a primitive that it hits
+    std::uint32_t number = 0;   ///< of the cell, the node or the primitive
+    std::vector<Vec3> corners;  ///< of the convex cell or bound; none for a primitive
+};
+
+struct TraversalTrace {
+    std::string accelerator;
+    Ray ray;
+    std::vector<TraversalStep> steps;
+    Hit hit;
+};
+
+/// The accelerators that can be traced, as names separated by commas.
+[[nodiscard]] std::string traceable_accelerators();
+
+/// The closest hit of `ray` by an accelerator ("NAME:SETTING=VALUE,...") over the outermost
+/// primitives of the scene; those inside of instances are not told. Throws Error (Usage) for an
+/// accelerator that cannot be traced.
+[[nodiscard]] TraversalTrace trace_traversal(const Scene& scene, const std::string& accelerator,
+                                             const Ray& ray);
+
+}  // namespace alhazen
