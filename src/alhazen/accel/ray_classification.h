@@ -20,6 +20,7 @@
 #include "alhazen/accel/accelerator.h"
 #include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/ray_hypercubes.h"
+#include "alhazen/accel/traversal_trace.h"
 
 namespace alhazen {
 
@@ -48,6 +49,7 @@ class RayClassification {
         const RayHypercubes::Found found = classes_->find(classified);
         stats.cache_lookup(found.cached);
         stats.nodes(static_cast<std::uint64_t>(found.nodes));
+        note_cell(stats, static_cast<std::size_t>(found.nodes));
         if (found.list->empty()) stats.empty_cells(1);
         const int direction = classified.direction;
         const double sign = direction % 2 == 0 ? 1.0 : -1.0;

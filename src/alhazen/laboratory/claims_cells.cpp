@@ -64,9 +64,11 @@ void claim_b4(ClaimRun& run) {
                     published.cells_1);
     }
     run.note(
-        "Published figures of other programs, with other rules: how a density becomes cells along "
+        "Published figures of another program with other rules: how a density becomes cells along "
         "the "
-        "axes, which primitives a cell holds (ours go by their boxes), what a mailbox counts.");
+        "axes, which primitives a cell holds (ours: spheres and triangles that reach into it, all "
+        "else "
+        "by its box), and whether a shadow ray ends at the first thing it meets (ours does).");
 }
 
 void claim_b5(ClaimRun& run) {

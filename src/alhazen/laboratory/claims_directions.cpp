@@ -21,15 +21,10 @@ const KindFigures& of_kind(const ReplayFigures& figures, RayKind kind) {
     return figures.kinds[static_cast<std::size_t>(kind)];
 }
 
-template <class Stats>
-double share_in_cache(const Stats& tests) {
-    if constexpr (requires { tests.cache_hits; }) {
-        return tests.cache_lookups == 0 ? 0.0
-                                        : static_cast<double>(tests.cache_hits) /
-                                              static_cast<double>(tests.cache_lookups);
-    } else {
-        return 0.0;
-    }
+double share_in_cache(const TraversalStats& tests) {
+    return tests.cache_lookups == 0
+               ? 0.0
+               : static_cast<double>(tests.cache_hits) / static_cast<double>(tests.cache_lookups);
 }
 
 }  // namespace

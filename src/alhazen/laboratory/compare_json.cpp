@@ -36,7 +36,9 @@ json counts(const KindFigures& figures) {
               {"node_visits", t.node_visits},
               {"empty_cells", t.empty_cells},
               {"slab", t.slab_tests},
-              {"heap_pushes", t.heap_pushes}}}};
+              {"heap_pushes", t.heap_pushes},
+              {"cache_lookups", t.cache_lookups},
+              {"cache_hits", t.cache_hits}}}};
 }
 
 json per_ray(const ReplayFigures& f) {

@@ -118,6 +118,7 @@ text{font-family:system-ui,sans-serif;fill:var(--ink)}
 .hit{fill:var(--hit);fill-opacity:.55;stroke:var(--hit);stroke-width:2}
 .cell{fill:var(--cell);fill-opacity:.1;stroke:var(--cell);stroke-width:1.2}
 .bound{fill:none;stroke:var(--cell);stroke-width:1.4}
+.beam{fill:var(--cell);fill-opacity:.07;stroke:var(--cell);stroke-dasharray:9 4}
 .missed{fill:none;stroke:var(--cell);stroke-width:1;stroke-dasharray:5 4;stroke-opacity:.65}
 .ray{stroke:var(--ink);stroke-width:2.2}
 .ray.behind{stroke-width:1;stroke-dasharray:2 5}
@@ -165,7 +166,12 @@ class Figure {
     }
     [[nodiscard]] std::string summary() const {
         std::string text = trace_.accelerator + ":";
-        if (count(Kind::Cell) > 0) text += fmt::format(" {} cells visited,", count(Kind::Cell));
+        const std::size_t cells = count(Kind::Cell);
+        if (count(Kind::Beam) > 0) {
+            text += " one class of rays,";
+        } else if (cells > 0) {
+            text += fmt::format(" {} cells visited,", cells);
+        }
         if (count(Kind::Bound) > 0) text += fmt::format(" {} bounds tested,", count(Kind::Bound));
         return text +
                fmt::format(" {} of {} primitives tested", count(Kind::Primitive), table_.size());
@@ -182,7 +188,12 @@ class Figure {
                 style, x, x + 29, what);
             x += 55 + 7.4 * static_cast<double>(std::string_view(what).size());
         };
-        if (count(Kind::Cell) > 0) key("cell", "cell visited, by number");
+        if (count(Kind::Beam) > 0) {
+            key("cell", "where the rays of the class come from");
+            key("beam", "their beam");
+        } else if (count(Kind::Cell) > 0) {
+            key("cell", "cell visited, by number");
+        }
         if (count(Kind::Bound) > 0) {
             key("bound", "bound that the ray meets");
             key("missed", "bound that it misses");
@@ -219,9 +230,10 @@ class Figure {
         for (const TraversalStep& step : trace_.steps) {
             if (step.corners.empty()) continue;
             text += polygon(project_, step.corners,
-                            step.kind == Kind::Cell ? "cell"
-                            : step.met              ? "bound"
-                                                    : "missed");
+                            step.kind == Kind::Cell   ? "cell"
+                            : step.kind == Kind::Beam ? "beam"
+                            : step.met                ? "bound"
+                                                      : "missed");
         }
         return text;
     }
@@ -261,6 +273,7 @@ class Figure {
     /// Numbers in the lower left of cells that have room for them; of several in one place the
     /// first.
     std::string numbers() const {
+        if (count(Kind::Beam) > 0) return "";
         std::string text;
         int number = 0;
         for (const TraversalStep& step : trace_.steps) {

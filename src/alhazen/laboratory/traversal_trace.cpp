@@ -8,6 +8,7 @@
 #include "alhazen/accel/kay_kajiya.h"
 #include "alhazen/accel/kd_tree.h"
 #include "alhazen/accel/octree.h"
+#include "alhazen/accel/ray_classification.h"
 #include "alhazen/accel/uniform_grid.h"
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/convex_corners.h"
@@ -40,6 +41,7 @@ class TracingVisitor {
           ray_(trace.ray),
           shear_(ray_.direction) {}
 
+    static constexpr AsksFor kAsksFor = AsksFor::Closest;
     [[nodiscard]] double t_max() const { return ray_.t_max; }
     bool visit(std::uint32_t i) {
         test(PrimitiveId{bounded_.id(i)});
@@ -124,6 +126,57 @@ std::vector<Vec3> shape_of(const KayKajiya& kay_kajiya, const TraversalStep& ste
         kay_kajiya.tree());
 }
 
+/// Gives every step its shape.
+template <class A>
+void add_shapes(const A& accelerator, TraversalTrace& result) {
+    for (TraversalStep& step : result.steps) {
+        if (step.kind != Kind::Primitive) step.corners = shape_of(accelerator, step);
+    }
+}
+
+/// The cell is where the rays of the class come from; the beam is where they go, as far as there
+/// are primitives.
+void add_shapes(const RayClassification& made, TraversalTrace& result) {
+    for (std::size_t i = 0; i < result.steps.size(); ++i) {
+        if (result.steps[i].kind != Kind::Cell) continue;
+        const Box3& box = made.classes()->space().box;
+        const RaySpan span(box, result.ray, result.ray.t_max);
+        const ClassifiedRay ray(result.ray, span.begin);
+        Hypercube cube{{box.lo.x, box.lo.y, box.lo.z, -1, -1},
+                       {box.hi.x, box.hi.y, box.hi.z, 1, 1}};
+        for (std::uint32_t depth = 1; depth < result.steps[i].number; ++depth) {
+            cube = cube.child(cube.child_of(ray.point));
+        }
+        const Box3 from{{cube.lo[0], cube.lo[1], cube.lo[2]}, {cube.hi[0], cube.hi[1], cube.hi[2]}};
+        result.steps[i].corners = corners_of(from);
+        const int axis = ray.direction / 2;
+        Vec3 forward;
+        forward[axis] = ray.direction % 2 == 0 ? 1 : -1;
+        std::vector<HalfSpaceOfPoints> sides;
+        const auto keep = [&](const Vec3& normal, const Box3& all) {
+            sides.push_back({normal, extent(all, normal).hi});
+        };
+        keep(-forward, from);
+        for (int k = 0; k < 3; ++k) {
+            Vec3 along;
+            along[k] = 1;
+            keep(along, box);
+            keep(-along, box);
+        }
+        for (int k = 1; k < 3; ++k) {
+            Vec3 across;
+            across[(axis + k) % 3] = 1;
+            const auto slope = static_cast<std::size_t>(2 + k);
+            keep(across - cube.hi[slope] * forward, from);
+            keep(cube.lo[slope] * forward - across, from);
+        }
+        TraversalStep beam{Kind::Beam, true, 0, convex_corners(sides)};
+        result.steps.insert(result.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                            std::move(beam));
+        return;
+    }
+}
+
 template <class A>
 void trace(const Scene& scene, const AcceleratorChoice& choice, TraversalTrace& result) {
     const PrimitiveTable& table = scene.aggregate->primitives();
@@ -138,9 +191,7 @@ void trace(const Scene& scene, const AcceleratorChoice& choice, TraversalTrace& 
     stats.steps = &result.steps;
     Ray ray = result.ray;
     accelerator.traverse(ray, visitor, stats);
-    for (TraversalStep& step : result.steps) {
-        if (step.kind != Kind::Primitive) step.corners = shape_of(accelerator, step);
-    }
+    add_shapes(accelerator, result);
 }
 
 struct Traceable {
@@ -150,6 +201,7 @@ struct Traceable {
 constexpr Traceable kTraceable[] = {{KayKajiya::kName, &trace<KayKajiya>},
                                     {UniformGrid::kName, &trace<UniformGrid>},
                                     {Octree::kName, &trace<Octree>},
+                                    {RayClassification::kName, &trace<RayClassification>},
                                     {KdTree::kName, &trace<KdTree>}};
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace alhazen {
 
 struct TraversalStep {
-    enum class Kind { Cell, Bound, Primitive };
+    enum class Kind { Cell, Bound, Beam, Primitive };
 
     Kind kind = Kind::Cell;
     bool met = true;            ///< a bound that the ray goes through; a primitive that it hits

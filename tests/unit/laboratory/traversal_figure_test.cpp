@@ -24,7 +24,8 @@ std::uint64_t count(const TraversalTrace& trace, Kind kind) {
 
 TEST(TraversalTrace, HasTheStepsThatTheAggregateCountsAndItsHit) {
     const SceneTrial trial(small_scene(), {.max_depth = 0});
-    for (const std::string name : {"kay_kajiya", "uniform_grid", "octree", "kd_tree"}) {
+    for (const std::string name :
+         {"kay_kajiya", "uniform_grid", "octree", "kd_tree", "ray_classification"}) {
         const Scene scene = trial.build(name).scene;
         for (int x = 0; x < 40; x += 7) {
             const Ray ray = trial.eye_ray_of(x, 15);
