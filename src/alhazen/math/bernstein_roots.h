@@ -51,6 +51,12 @@ struct SignChanges {
     [[nodiscard]] bool negative_at_end() const { return negative_at_start != (count % 2 != 0); }
 };
 
+/// Which sign changes a caller asks for: all of them. Another type may ask for fewer: of those that
+/// it does not want, u is anything between lo and hi.
+struct AllSignChanges {
+    [[nodiscard]] bool wants(double /*lo*/, double /*hi*/) const { return true; }
+};
+
 namespace bernstein {
 
 inline double leading(double v) {
@@ -140,21 +146,24 @@ struct ScaledPolynomial {
     std::array<double, N + 1> s{};  // the compiler does not see that no more is read than written
 
     explicit ScaledPolynomial(const BernsteinPolynomial<double, N>& p) : degree(p.degree) {
-        const auto& row = kBinomials<N>[static_cast<std::size_t>(degree)];
-        for (int i = 0; i <= degree; ++i) s[i] = row[i] * p.b[i];
+        const double* row = kBinomials<N>[static_cast<std::size_t>(degree)].data();
+        const double* b = p.b.data();
+        double* to = s.data();
+        for (int i = 0; i <= degree; ++i) to[i] = row[i] * b[i];
     }
     void operator()(double w, double& value, double& slope) const {
-        value = s[degree];
+        const double* from = s.data();
+        value = from[degree];
         slope = 0.0;
         for (int i = degree - 1; i >= 0; --i) {
             slope = slope * w + value;
-            value = value * w + s[i];
+            value = value * w + from[i];
         }
     }
 };
 
 /// The one search, for both kinds of numbers.
-template <class Real, int N>
+template <class Real, int N, class Wanted>
 class SignChangeSearch {
     static constexpr bool kMustAnswer = !std::is_same_v<Real, double>;
     /// Rounding of one step of a split, relative to the largest coefficient: two products and
@@ -162,8 +171,9 @@ class SignChangeSearch {
     static constexpr double kRounding = kMustAnswer ? kDoubleDoubleUlp : 0x1p-52;
 
   public:
-    SignChangeSearch(const BernsteinPolynomial<Real, N>& p, SignChanges<N>& out)
-        : p_(p), out_(out) {}
+    SignChangeSearch(const BernsteinPolynomial<Real, N>& p, const Wanted& wanted,
+                     SignChanges<N>& out)
+        : p_(p), wanted_(wanted), out_(out) {}
 
     /// False when the signs are not certain (never in double-double).
     bool run() {
@@ -181,6 +191,13 @@ class SignChangeSearch {
             if (last == 0) last = sign_beside(n, -1);
         }
         out_.negative_at_start = first < 0;
+        if constexpr (!kMustAnswer) {
+            if (first == last) {
+                const int most = most_variations(p_.b.data(), p_.error, first, last);
+                if (most == 0) return true;
+                if (most == 2 && found_between(first)) return true;
+            }
+        }
         return search(p_.b.data(), p_.error, 0.0, 1.0, first, last);
     }
 
@@ -213,6 +230,31 @@ class SignChangeSearch {
             unknown = 0;
         }
         return most;
+    }
+
+    /// Where there are at most two changes, and a place between them is found by its value: one on
+    /// either side of it. False where it is not found.
+    bool found_between(int first) {
+        const Extremes e = extremes(p_.b.data(), first);
+        const bool mirrored = e.middle > 0.5;
+        const double far = mirrored ? e.middle : 1.0 - e.middle;  // the larger part
+        double value, slope;
+        const ScaledPolynomial<N> q(p_);
+        if (mirrored) {
+            reversed(q)((1.0 - e.middle) / far, value, slope);
+        } else {
+            q(e.middle / far, value, slope);
+        }
+        // The value is that of p over far^n; its rounding relative to the largest coefficient.
+        double scale = 1.0;
+        for (int i = 0; i < p_.degree; ++i) scale *= far;
+        const double error = p_.error + 4.0 * p_.degree * kRounding * e.largest;
+        if (!(-first * value * scale > error)) return false;
+        return emit(0.0, e.middle, first) && emit(e.middle, 1.0, -first);
+    }
+    static ScaledPolynomial<N> reversed(ScaledPolynomial<N> q) {
+        std::reverse(q.s.begin(), q.s.begin() + q.degree + 1);
+        return q;
     }
 
     struct Extremes {
@@ -291,6 +333,7 @@ class SignChangeSearch {
     }
 
     bool emit(double lo, double hi, int sign_lo) {
+        if (!wanted_.wants(lo, hi)) return put(lo, lo, hi);
         if constexpr (kMustAnswer) {
             const auto f = [&](double u, double& value, double& slope) {
                 Real exact;
@@ -306,7 +349,7 @@ class SignChangeSearch {
     /// The root in [lo, hi], as one of the scaled polynomial or of its mirror image, whichever has
     /// it at w <= 1.
     double polish(double lo, double hi, double sign_lo) const {
-        ScaledPolynomial<N> q(p_);
+        const ScaledPolynomial<N> q(p_);
         if (lo < 0.5 && hi > 0.5) {
             double value, slope;
             q(1.0, value, slope);
@@ -316,14 +359,13 @@ class SignChangeSearch {
             const double w = root_of(q, lo / (1.0 - lo), hi / (1.0 - hi), sign_lo);
             return w / (1.0 + w);
         }
-        std::reverse(q.s.begin(), q.s.begin() + q.degree + 1);
-        const double w = root_of(q, (1.0 - hi) / hi, (1.0 - lo) / lo, -sign_lo);
+        const double w = root_of(reversed(q), (1.0 - hi) / hi, (1.0 - lo) / lo, -sign_lo);
         return 1.0 / (1.0 + w);
     }
 
     static double root_of(const ScaledPolynomial<N>& q, double lo, double hi, double sign_lo) {
-        double f_lo, f_hi, slope;
-        q(lo, f_lo, slope);
+        double f_lo = q.s[0], f_hi, slope;
+        if (lo > 0.0) q(lo, f_lo, slope);
         q(hi, f_hi, slope);
         double guess = lo + (hi - lo) * (f_lo / (f_lo - f_hi));
         if (!(guess >= lo && guess <= hi)) guess = 0.5 * (lo + hi);
@@ -331,32 +373,35 @@ class SignChangeSearch {
     }
 
     const BernsteinPolynomial<Real, N>& p_;
+    const Wanted& wanted_;
     SignChanges<N>& out_;
 };
 
 }  // namespace bernstein
 
 /// False when double cannot tell; `out` is then to be ignored.
-template <int N>
-[[nodiscard]] bool find_sign_changes(const BernsteinPolynomial<double, N>& p, SignChanges<N>& out) {
-    return bernstein::SignChangeSearch<double, N>(p, out).run();
+template <int N, class Wanted = AllSignChanges>
+[[nodiscard]] bool find_sign_changes(const BernsteinPolynomial<double, N>& p, SignChanges<N>& out,
+                                     const Wanted& wanted = {}) {
+    return bernstein::SignChangeSearch<double, N, Wanted>(p, wanted, out).run();
 }
 /// Always answers; see the conventions above for what cannot be told from 0.
-template <int N>
-void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChanges<N>& out) {
-    bernstein::SignChangeSearch<DoubleDouble, N>(p, out).run();
+template <int N, class Wanted = AllSignChanges>
+void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChanges<N>& out,
+                       const Wanted& wanted = {}) {
+    bernstein::SignChangeSearch<DoubleDouble, N, Wanted>(p, wanted, out).run();
 }
 
 /// `make(BernsteinPolynomial<Real, N>&)` computes the coefficients and their error bound: in double
 /// and, only where that does not do, in double-double. Keep the two true to the same polynomial.
-template <int N, class Make>
-void find_certified_sign_changes(Make&& make, SignChanges<N>& out) {
+template <int N, class Make, class Wanted = AllSignChanges>
+void find_certified_sign_changes(Make&& make, SignChanges<N>& out, const Wanted& wanted = {}) {
     BernsteinPolynomial<double, N> p;
     make(p);
-    if (find_sign_changes(p, out)) return;
+    if (find_sign_changes(p, out, wanted)) return;
     BernsteinPolynomial<DoubleDouble, N> precise;
     make(precise);
-    find_sign_changes(precise, out);
+    find_sign_changes(precise, out, wanted);
 }
 
 }  // namespace alhazen

@@ -14,10 +14,23 @@ constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDou
 
 /// Where a quadratic 1 - (distance / radius)^2 of a component holds along the ray.
 enum class Region : std::uint8_t { Base, Middle, Top };
+/// Where it does, and what it is there in double: peak - bend (t - middle)^2. Without bend that is
+/// not known.
+struct Bump {
+    Interval t;
+    double middle = 0, peak = 1, bend = 0;
+
+    [[nodiscard]] bool known() const { return bend > 0.0; }
+    [[nodiscard]] double largest(double t0, double t1) const {
+        const double off = std::clamp(middle, t0, t1) - middle;
+        return peak - bend * off * off;
+    }
+};
 struct Piece {
     std::uint32_t component;
     Region region;
     double in, out;  ///< from the local origin
+    Bump bump;
 };
 struct Event {
     double t;
@@ -72,6 +85,15 @@ struct LocalRay {
     template <class Real>
     void add(const Piece& piece, double t0, double t1, BernsteinPolynomial<Real, 4>& sum) const {
         const BlobComponent& c = blob.components[piece.component];
+        if constexpr (std::is_same_v<Real, double>) {
+            if (piece.bump.known()) {
+                const Bump& bump = piece.bump;
+                const double a = t0 - bump.middle, b = t1 - bump.middle;
+                return add_squared(piece, bump.peak - bump.bend * (a * a),
+                                   bump.peak - bump.bend * (a * b), bump.peak - bump.bend * (b * b),
+                                   sum);
+            }
+        }
         const Vec3& center = piece.region == Region::Top ? c.top : c.base;
         Vec3Of<Real> a = from<Real>(center, t0), b = from<Real>(center, t1);
         Real scale = Real(c.radius) * Real(c.radius);
@@ -86,6 +108,15 @@ struct LocalRay {
         const Real q0 = Real(1.0) - quotient(dot_of(a, a), scale);
         const Real q1 = Real(1.0) - quotient(dot_of(a, b), scale);
         const Real q2 = Real(1.0) - quotient(dot_of(b, b), scale);
+        add_squared(piece, q0, q1, q2, sum);
+    }
+
+  private:
+    /// The square of a quadratic with these Bernstein coefficients.
+    template <class Real>
+    void add_squared(const Piece& piece, const Real& q0, const Real& q1, const Real& q2,
+                     BernsteinPolynomial<Real, 4>& sum) const {
+        const BlobComponent& c = blob.components[piece.component];
         const Real s = c.strength;
         sum.b[0] -= s * (q0 * q0);
         sum.b[1] -= s * (q0 * q1);
@@ -99,27 +130,28 @@ struct LocalRay {
     }
 };
 
-/// Where the line, given by its squared distance (|m|^2 least at t) from an axis or a centre, is
-/// closer than the radius.
-Interval within(double middle, double distance, double radius, double speed) {
+/// Where the line, given by its least distance (at t = middle) from an axis or a centre and its
+/// speed across, is closer than the radius.
+Bump within(double middle, double distance, double radius, double speed) {
     if (!(distance < radius)) return {};
-    const double half = std::sqrt((radius - distance) * (radius + distance)) / speed;
-    return {middle - half, middle + half};
+    const double room = (radius - distance) * (radius + distance);
+    const double half = std::sqrt(room) / speed, squared = radius * radius;
+    return {{middle - half, middle + half}, middle, room / squared, speed * speed / squared};
 }
 
-Interval within_ball(const LocalRay& ray, const Vec3& center, double radius) {
+Bump within_ball(const LocalRay& ray, const Vec3& center, double radius) {
     const Vec3 f = ray.o - center;
     const Vec3& d = ray.given.direction;
     const double dd = length_squared(d), middle = -dot(f, d) / dd;
     return within(middle, length(f + middle * d), radius, std::sqrt(dd));
 }
 
-Interval within_rod(const LocalRay& ray, const BlobComponent& c) {
+Bump within_rod(const LocalRay& ray, const BlobComponent& c) {
     const Vec3 axis = unit_or(c.top - c.base, {0, 0, 1});
     const Vec3 f = cross(ray.o - c.base, axis), d = cross(ray.given.direction, axis);
     const double dd = length_squared(d);
     if (dd <= 1e-24 * length_squared(ray.given.direction)) {
-        return length(f) < c.radius ? Interval{-kInfinity, kInfinity} : Interval{};
+        return {length(f) < c.radius ? Interval{-kInfinity, kInfinity} : Interval{}};
     }
     const double middle = -dot(f, d) / dd;
     return within(middle, length(f + middle * d), c.radius, std::sqrt(dd));
@@ -132,15 +164,17 @@ Interval meeting(const Interval& a, const Interval& b) {
 
 void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
     const BlobComponent& c = ray.blob.components[number];
-    const auto add = [&](Region region, const Interval& t) {
+    constexpr Interval kWholeLine{-kInfinity, kInfinity};
+    const auto add = [&](Region region, const Interval& part, const Bump& bump) {
+        const Interval t = meeting(part, bump.t);
         if (t.lo < t.hi && std::isfinite(t.lo) && std::isfinite(t.hi)) {
-            pieces.push_back({number, region, t.lo, t.hi});
+            pieces.push_back({number, region, t.lo, t.hi, bump});
         }
     };
-    if (!c.rod) return add(Region::Base, within_ball(ray, c.base, c.radius));
+    if (!c.rod) return add(Region::Base, kWholeLine, within_ball(ray, c.base, c.radius));
     const Vec3 e = c.top - c.base;
     const double start = dot(ray.o - c.base, e), speed = dot(ray.given.direction, e);
-    Interval before{-kInfinity, kInfinity}, between = before, behind = before;
+    Interval before = kWholeLine, between = before, behind = before;
     if (speed == 0.0) {
         if (start >= 0.0) before = {};
         if (start < 0.0 || start > length_squared(e)) between = {};
@@ -152,9 +186,9 @@ void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& p
         behind = {between.hi, kInfinity};
         if (speed < 0.0) std::swap(before, behind);
     }
-    add(Region::Base, meeting(before, within_ball(ray, c.base, c.radius)));
-    add(Region::Middle, meeting(between, within_rod(ray, c)));
-    add(Region::Top, meeting(behind, within_ball(ray, c.top, c.radius)));
+    add(Region::Base, before, within_ball(ray, c.base, c.radius));
+    add(Region::Middle, between, within_rod(ray, c));
+    add(Region::Top, behind, within_ball(ray, c.top, c.radius));
 }
 
 /// What one ray needs; kept from ray to ray so that nothing is allocated.
@@ -174,12 +208,23 @@ class SpanWalk {
     void span(double t0, double t1) {
         gap(t0);
         last_ = t1;
-        double most = 0.0;
+        double most = 0.0, here = 0.0;
         for (const std::uint32_t i : work_.active) {
-            most += std::max(0.0, ray_.blob.components[work_.pieces[i].component].strength);
+            const Piece& piece = work_.pieces[i];
+            const BlobComponent& c = ray_.blob.components[piece.component];
+            const double s = std::max(0.0, c.strength);
+            most += s;
+            if (piece.bump.known()) {
+                // With more room than its numbers round.
+                const double room = 0x1p-46 * (ray_.far + ray_.blob.reach) / c.radius;
+                const double q = std::fmax(0.0, piece.bump.largest(t0, t1)) + room;
+                here += s * q * q;
+            } else {
+                here += s;
+            }
         }
-        // Too weak together, rounding included.
-        if (most < 0.999 * ray_.blob.threshold) {
+        // Too weak together.
+        if (here < 0.999 * ray_.blob.threshold) {
             if (skipped_) inside_ = skipped_ = false;
             return leave(t0);
         }

@@ -34,14 +34,50 @@ Real constant_as(const DoubleDouble& c) {
     }
 }
 
+/// out = u v, of degrees m and n.
+template <class Real>
+void multiply(const Real* u, int m, const Real* v, int n, Real* out) {
+    if (m == 1 && n == 1) {
+        out[0] = u[0] * v[0];
+        out[1] = u[0] * v[1] + u[1] * v[0];
+        out[2] = u[1] * v[1];
+        return;
+    }
+    if (m == 2 && n == 2) {
+        out[0] = u[0] * v[0];
+        out[1] = u[0] * v[1] + u[1] * v[0];
+        out[2] = u[0] * v[2] + u[1] * v[1] + u[2] * v[0];
+        out[3] = u[1] * v[2] + u[2] * v[1];
+        out[4] = u[2] * v[2];
+        return;
+    }
+    for (int k = 0; k <= n; ++k) out[k] = u[0] * v[k];
+    for (int i = 1; i <= m; ++i) {
+        for (int k = 0; k < n; ++k) out[i + k] += u[i] * v[k];
+        out[i + n] = u[i] * v[n];
+    }
+}
+
 /// out += sign * a, raised from degree m to n: times ((1 - u) + u)^(n - m).
 template <class Real>
 void add_raised(const Real* a, int m, int n, double sign, Real* out) {
-    const auto& row = kBinomials[static_cast<std::size_t>(n - m)];
+    const double* row = kBinomials[static_cast<std::size_t>(n - m)].data();
     for (int i = 0; i <= m; ++i) {
-        for (int k = 0; k <= n - m; ++k) {
-            out[i + k] += Real(sign * row[static_cast<std::size_t>(k)]) * a[i];
-        }
+        for (int k = 0; k <= n - m; ++k) out[i + k] += Real(sign * row[k]) * a[i];
+    }
+}
+
+/// out = u + sign v, of degrees m and n.
+template <class Real>
+void add(const Real* u, int m, const Real* v, int n, double sign, Real* out) {
+    if (m == n) {
+        for (int i = 0; i <= n; ++i) out[i] = sign > 0.0 ? u[i] + v[i] : u[i] - v[i];
+    } else if (m > n) {
+        std::copy_n(u, m + 1, out);
+        add_raised(v, n, m, sign, out);
+    } else {
+        for (int i = 0; i <= n; ++i) out[i] = sign > 0.0 ? v[i] : -v[i];
+        add_raised(u, m, n, 1.0, out);
     }
 }
 
@@ -199,14 +235,10 @@ void PolynomialExpression::restricted(const Point3<Real>& p, const Point3<Real>&
         }
         const Node &left = nodes_[n.a], &right = nodes_[n.b];
         const Real *u = all.data() + left.first, *v = all.data() + right.first;
-        std::fill_n(out, n.degree + 1, Real(0.0));
         if (n.op == Op::Multiply) {
-            for (int i = 0; i <= left.degree; ++i) {
-                for (int k = 0; k <= right.degree; ++k) out[i + k] += u[i] * v[k];
-            }
+            multiply(u, left.degree, v, right.degree, out);
         } else {
-            add_raised(u, left.degree, n.degree, 1.0, out);
-            add_raised(v, right.degree, n.degree, n.op == Op::Add ? 1.0 : -1.0, out);
+            add(u, left.degree, v, right.degree, n.op == Op::Add ? 1.0 : -1.0, out);
         }
     }
     const Node& root = nodes_.back();

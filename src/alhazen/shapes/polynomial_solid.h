@@ -30,14 +30,15 @@ struct ClipSegment {
     double relative_error = 0;
 };
 
-/// Cuts the line by a box in the frame; false when nothing is left that the ray covers. `size` is
-/// the smallest of the largest coordinates of the box along its axes.
-inline bool clip_segment(const SolidFrame& frame, const Ray& ray, const Box3& box, double size,
-                         ClipSegment& s) {
+/// Cuts the line in the frame by `cut(o, d, range)`; false when nothing is left that the ray
+/// covers. `size` is about that of what is left.
+template <class Cut>
+inline bool clip_segment_by(const SolidFrame& frame, const Ray& ray, double size, Cut&& cut,
+                            ClipSegment& s) {
     Vec3 from = ray.origin - frame.origin;
     s.o = frame.local_from_object * from;
     s.d = frame.local_from_object * ray.direction;
-    if (!cut_by_box(s.o, s.d, box, s.range)) return false;
+    if (!cut(s.o, s.d, s.range)) return false;
     if (!(s.range.exit >= ray.t_min && s.range.entry <= ray.t_max)) return false;
     const double step = max_component(abs(ray.direction));
     if (std::abs(s.range.entry) * step * frame.stretch > 16.0 * size) {
@@ -50,6 +51,17 @@ inline bool clip_segment(const SolidFrame& frame, const Ray& ray, const Box3& bo
     s.relative_error = 6.0 * frame.stretch / size *
                        (max_component(abs(from)) + max_component(abs(frame.origin)) + far * step);
     return true;
+}
+
+/// The same by a box; `size` is the smallest of the largest coordinates of the box along its axes.
+inline bool clip_segment(const SolidFrame& frame, const Ray& ray, const Box3& box, double size,
+                         ClipSegment& s) {
+    return clip_segment_by(
+        frame, ray, size,
+        [&](const Vec3& o, const Vec3& d, ClipRange& range) {
+            return cut_by_box(o, d, box, range);
+        },
+        s);
 }
 
 /// Coefficients in either precision; the polynomial is that of the exact line.
@@ -76,20 +88,32 @@ void restrict_to_segment(const Polynomial& f, const SolidFrame& frame, const Ray
     p.error = kUnit * f.magnitude() * (f.roundings() + 1.5 * p.degree * s.relative_error);
 }
 
+/// The sign changes that a ray covers: see AllSignChanges.
+struct CoveredSignChanges {
+    const Ray& ray;
+    const ClipRange& range;
+
+    [[nodiscard]] double at(double u) const {
+        return std::fmin(range.exit, range.entry + u * (range.exit - range.entry));
+    }
+    // `at` ascends, rounding included.
+    [[nodiscard]] bool wants(double lo, double hi) const {
+        return at(hi) >= ray.t_min && at(lo) <= ray.t_max;
+    }
+};
+
 /// Crossings of a segment whose range has been found; see report_solid for `capped`.
 template <class Polynomial>
 int intersect_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
                       const ClipSegment& s, bool capped, ShapeHit* hits) {
     constexpr int N = Polynomial::kDegree;
     SignChanges<N> changes;
+    const CoveredSignChanges covered{ray, s.range};
     find_certified_sign_changes<N>([&](auto& p) { restrict_to_segment(f, frame, ray, s, p); },
-                                   changes);
+                                   changes, covered);
     if (changes.count == 0 && !changes.negative_at_start) return 0;
     double t[N];
-    const double length = s.range.exit - s.range.entry;
-    for (int i = 0; i < changes.count; ++i) {
-        t[i] = std::fmin(s.range.exit, s.range.entry + changes.u[i] * length);
-    }
+    for (int i = 0; i < changes.count; ++i) t[i] = covered.at(changes.u[i]);
     return report_solid(ray, s.range, changes.negative_at_start, t, changes.count, capped, hits);
 }
 

@@ -18,6 +18,23 @@ Real third() {
     }
 }
 
+/// Cuts the line to a cylinder's box around the torus. Where it is cut counts for nothing else, so
+/// that products with reciprocals will do.
+bool cut_around(const Vec3& o, const Vec3& d, double reach, double height, ClipRange& range) {
+    const double half[] = {reach, reach, height};
+    for (int k = 0; k < 3; ++k) {
+        const double inverse = 1.0 / d[k];
+        const double far = std::copysign(half[k], d[k]);
+        // No number where the line runs within a face: there it is outside of the torus.
+        const double near = (-far - o[k]) * inverse, beyond = (far - o[k]) * inverse;
+        range.entry = near > range.entry ? near : range.entry;
+        range.exit = beyond < range.exit ? beyond : range.exit;
+    }
+    if (!(range.entry < range.exit) || !std::isfinite(range.exit - range.entry)) return false;
+    // Nearer to the middle than the torus reaches.
+    return length_squared(cross(o, d)) <= reach * reach * length_squared(d);
+}
+
 /// (x^2 + y^2 + z^2 + k)^2 - 4 (x^2 + y^2), k = 1 - r^2.
 struct TorusPolynomial {
     static constexpr int kDegree = 4;
@@ -108,20 +125,42 @@ Interval Torus::extent(const Vec3& direction) const {
 int Torus::intersect(const Ray& ray, ShapeHit* hits) const {
     const double reach = kRoom * (1.0 + tube), height = kRoom * tube;
     ClipSegment s;
-    if (!clip_segment(frame, ray, {{-reach, -reach, -height}, {reach, reach, height}}, reach, s)) {
-        return 0;
-    }
+    const auto cut = [&](const Vec3& o, const Vec3& d, ClipRange& range) {
+        return cut_around(o, d, reach, height, range);
+    };
+    if (!clip_segment_by(frame, ray, reach, cut, s)) return 0;
     return intersect_segment(TorusPolynomial{tube}, frame, ray, s, true, hits);
 }
+
+namespace {
+
+/// The nearest point of the tube: along the way to the circle. Right to some roundings of the
+/// coordinates, which `Torus::surface` counts.
+ProjectedPoint nearest_on_tube(const Vec3& p, double tube, const Vec3& back) {
+    const double across = std::sqrt(p.x * p.x + p.y * p.y);
+    const double out = across - 1.0;
+    const double distance = std::sqrt(out * out + p.z * p.z);
+    // On the axis or on the circle there is no such way.
+    if (!(across > 0.0 && distance > 0.0)) {
+        return project_to_zero(TorusPolynomial{tube}, p, back);
+    }
+    const double scale = tube / distance;
+    const double ratio = (1.0 + out * scale) / across;
+    const double radial = out / across;
+    return {{p.x * ratio, p.y * ratio, p.z * scale}, {p.x * radial, p.y * radial, p.z}, 0.0};
+}
+
+}  // namespace
 
 ShapeSurface Torus::surface(const Ray& ray, const ShapeHit& hit) const {
     const Vec3 start = frame.to_local(ray.at(hit.t));
     const Vec3 d = unit_or(frame.local_from_object * ray.direction, {0, 0, 1});
-    const ProjectedPoint at = project_to_zero(TorusPolynomial{tube}, start, -1e-6 * tube * d);
+    const ProjectedPoint at = nearest_on_tube(start, tube, -1e-6 * tube * d);
     ShapeSurface surface = surface_of(frame, at);
     const Vec3& p = at.point;
+    surface.error += frame.object_error(p, 8);
     LocalUv local = turn_uv(p);
-    const double across = std::hypot(p.x, p.y);
+    const double across = std::sqrt(p.x * p.x + p.y * p.y);
     const double out = across - 1.0;
     local.uv.y = turn_fraction(out, p.z);
     const double squared = 2.0 * kPi * (out * out + p.z * p.z);
