@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "alhazen/scene/accelerator_table.h"
+#include "alhazen/scene/csg_aggregate.h"
 #include "alhazen/scene/surface.h"
 
 namespace alhazen {
@@ -71,6 +72,9 @@ LoneSolid::LoneSolid(const SolidList& solids, SolidId id)
             aggregate_ = make_aggregate(accelerator, std::move(alone), {});
         }
     }
+    if (const auto* csg = dynamic_cast<const CsgAggregate*>(aggregate_.get())) {
+        has_walls_ = csg->solid().has_media();
+    }
     box_ = transformed(world_.outer_from_inner, aggregate_->box());
 }
 
@@ -93,6 +97,26 @@ Interval LoneSolid::extent(const Vec3& axis) const {
     return intersection(own, alhazen::extent(box_, axis));
 }
 
+namespace {
+
+/// Walls between media inside of a solid are no part of its surface: out of one and into the other
+/// at the same place.
+void drop_walls(std::vector<Hit>& hits) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const bool wall = kept % 2 == 0 && kept > 0 && hits[i].t == hits[kept - 1].t;
+        if (wall) {
+            --kept;
+        } else {
+            if (kept != i) hits[kept] = hits[i];
+            ++kept;
+        }
+    }
+    hits.resize(kept);
+}
+
+}  // namespace
+
 void LoneSolid::cross(const Ray& ray, bool want_cosines, LineSpans& found) const {
     const Ray line = whole_line(world_.inner_from_outer, ray);
     found.hits.clear();
@@ -101,6 +125,7 @@ void LoneSolid::cross(const Ray& ray, bool want_cosines, LineSpans& found) const
     aggregate_->all_hits(line, found.hits, nullptr);
     found.consistent = found.hits.size() % 2 == 0;
     if (!found.consistent) return;
+    if (has_walls_) drop_walls(found.hits);
     for (std::size_t i = 0; i < found.hits.size(); i += 2) {
         const Interval span{found.hits[i].t, found.hits[i + 1].t};
         if (span.lo < span.hi) found.spans.push_back(span);

@@ -64,6 +64,7 @@ class LoneSolid final : public Measurable {
   private:
     SolidPlace place_;
     std::shared_ptr<const Aggregate> aggregate_;
+    bool has_walls_ = false;  ///< between media inside of it
     const SolidAggregate* csg_ = nullptr;
     Placement world_;
     Box3 box_;

@@ -146,8 +146,7 @@ class SectionPainter {
                 cut = std::min(cut, static_cast<std::uint64_t>(span.solid));
             }
             if (cut != kNoSolid) {
-                const SolidPlace place = solids_.solids().place(SolidId{cut});
-                return {cut, color_of(scene_, place.material)};
+                return {cut, color_of(scene_, material_at(ray, SolidId{cut}, list))};
             }
         }
         Hit hit;
@@ -157,6 +156,19 @@ class SectionPainter {
         const Rgb color = color_of(scene_, surface.materials[0]);
         // Half as bright as a cut face at the most, so that those stand out.
         return {kNoSolid, (0.08 + 0.42 * cosine) * color};
+    }
+
+    /// What fills the solid where the ray begins: of several media the one there.
+    [[nodiscard]] MaterialId material_at(Ray ray, SolidId solid, SpanList& list) const {
+        ray.t_max = ray.t_min;
+        ray.t_min = -kInf;
+        solids_.queries().spans(ray, list);
+        for (const SolidSpan& span : list.spans) {
+            if (span.solid != solid || span.exit.is_crossing || !span.entry.is_crossing) continue;
+            const Surface surface = surface_at(*scene_.aggregate, ray, span.entry.hit);
+            if (surface.media.after) return *surface.media.after;
+        }
+        return solids_.solids().place(solid).material;
     }
 
     const SolidScene& solids_;

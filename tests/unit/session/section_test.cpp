@@ -134,6 +134,38 @@ TEST(Section, ThePictureShowsTheCutInTheColourOfTheSolidAndWhatLiesBehind) {
     EXPECT_EQ(above.rgb(6, 3).b, 1);
 }
 
+TEST(Section, MediaHaveTheirColoursAndTheWallBetweenThemIsNoOutline) {
+    SceneMaker maker;
+    Material glass, water;
+    glass.transmissive.color = {1, 0.5, 0.5};
+    water.transmissive.color = {0.25, 0.5, 1};
+    const MaterialId glass_id = maker.material(glass), water_id = maker.material(water);
+    const ObjectIndex tank = maker.object("tank");
+    maker.description().objects.back().combine = Combine::Union;
+    maker.add(BoxShape{{-2, -1, -1}, {0, 1, 1}}, glass_id, {}, tank);
+    maker.add(BoxShape{{-0.5, -1, -1}, {2, 1, 1}}, water_id, {}, tank);
+    maker.add(tank);
+    const Scene scene = maker.compile();
+    const SolidScene solids(maker.description(), scene);
+    const Image image =
+        section_picture(solids, scene, {{0, 0, 1}, 0.3}, {.width = 100, .height = 60});
+    EXPECT_NEAR(image.rgb(40, 30).r, 0.8, 1e-6);
+    EXPECT_NEAR(image.rgb(40, 30).b, 0.4, 1e-6);
+    EXPECT_NEAR(image.rgb(60, 30).r, 0.2, 1e-6);
+    EXPECT_NEAR(image.rgb(60, 30).b, 0.8, 1e-6);
+    const LoneSolid alone(solids.solids(), SolidId{0});
+    const SectionOutlines found = trace_section(alone, frame_of({{0, 0, 1}, 0.3}), {});
+    EXPECT_EQ(found.unresolved, 0u);
+    ASSERT_EQ(found.loops.size(), 1u);
+    EXPECT_NEAR(found.area(), 8, 1e-2);
+    LineSpans line;
+    alone.cross({{-5, 0.1, 0.2}, {1, 0, 0}}, true, line);
+    ASSERT_EQ(line.spans.size(), 1u);
+    EXPECT_EQ(line.spans[0].lo, 3);
+    EXPECT_EQ(line.spans[0].hi, 7);
+    EXPECT_EQ(line.cosines, 2);
+}
+
 TEST(Section, TheSvgHasTheUnitsOfTheSceneAndALayerForEachSolid) {
     SectionLayer layer{SolidId{7}, "a<b>\"&", {1, 0, 0}, {}};
     layer.outlines.loops = {{{0, 0}, {10, 0}, {10, 5}}};
