@@ -30,6 +30,12 @@ int run(const ConvertArguments& args) {
     if (!report.left_out.empty()) {
         tell("warning: left out, as they are not meshes: {}\n", report.left_out);
     }
+    if (report.masked_parts > 0) {
+        tell(
+            "warning: {} parts are not seen by all rays; in mesh files everything is (.alhazen "
+            "keeps 'visible_to')\n",
+            report.masked_parts);
+    }
     for (const std::string& line : report.lost) {
         tell("warning: the MTL file cannot say {}\n", line);
     }

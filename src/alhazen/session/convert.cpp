@@ -13,6 +13,7 @@
 #include "alhazen/importers/picture_export.h"
 #include "alhazen/importers/unique_labels.h"
 #include "alhazen/session/convert_output.h"
+#include "alhazen/session/masked_parts.h"
 #include "alhazen/session/placed_meshes.h"
 #include "alhazen/session/scene_files.h"
 
@@ -111,6 +112,7 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     check_counts(counts, path, options);
     output.report().triangles = counts.triangles;
     output.report().left_out = shapes_in_words(counts);
+    output.report().masked_parts = masked_parts(description);
     const std::vector<std::string> names = material_words(description);
     const std::vector<NamedMesh> meshes = placed_meshes(description, names);
     std::string bytes;

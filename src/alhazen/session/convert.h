@@ -29,9 +29,10 @@ struct ConvertOptions {
 struct ConvertReport {
     std::vector<std::filesystem::path> files;  ///< in the order they were written; the last is OUT
     std::uint64_t bytes = 0;                   ///< of all of them
-    std::uint64_t triangles = 0;    ///< written: of each mesh once, or of all placed ones
-    std::string left_out;           ///< "2 spheres, 1 plane": what meshes_only dropped
-    std::vector<std::string> lost;  ///< OBJ: what MTL cannot say of the materials, a line each
+    std::uint64_t triangles = 0;     ///< written: of each mesh once, or of all placed ones
+    std::uint64_t masked_parts = 0;  ///< mesh formats: parts not seen by all rays, which are now
+    std::string left_out;            ///< "2 spheres, 1 plane": what meshes_only dropped
+    std::vector<std::string> lost;   ///< OBJ: what MTL cannot say of the materials, a line each
 };
 
 /// Throws Error (Usage) that lists the known suffixes when `path` has none of them, or when it is

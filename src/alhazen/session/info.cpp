@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "alhazen/session/exact_bounds.h"
+#include "alhazen/session/masked_parts.h"
 #include "alhazen/session/mesh_figures.h"
 #include "alhazen/session/unique_bytes.h"
 
@@ -175,6 +176,7 @@ void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& opti
     info["bounded"] = !unbounded;
     if (unbounded) info["bounded_part"] = bounds;
     info["parts"] = part_counts(d);
+    info["masked_parts"] = masked_parts(d);
     info["analytic_shapes"] = census.analytic_shapes;
     info["triangles"] = census.triangles;
     info["vertices"] = vertices;

@@ -118,6 +118,9 @@ void add_geometry(Report& report, const json& info) {
         parts += fmt::format("{}{} x {}", parts.empty() ? "" : ", ", count_text(count), kind);
     }
     report.line("parts", parts.empty() ? "none" : parts);
+    if (const auto masked = info["masked_parts"].get<std::uint64_t>(); masked > 0) {
+        report.line("masks", fmt::format("{} not seen by all rays", of(masked, "part", "parts")));
+    }
     if (info["solids"].get<std::uint64_t>() > 0) {
         report.line("solids", fmt::format("{} made of {} others", count_text(info["solids"]),
                                           count_text(info["solid_leaves"])));

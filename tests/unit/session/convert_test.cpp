@@ -322,6 +322,15 @@ TEST(ConvertMeshes, WhatMtlCannotSayIsReported) {
     EXPECT_TRUE(convert(scene, folder.path() / "out.ply").lost.empty());
 }
 
+TEST(ConvertMeshes, MasksThatAreLostAreCounted) {
+    const ScratchFolder folder;
+    SceneDescription scene = textured(10);
+    EXPECT_EQ(convert(scene, folder.path() / "out.ply").masked_parts, 0U);
+    scene.objects.front().parts.front().visible_to = RayMask{1};
+    EXPECT_EQ(convert(scene, folder.path() / "out.ply").masked_parts, 1U);
+    EXPECT_EQ(convert(scene, folder.path() / "out.alhazen").masked_parts, 0U);
+}
+
 TEST(ConvertNative, BumpMapsStayBitForBit) {
     const ScratchFolder folder;
     (void)folder.write("a.obj", std::string("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"

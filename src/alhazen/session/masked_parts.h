@@ -1,0 +1,22 @@
+#pragma once
+/// How many parts of a description are not seen by all kinds of rays.
+
+#include <algorithm>
+#include <cstdint>
+
+#include "alhazen/scene/scene_description.h"
+
+namespace alhazen {
+
+/// Each object's parts once, however often it is placed.
+[[nodiscard]] inline std::uint64_t masked_parts(const SceneDescription& description) {
+    std::uint64_t count = 0;
+    for (const ObjectDescription& object : description.objects) {
+        count += static_cast<std::uint64_t>(
+            std::count_if(object.parts.begin(), object.parts.end(),
+                          [](const Part& part) { return part.visible_to != kAllRays; }));
+    }
+    return count;
+}
+
+}  // namespace alhazen
