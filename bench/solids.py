@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Solids made of others beside POV-Ray: same scene, same eye rays, flat colours, one thread, in turn, medians.
 
-Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000,spheres=1000] [--side N] [--rounds N] [--json FILE] [--keep FOLDER]
-Seconds are those that each program says it traced (without reading the scene); pixels are compared by colour.
+Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--json FILE] [--markdown FILE] [--keep FOLDER]
+A scene is KIND[=SIZE][@SIDE], of plate, menger, spheres (so many leaves) and torus, quartic, sextic, blob (one surface).
+Seconds are those of processor time that each program says it traced (without reading the scene); pixels are compared by colour.
 """
 
 import argparse
@@ -16,6 +17,7 @@ import subprocess
 import tempfile
 
 GENERATORS = {"plate": "perforated_plate", "menger": "menger_sponge", "spheres": "drilled_spheres"}
+ALL = "spheres=1000,plate=1000,plate=100000@48,menger=1000,menger=100000@48,torus,quartic,sextic,blob"
 FLAT = {"skin": (1, 0, 0), "cut": (0, 1, 0)}  # the background is blue
 NUMBER = r"[-+0-9.e]+"
 
@@ -37,6 +39,97 @@ def generate(alhazen, kind, size, path):
     return text
 
 
+# One surface before a flat background: a polynomial of x, y and z, a torus, or a blob.
+CAMERA = {"eye": (1.0, -6.0, 3.0), "look": (-1.0, 6.0, -3.0), "right": (3.6, 0.6, 0.0), "up": (-0.27, 1.62, 3.33)}
+POLYNOMIALS = {
+    "quartic": ("x^4 + y^4 + z^4 - 1.5*(x^2 + y^2 + z^2) + 0.3*x*y*z + 0.9", 1.5),
+    # Barth's sextic with the golden ratio in decimals.
+    "sextic": ("4*(2.618033988749895*x^2 - y^2)*(2.618033988749895*y^2 - z^2)*(2.618033988749895*z^2 - x^2)"
+               " - 4.23606797749979*(x^2 + y^2 + z^2 - 1)^2", 1.4),
+}
+
+
+def blob_parts():
+    """Thirty spheres in the same places for both."""
+    value, parts = 12345, []
+    for _ in range(30):
+        numbers = []
+        for _ in range(4):
+            value = (1103515245 * value + 12345) % 2**31
+            numbers.append(value / 2**31)
+        parts.append((tuple(round(2 * n - 1, 3) for n in numbers[:3]), round(0.5 + 0.3 * numbers[3], 3)))
+    return parts
+
+
+class Polynomial(dict):
+    """{(i, j, k): c} for c x^i y^j z^k; knows what Python's eval of an expression needs."""
+
+    def __add__(self, other):
+        other = other if isinstance(other, Polynomial) else Polynomial({(0, 0, 0): other})
+        total = Polynomial(self)
+        for key, c in other.items():
+            total[key] = total.get(key, 0.0) + c
+        return total
+
+    def __mul__(self, other):
+        other = other if isinstance(other, Polynomial) else Polynomial({(0, 0, 0): other})
+        product = Polynomial()
+        for a, c in self.items():
+            for b, d in other.items():
+                key = tuple(i + j for i, j in zip(a, b))
+                product[key] = product.get(key, 0.0) + c * d
+        return product
+
+    def __sub__(self, other):
+        return self + (other * -1.0 if isinstance(other, Polynomial) else -other)
+
+    def __pow__(self, n):
+        power = Polynomial({(0, 0, 0): 1.0})
+        for _ in range(n):
+            power = power * self
+        return power
+
+    __rmul__ = __mul__
+    __radd__ = __add__
+
+
+def pov_polynomial(expression, side):
+    axes = {name: Polynomial({tuple(int(i == k) for i in range(3)): 1.0}) for k, name in enumerate("xyz")}
+    f = eval(expression.replace("^", "**"), {}, axes)  # the two expressions above
+    degree = max(map(sum, f))
+    coefficients = [f.get((i, j, k), 0.0) for i in range(degree, -1, -1) for j in range(degree - i, -1, -1)
+                    for k in range(degree - i - j, -1, -1)]
+    box = f"box {{ <-{side},-{side},-{side}>, <{side},{side},{side}> }}"
+    return (f"intersection {{ poly {{ {degree}, <{','.join(f'{c:.17g}' for c in coefficients)}> sturm }} {box} "
+            "texture { skin } }")
+
+
+def one_surface(kind):
+    """The surface in the native format and for POV-Ray."""
+    if kind == "torus":
+        return ('torus { axis = (0, 1, 0); major_radius = 1.2; minor_radius = 0.45; material = "skin" }',
+                "torus { 1.2, 0.45 sturm texture { skin } }")
+    if kind == "blob":
+        parts = blob_parts()
+        ours = ", ".join(f"sphere(({c[0]}, {c[1]}, {c[2]}), {r}, 1)" for c, r in parts)
+        theirs = " ".join(f"sphere {{ {angle(c)}, {r}, 1 }}" for c, r in parts)
+        return (f'blob {{ threshold = 0.6; components = [{ours}]; material = "skin" }}',
+                f"blob {{ threshold 0.6 {theirs} sturm texture {{ skin }} }}")
+    expression, side = POLYNOMIALS[kind]
+    return (f'algebraic {{ expression = "{expression}"; material = "skin"; '
+            f"clip_box = ((-{side}, -{side}, -{side}), ({side}, {side}, {side})) }}", pov_polynomial(expression, side))
+
+
+def write_one_surface(kind, path, pov_path):
+    ours, theirs = one_surface(kind)
+    camera = "; ".join(f"{key} = ({value[0]}, {value[1]}, {value[2]})" for key, value in CAMERA.items())
+    with open(path, "w", encoding="ascii") as out:
+        out.write("alhazen 1\npicture { background = (0, 0, 1) }\nconventions { headlight = false }\n"
+                  f'material "skin" {{ emission = (1, 0, 0) }}\nsheared_camera "main" {{ {camera}; aspect = 1 }}\n{ours}\n')
+    with open(pov_path, "w", encoding="ascii") as out:
+        out.write(pov_head(CAMERA) + theirs + "\n")
+
+
 def vectors(line):
     return {key: tuple(map(float, value.split(","))) for key, value in re.findall(r"(\w+) = \(([^()]*)\)", line)}
 
@@ -49,7 +142,8 @@ def pov_shape(line):
     kind = line.split()[0]
     v = vectors(line)
     number = lambda key, usual: float((re.search(rf"\b{key} = ({NUMBER})", line) or [0, usual])[1])
-    texture = f"texture {{ {re.search(r'material = .(\w+).', line)[1]} }}"
+    material = re.search(r"material = .(\w+).", line)[1]
+    texture = f"texture {{ {material} }}"
     if kind == "box":
         return f"box {{ {angle(v['lo'])}, {angle(v['hi'])} {texture} }}"
     if kind == "sphere":
@@ -59,16 +153,21 @@ def pov_shape(line):
     raise ValueError(line)
 
 
+def pov_head(camera):
+    head = ("#version 3.7;\nglobal_settings { assumed_gamma 1 }\nbackground { rgb <0,0,1> }\n"
+            f"camera {{ perspective location {angle(camera['eye'])} direction {angle(camera['look'])} "
+            f"right {angle(camera['right'])} up {angle(camera['up'])} }}\n")
+    for name, color in FLAT.items():
+        head += (f"#declare {name} = texture {{ pigment {{ rgb {angle(color)} }} "
+                 "finish { ambient 0 diffuse 0 emission 1 } }\n")
+    return head
+
+
 def write_povray(text, path):
     """The subset of the native format that the generators write."""
     camera = vectors(re.search(r"sheared_camera[^{]*\{(.*?)\}", text, re.S)[1])
     with open(path, "w", encoding="ascii") as out:
-        out.write("#version 3.7;\nglobal_settings { assumed_gamma 1 }\nbackground { rgb <0,0,1> }\n")
-        out.write(f"camera {{ perspective location {angle(camera['eye'])} direction {angle(camera['look'])} "
-                  f"right {angle(camera['right'])} up {angle(camera['up'])} }}\n")
-        for name, color in FLAT.items():
-            out.write(f"#declare {name} = texture {{ pigment {{ rgb {angle(color)} }} "
-                      "finish { ambient 0 diffuse 0 emission 1 } }\n")
+        out.write(pov_head(camera))
         for body in re.findall(r"(?ms)^object [^{]*\{\n(.*?)^\}", text):
             lines = [line.strip() for line in body.splitlines()]
             shapes = [pov_shape(line) for line in lines if re.match(r"(box|sphere|cylinder)\b", line)]
@@ -79,12 +178,12 @@ def alhazen_seconds(command, stats):
     subprocess.run(command + ["--stats", stats], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     with open(stats, encoding="utf-8") as file:
         seconds = json.load(file)["seconds"]
-    return {"trace": seconds["render"], "begin": seconds["load"] + seconds["build"]}
+    return {"trace": seconds["render_processor"], "begin": seconds["load"] + seconds["build"]}
 
 
 def povray_seconds(command):
     run = subprocess.run(command, check=True, capture_output=True, text=True, errors="replace")
-    said = lambda what: float((re.search(rf"{what} Time:.*?\(([0-9.]+) seconds\)", run.stderr) or [0, "nan"])[1])
+    said = lambda what: float((re.search(rf"{what} Time:.*?with ([0-9.]+) CPU-seconds", run.stderr, re.S) or [0, "nan"])[1])
     return {"trace": said("Trace"), "begin": said("Parse")}
 
 
@@ -114,26 +213,38 @@ def differences(a, b):
     return pairs
 
 
+def markdown_row(scene, row):
+    cells = [scene, f"{row['alhazen']['trace']:.3f}", f"{row['rays_per_second'] / 1e6:.2f}"]
+    if "povray" in row:
+        differ = sum(row["different_pixels"].values())
+        cells += [f"{row['povray']['trace']:.2f}", f"{row['ratio']:.1f}", f"{differ} of {row['pixels']}"]
+    return "| " + " | ".join(cells) + " |\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("alhazen")
-    parser.add_argument("--sizes", default="plate=1000,menger=1000,spheres=1000,plate=100000,menger=100000")
+    parser.add_argument("--sizes", default=ALL)
     parser.add_argument("--side", type=int, default=256)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--json")
+    parser.add_argument("--markdown", help="writes the rows of the table of docs/benchmarks.md")
     parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
     args = parser.parse_args()
     folder = args.keep or tempfile.mkdtemp()
     os.makedirs(folder, exist_ok=True)
     results = {}
     for scene in args.sizes.split(","):
-        kind, size = scene.split("=")
-        at = lambda suffix: os.path.join(folder, f"{kind}_{size}{suffix}")
-        text = generate(args.alhazen, kind, size, at(".alhazen"))
-        write_povray(text, at(".pov"))
-        ours = [args.alhazen, "render", at(".alhazen"), "-o", at("_alhazen.pfm"), "--size",
-                f"{args.side}x{args.side}", "--renderer", "ray_casting", "-t", "1", "-q"]
-        theirs = ["povray", f"+I{at('.pov')}", f"+O{at('_povray.ppm')}", f"+W{args.side}", f"+H{args.side}", "+WT1",
+        kind, size, side = re.fullmatch(r"(\w+)(?:=(\d+))?(?:@(\d+))?", scene).groups()
+        side = int(side or args.side)
+        at = lambda suffix: os.path.join(folder, f"{kind}_{size or 1}{suffix}")
+        if kind in GENERATORS:
+            write_povray(generate(args.alhazen, kind, size or "1000", at(".alhazen")), at(".pov"))
+        else:
+            write_one_surface(kind, at(".alhazen"), at(".pov"))
+        ours = [args.alhazen, "render", at(".alhazen"), "-o", at("_alhazen.pfm"), "--size", f"{side}x{side}",
+                "--renderer", "ray_casting", "-t", "1", "-q"]
+        theirs = ["povray", f"+I{at('.pov')}", f"+O{at('_povray.ppm')}", f"+W{side}", f"+H{side}", "+WT1",
                   "-D", "-A", "+FP"]
         seconds = {"alhazen": [], "povray": []}
         for _ in range(args.rounds):
@@ -148,9 +259,14 @@ def main():
             row["ratio"] = row["povray"]["trace"] / row["alhazen"]["trace"]
             row["different_pixels"] = differences(at("_alhazen.pfm"), at("_povray.ppm"))
             line += (f", povray {row['povray']['trace']:.3f} s, ratio {row['ratio']:.1f}, pixels that differ "
-                     f"{row['different_pixels'] or 'none'} of {args.side ** 2}")
+                     f"{row['different_pixels'] or 'none'} of {side ** 2}")
+        row["rays_per_second"] = side ** 2 / row["alhazen"]["trace"]
+        row["pixels"] = side ** 2
         results[scene] = row
         print(line, flush=True)
+    if args.markdown:
+        with open(args.markdown, "w", encoding="ascii") as out:
+            out.writelines(markdown_row(scene, row) for scene, row in results.items())
     if args.json:
         with open(args.json, "w", encoding="ascii") as out:
             json.dump(results, out, indent=2)

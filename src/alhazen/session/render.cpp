@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ctime>
 #include <mutex>
 #include <vector>
 
@@ -138,6 +139,7 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
     TileReport report(options.progress, tiles.size());
     ThreadLimit threads(options.threads);
     const Stopwatch time;
+    const std::clock_t processor = std::clock();
     threads.run([&] {
         parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -150,6 +152,7 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
         });
     });
     result.seconds = time.seconds();
+    result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
     result.threads = threads.threads();
     result.tiles = tiles.size();
     result.tiles_done = report.done();

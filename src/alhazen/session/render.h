@@ -48,6 +48,7 @@ struct RenderResult {
     FilmLayers layers;
     RayCounters counters;
     double seconds = 0;
+    double processor_seconds = 0;  ///< of all threads together
     int threads = 0;
     bool complete = true;  ///< false when it was stopped; tiles not done are black
     std::size_t tiles_done = 0, tiles = 0;

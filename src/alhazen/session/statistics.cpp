@@ -68,6 +68,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
          {{"load", loaded.load_seconds},
           {"build", loaded.build_seconds},
           {"render", result.seconds},
+          {"render_processor", result.processor_seconds},
           {"write", write_seconds}}},
     };
 }
