@@ -17,7 +17,7 @@ import subprocess
 import tempfile
 
 GENERATORS = {"plate": "perforated_plate", "menger": "menger_sponge", "spheres": "drilled_spheres"}
-ALL = "spheres=1000,plate=1000,plate=100000@48,menger=1000,menger=100000@48,torus,quartic,sextic,blob"
+ALL = "spheres=1000,plate=1000,plate=100000@16,menger=1000,menger=100000@16,torus,quartic,sextic,blob"
 FLAT = {"skin": (1, 0, 0), "cut": (0, 1, 0)}  # the background is blue
 NUMBER = r"[-+0-9.e]+"
 
@@ -168,6 +168,9 @@ def write_povray(text, path):
     camera = vectors(re.search(r"sheared_camera[^{]*\{(.*?)\}", text, re.S)[1])
     with open(path, "w", encoding="ascii") as out:
         out.write(pov_head(camera))
+        # Long blocks are written over several lines.
+        joined = lambda block: "; ".join(line.strip() for line in block[0].splitlines()).replace("{;", "{").replace("; }", " }")
+        text = re.sub(r"(?ms)^    (?:box|sphere|cylinder) \{\n.*?^    \}", joined, text)
         for body in re.findall(r"(?ms)^object [^{]*\{\n(.*?)^\}", text):
             lines = [line.strip() for line in body.splitlines()]
             shapes = [pov_shape(line) for line in lines if re.match(r"(box|sphere|cylinder)\b", line)]

@@ -302,6 +302,10 @@ double SectionOutlines::area() const {
 
 SectionOutlines trace_section(const Measurable& solid, const PlaneFrame& frame,
                               const OutlineOptions& options) {
+    // A NaN would split chords for ever.
+    if (!(options.tolerance > 0.0) || options.cells < 1) {
+        throw Error(ErrorKind::Usage, "outlines need a tolerance above 0 and at least one cell");
+    }
     const double level = dot(frame.normal, frame.origin);
     if (solid.box().empty() || !solid.extent(frame.normal).contains(level)) return {};
     return Tracer(solid, frame, options).run();

@@ -166,6 +166,18 @@ TEST(Section, MediaHaveTheirColoursAndTheWallBetweenThemIsNoOutline) {
     EXPECT_EQ(line.cosines, 2);
 }
 
+TEST(Section, AToleranceThatIsNoNumberIsRefused) {
+    SceneMaker maker;
+    maker.add(Sphere{});
+    const SolidList solids(maker.compile().aggregate);
+    const LoneSolid ball(solids, SolidId{0});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double tolerance : {nan, 0.0, -1.0}) {
+        EXPECT_THROW((void)trace_section(ball, frame_of({{0, 0, 1}, 0}), {.tolerance = tolerance}),
+                     Error);
+    }
+}
+
 TEST(Section, TheSvgHasTheUnitsOfTheSceneAndALayerForEachSolid) {
     SectionLayer layer{SolidId{7}, "a<b>\"&", {1, 0, 0}, {}};
     layer.outlines.loops = {{{0, 0}, {10, 0}, {10, 5}}};

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "alhazen/shapes/shape.h"
 #include "support/random.h"
 
 namespace alhazen::testing {
