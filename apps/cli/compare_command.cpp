@@ -209,7 +209,7 @@ void add_compare(CLI::App& app, int& exit_status) {
                      "and for its picture; what takes longer is measured on a sample")
         ->type_name("SECONDS")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 1e6));
+        ->check(number_in(0.01, 1e6));
     command
         ->add_option("--size", args->size,
                      "Picture size in pixels; default: the scene's, at most 256")

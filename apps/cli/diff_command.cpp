@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
@@ -65,6 +66,7 @@ void add_diff(CLI::App& app, int& exit_status) {
     command->add_option("--metric", args->metric, "What the bound is about:" + metrics)
         ->capture_default_str();
     command->add_option("--max", args->max, "Largest value of the metric that passes")
+        ->check(number_in(0.0, std::numeric_limits<double>::infinity()))
         ->capture_default_str();
     command
         ->add_option("-o,--output", args->output,

@@ -128,13 +128,13 @@ void add_options(CLI::App& command, Arguments& args) {
         ->type_name("OBJECT");
     command.add_option("--error", args.error, "Relative error of volume and area to work for")
         ->capture_default_str()
-        ->check(CLI::Range(1e-12, 1.0));
+        ->check(number_in(1e-12, 1.0));
     command.add_option("--budget", args.budget, "Seconds for each solid at the most")
         ->capture_default_str()
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(number_in(0.0, 1e9));
     command.add_option("--density", args.density, "Of all solids, instead of their materials'")
-        ->check(CLI::Range(0.0, 1e300));
+        ->check(number_in(0.0, 1e300));
     command.add_option("--section", args.section, "Also the area that this plane cuts out")
         ->type_name("NX,NY,NZ,D");
     command.add_option("--overlap", args.overlaps, "Volume that two solids share; may be repeated")

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "alhazen/base/error.h"
@@ -56,13 +57,24 @@ PixelBox parse_crop(const std::string& text) {
     return {n[0], n[1], n[2], n[3]};
 }
 
+CLI::Validator number_in(double lo, double hi) {
+    const std::string range = fmt::format("FLOAT in [{:g} - {:g}]", lo, hi);
+    return {[lo, hi](std::string& text) {
+                double value = std::numeric_limits<double>::quiet_NaN();
+                const bool read = CLI::detail::lexical_cast(text, value);
+                if (read && value >= lo && value <= hi) return std::string();
+                return fmt::format("Value {} not in range [{:g} - {:g}]", text, lo, hi);
+            },
+            range};
+}
+
 void ImageLimitArguments::add_to(CLI::App& command) {
     command
         .add_option("--max-image-pixels", max_pixels,
                     "Larger pictures are refused before they are decoded")
         ->capture_default_str()
         ->type_name("N")
-        ->check(CLI::Range(1.0, 1e15));
+        ->check(number_in(1.0, 1e15));
     command.add_option("--max-image-side", max_side, "The same for longer sides")
         ->capture_default_str()
         ->type_name("N")
@@ -72,7 +84,7 @@ void ImageLimitArguments::add_to(CLI::App& command) {
                     "Memory for all pictures together, also while they are read")
         ->capture_default_str()
         ->type_name("N")
-        ->check(CLI::Range(1.0, 1e9));
+        ->check(number_in(1.0, 1e9));
 }
 
 ImageLimits ImageLimitArguments::limits() const {
@@ -129,6 +141,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
     command
         .add_option("--time", time,
                     "Moment of the file's animations; default: the pose without them")
+        ->check(number_in(-1e300, 1e300))
         ->type_name("SECONDS");
     command.add_option("--animation", animation, "Apply only this animation")
         ->type_name("NAME|INDEX");
@@ -149,7 +162,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                     "Memory for the meshes and instances that a glTF file makes of shared data; "
                     "default: 64, and 64 times the file")
         ->type_name("N")
-        ->check(CLI::Range(1.0, 1e9));
+        ->check(number_in(1.0, 1e9));
     command.add_option("-t,--threads", threads, "Threads; 0 = all cores")
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))

@@ -20,6 +20,10 @@ struct Size {
 /// "x0,y0,x1,y1" in pixels. Throws Error (Usage).
 [[nodiscard]] PixelBox parse_crop(const std::string& text);
 
+/// A number from lo to hi. Unlike CLI::Range it refuses nan, which no comparison finds out of
+/// range.
+[[nodiscard]] CLI::Validator number_in(double lo, double hi);
+
 /// How large pictures may be that are read.
 struct ImageLimitArguments {
     std::uint64_t max_pixels = ImageLimits{}.max_pixels;

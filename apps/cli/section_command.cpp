@@ -134,17 +134,17 @@ void add_options(CLI::App& command, Arguments& args) {
     command
         .add_option("--tolerance", args.tolerance,
                     "Largest distance of outlines from the curves; default: 1e-4 of the size")
-        ->check(CLI::Range(1e-300, 1e300));
+        ->check(number_in(1e-300, 1e300));
     command.add_option("--grid", args.grid, "Cells along a solid; smaller features may be missed")
         ->capture_default_str()
         ->check(CLI::Range(4, 8192));
     command.add_option("--error", args.error, "Relative error of the areas to work for")
         ->capture_default_str()
-        ->check(CLI::Range(1e-13, 1.0));
+        ->check(number_in(1e-13, 1.0));
     command.add_option("--budget", args.budget, "Seconds for the area of each solid at the most")
         ->capture_default_str()
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(number_in(0.0, 1e9));
     command.add_option("--json", args.json, "Write the areas as JSON; - for stdout")
         ->type_name("FILE");
     command.add_flag("-q,--quiet", args.quiet, "No warnings");

@@ -109,7 +109,7 @@ void add_verify(CLI::App& app, int& exit_status) {
     args->scene.add_to(*command, "all");
     command->add_option("--rays", args->verify.rays, "Rays to trace")
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 1e15));
+        ->check(number_in(1.0, 1e15));
     command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
     command->add_flag("--exact,!--no-exact", args->exact,

@@ -1,57 +1,21 @@
 #!/usr/bin/env python3
-"""Runs the command line as a user would. Usage: command_line_test.py ALHAZEN SOURCE_FOLDER"""
+"""Runs the command line as a user would: usage, messages, reports, questions.
+
+Usage: command_line_test.py ALHAZEN SOURCE_FOLDER
+"""
 
 import json
 import os
-import pathlib
-import random
 import resource
-import signal
-import struct
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-ALHAZEN, SOURCE = sys.argv[1:3]
-
-SPHERES = """alhazen 1
-perspective_camera "front" { eye = (0, 1, 6); look_at = (0, 0.5, 0); up = (0, 1, 0); fov_deg = 40 }
-perspective_camera "top" { eye = (0, 9, 0.1); look_at = (0, 0, 0); up = (0, 1, 0); fov_deg = 40 }
-point_light { position = (3, 5, 4); color = (1, 1, 1) }
-material "mirror" { diffuse = 0.1; reflective = 0.8 }
-sphere { center = (0, 1, 0); radius = 1; material = "mirror" }
-plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
-"""
+from command_line import ALHAZEN, CommandLineCase, run, SPHERES
 
 
-def run(*arguments, **options):
-    # A terminal's colours and progress must not matter: everything is piped.
-    return subprocess.run([ALHAZEN, *arguments], capture_output=True, text=True, timeout=120, **options)
-
-
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.scene = self.write("scene with space.alhazen", SPHERES)
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
-
-    def read(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
-    def render(self, *arguments, output="out.png", size="64x48"):
-        return run("render", self.scene, "-o", self.path(output), "--size", size, *arguments)
-
+class CommandLine(CommandLineCase):
     def test_help_and_version_go_to_stdout_and_succeed(self):
         for arguments in (["--help"], ["render", "--help"], ["--version"]):
             result = run(*arguments)
@@ -88,6 +52,12 @@ class CommandLine(unittest.TestCase):
                           ["render", self.scene, "-o", self.path("out.exr"), "--bits", "16"],
                           ["render", self.scene, "-o", picture, "--full-float"],
                           ["render", self.scene, "-o", self.path("out.exr"), "--encoding", "srgb"],
+                          ["render", self.scene, "-o", picture, "--time", "nan"],
+                          ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--tolerance", "nan"],
+                          ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--budget", "nan"],
+                          ["measure", self.scene, "--error", "nan"], ["measure", self.scene, "--density", "nan"],
+                          ["compare", self.scene, "--time-limit", "nan"],
+                          ["diff", self.scene, self.scene, "--max", "nan"],
                           ["verify", self.scene, "--rays", "-1"],
                           ["diff", self.scene], ["list", "colours"]):
             result = run(*arguments)
@@ -192,32 +162,6 @@ class CommandLine(unittest.TestCase):
         self.assertIn(r"x\x1b[31m\x07\x7f\xc2\x9b", results[2].stdout)
         self.assertEqual(json.loads(results[5].stdout)["materials"][0]["name"], bad + "\nnext")
         self.assertIn(r"\x00y", results[4].stdout)
-
-    def test_the_same_bits_for_any_threads_tiles_and_accelerator(self):
-        self.render("-t", "1", "--tile-size", "64", "--spp", "4", output="a.png")
-        self.render("-t", "7", "--tile-size", "5", "--spp", "4", output="b.png")
-        self.render("-t", "2", "--accelerator", "list", "--spp", "4", output="c.png")
-        self.assertEqual(self.read("a.png"), self.read("b.png"))
-        self.assertEqual(self.read("a.png"), self.read("c.png"))
-
-    def test_a_crop_is_that_part_of_the_picture(self):
-        self.render("--full-float", output="whole.exr")
-        self.render("--full-float", "--crop", "10,20,40,30", output="part.exr")
-        self.render("--crop", "10,20,40,30", output="part.pfm")
-        self.assertEqual(run("diff", self.path("part.exr"), self.path("part.pfm")).returncode, 0)
-        self.assertEqual(run("diff", self.path("part.exr"), self.path("whole.exr")).returncode, 2)
-
-    def test_every_picture_format_is_written_and_read_back(self):
-        self.render(output="reference.pfm")
-        for name, bound in (("a.exr", 2e-3), ("b.hdr", 1e-2), ("c.pfm", 0)):
-            self.assertEqual(self.render(output=name).returncode, 0)
-            result = run("diff", self.path("reference.pfm"), self.path(name), "--max", str(bound))
-            self.assertEqual(result.returncode, 0, name + result.stdout)
-        self.render(output="reference.png")
-        for name, options, bound in (("d.png", ["--bits", "16"], 1 / 250), ("e.jpg", [], 0.2), ("f.png", [], 0)):
-            self.assertEqual(self.render(*options, output=name).returncode, 0)
-            result = run("diff", self.path("reference.png"), self.path(name), "--max", str(bound))
-            self.assertEqual(result.returncode, 0, name + result.stdout)
 
     def test_diff_exits_1_above_the_bound(self):
         self.render(output="a.png")
@@ -347,72 +291,6 @@ plane { point = (0, 0, -9) }
         self.assertAlmostEqual(areas[0], 12.566370614, 4)
         self.assertAlmostEqual(areas[1], 4, 9)
 
-    def test_layers_go_into_the_exr_and_do_not_change_the_picture(self):
-        result = self.render("--aov", "all", output="layers.exr")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        header = self.read("layers.exr")[:8192]
-        for channel in ("R", "A", "depth.Z", "N.X", "Ng.Y", "P.Z", "uv.U", "albedo.G", "id.object", "id.material",
-                        "id.instance", "error_bound", "count.rays", "count.node_visits", "count.primitive_tests", "time.seconds"):
-            self.assertIn(b"\0" + channel.encode() + b"\0", header, channel)
-        self.assertIn(b'"1":"mirror"', header)
-        self.assertEqual(os.listdir(self.folder.name).count("layers.depth.png"), 0)
-        self.render("--aov", "depth,N,id,count", output="few.exr")
-        self.render(output="plain.exr")
-        self.assertEqual(run("diff", self.path("plain.exr"), self.path("few.exr")).returncode, 0)
-
-    def test_layers_have_the_same_bits_for_any_threads_and_tiles(self):
-        wanted = ["--aov", "alpha,depth,N,Ng,P,uv,albedo,id,count", "--spp", "4", "--crop", "5,6,50,40"]
-        self.render("-t", "1", "--tile-size", "64", *wanted, output="a.exr")
-        self.render("-t", "7", "--tile-size", "5", *wanted, output="b.exr")
-        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
-
-    def test_layers_of_other_pictures_are_pictures_beside_them(self):
-        result = self.render("--aov", "depth,id.object,count.rays")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        names = ["out.count.rays.png", "out.depth.png", "out.id.object.png", "out.png"]
-        self.assertEqual(sorted(n for n in os.listdir(self.folder.name) if n.startswith("out")), names)
-        for name in names:
-            self.assertTrue(self.read(name).startswith(b"\x89PNG"), name)
-        self.assertIn(b"alhazen.aov.high", self.read("out.depth.png"))
-        self.assertIn("out.depth.png: depth, ", result.stderr)
-        self.assertEqual(self.render("--aov", "depth", "--aov-png", output="both.exr").returncode, 0)
-        self.assertTrue(os.path.exists(self.path("both.depth.png")))
-        os.mkdir(self.path("folder.depth.png"))
-        self.assertEqual(self.render("--aov", "depth", output="folder.png").returncode, 4)
-        self.assertFalse(os.path.exists(self.path("folder.png")))
-
-    def test_a_scene_without_camera_and_lights_is_framed_and_lit_and_told(self):
-        bare = self.write("bare.alhazen", "alhazen 1\nsphere { center = (5, 0, 0) }\n")
-        result = run("render", bare, "-o", self.path("bare.png"), "--size", "40x30", "--strict")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("no camera in the file: framed from azimuth 30, elevation 20\n", result.stderr)
-        self.assertIn("no lights in the file: a headlight was added\n", result.stderr)
-        quiet = run("render", bare, "-o", self.path("quiet.png"), "--size", "40x30", "-q")
-        self.assertEqual(quiet.stderr, "")
-        self.assertEqual(self.read("bare.png"), self.read("quiet.png"))
-        self.assertNotIn("framed", run("render", self.scene, "-o", self.path("a.png"), "--size", "8x8").stderr)
-
-    def test_a_view_replaces_the_camera_of_the_file(self):
-        self.render(output="front.png")
-        for view in ("0,90", "-120.5,10"):
-            result = self.render("--view", view, output="view.png")
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertNotEqual(self.read("front.png"), self.read("view.png"))
-
-    def test_scenes_with_nothing_to_frame_exit_3(self):
-        for text in ("", "plane { }\n"):
-            scene = self.write("nothing.alhazen", "alhazen 1\n" + text)
-            result = run("render", scene, "-o", self.path("nothing.png"))
-            self.assertEqual(result.returncode, 3, result.stderr)
-            self.assertIn("camera", result.stderr)
-
-    def test_a_file_that_means_darkness_stays_dark(self):
-        dark = self.write("dark.nff", "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 8 8\n"
-                                      "f 1 1 1 1 0 0 0 1\ns 0 0 0 1\n")
-        result = run("render", dark, "-o", self.path("dark.png"))
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertNotIn("headlight", result.stderr)
-
     def test_info_tells_areas_volumes_and_cameras(self):
         mesh = self.write("cube.obj", "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) +
                           "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
@@ -431,87 +309,6 @@ plane { point = (0, 0, -9) }
         self.assertEqual([c["name"] for c in cameras], ["front", "top"])
         self.assertAlmostEqual(cameras[0]["fov_y_deg"], 40)
 
-    def test_a_converted_scene_renders_to_the_same_bits(self):
-        scene = os.path.join(SOURCE, "scenes", "showcase.alhazen")
-        os.mkdir(self.path("new"))
-        result = run("convert", scene, self.path("new/copy.alhazen"))
-        self.assertEqual((result.returncode, result.stdout), (0, ""))
-        self.assertIn("copy.alhazen: 12 triangles", result.stderr)
-        self.assertEqual(sorted(os.listdir(self.path("new"))), ["copy.alhazen", "copy_files"])
-        os.rename(self.path("new"), self.path("moved"))
-        pictures = []
-        for path in scene, self.path("moved/copy.alhazen"):
-            self.assertEqual(run("render", path, "-q", "-o", self.path("out.pfm"), "--size", "48x27").returncode, 0)
-            pictures.append(self.read("out.pfm"))
-        self.assertEqual(pictures[0], pictures[1])
-
-    def test_meshes_are_converted_and_shapes_only_dropped_when_asked(self):
-        for suffix in "ply", "obj", "stl":
-            out = self.path("out." + suffix)
-            scene = os.path.join(SOURCE, "scenes", "showcase.alhazen")
-            result = run("convert", scene, out)
-            self.assertEqual(result.returncode, 2)
-            self.assertRegex(result.stderr, "also has 8 spheres, 1 plane, .*: --meshes-only")
-            self.assertFalse(os.path.exists(out))
-            result = run("convert", scene, out, "--meshes-only")
-            self.assertEqual(result.returncode, 0)
-            self.assertIn("warning: left out, as they are not meshes: 8 spheres", result.stderr)
-            self.assertEqual(run("convert", scene, out, "--meshes-only", "-q").stderr, "")
-            info = json.loads(run("info", out, "--json").stdout)
-            self.assertEqual(info["triangles"], 12)
-
-    def test_a_picture_never_replaces_a_file_of_the_scene(self):
-        self.assertEqual(self.render(output="wood.png", size="8x8").returncode, 0)
-        os.rename(self.path("wood.png"), self.path("wood.depth.png"))
-        wood = self.read("wood.depth.png")
-        scene = self.write("wood.alhazen", SPHERES + 'texture "wood" { file = "wood.depth.png" }\n')
-        os.symlink("wood.depth.png", self.path("link.png"))
-        for arguments in (["-o", self.path("wood.depth.png")], ["-o", self.path("link.png")],
-                          ["-o", self.path("wood.png"), "--aov", "depth"],
-                          ["-o", self.path("new.png"), "--stats", self.path("wood.depth.png")],
-                          ["-o", self.path("new.png"), "--stats", scene]):
-            result = run("render", scene, "--size", "8x8", *arguments)
-            self.assertEqual(result.returncode, 2, arguments)
-            self.assertIn("belongs to the scene", result.stderr)
-        self.assertEqual(self.read("wood.depth.png"), wood)
-        self.assertFalse(os.path.exists(self.path("new.png")))
-        self.assertEqual(run("render", scene, "--size", "8x8", "-o", self.path("new.png")).returncode, 0)
-
-    def test_a_failed_conversion_leaves_nothing_behind(self):
-        self.render(output="dot.png", size="1x1")
-        # The picture has less than the limit of 600 bytes, the scene more.
-        scene = self.write("s.alhazen", SPHERES + 'texture "t" { file = "dot.png" }\n')
-        before = sorted(os.listdir(self.folder.name))
-        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
-        result = run("convert", scene, self.path("out.alhazen"), preexec_fn=limit)
-        self.assertEqual(result.returncode, 4, result.stderr)
-        self.assertEqual(sorted(os.listdir(self.folder.name)), before)
-
-    def test_an_obj_tells_what_its_materials_cannot_say(self):
-        self.render(output="dot.png", size="4x4")
-        scene = self.write("s.alhazen", """alhazen 1
-texture "t" { file = "dot.png"; wrap_u = mirror; wrap_v = mirror }
-material "m" { diffuse = texture("t") }
-mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 1, 2]] }
-""")
-        result = run("convert", scene, self.path("out.obj"))
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("warning: the MTL file cannot say the mirrored repeat of a picture (material 'm'", result.stderr)
-
-    def test_convert_refuses_what_it_cannot_write(self):
-        for arguments, status, message in (
-            ([self.scene, self.path("out.gltf")], 2, ".alhazen (the whole scene), .ply .obj .stl"),
-            ([self.scene, self.path("out")], 2, ".alhazen (the whole scene), .ply .obj .stl"),
-            ([self.scene, self.scene], 2, "is the scene itself"),
-            ([self.path("missing.obj"), self.path("out.ply")], 4, "missing.obj"),
-            ([self.scene, self.path("no folder/out.alhazen")], 4, "no folder"),
-            ([self.scene, self.path("out.ply"), "--meshes-only"], 3, "no triangles"),
-        ):
-            result = run("convert", *arguments)
-            self.assertEqual(result.returncode, status, arguments)
-            self.assertIn(message, result.stderr)
-        self.assertEqual(self.read("scene with space.alhazen").decode(), SPHERES)
-
     def test_reports_and_difference_pictures_spare_what_was_read(self):
         self.assertEqual(run("render", self.scene, "-q", "-o", self.path("a.png"), "--size", "8x8").returncode, 0)
         before = self.read("a.png")
@@ -523,92 +320,10 @@ mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(self.read("scene with space.alhazen").decode(), SPHERES)
 
-    def test_a_conversion_that_fails_leaves_the_one_before_as_it_was(self):
-        def textured(name, seed):
-            with open(self.path(name + ".bmp"), "wb") as file:
-                pixels = random.Random(seed).randbytes(3 * 64 * 64)
-                file.write(b"BM" + struct.pack("<IIIIiiHHIIiiII", 54 + len(pixels), 0, 54, 40, 64, 64, 1, 24, 0, 0, 0, 0, 0, 0))
-                file.write(pixels)
-            with open(self.path(name + ".alhazen"), "w", encoding="utf-8") as file:
-                file.write('alhazen 1\ntexture "t" { file = "%s.bmp" }\n'
-                           'rectangle { material = { diffuse = texture("t") } }\n' % name)
-            return self.path(name + ".alhazen")
-
-        def files():
-            folder = self.path("out_files")
-            return {name: pathlib.Path(folder, name).read_bytes() for name in os.listdir(folder)}
-
-        self.assertEqual(run("convert", textured("first", 1), self.path("out.alhazen")).returncode, 0)
-        before, scene = files(), self.read("out.alhazen")
-        self.assertTrue(before)
-        second = textured("second", 2)
-        with open(second, "a", encoding="utf-8") as file:
-            file.write("".join(f"sphere {{ center = ({i}, 5, 0); radius = 0.1 }}\n" for i in range(2000)))
-
-        def limit():  # the texture fits, the scene does not
-            resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
-
-        self.assertEqual(run("convert", second, self.path("out.alhazen"), preexec_fn=limit).returncode, 4)
-        self.assertTrue(files() == before and self.read("out.alhazen") == scene)
-        self.assertEqual(run("convert", second, self.path("out.alhazen")).returncode, 0)
-        self.assertTrue(files() != before)
-        self.assertEqual(sorted(files()), sorted(before))
-
-    def test_interrupted_rendering_writes_what_is_done_and_exits_75(self):
-        process = subprocess.Popen([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "--size", "2000x2000",
-                                    "--spp", "400", "--tile-size", "4"], stderr=subprocess.PIPE, text=True)
-        time.sleep(1.0)
-        process.send_signal(signal.SIGINT)
-        process.send_signal(signal.SIGINT)  # the same wish twice, as timeout(1) tells it
-        _, messages = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 75)
-        self.assertIn("stopped", messages)
-        self.assertTrue(self.read("out.png").startswith(b"\x89PNG"))
-
-    def test_rendering_stops_within_one_pixel(self):
-        # Each surface splits a ray in two: an eye ray has up to 2^200 others behind it.
-        glass = "material = { diffuse = 0; reflective = 1; transmissive = 1; index = 1.5 }"
-        scene = self.write("slow.alhazen", "alhazen 1\nconventions { max_depth = 200 }\n"
-                           "perspective_camera { eye = (0, 0, 3); look_at = (0, 0, 0) }\n"
-                           f"sphere {{ radius = 1; {glass} }}\nsphere {{ radius = 0.8; {glass} }}\n")
-        process = subprocess.Popen([ALHAZEN, "render", scene, "-o", self.path("slow.png"), "--size", "64x64"],
-                                   stderr=subprocess.PIPE, text=True)
-        time.sleep(1.0)
-        self.assertIsNone(process.poll())
-        begin = time.monotonic()
-        process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60)
-        self.assertLess(time.monotonic() - begin, 5)
-        self.assertEqual(process.returncode, 75)
-
-    def test_a_signal_while_the_scene_is_read_exits_75_at_once(self):
-        big = self.path("big.obj")
-        with open(big, "w", encoding="ascii") as file:
-            file.write("v 0.123456 1.2345678 -9.87654321\n" * 3_000_000)
-        ends = []
-        for seconds in 0.1, 0.2, 0.4, 0.8:  # before the first line of the program on a busy machine: then again
-            process = subprocess.Popen([ALHAZEN, "render", big, "-o", self.path("big.png")],
-                                       stderr=subprocess.PIPE, text=True)
-            time.sleep(seconds)
-            process.send_signal(signal.SIGTERM)
-            _, messages = process.communicate(timeout=60)
-            ends.append(process.returncode)
-            if ends[-1] == 75:
-                break
-        self.assertEqual(ends[-1], 75, ends)
-        self.assertIn("no result was written", messages)
-        self.assertFalse(os.path.exists(self.path("big.png")))
-
     def test_bounds_are_those_of_the_vertices(self):
         mesh = self.write("m.obj", "v 0.1 -0.3 0\nv 1 0 0.7\nv 0.2 1 -5\nf 1 2 3\n")
         bounds = json.loads(run("info", mesh, "--json").stdout)["bounds"]
         self.assertEqual((bounds["min"], bounds["max"]), ([0.1, -0.3, -5], [1, 1, 0.7]))
-
-    def test_the_readme_scene_renders(self):
-        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as readme:
-            text = readme.read()
-        scene = self.write("readme.alhazen", text[text.index("alhazen 1\n"):].split("```")[0])
-        self.assertEqual(run("render", scene, "-o", self.path("readme.png"), "--size", "32x32", "--strict").returncode, 0)
 
 
 if __name__ == "__main__":

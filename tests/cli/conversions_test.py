@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Converts from the command line: what is kept, what is refused, what is left behind.
+
+Usage: conversions_test.py ALHAZEN SOURCE_FOLDER
+"""
+
+import json
+import os
+import pathlib
+import random
+import resource
+import struct
+import sys
+import unittest
+
+from command_line import CommandLineCase, run, SOURCE, SPHERES
+
+
+class Conversions(CommandLineCase):
+    def test_a_converted_scene_renders_to_the_same_bits(self):
+        scene = os.path.join(SOURCE, "scenes", "showcase.alhazen")
+        os.mkdir(self.path("new"))
+        result = run("convert", scene, self.path("new/copy.alhazen"))
+        self.assertEqual((result.returncode, result.stdout), (0, ""))
+        self.assertIn("copy.alhazen: 12 triangles", result.stderr)
+        self.assertEqual(sorted(os.listdir(self.path("new"))), ["copy.alhazen", "copy_files"])
+        os.rename(self.path("new"), self.path("moved"))
+        pictures = []
+        for path in scene, self.path("moved/copy.alhazen"):
+            self.assertEqual(run("render", path, "-q", "-o", self.path("out.pfm"), "--size", "48x27").returncode, 0)
+            pictures.append(self.read("out.pfm"))
+        self.assertEqual(pictures[0], pictures[1])
+
+    def test_meshes_are_converted_and_shapes_only_dropped_when_asked(self):
+        for suffix in "ply", "obj", "stl":
+            out = self.path("out." + suffix)
+            scene = os.path.join(SOURCE, "scenes", "showcase.alhazen")
+            result = run("convert", scene, out)
+            self.assertEqual(result.returncode, 2)
+            self.assertRegex(result.stderr, "also has 8 spheres, 1 plane, .*: --meshes-only")
+            self.assertFalse(os.path.exists(out))
+            result = run("convert", scene, out, "--meshes-only")
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("warning: left out, as they are not meshes: 8 spheres", result.stderr)
+            self.assertEqual(run("convert", scene, out, "--meshes-only", "-q").stderr, "")
+            info = json.loads(run("info", out, "--json").stdout)
+            self.assertEqual(info["triangles"], 12)
+
+    def test_a_picture_never_replaces_a_file_of_the_scene(self):
+        self.assertEqual(self.render(output="wood.png", size="8x8").returncode, 0)
+        os.rename(self.path("wood.png"), self.path("wood.depth.png"))
+        wood = self.read("wood.depth.png")
+        scene = self.write("wood.alhazen", SPHERES + 'texture "wood" { file = "wood.depth.png" }\n')
+        os.symlink("wood.depth.png", self.path("link.png"))
+        for arguments in (["-o", self.path("wood.depth.png")], ["-o", self.path("link.png")],
+                          ["-o", self.path("wood.png"), "--aov", "depth"],
+                          ["-o", self.path("new.png"), "--stats", self.path("wood.depth.png")],
+                          ["-o", self.path("new.png"), "--stats", scene]):
+            result = run("render", scene, "--size", "8x8", *arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn("belongs to the scene", result.stderr)
+        self.assertEqual(self.read("wood.depth.png"), wood)
+        self.assertFalse(os.path.exists(self.path("new.png")))
+        self.assertEqual(run("render", scene, "--size", "8x8", "-o", self.path("new.png")).returncode, 0)
+
+    def test_a_failed_conversion_leaves_nothing_behind(self):
+        self.render(output="dot.png", size="1x1")
+        # The picture has less than the limit of 600 bytes, the scene more.
+        scene = self.write("s.alhazen", SPHERES + 'texture "t" { file = "dot.png" }\n')
+        before = sorted(os.listdir(self.folder.name))
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+        result = run("convert", scene, self.path("out.alhazen"), preexec_fn=limit)
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), before)
+
+    def test_an_obj_tells_what_its_materials_cannot_say(self):
+        self.render(output="dot.png", size="4x4")
+        scene = self.write("s.alhazen", """alhazen 1
+texture "t" { file = "dot.png"; wrap_u = mirror; wrap_v = mirror }
+material "m" { diffuse = texture("t") }
+mesh { material = "m"; points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]; faces = [[0, 1, 2]] }
+""")
+        result = run("convert", scene, self.path("out.obj"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("warning: the MTL file cannot say the mirrored repeat of a picture (material 'm'", result.stderr)
+
+    def test_convert_refuses_what_it_cannot_write(self):
+        for arguments, status, message in (
+            ([self.scene, self.path("out.gltf")], 2, ".alhazen (the whole scene), .ply .obj .stl"),
+            ([self.scene, self.path("out")], 2, ".alhazen (the whole scene), .ply .obj .stl"),
+            ([self.scene, self.scene], 2, "is the scene itself"),
+            ([self.path("missing.obj"), self.path("out.ply")], 4, "missing.obj"),
+            ([self.scene, self.path("no folder/out.alhazen")], 4, "no folder"),
+            ([self.scene, self.path("out.ply"), "--meshes-only"], 3, "no triangles"),
+        ):
+            result = run("convert", *arguments)
+            self.assertEqual(result.returncode, status, arguments)
+            self.assertIn(message, result.stderr)
+        self.assertEqual(self.read("scene with space.alhazen").decode(), SPHERES)
+
+    def test_a_conversion_that_fails_leaves_the_one_before_as_it_was(self):
+        def textured(name, seed):
+            with open(self.path(name + ".bmp"), "wb") as file:
+                pixels = random.Random(seed).randbytes(3 * 64 * 64)
+                file.write(b"BM" + struct.pack("<IIIIiiHHIIiiII", 54 + len(pixels), 0, 54, 40, 64, 64, 1, 24, 0, 0, 0, 0, 0, 0))
+                file.write(pixels)
+            with open(self.path(name + ".alhazen"), "w", encoding="utf-8") as file:
+                file.write('alhazen 1\ntexture "t" { file = "%s.bmp" }\n'
+                           'rectangle { material = { diffuse = texture("t") } }\n' % name)
+            return self.path(name + ".alhazen")
+
+        def files():
+            folder = self.path("out_files")
+            return {name: pathlib.Path(folder, name).read_bytes() for name in os.listdir(folder)}
+
+        self.assertEqual(run("convert", textured("first", 1), self.path("out.alhazen")).returncode, 0)
+        before, scene = files(), self.read("out.alhazen")
+        self.assertTrue(before)
+        second = textured("second", 2)
+        with open(second, "a", encoding="utf-8") as file:
+            file.write("".join(f"sphere {{ center = ({i}, 5, 0); radius = 0.1 }}\n" for i in range(2000)))
+
+        def limit():  # the texture fits, the scene does not
+            resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
+
+        self.assertEqual(run("convert", second, self.path("out.alhazen"), preexec_fn=limit).returncode, 4)
+        self.assertTrue(files() == before and self.read("out.alhazen") == scene)
+        self.assertEqual(run("convert", second, self.path("out.alhazen")).returncode, 0)
+        self.assertTrue(files() != before)
+        self.assertEqual(sorted(files()), sorted(before))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)

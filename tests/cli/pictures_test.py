@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""Renders from the command line: the same bits however, layers, views, what stops it.
+
+Usage: pictures_test.py ALHAZEN SOURCE_FOLDER
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from command_line import ALHAZEN, CommandLineCase, run, SOURCE
+
+
+class Pictures(CommandLineCase):
+    def test_the_same_bits_for_any_threads_tiles_and_accelerator(self):
+        self.render("-t", "1", "--tile-size", "64", "--spp", "4", output="a.png")
+        self.render("-t", "7", "--tile-size", "5", "--spp", "4", output="b.png")
+        self.render("-t", "2", "--accelerator", "list", "--spp", "4", output="c.png")
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+        self.assertEqual(self.read("a.png"), self.read("c.png"))
+
+    def test_a_crop_is_that_part_of_the_picture(self):
+        self.render("--full-float", output="whole.exr")
+        self.render("--full-float", "--crop", "10,20,40,30", output="part.exr")
+        self.render("--crop", "10,20,40,30", output="part.pfm")
+        self.assertEqual(run("diff", self.path("part.exr"), self.path("part.pfm")).returncode, 0)
+        self.assertEqual(run("diff", self.path("part.exr"), self.path("whole.exr")).returncode, 2)
+
+    def test_every_picture_format_is_written_and_read_back(self):
+        self.render(output="reference.pfm")
+        for name, bound in (("a.exr", 2e-3), ("b.hdr", 1e-2), ("c.pfm", 0)):
+            self.assertEqual(self.render(output=name).returncode, 0)
+            result = run("diff", self.path("reference.pfm"), self.path(name), "--max", str(bound))
+            self.assertEqual(result.returncode, 0, name + result.stdout)
+        self.render(output="reference.png")
+        for name, options, bound in (("d.png", ["--bits", "16"], 1 / 250), ("e.jpg", [], 0.2), ("f.png", [], 0)):
+            self.assertEqual(self.render(*options, output=name).returncode, 0)
+            result = run("diff", self.path("reference.png"), self.path(name), "--max", str(bound))
+            self.assertEqual(result.returncode, 0, name + result.stdout)
+
+    def test_layers_go_into_the_exr_and_do_not_change_the_picture(self):
+        result = self.render("--aov", "all", output="layers.exr")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        header = self.read("layers.exr")[:8192]
+        for channel in ("R", "A", "depth.Z", "N.X", "Ng.Y", "P.Z", "uv.U", "albedo.G", "id.object", "id.material",
+                        "id.instance", "error_bound", "count.rays", "count.node_visits", "count.primitive_tests", "time.seconds"):
+            self.assertIn(b"\0" + channel.encode() + b"\0", header, channel)
+        self.assertIn(b'"1":"mirror"', header)
+        self.assertEqual(os.listdir(self.folder.name).count("layers.depth.png"), 0)
+        self.render("--aov", "depth,N,id,count", output="few.exr")
+        self.render(output="plain.exr")
+        self.assertEqual(run("diff", self.path("plain.exr"), self.path("few.exr")).returncode, 0)
+
+    def test_layers_have_the_same_bits_for_any_threads_and_tiles(self):
+        wanted = ["--aov", "alpha,depth,N,Ng,P,uv,albedo,id,count", "--spp", "4", "--crop", "5,6,50,40"]
+        self.render("-t", "1", "--tile-size", "64", *wanted, output="a.exr")
+        self.render("-t", "7", "--tile-size", "5", *wanted, output="b.exr")
+        self.assertEqual(self.read("a.exr"), self.read("b.exr"))
+
+    def test_layers_of_other_pictures_are_pictures_beside_them(self):
+        result = self.render("--aov", "depth,id.object,count.rays")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        names = ["out.count.rays.png", "out.depth.png", "out.id.object.png", "out.png"]
+        self.assertEqual(sorted(n for n in os.listdir(self.folder.name) if n.startswith("out")), names)
+        for name in names:
+            self.assertTrue(self.read(name).startswith(b"\x89PNG"), name)
+        self.assertIn(b"alhazen.aov.high", self.read("out.depth.png"))
+        self.assertIn("out.depth.png: depth, ", result.stderr)
+        self.assertEqual(self.render("--aov", "depth", "--aov-png", output="both.exr").returncode, 0)
+        self.assertTrue(os.path.exists(self.path("both.depth.png")))
+        os.mkdir(self.path("folder.depth.png"))
+        self.assertEqual(self.render("--aov", "depth", output="folder.png").returncode, 4)
+        self.assertFalse(os.path.exists(self.path("folder.png")))
+
+    def test_a_scene_without_camera_and_lights_is_framed_and_lit_and_told(self):
+        bare = self.write("bare.alhazen", "alhazen 1\nsphere { center = (5, 0, 0) }\n")
+        result = run("render", bare, "-o", self.path("bare.png"), "--size", "40x30", "--strict")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("no camera in the file: framed from azimuth 30, elevation 20\n", result.stderr)
+        self.assertIn("no lights in the file: a headlight was added\n", result.stderr)
+        quiet = run("render", bare, "-o", self.path("quiet.png"), "--size", "40x30", "-q")
+        self.assertEqual(quiet.stderr, "")
+        self.assertEqual(self.read("bare.png"), self.read("quiet.png"))
+        self.assertNotIn("framed", run("render", self.scene, "-o", self.path("a.png"), "--size", "8x8").stderr)
+
+    def test_a_view_replaces_the_camera_of_the_file(self):
+        self.render(output="front.png")
+        for view in ("0,90", "-120.5,10"):
+            result = self.render("--view", view, output="view.png")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertNotEqual(self.read("front.png"), self.read("view.png"))
+
+    def test_scenes_with_nothing_to_frame_exit_3(self):
+        for text in ("", "plane { }\n"):
+            scene = self.write("nothing.alhazen", "alhazen 1\n" + text)
+            result = run("render", scene, "-o", self.path("nothing.png"))
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertIn("camera", result.stderr)
+
+    def test_a_file_that_means_darkness_stays_dark(self):
+        dark = self.write("dark.nff", "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 8 8\n"
+                                      "f 1 1 1 1 0 0 0 1\ns 0 0 0 1\n")
+        result = run("render", dark, "-o", self.path("dark.png"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("headlight", result.stderr)
+
+    def test_interrupted_rendering_writes_what_is_done_and_exits_75(self):
+        process = subprocess.Popen([ALHAZEN, "render", self.scene, "-o", self.path("out.png"), "--size", "2000x2000",
+                                    "--spp", "400", "--tile-size", "4"], stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGINT)  # the same wish twice, as timeout(1) tells it
+        _, messages = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 75)
+        self.assertIn("stopped", messages)
+        self.assertTrue(self.read("out.png").startswith(b"\x89PNG"))
+
+    def test_rendering_stops_within_one_pixel(self):
+        # Each surface splits a ray in two: an eye ray has up to 2^200 others behind it.
+        glass = "material = { diffuse = 0; reflective = 1; transmissive = 1; index = 1.5 }"
+        scene = self.write("slow.alhazen", "alhazen 1\nconventions { max_depth = 200 }\n"
+                           "perspective_camera { eye = (0, 0, 3); look_at = (0, 0, 0) }\n"
+                           f"sphere {{ radius = 1; {glass} }}\nsphere {{ radius = 0.8; {glass} }}\n")
+        process = subprocess.Popen([ALHAZEN, "render", scene, "-o", self.path("slow.png"), "--size", "64x64"],
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        self.assertIsNone(process.poll())
+        begin = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertLess(time.monotonic() - begin, 5)
+        self.assertEqual(process.returncode, 75)
+
+    def test_a_signal_while_the_scene_is_read_exits_75_at_once(self):
+        big = self.path("big.obj")
+        with open(big, "w", encoding="ascii") as file:
+            file.write("v 0.123456 1.2345678 -9.87654321\n" * 3_000_000)
+        ends = []
+        for seconds in 0.1, 0.2, 0.4, 0.8:  # before the first line of the program on a busy machine: then again
+            process = subprocess.Popen([ALHAZEN, "render", big, "-o", self.path("big.png")],
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(seconds)
+            process.send_signal(signal.SIGTERM)
+            _, messages = process.communicate(timeout=60)
+            ends.append(process.returncode)
+            if ends[-1] == 75:
+                break
+        self.assertEqual(ends[-1], 75, ends)
+        self.assertIn("no result was written", messages)
+        self.assertFalse(os.path.exists(self.path("big.png")))
+
+    def test_the_readme_scene_renders(self):
+        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as readme:
+            text = readme.read()
+        scene = self.write("readme.alhazen", text[text.index("alhazen 1\n"):].split("```")[0])
+        self.assertEqual(run("render", scene, "-o", self.path("readme.png"), "--size", "32x32", "--strict").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)
