@@ -1,4 +1,4 @@
-/// Batches of coherent rays, packet after packet.
+/// The nearest hits of coherent rays, packet after packet.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -20,23 +20,11 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Of the first rays, those whose result is not there yet.
-HWY_INLINE std::uint64_t wanted_of(std::span<Hit> results) {
-    return ~std::uint64_t{0} >> (kPacketRays - results.size());
-}
-HWY_INLINE std::uint64_t wanted_of(std::span<bool> results) {
-    std::uint64_t wanted = 0;
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        wanted |= static_cast<std::uint64_t>(!results[i]) << i;
-    }
-    return wanted;
-}
-
 /// Calls `otherwise(first, count)` for rays that fit in no packet. Rays and results as in
-/// WideBvhKernels::closest_batch or occluded_batch.
-template <class Result, class Stats, class Otherwise>
+/// WideBvhKernels::closest_batch.
+template <class Stats, class Otherwise>
 HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
-                             std::span<Result> results, Stats stats, Otherwise&& otherwise) {
+                             std::span<Hit> results, Stats stats, Otherwise&& otherwise) {
     const WideBvhLayout& layout = *scene.layout;
     // Packets need vertices in the leaves.
     if (layout.is_indexed() || layout.triangles.size() > PacketDecider::kMaxBlocks) {
@@ -61,14 +49,13 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
             continue;
         }
         RayPacket packet;
-        const std::uint64_t wanted = wanted_of(results.subspan(i, count));
+        const std::uint64_t wanted = ~std::uint64_t{0} >> (kPacketRays - count);
         std::uint64_t used = wanted;
         // Packets of few rays are no faster than rays on their own.
         bool done = packet.make(layout.frame, rays.subspan(i, count), used) &&
                     std::popcount(used) >= static_cast<int>(kGroupRays);
         if (done) {
-            PacketLeavesFor<Result> leaves(scene, rays.subspan(i, count), results.subspan(i, count),
-                                           packet);
+            ClosestPacket leaves(scene, rays.subspan(i, count), results.subspan(i, count), packet);
             done = traverse_packet(layout.tree.nodes.data(), layout.tree.root, places, packet,
                                    leaves, stats);
             if (done) leaves.finish(stats);

@@ -126,9 +126,8 @@ HWY_INLINE bool filter_group(const TriangleBlock& block, std::size_t lane, float
     return (bits_of(out.candidates) & group.used) != 0;
 }
 
-/// What packets of both kinds do alike. `Derived` offers `found(group number, place, result,
-/// stats)`, `wants(ray)`, `stopped(group number, lane)` and `all_done()`; `Query` is the query of a
-/// single ray, made for the rays that need it.
+/// What is asked of the leaves. `Derived` offers `found(group number, place, result, stats)`;
+/// `Query` is the query of a single ray, made for the rays that need it.
 template <class Derived, class Query, class Result>
 class PacketLeaves {
   public:
@@ -176,7 +175,7 @@ class PacketLeaves {
         for (; changed != 0; changed &= changed - 1) {
             packet_.shrink(packet_.groups[std::countr_zero(changed)]);
         }
-        return self.all_done();
+        return false;
     }
 
   protected:
@@ -191,24 +190,19 @@ class PacketLeaves {
 
     template <class Stats>
     HWY_NOINLINE bool visit_one_by_one(NodeRef ref, float nearest, Stats stats) {
-        Derived& self = static_cast<Derived&>(*this);
         for (std::size_t g = 0; g < packet_.group_count; ++g) {
             RayGroup& group = packet_.groups[g];
             if (nearest > group.k_max) continue;
             for (std::uint32_t rest = group.used; rest != 0; rest &= rest - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                if (!self.wants(g * kGroupRays + lane)) continue;
                 Query& one = query(g * kGroupRays + lane);
                 one.s_max = std::min(one.s_max, group.s_max[lane]);
-                if (one.visit(ref, stats)) {
-                    self.stopped(g, lane);
-                } else {
-                    group.s_max[lane] = one.s_max;
-                }
+                (void)one.visit(ref, stats);  // a query for the nearest hit never stops
+                group.s_max[lane] = one.s_max;
             }
             packet_.shrink(group);
         }
-        return self.all_done();
+        return false;
     }
 
     const WideBvhScene& scene_;
@@ -234,11 +228,6 @@ struct Offered {
         offer(hit, id, ray, best[i]);
     }
 };
-struct Blocked {
-    std::span<bool> occluded;
-    void operator()(std::size_t i, PrimitiveId, const ShapeHit&) const { occluded[i] = true; }
-};
-
 /// The nearest hits.
 class ClosestPacket : public PacketLeaves<ClosestPacket, ClosestQuery, Hit> {
   public:
@@ -266,9 +255,6 @@ class ClosestPacket : public PacketLeaves<ClosestPacket, ClosestQuery, Hit> {
                                      HWY_ATTR { decide(ray, other, stats); });
         }
     }
-    [[nodiscard]] HWY_INLINE bool wants(std::size_t) const { return true; }
-    HWY_INLINE void stopped(std::size_t, std::size_t) {}
-    [[nodiscard]] HWY_INLINE bool all_done() const { return false; }
 
     /// Decides all that is kept.
     template <class Stats>
@@ -287,69 +273,6 @@ class ClosestPacket : public PacketLeaves<ClosestPacket, ClosestQuery, Hit> {
         decider_.add(ray, place, Offered{results_}, stats);
     }
 };
-
-/// Whether there is any hit.
-class OccludedPacket : public PacketLeaves<OccludedPacket, OccludedQuery, bool> {
-  public:
-    HWY_INLINE OccludedPacket(const WideBvhScene& scene, std::span<const Ray> rays,
-                              std::span<bool> occluded, RayPacket& packet)
-        : PacketLeaves(scene, rays, occluded, packet) {}
-
-    template <class Stats>
-    HWY_INLINE void found(std::size_t g, TrianglePlace place, const FilteredGroup& found,
-                          Stats stats) {
-        RayGroup& group = packet_.groups[g];
-        const std::uint32_t hit = bits_of(found.sure) & group.used;
-        if (hit != 0) {
-            stats.primitive_hits(static_cast<std::uint64_t>(std::popcount(hit)));
-            group.used &= ~hit;
-            for (std::uint32_t rest = hit; rest != 0; rest &= rest - 1) {
-                results_[g * kGroupRays + static_cast<std::size_t>(std::countr_zero(rest))] = true;
-            }
-            store_lanes(
-                select_lanes(found.sure, GroupFloats(-std::numeric_limits<float>::infinity()),
-                             load_lanes<kGroupRays>(group.s_max)),
-                group.s_max);
-        }
-        // Most of what is not sure is the triangle that the ray leaves: it is decided in the end.
-        while (HWY_UNLIKELY(!pending_.add(g, place, found.candidates, found.lo))) {
-            pending_.take_beside([&](std::size_t ray, TrianglePlace other) HWY_ATTR {
-                decider_.add(ray, other, Blocked{results_}, stats);
-            });
-        }
-    }
-    /// Not where the test in double has found a hit meanwhile.
-    [[nodiscard]] HWY_INLINE bool wants(std::size_t i) const { return !results_[i]; }
-    HWY_INLINE void stopped(std::size_t g, std::size_t lane) {
-        RayGroup& group = packet_.groups[g];
-        group.used &= ~(1u << lane);
-        RayPacket::retire(group, 1u << lane);
-    }
-    [[nodiscard]] HWY_INLINE bool all_done() const {
-        std::uint32_t used = 0;
-        for (std::size_t g = 0; g < packet_.group_count; ++g) used |= packet_.groups[g].used;
-        return used == 0;
-    }
-    template <class Stats>
-    HWY_INLINE void finish(Stats stats) {
-        pending_.take_all([&](std::size_t ray, TrianglePlace place)
-                              HWY_ATTR { decider_.add(ray, place, Blocked{results_}, stats); });
-        decider_.decide(Blocked{results_}, stats);
-    }
-};
-
-template <class Result>
-struct PacketLeavesOf;
-template <>
-struct PacketLeavesOf<Hit> {
-    using Type = ClosestPacket;
-};
-template <>
-struct PacketLeavesOf<bool> {
-    using Type = OccludedPacket;
-};
-template <class Result>
-using PacketLeavesFor = typename PacketLeavesOf<Result>::Type;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen

@@ -1,6 +1,9 @@
 #include "alhazen/accel/wide_bvh/sah_split.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -43,7 +46,13 @@ struct Binning {
     [[nodiscard]] Int4 bin(Float4 center2) const {
         const Float4 place = (first_three(center2) - lo) * scale;
         const Float4 most = Float4{1, 1, 1, 1} * static_cast<float>(bins - 1);
-        return __builtin_convertvector(place < most ? place : most, Int4);
+        return __builtin_convertvector(lesser(place, most), Int4);
+    }
+    /// As bin(r)[axis].
+    [[nodiscard]] int bin_along(const BuildReference& r, int axis) const {
+        const float place = (r.center2(axis) - lo[axis]) * scale[axis];
+        const auto most = static_cast<float>(bins - 1);
+        return static_cast<int>(place < most ? place : most);
     }
 };
 
@@ -57,28 +66,45 @@ struct Bin {
         for (std::size_t k = 0; k < kLeafKinds; ++k) count[k] += other.count[k];
     }
 };
-struct Bins {
-    Bin of[3][kMaxBins];
+/// Only as many bins as there are in use are made.
+class Bins {
+  public:
+    explicit Bins(int count) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int b = 0; b < count; ++b) new (&of(axis)[b]) Bin;
+        }
+    }
+    [[nodiscard]] Bin* of(int axis) { return reinterpret_cast<Bin*>(room_) + axis * kMaxBins; }
+    [[nodiscard]] const Bin* of(int axis) const {
+        return reinterpret_cast<const Bin*>(room_) + axis * kMaxBins;
+    }
+
+  private:
+    alignas(Bin) std::byte room_[3 * kMaxBins * sizeof(Bin)];
 };
 
 void fill(std::span<const BuildReference> references, const Binning& binning, Bins& bins) {
     for (const BuildReference& r : references) {
         const Box4 box(r);
         const Int4 place = binning.bin(box.center2());
-        for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin = bins.of[axis][place[axis]];
+        // Not a loop: the lanes of `place` are named, and stay in registers.
+        const auto add = [&](int axis, int b) {
+            Bin& bin = bins.of(axis)[b];
             bin.box.include(box);
             ++bin.count[r.kind];
-        }
+        };
+        add(0, place[0]);
+        add(1, place[1]);
+        add(2, place[2]);
     }
 }
 
-/// Calls add(total, part) for a small set; for a large one in parallel on parts, which `merge` then
-/// takes in order.
+/// Calls add(total, part) for a small set; for a large one in parallel on parts, each a copy of
+/// `total` at first, which `merge` then takes in order.
 template <class T, class Add, class Merge>
 void for_chunks(std::span<const BuildReference> all, const Add& add, const Merge& merge, T& total) {
     if (all.size() <= 2 * kChunk) return add(total, all);
-    std::vector<T> parts((all.size() - 1) / kChunk + 1);
+    std::vector<T> parts((all.size() - 1) / kChunk + 1, total);
     parallel_for(all.size(), kChunk, [&](std::size_t i, std::size_t j) {
         add(parts[i / kChunk], all.subspan(i, j - i));
     });
@@ -121,13 +147,13 @@ void best_of_bins(const Bin* bins, int count, int axis, const SideCost& cost, Ob
 ObjectSplit split_by_bins(std::span<const BuildReference> references, const RangeSummary& all,
                           const LeafKinds& kinds) {
     const Binning binning(all);
-    Bins bins;
+    Bins bins(binning.bins);
     for_chunks<Bins>(
         references,
         [&](Bins& some, std::span<const BuildReference> part) { fill(part, binning, some); },
         [&](Bins& sum, const Bins& part) {
             for (int axis = 0; axis < 3; ++axis) {
-                for (int b = 0; b < binning.bins; ++b) sum.of[axis][b].include(part.of[axis][b]);
+                for (int b = 0; b < binning.bins; ++b) sum.of(axis)[b].include(part.of(axis)[b]);
             }
         },
         bins);
@@ -135,7 +161,7 @@ ObjectSplit split_by_bins(std::span<const BuildReference> references, const Rang
     const SideCost cost{kinds, all.kind()};
     for (int axis = 0; axis < 3; ++axis) {
         if (binning.scale[axis] == 0) continue;
-        best_of_bins(bins.of[axis], binning.bins, axis, cost, best);
+        best_of_bins(bins.of(axis), binning.bins, axis, cost, best);
     }
     return best;
 }
@@ -146,15 +172,23 @@ bool before(const BuildReference& a, const BuildReference& b, int axis) {
     return ca != cb ? ca < cb : a.id < b.id;
 }
 
-/// The places of a few references in their order along an axis.
+/// The places of a few references in their order along an axis; of equal ones the first is first.
+/// Every two are compared, for whether a comparison is true cannot be predicted.
 void sort_places(std::span<const BuildReference> references, int axis, std::uint8_t* places) {
-    for (std::size_t i = 0; i < references.size(); ++i) {
-        std::size_t k = i;
-        for (; k > 0 && before(references[i], references[places[k - 1]], axis); --k) {
-            places[k] = places[k - 1];
+    float center[kSweepSize];
+    std::uint32_t rank[kSweepSize];
+    const std::size_t size = references.size();
+    for (std::size_t i = 0; i < size; ++i) {
+        center[i] = references[i].center2(axis);
+        std::uint32_t before = 0;
+        for (std::size_t k = 0; k < i; ++k) {
+            const std::uint32_t later = center[i] < center[k];
+            rank[k] += later;
+            before += 1 - later;
         }
-        places[k] = static_cast<std::uint8_t>(i);
+        rank[i] = before;
     }
+    for (std::size_t i = 0; i < size; ++i) places[rank[i]] = static_cast<std::uint8_t>(i);
 }
 
 /// The best of all splits of a few references in the order of their centers.
@@ -202,10 +236,26 @@ std::uint32_t partition(std::span<BuildReference> references, const IsLeft& is_l
     }
 }
 
+/// Precondition: `out` is that of nothing.
+void summarize_some(std::span<const BuildReference> references, RangeSummary& out) {
+    // Apart from the counts the boxes stay in registers.
+    Box4 box, centers;
+    KindCounts count{};
+    for (const BuildReference& r : references) {
+        const Box4 b(r);
+        box.include(b);
+        centers.include_point(b.center2());
+        ++count[r.kind];
+    }
+    out.box = box;
+    out.centers = centers;
+    out.count = count;
+}
+
 void summarize_both(std::span<const BuildReference> references, std::uint32_t middle,
                     RangeSummary& left, RangeSummary& right) {
-    left = summarize(references.first(middle));
-    right = summarize(references.subspan(middle));
+    summarize_some(references.first(middle), left);
+    summarize_some(references.subspan(middle), right);
 }
 
 }  // namespace
@@ -215,7 +265,7 @@ RangeSummary summarize(std::span<const BuildReference> references) {
     for_chunks<RangeSummary>(
         references,
         [](RangeSummary& some, std::span<const BuildReference> part) {
-            for (const BuildReference& r : part) some.include(r);
+            summarize_some(part, some);
         },
         [](RangeSummary& sum, const RangeSummary& part) { sum.include(part); }, all);
     return all;
@@ -230,18 +280,18 @@ ObjectSplit best_object_split(std::span<const BuildReference> references, const 
 std::uint32_t divide(std::span<BuildReference> references, const RangeSummary& all,
                      const ObjectSplit& split, RangeSummary& left, RangeSummary& right) {
     if (references.size() <= kSweepSize) {
-        const int axis = split.axis;
-        std::sort(references.begin(), references.end(),
-                  [axis](const BuildReference& a, const BuildReference& b) {
-                      return before(a, b, axis);
-                  });
+        std::uint8_t places[kSweepSize];
+        sort_places(references, split.axis, places);
+        std::array<BuildReference, kSweepSize> before;
+        std::copy(references.begin(), references.end(), before.begin());
+        for (std::size_t i = 0; i < references.size(); ++i) references[i] = before[places[i]];
         const auto middle = static_cast<std::uint32_t>(split.last_left) + 1;
         summarize_both(references, middle, left, right);
         return middle;
     }
     const Binning binning(all);
     const auto is_left = [&](const BuildReference& r) {
-        return binning.bin(Box4(r).center2())[split.axis] <= split.last_left;
+        return binning.bin_along(r, split.axis) <= split.last_left;
     };
     return partition(references, is_left, left, right);
 }

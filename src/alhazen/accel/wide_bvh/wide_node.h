@@ -124,7 +124,8 @@ static_assert(sizeof(WideNodeOf<4>) == 128 && sizeof(WideNodeOf<8>) == 256 &&
 
 template <std::size_t Width>
 void WideNodeOf<Width>::set_order() {
-    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+    const std::uint32_t used = child_count();
+    for (std::uint32_t octant = 0; octant < 4; ++octant) {
         float along[Width];
         for (std::size_t i = 0; i < Width; ++i) {
             along[i] = 0;
@@ -133,18 +134,25 @@ void WideNodeOf<Width>::set_order() {
                 along[i] += (octant >> k & 1) != 0 ? -center2 : center2;
             }
         }
-        // Insertion sort; free slots have NaN and stay where they are, behind.
+        // Insertion sort.
         std::uint32_t slots[Width];
-        for (std::uint32_t i = 0; i < Width; ++i) {
+        for (std::uint32_t i = 0; i < used; ++i) {
             std::uint32_t place = i;
             for (; place > 0 && along[slots[place - 1]] < along[i]; --place) {
                 slots[place] = slots[place - 1];
             }
             slots[place] = i;
         }
-        std::uint64_t all = 0;
-        for (std::uint32_t i = 0; i < Width; ++i) all |= std::uint64_t{slots[i]} << kSlotBits * i;
+        // The octant across has them the other way round; free slots stay where they are.
+        std::uint64_t all = 0, across = 0;
+        for (std::uint32_t i = 0; i < Width; ++i) {
+            const std::uint64_t a = i < used ? slots[i] : i;
+            const std::uint64_t b = i < used ? slots[used - 1 - i] : i;
+            all |= a << kSlotBits * i;
+            across |= b << kSlotBits * i;
+        }
         order[octant] = static_cast<Order>(all);
+        order[7 - octant] = static_cast<Order>(across);
     }
 }
 
