@@ -64,11 +64,11 @@ PointTree::PointTree(const std::vector<Vec2>& points, std::vector<std::uint32_t>
 
 /// The recursion is as deep as the tree: log2 of the leaves.
 void PointTree::build(std::size_t node, std::size_t first_leaf, std::size_t leaves) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    constexpr double kNone = std::numeric_limits<double>::infinity();
     const std::size_t begin = std::min(ids_.size(), first_leaf * kLeafSize);
     const std::size_t end = std::min(ids_.size(), (first_leaf + leaves) * kLeafSize);
-    Vec2 lo{kInfinity, kInfinity};
-    Vec2 hi{-kInfinity, -kInfinity};
+    Vec2 lo{kNone, kNone};
+    Vec2 hi{-kNone, -kNone};
     for (std::size_t i = begin; i < end; ++i) {
         const Vec2 p = points_[ids_[i]];
         lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
