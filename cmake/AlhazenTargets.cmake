@@ -34,7 +34,7 @@ target_compile_options(alhazen_flags INTERFACE
     -Wno-missing-field-initializers
     $<$<BOOL:${ALHAZEN_WERROR}>:-Werror>
     # With precompiled headers GCC 12 inlines std::string otherwise, and sees overflows that cannot be (its bug 105651).
-    $<$<AND:$<BOOL:${ALHAZEN_PRECOMPILE}>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow>)
+    $<$<AND:$<BOOL:${ALHAZEN_QUICK_BUILD}>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow>)
 target_compile_definitions(alhazen_flags INTERFACE
     ALHAZEN_VERSION="${PROJECT_VERSION}"
     $<$<NOT:$<BOOL:${ALHAZEN_BENCH}>>:_GLIBCXX_ASSERTIONS>)
@@ -47,9 +47,9 @@ if(ALHAZEN_SANITIZE)
     target_link_options(alhazen_flags INTERFACE -fsanitize=${ALHAZEN_SANITIZE})
 endif()
 
-# alhazen_precompile(TARGET header...): where ALHAZEN_PRECOMPILE is on, compiles these once for the target.
+# alhazen_precompile(TARGET header...): where ALHAZEN_QUICK_BUILD is on, compiles these once for the target.
 function(alhazen_precompile target)
-    if(ALHAZEN_PRECOMPILE)
+    if(ALHAZEN_QUICK_BUILD)
         target_precompile_headers(${target} PRIVATE ${ARGN})
     endif()
 endfunction()
@@ -79,8 +79,9 @@ function(alhazen_test name)
     add_executable(${target} ${ARG_SOURCES})
     target_link_libraries(${target} PRIVATE alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES}
                           GTest::gtest_main)
-    if(ALHAZEN_PRECOMPILE)
+    if(ALHAZEN_QUICK_BUILD)
         target_precompile_headers(${target} REUSE_FROM alhazen_test_headers)
+        target_compile_options(${target} PRIVATE -O1)
     endif()
     target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}/tests")
     target_compile_definitions(${target} PRIVATE
