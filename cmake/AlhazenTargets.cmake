@@ -54,6 +54,14 @@ function(alhazen_precompile target)
     endif()
 endfunction()
 
+# alhazen_quick_build(TARGET header...): the same for a target whose speed hardly counts: also with -O1.
+function(alhazen_quick_build target)
+    if(ALHAZEN_QUICK_BUILD)
+        target_compile_options(${target} PRIVATE -O1)
+        alhazen_precompile(${target} ${ARGN})
+    endif()
+endfunction()
+
 # alhazen_library(NAME SOURCES file... DEPENDS folder... LIBRARIES target... PRIVATE_LIBRARIES target...)
 # makes the target alhazen_NAME of one folder of src/alhazen. Without sources it is header-only. Our flags stay
 # inside of this build: who uses an installed library has the few of AlhazenInstall.cmake.
@@ -89,6 +97,9 @@ function(alhazen_test name)
         ALHAZEN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
     if(NOT ARG_LABEL)
         set(ARG_LABEL fast)
+    endif()
+    if(ALHAZEN_QUICK_BUILD AND ARG_LABEL STREQUAL "heavy")
+        set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
     endif()
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 600)
