@@ -9,7 +9,8 @@
 /// Differs: stated in accel/ray_coherence.h.
 /// Conventions: origins are the primitives, then the lights. Lists are ascending by the least
 /// distance between the two spheres.
-/// Threads: `find` may be called from many; a list does not depend on who asks first.
+/// Threads: `find` may be called from many; lists do not depend on who asks first, unless memory
+/// runs out.
 
 #include <atomic>
 #include <cstdint>

@@ -2,7 +2,8 @@
 /// For every light a cube of directions whose cells list what may stand in the light's way.
 ///
 /// Source: Haines and Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", IEEE CG&A 6(9),
-/// 1986; Haines, "Shaft culling and the shadow cache", Ray Tracing News (the last occluder).
+/// 1986; Pearce, "A Recursive Shadow Voxel Cache for Ray Tracing", Graphics Gems II, 1991 (the last
+/// occluder).
 /// Differs: lists are made from half-spaces around the rows and columns of a face and, for
 /// triangles, their edges, not by scan conversion. A ray is a shadow ray when it asks what blocks
 /// the light and ends at a light that the scene names; there is no mark on it. Only triangles are

@@ -8,11 +8,11 @@
 /// extents of triangles, or of the box and sphere around all else, along their normals, where Arvo
 /// and Kirk take cones or linear programs. Lists are not cut off behind blockers, nor by faces that
 /// are turned away. When the memory is used up, no list is made shorter any more (they throw away
-/// what was not used lately). A thread remembers its last four classes for each dominant axis,
-/// whatever its rays are for. Rays from so far away that rounding could lead beside their class are
-/// tested against everything.
-/// Complexity and threads: classes are divided as rays come to them, by all threads at once; a ray
-/// costs the depth of its class, or nothing where it is that of a ray before.
+/// what was not used lately). A thread remembers its last four classes for each of the six
+/// directions, whatever its rays are for. Rays from so far away that rounding could lead beside
+/// their class are tested against everything. Complexity and threads: classes are divided as rays
+/// come to them, by all threads at once; a ray costs the depth of its class, or nothing where it is
+/// that of a ray before.
 
 #include <cstddef>
 #include <memory>

@@ -3,7 +3,8 @@
 /// where it asks for that; policies that only count are told nothing, at no cost.
 ///
 /// Conventions: numbers are those of the accelerator: a cell of a grid, a leaf of an octree or a
-/// k-d tree, a node of a hierarchy; of a class of rays how deep it is in its tree, from 1. Told at the moment at which it is counted.
+/// k-d tree, a node of a hierarchy; of a class of rays how deep it is in its tree, from 1. Told at
+/// the moment at which it is counted.
 
 #include <cstddef>
 
