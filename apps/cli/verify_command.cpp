@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "alhazen/base/control_characters.h"
 #include "alhazen/importers/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/accelerator_table.h"
@@ -49,9 +50,14 @@ json to_json(const VerifyReport& report) {
 }
 
 json to_json(const ExactReport& report) {
+    json unchecked = json::array();
+    for (const UncheckedSolid& one : report.unchecked_solids) {
+        unchecked.push_back({{"solid", one.name}, {"reason", one.reason}});
+    }
     return {{"exact", true},
             {"solids", report.solids},
             {"unchecked", report.unchecked},
+            {"unchecked_solids", std::move(unchecked)},
             {"rays", report.rays},
             {"crossings", report.crossings},
             {"grazing", report.grazing},
@@ -89,7 +95,15 @@ void print_report(const ExactReport& report) {
         "crossings and points within {:.3g} and {:.3g} of their bounds{}\n",
         report.solids, report.rays, report.crossings, report.disagreements, report.grazing,
         report.worst_crossing, report.worst_point,
-        report.unchecked > 0 ? fmt::format("; {} solids not checked", report.unchecked) : "");
+        report.unchecked > 0 ? fmt::format("; {} {} not checked", report.unchecked,
+                                           report.unchecked == 1 ? "solid" : "solids")
+                             : "");
+    for (const UncheckedSolid& one : report.unchecked_solids) {
+        print("  not checked: {}: {}\n", escape_controls(one.name), one.reason);
+    }
+    if (report.unchecked > report.unchecked_solids.size() && report.solids > 0) {
+        print("  not checked: {} more\n", report.unchecked - report.unchecked_solids.size());
+    }
     print_disagreements(report.reported);
 }
 
@@ -161,7 +175,9 @@ void add_verify(CLI::App& app, int& exit_status) {
             const bool any = report.solids + report.unchecked > 0;
             if (any && args->json != "-") print_report(report);
         }
-        if (!args->json.empty()) write_report(args->json, reports.dump(2) + "\n");
+        if (!args->json.empty())
+            write_report(args->json,
+                         reports.dump(2, ' ', true, json::error_handler_t::replace) + "\n");
         exit_status = holds ? kDone : kCheckFailed;
     });
 }

@@ -4,16 +4,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
-#include <set>
 
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/scene/csg_aggregate.h"
 #include "alhazen/scene/scene.h"
-#include "alhazen/scene/solid_list.h"
 #include "alhazen/scene/surface.h"
-#include "alhazen/session/exact_crossings.h"
+#include "alhazen/session/exact_solids.h"
 #include "alhazen/session/verify_rays.h"
 
 namespace alhazen {
@@ -26,102 +21,6 @@ constexpr double kEpsilon = 0x1p-53;
 constexpr std::size_t kMostSolids = 256;
 /// Roundings of a ray's own numbers on the way to a crossing.
 constexpr double kRayRoundings = 16;
-/// Crossings of many leaves are sums of many calls: CSG objects with more are left to `roth`.
-constexpr std::uint32_t kMostLeaves = 4096;
-
-/// A solid by itself: what is traced, and what is true.
-struct ExactSolid {
-    std::shared_ptr<const Aggregate> aggregate;
-    const CsgSolid* csg = nullptr;
-    bool checked = false;
-    /// Of this one: says where lines begin.
-    std::shared_ptr<const SolidList> solids;
-
-    [[nodiscard]] bool begins_inside(const Ray& ray) const {
-        std::vector<SolidId> inside;
-        solids->inside_at_minus_infinity(ray, inside);
-        return !inside.empty();
-    }
-    [[nodiscard]] ExactCrossings crossings(const ExactLine& line, Real128 least) const {
-        ExactCrossings found = csg != nullptr
-                                   ? exact_crossings(*csg, line, least)
-                                   : exact_crossings(aggregate->primitives(), PrimitiveId{0}, line);
-        drop_thin(found, least);
-        return found;
-    }
-    /// The distance along the line from its origin to the nearest surface: of the solid, or of any
-    /// leaf, as walls between media are.
-    [[nodiscard]] Real128 nearest(const ExactLine& line, bool of_any_leaf) const {
-        Real128 nearest = kInf;
-        const auto take = [&](const ExactCrossings& crossings) {
-            for (const Real128 t : crossings.t) {
-                const Real128 distance = t < 0 ? -t : t;
-                if (distance < nearest) nearest = distance;
-            }
-        };
-        if (csg == nullptr || !of_any_leaf) {
-            // A thin sliver is as real as any.
-            take(crossings(line, 0));
-            return nearest;
-        }
-        for (const PrimitiveId leaf : csg->expression().leaves) {
-            take(exact_crossings(csg->table(), leaf, line));
-        }
-        return nearest;
-    }
-};
-
-/// Collects what an aggregate stores; instances inward.
-class Collector {
-  public:
-    void add(const std::shared_ptr<const Aggregate>& aggregate) {
-        if (!seen_.insert(aggregate.get()).second) return;
-        if (const auto* csg = dynamic_cast<const CsgAggregate*>(aggregate.get())) {
-            const bool checked =
-                csg->solid().leaf_count() <= kMostLeaves && has_exact_crossings(csg->solid());
-            solids.push_back(
-                {aggregate, &csg->solid(), checked, std::make_shared<const SolidList>(aggregate)});
-            return;
-        }
-        add_inside(*aggregate);
-    }
-    std::vector<ExactSolid> solids;
-
-  private:
-    void add_inside(const Aggregate& aggregate) {
-        const PrimitiveTable& table = aggregate.primitives();
-        std::uint32_t kind = 0;
-        const auto visit = [&](const auto& column) {
-            const std::uint32_t first = table.first(kind++);
-            for (std::uint32_t i = 0; i < column.shapes.size(); ++i) {
-                if (column.shapes[i].closed()) add_shape(table, column, i, PrimitiveId{first + i});
-            }
-        };
-        std::apply([&](const auto&... column) { (visit(column), ...); }, table.columns);
-        for (const Instance& instance : table.instances) add(instance.aggregate);
-    }
-
-    template <class Column>
-    void add_shape(const PrimitiveTable& table, const Column& column, std::uint32_t i,
-                   PrimitiveId id) {
-        PrimitiveTable alone;
-        alone.material_opacity = {Opacity::Opaque};
-        auto& own = std::get<Column>(alone.columns);
-        own.shapes.push_back(column.shapes[i]);
-        own.materials.push_back(MaterialId{0});
-        own.placements.push_back(kNoPlacement);
-        if (column.placements[i] != kNoPlacement) {
-            own.placements.back() = 0;
-            alone.placements.push_back(table.placements[column.placements[i]]);
-        }
-        alone.finish();
-        const auto aggregate = make_aggregate("list", std::move(alone), {});
-        solids.push_back({aggregate, nullptr, has_exact_crossings(table, id),
-                          std::make_shared<const SolidList>(aggregate)});
-    }
-
-    std::set<const Aggregate*> seen_;
-};
 
 std::string describe(const std::vector<Hit>& hits) {
     std::string text = fmt::format("{} crossings", hits.size());
@@ -332,7 +231,7 @@ ExactReport check_all(const std::vector<ExactSolid>& all, const VerifyOptions& o
     ExactReport report;
     std::vector<const ExactSolid*> checked;
     for (const ExactSolid& solid : all) {
-        if (solid.checked) checked.push_back(&solid);
+        if (solid.reason.empty()) checked.push_back(&solid);
     }
     const std::size_t count = std::min(checked.size(), kMostSolids);
     report.unchecked = all.size() - count;
@@ -353,9 +252,10 @@ ExactReport check_all(const std::vector<ExactSolid>& all, const VerifyOptions& o
 ExactReport verify_exact(const SceneDescription& description, const VerifyOptions& options) {
     const Scene scene =
         compile(description, {.accelerator = options.accelerator, .build = options.build});
-    Collector collector;
-    collector.add(scene.aggregate);
-    return check_all(collector.solids, options);
+    const std::vector<ExactSolid> all = exact_solids(scene.aggregate);
+    ExactReport report = check_all(all, options);
+    report.unchecked_solids = unchecked_solids(all, description, scene);
+    return report;
 }
 
 }  // namespace alhazen

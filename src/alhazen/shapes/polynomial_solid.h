@@ -7,7 +7,8 @@
 /// restricted to that segment is computed in Bernstein form at once, from the coordinates of the
 /// segment's ends: products are convolutions, nothing cancels that need not. Its sign changes come
 /// from math/bernstein_roots.h, in double and, where that is not certain, again in double-double
-/// from the ray as it is given. Conventions: internal to this folder.
+/// from the ray as it is given. Where f falls slowly, as near double points, roots found in double
+/// are improved by its value in double-double. Conventions: internal to this folder.
 ///
 /// A polynomial offers kDegree (a bound for its degree) and
 ///   `template <class Real> int coefficients(Point3<Real> p0, Point3<Real> p1, Real* b) const`:
@@ -102,6 +103,46 @@ struct CoveredSignChanges {
     }
 };
 
+/// Where the slope is at least this share of the largest coefficient, a root found in double is
+/// right to about the rounding of t.
+inline constexpr double kSteepEnough = 1.0 / 8;
+
+/// Improves a root that was found in double: where the polynomial falls slowly between far larger
+/// coefficients (near a double point of the surface, say), their rounding moves it by more than t
+/// rounds. Newton's steps by the value of f in double-double on the exact line.
+template <class Polynomial, int N>
+double improved_root(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                     const CoveredSignChanges& covered, const BernsteinPolynomial<double, N>& p,
+                     const SignChanges<N>& changes, std::size_t i) {
+    const double t = covered.at(changes.u[i]);
+    if (!covered.wants(changes.lo[i], changes.hi[i])) return t;
+    double largest = 0.0, value, slope;
+    for (int k = 0; k <= p.degree; ++k) {
+        largest = std::fmax(largest, std::abs(p.b[static_cast<std::size_t>(k)]));
+    }
+    bernstein::evaluate(p, changes.u[i], value, slope);
+    if (std::abs(slope) >= kSteepEnough * largest) return t;
+    const double lo = covered.at(changes.lo[i]), hi = covered.at(changes.hi[i]);
+    if (!(lo < hi)) return t;
+    const Point3<DoubleDouble> o = frame.local_point(to_real<DoubleDouble>(ray.origin));
+    const Point3<DoubleDouble> d = frame.local_vector(to_real<DoubleDouble>(ray.direction));
+    const double slope_t = slope / (covered.range.exit - covered.range.entry);
+    double best = t, last_step = hi - lo;
+    for (int step = 0; step < 4; ++step) {
+        const DoubleDouble at(best);
+        const double off =
+            f.value(Point3<DoubleDouble>{o.x + at * d.x, o.y + at * d.y, o.z + at * d.z}).high /
+            slope_t;
+        const double next = best - off;
+        // The slope is that of the first guess: steps that do not shrink lead nowhere.
+        if (!(next >= lo && next <= hi) || !(std::abs(off) <= 0.25 * last_step)) break;
+        best = next;
+        last_step = std::abs(off);
+        if (last_step <= 0x1p-52 * std::abs(best)) break;
+    }
+    return best;
+}
+
 /// Crossings of a segment whose range has been found; see report_solid for `capped`.
 template <class Polynomial>
 int intersect_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
@@ -109,11 +150,21 @@ int intersect_segment(const Polynomial& f, const SolidFrame& frame, const Ray& r
     constexpr int N = Polynomial::kDegree;
     SignChanges<N> changes;
     const CoveredSignChanges covered{ray, s.range};
-    find_certified_sign_changes<N>([&](auto& p) { restrict_to_segment(f, frame, ray, s, p); },
-                                   changes, covered);
+    BernsteinPolynomial<double, N> p;
+    restrict_to_segment(f, frame, ray, s, p);
+    const bool certain = find_sign_changes(p, changes, covered);
+    if (!certain) {
+        BernsteinPolynomial<DoubleDouble, N> precise;
+        restrict_to_segment(f, frame, ray, s, precise);
+        find_sign_changes(precise, changes, covered);
+    }
     if (changes.count == 0 && !changes.negative_at_start) return 0;
     double t[N];
-    for (int i = 0; i < changes.count; ++i) t[i] = covered.at(changes.u[i]);
+    for (int i = 0; i < changes.count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        t[i] = certain ? improved_root(f, frame, ray, covered, p, changes, k)
+                       : covered.at(changes.u[k]);
+    }
     return report_solid(ray, s.range, changes.negative_at_start, t, changes.count, capped, hits);
 }
 

@@ -144,5 +144,60 @@ TEST(ExactCrossings, AWrongCrossingIsFarFromTheTruth) {
     EXPECT_NEAR(off, 1e-15 / std::sqrt(1 - 0.09), 2e-16);
 }
 
+/// Kummer's quartic with its sixteen double points.
+Algebraic kummer() {
+    Algebraic surface;
+    surface.expression = "(x^2+y^2+z^2-1.5)^2-(11/7)*((1-z)^2-2*x^2)*((1+z)^2-2*y^2)";
+    surface.clip_box = {{-3, -3, -3}, {3, 3, 3}};
+    return surface;
+}
+
+TEST(VerifyExact, ASurfaceWithDoublePointsIsRight) {
+    SceneMaker maker;
+    maker.add(kummer());
+    (void)maker.compile();
+    const ExactReport report = verify_exact(maker.description(), {.rays = 7000});
+    EXPECT_GT(report.crossings, 5000u);
+    EXPECT_EQ(report.disagreements, 0u) << first_of(report);
+}
+
+TEST(VerifyExact, RootsBesideDoublePointsAreRightToTheLastDigits) {
+    Algebraic surface = kummer();
+    surface.prepare();
+    const Ray ray{{0.24948949458353442, -1.0149472953527794, -0.1074664059135908},
+                  {0.49753556098682122, 0.8355357222830907, -0.23310603695393398}};
+    ShapeHit hits[Algebraic::kMaxHits];
+    ASSERT_EQ(surface.intersect(ray, hits), 2);
+    const ExactLine line{Vec3Of<Real128>(ray.origin), Vec3Of<Real128>(ray.direction)};
+    const ExactCrossings truth = exact_crossings(surface, line);
+    ASSERT_EQ(truth.t.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_NEAR(hits[i].t, static_cast<double>(truth.t[i]), 4e-16 * hits[i].t);
+    }
+}
+
+TEST(VerifyExact, SolidsWithoutAFormulaAreNamedWithTheReason) {
+    SceneMaker maker;
+    const ObjectIndex cut = maker.object("cut");
+    maker.description().objects.back().combine = Combine::Difference;
+    maker.add(Sphere{}, MaterialId{0}, {}, cut);
+    maker.add(Superellipsoid{}, MaterialId{0}, {}, cut);
+    maker.add(Sphere{{9, 0, 0}, 1});
+    maker.add(cut);
+    maker.add(Superellipsoid{{20, 0, 0}});
+    (void)maker.compile();
+    const ExactReport report = verify_exact(maker.description(), {.rays = 100});
+    EXPECT_EQ(report.solids, 1u);
+    EXPECT_EQ(report.unchecked, 2u);
+    ASSERT_EQ(report.unchecked_solids.size(), 2u);
+    for (const UncheckedSolid& one : report.unchecked_solids) {
+        EXPECT_EQ(one.reason, "a superellipsoid has no formula");
+    }
+    const std::string names =
+        report.unchecked_solids[0].name + ", " + report.unchecked_solids[1].name;
+    EXPECT_NE(names.find("superellipsoid"), std::string::npos) << names;
+    EXPECT_NE(names.find("cut"), std::string::npos) << names;
+}
+
 }  // namespace
 }  // namespace alhazen
