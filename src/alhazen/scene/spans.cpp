@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 
+#include "alhazen/geometry/ray_scale.h"
 #include "alhazen/parallel/parallel.h"
 
 namespace alhazen {
@@ -229,6 +231,16 @@ void SolidQueries::spans(const Ray& ray, SpanList& list) const {
     list.spans.clear();
     list.inconsistent.clear();
     if (!is_valid(ray)) return;
+    const int exponent = unusual_exponent(ray.direction);
+    if (exponent != 0) {
+        spans(rescaled(ray, exponent), list);
+        for (SolidSpan& span : list.spans) {
+            for (SpanEnd* end : {&span.entry, &span.exit}) {
+                end->t = end->hit.t = std::ldexp(end->t, -exponent);
+            }
+        }
+        return;
+    }
     cross_line(solids_, ray, list);
     Pairer pairer(solids_, ray, list);
     // Solids that the line never leaves have no crossing.
@@ -264,17 +276,22 @@ SpanSurface SolidQueries::surface(const Ray& ray, const SpanEnd& end, double sid
         found.point = ray.at(end.t);
         return found;
     }
-    const Surface surface = surface_at(solids_.aggregate(), ray, end.hit);
+    const int exponent = unusual_exponent(ray.direction);
+    const Ray usual = exponent == 0 ? ray : rescaled(ray, exponent);
+    Hit hit = end.hit;
+    hit.t = std::ldexp(hit.t, exponent);
+    const Surface surface = surface_at(solids_.aggregate(), usual, hit);
     found.point = surface.point;
     // A mesh may be wound inside out; the order of crossings knows better.
-    const bool as_wound = side * dot(surface.normal, ray.direction) >= 0.0;
+    const bool as_wound = side * dot(surface.normal, usual.direction) >= 0.0;
     found.normal = as_wound ? surface.normal : -surface.normal;
     found.error = surface.error;
     found.material = surface.materials[0];
     return found;
 }
 
-Thickness SolidQueries::thickness(const Ray& ray, SpanList& scratch) const {
+Thickness SolidQueries::thickness(const Ray& given, SpanList& scratch) const {
+    const Ray ray = rescaled(given, unusual_exponent(given.direction));
     spans(ray, scratch);
     Thickness sum;
     const double scale = length(ray.direction);

@@ -96,6 +96,7 @@ class SolidQueries {
 
     /// Replaces the list by the spans of the ray in [t_min, t_max]. A span that the ray begins or
     /// ends in is cut there and says so. An invalid ray has none.
+    /// Directions may be of any length that double holds (geometry/ray_scale.h).
     void spans(const Ray& ray, SpanList& list) const;
     /// Point, normal and material at the ends of a span of this very ray. The normal is turned as
     /// the span says: against the ray where it enters, along it where it leaves.

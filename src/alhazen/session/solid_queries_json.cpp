@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
+#include "alhazen/geometry/ray_scale.h"
 
 namespace alhazen {
 
@@ -45,12 +46,14 @@ json end_json(const SolidScene& scene, const SpanEnd& end, const SpanSurface& su
 json spans_json(const SolidScene& scene, const Ray& ray, std::span<const SolidSpan> spans) {
     json out = ray_json(ray);
     json list = json::array();
-    const double scale = length(ray.direction);
+    const int exponent = unusual_exponent(ray.direction);
+    const double scale = length(rescaled(ray, exponent).direction);
     for (const SolidSpan& span : spans) {
         const SolidQueries& queries = scene.queries();
         list.push_back({{"solid", static_cast<std::uint64_t>(span.solid)},
                         {"name", scene.name(span.solid)},
-                        {"length", number(scale * (span.exit.t - span.entry.t))},
+                        {"length", number(scale * (std::ldexp(span.exit.t, exponent) -
+                                                   std::ldexp(span.entry.t, exponent)))},
                         {"entry", end_json(scene, span.entry, queries.entry_surface(ray, span))},
                         {"exit", end_json(scene, span.exit, queries.exit_surface(ray, span))}});
     }

@@ -1,8 +1,10 @@
 #include "alhazen/tracer/tracer.h"
 
+#include <cmath>
 #include <utility>
 
 #include "alhazen/base/error.h"
+#include "alhazen/geometry/ray_scale.h"
 #include "alhazen/scene/wide_bvh_aggregate.h"
 
 namespace alhazen {
@@ -29,6 +31,40 @@ void check_id(const PrimitiveTable& table, PrimitiveId id, bool instance) {
                                                      : "the hit is not one of this tracer");
 }
 
+/// Calls trace(ray) with a ray of usual length and the power of two by which its t are larger.
+template <class Trace>
+decltype(auto) with_usual(const Ray& ray, const Trace& trace) {
+    const int exponent = unusual_exponent(ray.direction);
+    return exponent == 0 ? trace(ray, 0) : trace(rescaled(ray, exponent), exponent);
+}
+
+/// The rays, copied and rescaled where some of them are of unusual length.
+class UsualRays {
+  public:
+    explicit UsualRays(std::span<const Ray> rays) : given_(rays) {
+        for (const Ray& ray : rays) unusual_ = unusual_ || unusual_exponent(ray.direction) != 0;
+        if (!unusual_) return;
+        copies_.reserve(rays.size());
+        for (const Ray& ray : rays) {
+            copies_.push_back(rescaled(ray, unusual_exponent(ray.direction)));
+        }
+    }
+    [[nodiscard]] std::span<const Ray> rays() const {
+        return unusual_ ? std::span<const Ray>(copies_) : given_;
+    }
+    /// Gives the hits the t of the rays as they were given.
+    void restore(std::span<Hit> hits) const {
+        for (std::size_t i = 0; unusual_ && i < hits.size(); ++i) {
+            hits[i].t = std::ldexp(hits[i].t, -unusual_exponent(given_[i].direction));
+        }
+    }
+
+  private:
+    std::span<const Ray> given_;
+    std::vector<Ray> copies_;
+    bool unusual_ = false;
+};
+
 }  // namespace
 
 Tracer::Tracer(TracerScene scene, const TracerOptions& options)
@@ -50,26 +86,45 @@ void Tracer::save(const std::filesystem::path& file) const {
 }
 
 bool Tracer::intersect(const Ray& ray, Hit& hit, RayMask mask) const {
-    return aggregate_->closest(ray, hit, {nullptr, mask});
+    return with_usual(ray, [&](const Ray& usual, int exponent) {
+        const bool found = aggregate_->closest(usual, hit, {nullptr, mask});
+        if (exponent != 0) hit.t = std::ldexp(hit.t, -exponent);
+        return found;
+    });
 }
 
 bool Tracer::occluded(const Ray& ray, RayMask mask) const {
-    return aggregate_->occluded(ray, {nullptr, mask});
+    return with_usual(ray, [&](const Ray& usual, int) {
+        return aggregate_->occluded(usual, {nullptr, mask});
+    });
 }
 
 void Tracer::all_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask) const {
     hits.clear();
-    aggregate_->all_hits(ray, hits, {nullptr, mask});
+    append_hits(ray, hits, mask);
+}
+
+void Tracer::append_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask) const {
+    const std::size_t before = hits.size();
+    with_usual(ray, [&](const Ray& usual, int exponent) {
+        aggregate_->all_hits(usual, hits, {nullptr, mask});
+        if (exponent == 0) return;
+        for (std::size_t i = before; i < hits.size(); ++i) {
+            hits[i].t = std::ldexp(hits[i].t, -exponent);
+        }
+    });
 }
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, RayMask mask) const {
     check_lengths(rays.size(), hits.size());
-    aggregate_->closest_batch(rays, hits, {nullptr, mask});
+    const UsualRays usual(rays);
+    aggregate_->closest_batch(usual.rays(), hits, {nullptr, mask});
+    usual.restore(hits);
 }
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded, RayMask mask) const {
     check_lengths(rays.size(), occluded.size());
-    aggregate_->occluded_batch(rays, occluded, {nullptr, mask});
+    aggregate_->occluded_batch(UsualRays(rays).rays(), occluded, {nullptr, mask});
 }
 
 void Tracer::all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask) const {
@@ -77,7 +132,7 @@ void Tracer::all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask) 
     lists.ends.clear();
     lists.ends.reserve(rays.size());
     for (const Ray& ray : rays) {
-        aggregate_->all_hits(ray, lists.hits, {nullptr, mask});
+        append_hits(ray, lists.hits, mask);
         lists.ends.push_back(lists.hits.size());
     }
 }
@@ -92,7 +147,11 @@ HitDetails Tracer::details(const Ray& ray, const Hit& hit) const {
         table = &instance.aggregate->primitives();
     }
     check_id(*table, hit.primitive, false);
-    static_cast<Surface&>(details) = surface_at(*aggregate_, ray, hit);
+    static_cast<Surface&>(details) = with_usual(ray, [&](const Ray& usual, int exponent) {
+        Hit usual_hit = hit;
+        usual_hit.t = std::ldexp(hit.t, exponent);
+        return surface_at(*aggregate_, usual, usual_hit);
+    });
     details.geometry = GeometryId{details.part};
     if (table->kind(hit.primitive) == kTriangleKind) {
         const std::uint32_t triangle = table->index(hit.primitive);

@@ -2,7 +2,8 @@
 /// Traces rays through geometry for programs that want hits and no renderer.
 ///
 /// Conventions: points are origin + t * direction with t in [t_min, t_max]; the direction need not
-/// be of unit length, and t is in units of it. An invalid ray (`is_valid`) hits nothing. A query
+/// be of unit length, and t is in units of it; it may be of any length that double holds
+/// (geometry/ray_scale.h). An invalid ray (`is_valid`) hits nothing. A query
 /// sees the geometry of which `visible_to` has a bit of its `mask`, through instances where that
 /// holds for each of them too. Every accelerator gives the same hits, bit for bit. At equal t the
 /// lower primitive wins: analytic shapes before triangles before instances, each kind in the order
@@ -87,8 +88,9 @@ class Tracer {
     /// begins the next ray there. Throws Error (Usage) when nothing was hit.
     [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
 
-    /// Spans, thickness and points inside, of the geometry that bounds volumes. Finds out which does
-    /// (a sort of the edges of every mesh): to be made once. Shares the geometry with the tracer.
+    /// Spans, thickness and points inside, of the geometry that bounds volumes. Finds out which
+    /// does (a sort of the edges of every mesh): to be made once. Shares the geometry with the
+    /// tracer.
     [[nodiscard]] SolidQueries solids() const { return SolidQueries(aggregate_); }
 
     /// Holds all geometry; empty for an empty scene, infinite with planes in it.
@@ -96,7 +98,8 @@ class Tracer {
     [[nodiscard]] std::size_t geometry_count() const { return geometry_count_; }
     /// Bytes of the acceleration structure, without those of instanced tracers.
     [[nodiscard]] std::size_t memory_bytes() const { return aggregate_->memory_bytes(); }
-    /// For code that counts steps or asks for more than this class offers.
+    /// For code that counts steps or asks for more than this class offers. It takes directions as
+    /// they are: of 2^-40 to 2^40 they give what this class gives.
     [[nodiscard]] const Aggregate& aggregate() const { return *aggregate_; }
 
   private:
@@ -104,6 +107,8 @@ class Tracer {
     Tracer(std::shared_ptr<const Aggregate> aggregate, std::size_t geometry_count,
            std::size_t depth)
         : aggregate_(std::move(aggregate)), geometry_count_(geometry_count), depth_(depth) {}
+
+    void append_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask) const;
 
     std::shared_ptr<const Aggregate> aggregate_;
     std::size_t geometry_count_;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/random.h"
 #include "support/scene_maker.h"
 
@@ -220,6 +222,49 @@ TEST(Inside, PointsOnCurvedSurfacesAreOnThemWhateverThePlacement) {
             ASSERT_TRUE(queries.inside(center + 1.0001 * radius * n).empty());
             const std::vector<Containment> in{{SolidId{0}, false}};
             ASSERT_EQ(queries.inside(center + 0.9999 * radius * n), in);
+        }
+    }
+}
+
+TEST(Spans, DirectionsOfAnyLengthMeetTheSame) {
+    SceneMaker maker;
+    const ObjectIndex object = maker.object("object"), cut = maker.object("cut");
+    maker.description().objects.back().combine = Combine::Difference;
+    maker.add(Sphere{{0, 0, 0}, 1}, MaterialId{0}, {}, object);
+    maker.add(BoxShape{{-2, -2, -2}, {2, 2, 2}}, MaterialId{0}, {}, cut);
+    maker.add(Sphere{{0, 0, 0}, 1}, MaterialId{0}, {}, cut);
+    maker.add(object, MaterialId{0}, Affine::rotate({1, 2, 3}, 0.7));
+    maker.add(object, MaterialId{0}, Affine::translate({30, 0, 0}));
+    maker.add(cut, MaterialId{0}, Affine::translate({5, 0, 0}));
+    maker.add(Torus{}, MaterialId{0}, Affine::translate({10, 0, 0}));
+    maker.add(Algebraic{}, MaterialId{0}, Affine::translate({15, 0, 0}));
+    maker.add(maker.mesh(cube_mesh({19, -1, -1}, {21, 1, 1})));
+    for (const char* accelerator : {"list", "wide_bvh"}) {
+        const Scene scene = maker.compile(accelerator);
+        const SolidQueries queries(scene.aggregate);
+        SpanList usual, list;
+        const Ray ray{{-9, 0.25, 0.125}, {1, 0.0009765625, 0}, 1, 64};
+        queries.spans(ray, usual);
+        ASSERT_GE(usual.spans.size(), 8u);
+        const double usual_thickness = queries.thickness(ray, list).inside_any;
+        for (const int exponent : {-1010, -700, -531, -41, 41, 500, 531, 1000}) {
+            const Ray scaled{ray.origin,
+                             {std::ldexp(1.0, exponent), std::ldexp(0.0009765625, exponent), 0},
+                             std::ldexp(1.0, -exponent),
+                             std::ldexp(64.0, -exponent)};
+            queries.spans(scaled, list);
+            ASSERT_EQ(list.spans.size(), usual.spans.size()) << exponent;
+            for (std::size_t i = 0; i < list.spans.size(); ++i) {
+                const SolidSpan &a = list.spans[i], &b = usual.spans[i];
+                EXPECT_EQ(a.solid, b.solid);
+                EXPECT_EQ(a.entry.t, std::ldexp(b.entry.t, -exponent)) << exponent;
+                EXPECT_EQ(a.exit.t, std::ldexp(b.exit.t, -exponent)) << exponent;
+                EXPECT_EQ(queries.entry_surface(scaled, a).normal,
+                          queries.entry_surface(ray, b).normal);
+                EXPECT_EQ(queries.exit_surface(scaled, a).point,
+                          queries.exit_surface(ray, b).point);
+            }
+            EXPECT_EQ(queries.thickness(scaled, list).inside_any, usual_thickness);
         }
     }
 }

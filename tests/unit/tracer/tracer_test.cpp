@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -250,6 +252,43 @@ TEST(Tracer, RaysLeaveTheSurfaceTheyStartOn) {
     const HitDetails at = tracer.details(ray, hit);
     EXPECT_FALSE(tracer.occluded(leaving_ray(at, {0, 0, 1})));
     EXPECT_TRUE(tracer.occluded(leaving_ray(at, {0, 0, -1})));
+}
+
+TEST(Tracer, DirectionsOfAnyLengthMeetTheSame) {
+    TracerScene scene;
+    scene.add_sphere({0, 0, 0}, 1);
+    const std::vector<Vec3> corners{{4, -1, -1}, {4, 3, -1}, {4, -1, 3}};
+    const std::vector<std::array<std::uint32_t, 3>> triangles{{0, 1, 2}};
+    scene.add_mesh(corners, triangles);
+    const Tracer tracer(std::move(scene));
+    for (const Vec3& origin : {Vec3{-3, 0.25, 0.5}, Vec3{2, 0.25, 0.5}, Vec3{5, 0, 0}}) {
+        const Ray ray{origin, {1, 0.125, 0}};
+        Hit usual;
+        const bool found = tracer.intersect(ray, usual);
+        for (const int exponent : {-700, -531, 531, 1000}) {
+            const Ray scaled{origin, {std::ldexp(1.0, exponent), std::ldexp(0.125, exponent), 0}};
+            Hit hit;
+            ASSERT_EQ(tracer.intersect(scaled, hit), found) << exponent;
+            EXPECT_EQ(tracer.occluded(scaled), found) << exponent;
+            std::vector<Hit> hits, usual_hits;
+            tracer.all_hits(scaled, hits);
+            tracer.all_hits(ray, usual_hits);
+            EXPECT_EQ(hits.size(), usual_hits.size());
+            // In a batch with one of usual length.
+            const std::array<Ray, 2> rays{scaled, ray};
+            std::array<Hit, 2> batch;
+            std::array<bool, 2> blocked{};
+            tracer.intersect(rays, batch);
+            tracer.occluded(rays, blocked);
+            EXPECT_EQ(blocked[0], found);
+            EXPECT_EQ(batch[1].t, usual.t);
+            EXPECT_EQ(batch[0].t, hit.t);
+            if (!found) continue;
+            EXPECT_EQ(hit.t, std::ldexp(usual.t, -exponent)) << exponent;
+            EXPECT_EQ(hit.primitive, usual.primitive);
+            EXPECT_EQ(tracer.details(scaled, hit).point, tracer.details(ray, usual).point);
+        }
+    }
 }
 
 }  // namespace
