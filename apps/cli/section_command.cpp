@@ -37,8 +37,8 @@ struct Cut {
     SectionArea area;
 };
 
-void write_picture_of(const SolidScene& solids, const LoadedScene& loaded,
-                      const SectionPlane& plane, const Arguments& args) {
+Image picture_of(const SolidScene& solids, const LoadedScene& loaded, const SectionPlane& plane,
+                 const Arguments& args) {
     const Size size = parse_size(args.size);
     SectionView view{.width = size.width, .height = size.height};
     if (!args.camera.empty()) {
@@ -46,34 +46,62 @@ void write_picture_of(const SolidScene& solids, const LoadedScene& loaded,
         view.camera = with_aspect(camera.camera, camera.aspect,
                                   static_cast<double>(size.width) / size.height);
     }
-    write_image(args.output, section_picture(solids, loaded.scene, plane, view));
+    return section_picture(solids, loaded.scene, plane, view);
 }
 
-/// Areas of what is cut, in the order of the solids; those that the plane misses are left out.
-std::vector<Cut> cut_solids(const SolidScene& solids, const SectionPlane& plane,
-                            const Arguments& args, const StopFlag& stop) {
-    const MeasureOptions options{
-        .relative_error = args.error, .seconds = args.budget, .area = false, .stop = &stop};
-    std::vector<Cut> cuts;
-    for (const SolidId id : solids.select(args.objects)) {
-        const LoneSolid solid(solids.solids(), id);
-        if (!solid.box().bounded()) {
+/// The solids that may have an outline, and their box.
+struct Chosen {
+    std::vector<SolidId> solids;
+    Box3 box;
+};
+
+Chosen choose(const SolidScene& solids, const std::vector<std::string>& objects) {
+    Chosen chosen;
+    for (const SolidId id : solids.select(objects)) {
+        const Box3 box = LoneSolid(solids.solids(), id).box();
+        if (!box.bounded()) {
             tell("alhazen: '{}' is not bounded: it has neither area nor outline\n",
                  solids.name(id));
             continue;
         }
-        const SectionArea area = section_area(solid, plane, options);
+        chosen.solids.push_back(id);
+        chosen.box.include(box);
+    }
+    return chosen;
+}
+
+/// Before anything is measured.
+void check_tolerance(const Box3& box, std::optional<double> tolerance) {
+    if (!tolerance || *tolerance >= least_tolerance(box)) return;
+    throw Error(ErrorKind::Usage,
+                fmt::format("--tolerance {}: expected at least {:.3g}, 1e-9 of the size of the "
+                            "solids",
+                            *tolerance, least_tolerance(box)));
+}
+
+/// Areas of what is cut, in the order of the solids; those that the plane misses are left out.
+std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
+                            const SectionPlane& plane, const Arguments& args) {
+    const MeasureOptions options{
+        .relative_error = args.error, .seconds = args.budget, .area = false};
+    std::vector<Cut> cuts;
+    for (const SolidId id : chosen.solids) {
+        const SectionArea area = section_area(LoneSolid(solids.solids(), id), plane, options);
         if (area.area.hi() > 0.0) cuts.push_back({id, solids.name(id), area});
     }
     return cuts;
 }
 
-std::uint64_t write_outlines(const SolidScene& solids, const Scene& scene, const PlaneFrame& frame,
-                             const std::vector<Cut>& cuts, Arguments& args) {
+/// The text of the SVG; `unresolved` becomes the number of places that may be wrong.
+std::string outlines_of(const SolidScene& solids, const Scene& scene, const PlaneFrame& frame,
+                        const Chosen& chosen, const std::vector<Cut>& cuts, Arguments& args,
+                        std::uint64_t& unresolved) {
     Box3 box;
     for (const Cut& cut : cuts) box.include(LoneSolid(solids.solids(), cut.solid).box());
-    args.svg_options.tolerance = args.tolerance.value_or(1e-4 * length(box.size()));
-    std::uint64_t unresolved = 0;
+    if (box.empty()) box = chosen.box;
+    const double usual = box.empty() ? 1e-4 : 1e-4 * length(box.size());
+    args.svg_options.tolerance = args.tolerance.value_or(usual);
+    args.svg_options.around = box;
     std::vector<SectionLayer> layers;
     for (const Cut& cut : cuts) {
         const LoneSolid solid(solids.solids(), cut.solid);
@@ -83,8 +111,7 @@ std::uint64_t write_outlines(const SolidScene& solids, const Scene& scene, const
         unresolved += layer.outlines.unresolved;
         layers.push_back(std::move(layer));
     }
-    write_file_atomically(args.svg, section_svg(layers, frame, args.svg_options));
-    return unresolved;
+    return section_svg(layers, frame, args.svg_options);
 }
 
 nlohmann::ordered_json report_of(const std::vector<Cut>& cuts, const Arguments& args,
@@ -133,7 +160,8 @@ void add_options(CLI::App& command, Arguments& args) {
         ->capture_default_str();
     command
         .add_option("--tolerance", args.tolerance,
-                    "Largest distance of outlines from the curves; default: 1e-4 of the size")
+                    "Largest distance of outlines from the curves, at least 1e-9 of the size; "
+                    "default: 1e-4 of it")
         ->check(number_in(1e-300, 1e300));
     command.add_option("--grid", args.grid, "Cells along a solid; smaller features may be missed")
         ->capture_default_str()
@@ -150,6 +178,22 @@ void add_options(CLI::App& command, Arguments& args) {
     command.add_flag("-q,--quiet", args.quiet, "No warnings");
 }
 
+void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved, const Arguments& args) {
+    if (args.json != "-") {
+        for (const Cut& cut : cuts) {
+            print("{} {}: area {:.12g} +- {:.2g}\n", static_cast<std::uint64_t>(cut.solid),
+                  cut.name, cut.area.area.value, cut.area.area.half_width);
+        }
+        if (cuts.empty()) print("the plane cuts nothing\n");
+    }
+    if (unresolved > 0) {
+        tell(
+            "alhazen: at {} places of the outlines curves could not be told apart; try a larger "
+            "--grid\n",
+            unresolved);
+    }
+}
+
 void run_section(Arguments& args, int& exit_status) {
     const auto n = parse_numbers(args.plane, {4}, "a plane: nx,ny,nz,d");
     const SectionPlane plane{{n[0], n[1], n[2]}, n[3]};
@@ -164,26 +208,23 @@ void run_section(Arguments& args, int& exit_status) {
     }
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
-    const StopFlag& stop = stop_on_signals();
     ThreadLimit(args.scene.threads).run([&] {
         const SolidScene solids(loaded.description, loaded.scene);
-        const std::vector<Cut> cuts = cut_solids(solids, plane, args, stop);
-        if (!args.output.empty()) write_picture_of(solids, loaded, plane, args);
+        const Chosen chosen = choose(solids, args.objects);
+        if (!args.svg.empty()) check_tolerance(chosen.box, args.tolerance);
+        const std::vector<Cut> cuts = cut_solids(solids, chosen, plane, args);
+        std::optional<Image> picture;
+        if (!args.output.empty()) picture = picture_of(solids, loaded, plane, args);
         std::uint64_t unresolved = 0;
+        std::string svg;
         if (!args.svg.empty()) {
-            unresolved = write_outlines(solids, loaded.scene, frame, cuts, args);
+            svg = outlines_of(solids, loaded.scene, frame, chosen, cuts, args, unresolved);
         }
-        for (const Cut& cut : cuts) {
-            if (args.json == "-") break;
-            print("{} {}: area {:.12g} +- {:.2g}\n", static_cast<std::uint64_t>(cut.solid),
-                  cut.name, cut.area.area.value, cut.area.area.half_width);
-        }
-        if (unresolved > 0) {
-            tell(
-                "alhazen: at {} places of the outlines curves could not be told apart; try a "
-                "larger --grid\n",
-                unresolved);
-        }
+        // Until here a signal ends the program, which has written nothing; now all of it is.
+        (void)stop_on_signals();
+        if (picture) write_image(args.output, *picture);
+        if (!args.svg.empty()) write_file_atomically(args.svg, svg);
+        print_cuts(cuts, unresolved, args);
         if (!args.json.empty()) {
             write_report(args.json,
                          report_of(cuts, args, unresolved)
@@ -191,7 +232,7 @@ void run_section(Arguments& args, int& exit_status) {
                              "\n");
         }
     });
-    exit_status = stop.requested() ? kStopped : kDone;
+    exit_status = kDone;
 }
 
 }  // namespace

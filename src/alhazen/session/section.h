@@ -39,6 +39,8 @@ struct SectionLayer {
 struct SvgOptions {
     std::string unit = "mm";  ///< what a unit of the scene is: mm, cm, in, pt, px
     double tolerance = 1e-4;
+    /// What is shown when nothing is cut: where this box stands in the plane.
+    Box3 around{};
 };
 
 /// An SVG with a layer for each solid, in units of the scene. Throws Error (Usage) for another

@@ -300,11 +300,21 @@ double SectionOutlines::area() const {
     return 0.5 * twice;
 }
 
+double least_tolerance(const Box3& box) {
+    if (box.empty()) return 0;
+    const double reach = std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+    return 1e-9 * length(box.size()) + 1e-13 * reach;
+}
+
 SectionOutlines trace_section(const Measurable& solid, const PlaneFrame& frame,
                               const OutlineOptions& options) {
     // A NaN would split chords for ever.
     if (!(options.tolerance > 0.0) || options.cells < 1) {
         throw Error(ErrorKind::Usage, "outlines need a tolerance above 0 and at least one cell");
+    }
+    if (solid.box().bounded() && options.tolerance < least_tolerance(solid.box())) {
+        throw Error(ErrorKind::Usage,
+                    "outlines need a tolerance of at least 1e-9 of the solid's size");
     }
     const double level = dot(frame.normal, frame.origin);
     if (solid.box().empty() || !solid.extent(frame.normal).contains(level)) return {};

@@ -37,6 +37,12 @@ struct SectionOutlines {
     [[nodiscard]] double area() const;
 };
 
+/// The smallest tolerance for solids in the box: chords are split until they are as near to the
+/// curve, so it must be far above the rounding of crossings, or they are split for ever.
+[[nodiscard]] double least_tolerance(const Box3& box);
+
+/// Throws Error (Usage) for a tolerance below the least one, less than one cell, and a solid that
+/// is not bounded.
 [[nodiscard]] SectionOutlines trace_section(const Measurable& solid, const PlaneFrame& frame,
                                             const OutlineOptions& options);
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "alhazen/base/error.h"
+#include "alhazen/geometry/bounds_source.h"
 #include "alhazen/imaging/encoding.h"
 #include "alhazen/session/section.h"
 
@@ -48,7 +49,10 @@ std::string css(const Rgb& color) {
     return out;
 }
 
-void include_loops(const std::vector<SectionLayer>& layers, Vec2& lo, Vec2& hi) {
+/// The corners of what the SVG shows, y downward: all loops; without any, the shadow of `around`
+/// on the plane, or a square of one unit.
+void find_corners(const std::vector<SectionLayer>& layers, const PlaneFrame& frame,
+                  const Box3& around, Vec2& lo, Vec2& hi) {
     const double inf = std::numeric_limits<double>::infinity();
     lo = {inf, inf};
     hi = {-inf, -inf};
@@ -60,7 +64,14 @@ void include_loops(const std::vector<SectionLayer>& layers, Vec2& lo, Vec2& hi) 
             }
         }
     }
-    if (!(lo.x <= hi.x)) lo = hi = {0, 0};
+    if (lo.x <= hi.x) return;
+    lo = {-0.5, -0.5};
+    hi = {0.5, 0.5};
+    if (around.empty() || !around.bounded()) return;
+    const double level_x = dot(frame.right, frame.origin), level_y = dot(frame.up, frame.origin);
+    const Interval x = extent(around, frame.right), y = extent(around, frame.up);
+    lo = {x.lo - level_x, level_y - y.hi};
+    hi = {x.hi - level_x, level_y - y.lo};
 }
 
 /// Coordinates run down in an SVG.
@@ -84,7 +95,7 @@ std::string section_svg(const std::vector<SectionLayer>& layers, const PlaneFram
                     "unknown unit '" + options.unit + "': expected mm, cm, in, pt or px");
     }
     Vec2 lo, hi;
-    include_loops(layers, lo, hi);
+    find_corners(layers, frame, options.around, lo, hi);
     const double margin = std::max(0.02 * std::max(hi.x - lo.x, hi.y - lo.y), 1e-9);
     const Vec2 size{hi.x - lo.x + 2 * margin, hi.y - lo.y + 2 * margin};
     const Vec3& n = frame.normal;

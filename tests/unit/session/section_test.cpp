@@ -191,5 +191,28 @@ TEST(Section, TheSvgHasTheUnitsOfTheSceneAndALayerForEachSolid) {
     EXPECT_THROW((void)section_svg({}, frame_of({{0, 0, 1}, 2}), {.unit = "furlong"}), Error);
 }
 
+TEST(Section, AToleranceBelowTheRoundingOfCrossingsIsRefused) {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 3});
+    const SolidList solids(maker.compile().aggregate);
+    const LoneSolid ball(solids, SolidId{0});
+    const double least = least_tolerance(ball.box());
+    EXPECT_GT(least, 1e-8);
+    EXPECT_LT(least, 1.1e-8);
+    const PlaneFrame frame = frame_of({{0, 0, 1}, 0});
+    EXPECT_THROW((void)trace_section(ball, frame, {.tolerance = 0.5 * least}), Error);
+    EXPECT_NEAR(trace_section(ball, frame, {.tolerance = 1e-5}).area(), 9 * 3.14159265358979, 1e-3);
+}
+
+TEST(Section, TheSvgOfNothingShowsWhereItWouldHaveBeen) {
+    SvgOptions options;
+    options.around = {{1, 2, 3}, {11, 7, 4}};
+    const PlaneFrame frame = frame_of({{0, 0, 1}, 20});
+    const std::string svg = section_svg({}, frame, options);
+    EXPECT_NE(svg.find("width=\"10.4mm\" height=\"5.4mm\""), std::string::npos) << svg;
+    const std::string unknown = section_svg({}, frame, {});
+    EXPECT_NE(unknown.find("width=\"1.04mm\" height=\"1.04mm\""), std::string::npos) << unknown;
+}
+
 }  // namespace
 }  // namespace alhazen
