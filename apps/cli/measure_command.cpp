@@ -63,13 +63,28 @@ SolidReport measure_solid(const SolidScene& scene, SolidId id, const Arguments& 
     return report;
 }
 
+struct WantedPair {
+    std::pair<SolidId, SolidId> solids;
+    bool overlap = false;  ///< else their clearance
+};
+
+/// All of them, before anything is measured: names may be wrong.
+std::vector<WantedPair> find_pairs(const SolidScene& scene, const Arguments& args) {
+    std::vector<WantedPair> pairs;
+    for (const std::string& text : args.overlaps) pairs.push_back({find_pair(scene, text), true});
+    for (const std::string& text : args.clearances) {
+        pairs.push_back({find_pair(scene, text), false});
+    }
+    return pairs;
+}
+
 void measure_pairs(const SolidScene& scene, const Arguments& args, const MeasureOptions& options,
-                   MeasureReport& report) {
-    const auto add = [&](const std::string& text, bool overlap) {
-        const auto [a, b] = find_pair(scene, text);
+                   const std::vector<WantedPair>& pairs, MeasureReport& report) {
+    for (const WantedPair& wanted : pairs) {
+        const auto [a, b] = wanted.solids;
         const LoneSolid solid_a(scene.solids(), a), solid_b(scene.solids(), b);
         PairReport pair{a, b, scene.name(a), scene.name(b), {}, {}};
-        if (overlap) {
+        if (wanted.overlap) {
             MeasureOptions volume_only = options;
             volume_only.area = false;
             pair.overlap = measure(Overlap(solid_a, solid_b), volume_only);
@@ -77,9 +92,7 @@ void measure_pairs(const SolidScene& scene, const Arguments& args, const Measure
             pair.clearance = clearance(solid_a, solid_b, args.seed);
         }
         report.pairs.push_back(std::move(pair));
-    };
-    for (const std::string& text : args.overlaps) add(text, true);
-    for (const std::string& text : args.clearances) add(text, false);
+    }
 }
 
 MeasureReport measure_all(const SolidScene& scene, const Arguments& args,
@@ -92,6 +105,7 @@ MeasureReport measure_all(const SolidScene& scene, const Arguments& args,
         plane = SectionPlane{{n[0], n[1], n[2]}, n[3]};
         (void)frame_of(*plane);
     }
+    const std::vector<WantedPair> pairs = find_pairs(scene, args);
     const MeasureOptions options{.relative_error = args.error,
                                  .seconds = args.budget,
                                  .area = true,
@@ -117,7 +131,7 @@ MeasureReport measure_all(const SolidScene& scene, const Arguments& args,
         }
         progress.update("measure", chosen.size(), chosen.size());
     }
-    measure_pairs(scene, args, options, report);
+    measure_pairs(scene, args, options, pairs, report);
     return report;
 }
 

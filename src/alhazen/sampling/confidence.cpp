@@ -34,9 +34,15 @@ Estimate mean_of(std::span<const double> independent, double probability) {
     const double n = static_cast<double>(independent.size());
     double mean = 0;
     for (const double x : independent) mean += x / n;
+    // In units of the farthest, so that no square overflows or vanishes.
+    double farthest = 0;
+    for (const double x : independent) farthest = std::fmax(farthest, std::abs(x - mean));
     double squares = 0;
-    for (const double x : independent) squares += (x - mean) * (x - mean);
-    const double deviation = std::sqrt(squares / (n - 1) / n);
+    for (const double x : independent) {
+        const double off = farthest > 0 ? (x - mean) / farthest : 0;
+        squares += off * off;
+    }
+    const double deviation = farthest * std::sqrt(squares / (n - 1) / n);
     const int degrees = static_cast<int>(independent.size()) - 1;
     return {mean, student_quantile(probability, degrees) * deviation};
 }

@@ -24,6 +24,7 @@ struct Moments {
     std::array<double, 6> second{};  ///< xx, yy, zz, xy, yz, zx
     double cosines = 0;
     std::uint64_t inconsistent = 0;
+    std::uint64_t misses = 0;  ///< lines that do not meet the solid
 
     Moments& operator+=(const Moments& other);
 };
@@ -50,6 +51,8 @@ class LineBundle {
     [[nodiscard]] Replicates volumes() const;
     [[nodiscard]] Replicates areas() const;
     [[nodiscard]] std::uint64_t inconsistent() const;
+    /// Lines of all scramblings that missed the solid.
+    [[nodiscard]] std::uint64_t misses() const;
 
   private:
     [[nodiscard]] Moments sum_of(std::size_t replicate, std::uint32_t begin, std::uint32_t end,
@@ -79,6 +82,11 @@ class Deadline {
 
 /// Widens an interval by what rounding does to the spans, relative to the numbers involved.
 [[nodiscard]] Estimate with_rounding(Estimate estimate, double magnitude);
+
+/// Widens the interval of a volume where the solid fills its shadow's rectangle so well that hardly
+/// one of `lines` missed it, yet not all lines are alike: what the corners lack is too rare to show
+/// in the scatter, and only bounded by how often it was not seen.
+[[nodiscard]] Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines);
 
 /// Mean of the replicates with its interval.
 [[nodiscard]] Estimate estimate_of(const Replicates& replicates);

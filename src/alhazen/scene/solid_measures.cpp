@@ -23,6 +23,9 @@ constexpr std::uint32_t kCroftonLines = 2048;
 /// How much wider than both intervals a difference may be.
 constexpr double kAgreement = 2.5;
 
+/// Beyond these moments of inertia overflow or lose their digits.
+constexpr double kLeastMoment = 1e-290, kMostMoment = 1e300;
+
 /// The world's axes, and a frame aslant to all that is usual.
 std::array<std::array<BundleFrame, 3>, 2> frames() {
     const Mat3 aslant = Affine::rotate({0.36, 0.48, 0.8}, 0.7236).linear *
@@ -137,7 +140,9 @@ class Measurer {
     }
 
     [[nodiscard]] Estimate volume_along(std::size_t k) const {
-        const Estimate e = estimate_of(bundles_[k].volumes());
+        const double lines = static_cast<double>(kReplicates) * bundles_[k].lines();
+        const Estimate e =
+            with_rare_misses(estimate_of(bundles_[k].volumes()), bundles_[k].misses(), lines);
         return with_rounding(e, reach_ * std::abs(e.value));
     }
     [[nodiscard]] Estimate volume() const { return volume_along(best_); }
@@ -186,6 +191,7 @@ class Measurer {
 
     void fill(SolidMeasures& found) {
         found.volume = volume();
+        found.in_range = std::isfinite(found.volume.hi());
         for (std::size_t k = 0; k < 3; ++k) {
             found.volume_by_direction[k] = volume_along(k);
             found.directions[k] = bundles_[k].direction();
@@ -198,6 +204,7 @@ class Measurer {
             found.area = area();
             found.area_by_crofton = crofton();
             found.areas_agree = agree(found.area, found.area_by_crofton);
+            found.in_range = found.in_range && std::isfinite(found.area.hi());
         }
         found.lines = static_cast<std::uint64_t>(lines_);
         found.reached = reached_;
@@ -209,7 +216,8 @@ class Measurer {
         std::array<Replicates, 6> inertia{};
         for (std::size_t r = 0; r < kReplicates; ++r) {
             const Moments m = bundles_[best_].moments(r);
-            if (!(m.volume > 0.0)) continue;
+            // Nothing there, or so little that hardly a line meets it: it has no middle.
+            if (!(m.volume > 0.0)) return;
             const Vec3 c = m.first / m.volume;
             std::array<double, 6> s = m.second;  // about the centroid
             s[0] -= m.volume * c.x * c.x;
@@ -224,6 +232,7 @@ class Measurer {
             for (std::size_t k = 0; k < 6; ++k) inertia[k][r] = tensor[k];
         }
         const double size = length(box_.size());
+        found.has_moments = true;
         for (std::size_t k = 0; k < 3; ++k) {
             found.centroid[k] = with_rounding(estimate_of(centroid[k]), reach_ * size);
         }
@@ -231,6 +240,7 @@ class Measurer {
         for (std::size_t k = 0; k < 6; ++k) {
             found.inertia[k] = with_rounding(estimate_of(inertia[k]), reach_ * moment);
         }
+        found.in_range = found.in_range && kLeastMoment <= moment && moment <= kMostMoment;
     }
 
     const Measurable& solid_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -43,13 +44,13 @@ json solid_json(const SolidReport& r) {
         directions.push_back({{"direction", to_json(m.directions[k])},
                               {"volume", to_json(m.volume_by_direction[k])}});
     }
-    out["centroid"] = std::move(centroid);
+    out["centroid"] = m.has_moments ? std::move(centroid) : json(nullptr);
     if (r.density) {
         out["density"] = *r.density;
         out["mass"] = to_json(scaled(*r.density, m.volume));
     }
     out["inertia_density"] = r.density.value_or(1);
-    out["inertia_xx_yy_zz_xy_yz_zx"] = std::move(inertia);
+    out["inertia_xx_yy_zz_xy_yz_zx"] = m.has_moments ? std::move(inertia) : json(nullptr);
     if (r.section) {
         out["section_area"] = to_json(r.section->area);
     }
@@ -58,6 +59,7 @@ json solid_json(const SolidReport& r) {
     out["areas_agree"] = m.areas_agree;
     out["lines"] = m.lines;
     out["inconsistent_lines"] = m.inconsistent_lines;
+    out["in_range"] = m.in_range;
     out["reached"] = m.reached;
     out["seconds"] = r.seconds;
     return out;
@@ -93,6 +95,17 @@ std::string text_of(const Estimate& e) {
     return fmt::format("{:.{}f} +- {:.2g}", e.value, decimals, e.half_width);
 }
 
+std::string inertia_text(const SolidMeasures& m, std::optional<double> density) {
+    constexpr std::array<const char*, 6> kNames{"xx", "yy", "zz", "xy", "yz", "zx"};
+    std::string out;
+    for (std::size_t k = 0; k < kNames.size(); ++k) {
+        out += fmt::format("  {:<10}{} {}\n", k == 0 ? "inertia" : "", kNames[k],
+                           text_of(scaled(density.value_or(1), m.inertia[k])));
+    }
+    if (!density) out += fmt::format("  {:<10}(density 1)\n", "");
+    return out;
+}
+
 std::string solid_text(const SolidReport& r) {
     const SolidMeasures& m = r.measures;
     std::string out = fmt::format("{} {}\n", static_cast<std::uint64_t>(r.solid), r.name);
@@ -104,19 +117,18 @@ std::string solid_text(const SolidReport& r) {
     line("volume", text_of(m.volume));
     line("area", text_of(m.area));
     line("", text_of(m.area_by_crofton) + " by Crofton's count");
-    line("centroid", text_of(m.centroid[0]));
-    line("", text_of(m.centroid[1]));
-    line("", text_of(m.centroid[2]));
+    if (m.has_moments) {
+        line("centroid", text_of(m.centroid[0]));
+        line("", text_of(m.centroid[1]));
+        line("", text_of(m.centroid[2]));
+    } else {
+        line("centroid", "none: nothing was met");
+    }
     if (r.density) {
         line("density", fmt::format("{:.9g}", *r.density));
         line("mass", text_of(scaled(*r.density, m.volume)));
     }
-    const char* names[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
-    for (std::size_t k = 0; k < 6; ++k) {
-        line(k == 0 ? "inertia" : "",
-             fmt::format("{} {}", names[k], text_of(scaled(r.density.value_or(1), m.inertia[k]))));
-    }
-    if (!r.density) line("", "(density 1)");
+    if (m.has_moments) out += inertia_text(m, r.density);
     if (r.section) line("section", text_of(r.section->area));
     line("lines", fmt::format("{} in {:.2f} s{}", m.lines, r.seconds,
                               m.reached ? "" : "; the wanted error was not reached"));
@@ -124,6 +136,10 @@ std::string solid_text(const SolidReport& r) {
         line("WARNING",
              fmt::format("the crossings of {} lines did not come in pairs: is it closed?",
                          m.inconsistent_lines));
+    }
+    if (!m.in_range) {
+        line("WARNING",
+             "numbers overflow or vanish: the solid is too large or too small; scale it");
     }
     if (!m.directions_agree) {
         line("WARNING", "the volumes along three directions differ beyond chance: is it closed?");
@@ -178,7 +194,8 @@ Totals totals_of(const std::vector<SolidReport>& solids) {
 }  // namespace
 
 bool SolidReport::holds() const {
-    return measures.directions_agree && measures.areas_agree && measures.inconsistent_lines == 0;
+    return measures.directions_agree && measures.areas_agree && measures.in_range &&
+           measures.inconsistent_lines == 0;
 }
 
 bool MeasureReport::holds() const {

@@ -20,7 +20,8 @@ struct SolidReport {
     std::optional<SectionArea> section;
     double seconds = 0;
 
-    /// Everything that was checked held: crossings in pairs, directions and areas alike.
+    /// Everything that was checked held: crossings in pairs, directions and areas alike, numbers in
+    /// range.
     [[nodiscard]] bool holds() const;
 };
 
