@@ -16,15 +16,25 @@ namespace {
 
 struct GenerateArguments {
     std::string name, output;
-    std::optional<std::uint64_t> size;
+    std::optional<std::int64_t> size;
     std::optional<int> digits;
     bool quiet = false;
 };
 
+/// Numbers below 1 are refused here: without a sign they would be other numbers.
+std::optional<std::uint64_t> size_of(const GenerateArguments& args) {
+    if (!args.size) return std::nullopt;
+    if (*args.size < 1) {
+        throw Error(ErrorKind::Usage, fmt::format("--size {} of {}: expected 1 to {}", *args.size,
+                                                  args.name, find_generator(args.name).max_size));
+    }
+    return static_cast<std::uint64_t>(*args.size);
+}
+
 /// Returns the bytes written.
 std::uint64_t write_nff(const GenerateArguments& args) {
     const std::string text =
-        generate_nff(args.name, args.size, args.digits.value_or(NffText::kPublishedDigits));
+        generate_nff(args.name, size_of(args), args.digits.value_or(NffText::kPublishedDigits));
     write_file_atomically(args.output, text);
     return text.size();
 }
@@ -32,7 +42,8 @@ std::uint64_t write_nff(const GenerateArguments& args) {
 std::uint64_t write_scene(const GenerateArguments& args) {
     if (args.digits) throw Error(ErrorKind::Usage, "--digits is for .nff files");
     check_convert_target({}, args.output);
-    return convert(generate(args.name, args.size), args.output).bytes;
+    return convert(generate(args.name, size_of(args)), args.output, {.offers_meshes_only = false})
+        .bytes;
 }
 
 int run(const GenerateArguments& args) {

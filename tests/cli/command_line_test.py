@@ -204,6 +204,14 @@ class CommandLine(CommandLineCase):
             self.assertEqual(result.returncode, 2, wrong)
             self.assertTrue(result.stderr, wrong)
 
+    def test_sizes_and_formats_that_generators_do_not_have_are_refused_as_they_were_written(self):
+        result = run("generate", "balls", "--size", "-1", "-o", self.path("b.nff"))
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--size -1", result.stderr)
+        result = run("generate", "balls", "--size", "1", "-o", self.path("b.stl"))
+        self.assertEqual(result.returncode, 2)
+        self.assertNotIn("--meshes-only", result.stderr)
+
     def test_the_bytes_of_instances_are_told(self):
         run("generate", "field", "--size", "1000000", "-q", "-o", self.path("field.alhazen"))
         memory = json.loads(run("info", self.path("field.alhazen"), "--json").stdout)["memory"]
@@ -250,7 +258,7 @@ plane { point = (0, 0, -9) }
         self.assertEqual(inside, [[("ball", False)], [("block", True)], []])
         for arguments in (["spans", scene], ["spans", scene, "--ray", "1,2,3"], ["inside", scene, "--point", "a,b,c"],
                           ["spans", scene, "--ray", "0,0,0,0,0,0"], ["measure", scene, "nothing"],
-                          ["measure", scene, "--overlap", "ball"], ["section", scene, "--plane", "0,0,0,1"],
+                          ["measure", scene, "--overlap", "ball"], ["measure", scene, "--overlap", "ball,nothing"], ["section", scene, "--plane", "0,0,0,1"],
                           ["section", scene, "--plane", "0,0,1"], ["section", scene, "--plane", "0,0,1,0", "-o", "x.gif"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
@@ -290,6 +298,17 @@ plane { point = (0, 0, -9) }
         areas = [solid["area"]["value"] for solid in json.loads(self.read("cut.json"))["solids"]]
         self.assertAlmostEqual(areas[0], 12.566370614, 4)
         self.assertAlmostEqual(areas[1], 4, 9)
+
+    def test_a_section_of_nothing_says_so(self):
+        scene = self.solids()
+        result = run("section", scene, "--plane", "0,0,1,50", "--svg", self.path("none.svg"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("cuts nothing", result.stdout)
+        with open(self.path("none.svg")) as svg:
+            self.assertRegex(svg.read(), 'width="7.[0-9]+mm"')
+        result = run("section", scene, "--plane", "0,0,1,0", "--svg", self.path("fine.svg"), "--tolerance", "1e-12")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("expected at least", result.stderr)
 
     def test_info_tells_areas_volumes_and_cameras(self):
         mesh = self.write("cube.obj", "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) +

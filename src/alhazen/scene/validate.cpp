@@ -113,7 +113,7 @@ class Validator {
 
     void check_mesh(const MeshDescription& description) {
         if (!description.mesh) {
-            error(description.location, fmt::format("mesh '{}' is missing", description.name));
+            error(description.location, fmt::format("{} is missing", in_words(description)));
             return;
         }
         const TriangleMesh& mesh = *description.mesh;
@@ -122,7 +122,7 @@ class Validator {
                                       [&](std::uint32_t m) { return m >= d_.materials.size(); });
         if (bad != mesh.vertex_materials.end()) {
             error(description.location,
-                  fmt::format("a vertex of mesh '{}' refers to material {} of {}", description.name,
+                  fmt::format("a vertex of {} refers to material {} of {}", in_words(description),
                               *bad, d_.materials.size()));
         }
     }

@@ -83,10 +83,11 @@ class SolidValidator {
         } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
             const auto i = static_cast<std::size_t>(*mesh);
             if (i >= d_.meshes.size() || !d_.meshes[i].mesh || is_closed(i)) return;
-            error(part.location,
-                  fmt::format("mesh '{}' is not closed, so it cannot be part of a solid: each edge "
-                              "must be shared by two triangles, but {}",
-                              d_.meshes[i].name, mesh_edges(*d_.meshes[i].mesh).description()));
+            error(
+                part.location,
+                fmt::format("{} is not closed, so it cannot be part of a solid: each edge must "
+                            "be shared by two triangles, but {}",
+                            in_words(d_.meshes[i]), mesh_edges(*d_.meshes[i].mesh).description()));
         }
     }
 
@@ -117,6 +118,10 @@ class SolidValidator {
 
 void validate_solids(const SceneDescription& description, Diagnostics& diagnostics) {
     SolidValidator(description, diagnostics).run();
+}
+
+std::string in_words(const MeshDescription& mesh) {
+    return mesh.name.empty() ? "a mesh without a name" : fmt::format("mesh '{}'", mesh.name);
 }
 
 }  // namespace alhazen

@@ -46,10 +46,12 @@ ConvertReport write_native(const SceneDescription& description, ConvertOutput& o
 void check_counts(const PlacedCounts& counts, const fs::path& path, const ConvertOptions& options) {
     const std::string shapes = shapes_in_words(counts);
     if (!shapes.empty() && !options.meshes_only) {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("{} holds triangles only; the scene also has {}: --meshes-only "
-                                "leaves them out, .alhazen keeps everything",
-                                path.string(), shapes));
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("{} holds triangles only; the scene also has {}: {}.alhazen keeps "
+                        "everything",
+                        path.string(), shapes,
+                        options.offers_meshes_only ? "--meshes-only leaves them out, " : ""));
     }
     if (counts.triangles == 0) {
         throw Error(ErrorKind::Scene,

@@ -23,6 +23,8 @@ namespace alhazen {
 struct ConvertOptions {
     /// Mesh formats: leave out what is not a mesh instead of refusing the scene.
     bool meshes_only = false;
+    /// The refusal may advise --meshes-only.
+    bool offers_meshes_only = true;
     std::uint64_t max_triangles = 400'000'000;  ///< of a mesh file, instances multiplied out
 };
 

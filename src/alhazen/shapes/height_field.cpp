@@ -4,6 +4,7 @@
 
 #include "alhazen/geometry/bounds_source.h"
 #include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/shapes/number_text.h"
 #include "alhazen/shapes/shape_numerics.h"
 
 namespace alhazen {
@@ -285,7 +286,7 @@ void HeightField::validate(const FileLocation& where, Diagnostics& diagnostics) 
         // Also for a height that is no number.
         if (!(double{h} > base && h <= std::numeric_limits<float>::max())) {
             return checks.fail("every height must be a number above the base, which is " +
-                               std::to_string(base) + "; found " + std::to_string(h));
+                               shortest(base) + "; found " + shortest(double{h}));
         }
     }
 }

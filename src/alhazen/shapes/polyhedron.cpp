@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "alhazen/shapes/number_text.h"
 #include "alhazen/shapes/shape_numerics.h"
 
 namespace alhazen {
@@ -118,8 +119,8 @@ void check_convexity(const Polyhedron& p, const std::vector<OrientedPlane>& plan
         }
     }
     if (worst > kFlatness * size) {
-        checks.fail("not convex, or its faces are not flat: a vertex lies " +
-                    std::to_string(worst) + " outside of a face");
+        checks.fail("not convex, or its faces are not flat: a vertex lies " + shortest(worst) +
+                    " outside of a face");
     }
 }
 

@@ -99,6 +99,12 @@ TEST(ConvertMeshes, ShapesAreRefusedByKindOrLeftOut) {
     EXPECT_NE(message.find("2 spheres, 1 plane, 2 boxes"), std::string::npos) << message;
     EXPECT_NE(message.find("--meshes-only"), std::string::npos) << message;
     EXPECT_FALSE(std::filesystem::exists(path));
+    try {
+        (void)convert(maker.description(), path, {.offers_meshes_only = false});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find("--meshes-only"), std::string::npos);
+    }
     const ConvertReport report = convert(maker.description(), path, {.meshes_only = true});
     EXPECT_EQ(report.left_out, "2 spheres, 1 plane, 2 boxes");
     EXPECT_EQ(read_back(path).triangles.size(), 8U);

@@ -136,7 +136,7 @@ AnyShape read_native_height_field(BlockReader& reader) {
         heights->push_back(static_cast<float>(height));
     }
     if (columns < 2 || heights->size() % static_cast<std::size_t>(columns) != 0) {
-        reader.error(reader.block(), "height_field: 'columns' must be at least 2 and divide the " +
+        reader.error(reader.block(), "'columns' must be at least 2 and divide the " +
                                          std::to_string(heights->size()) + " heights into rows");
         return field;
     }
