@@ -54,11 +54,10 @@ function(alhazen_precompile target)
     endif()
 endfunction()
 
-# alhazen_quick_build(TARGET header...): the same for a target whose speed hardly counts: also with -O1.
+# alhazen_quick_build(TARGET): where ALHAZEN_QUICK_BUILD is on, -O1, for a target whose speed hardly counts.
 function(alhazen_quick_build target)
     if(ALHAZEN_QUICK_BUILD)
         target_compile_options(${target} PRIVATE -O1)
-        alhazen_precompile(${target} ${ARGN})
     endif()
 endfunction()
 
