@@ -37,6 +37,11 @@ Box3 placed_box(const Placement& placement, const Box3& inner) {
 
 }  // namespace
 
+PrimitiveTable::PrimitiveTable() = default;
+PrimitiveTable::PrimitiveTable(PrimitiveTable&&) noexcept = default;
+PrimitiveTable& PrimitiveTable::operator=(PrimitiveTable&&) noexcept = default;
+PrimitiveTable::~PrimitiveTable() = default;
+
 void PrimitiveTable::finish() {
     std::uint64_t next = 0;
     std::uint32_t kind = 0;

@@ -81,6 +81,12 @@ enum class Opacity : std::uint8_t {
 
 class PrimitiveTable final : public BoundsSource {
   public:
+    // Out of line: a column per type of shape is much to make, move and destroy for each includer.
+    PrimitiveTable();
+    PrimitiveTable(PrimitiveTable&&) noexcept;
+    PrimitiveTable& operator=(PrimitiveTable&&) noexcept;
+    ~PrimitiveTable() override;
+
     // ---- columns; filled by `compile`, then sealed by `finish`
     AnalyticShapes::Columns<ShapeColumn> columns;
     std::vector<PlacedMesh> meshes;
