@@ -9,18 +9,19 @@ namespace {
 struct ProfilePoint {
     double radius, inner, z;
 };
-using Profile = std::array<ProfilePoint, 4>;
+using TeapotProfile = std::array<ProfilePoint, 4>;
 
-constexpr Profile kRim{
+constexpr TeapotProfile kRim{
     {{1.4, 0.784, 2.4}, {1.3375, 0.749, 2.53125}, {1.4375, 0.805, 2.53125}, {1.5, 0.84, 2.4}}};
-constexpr Profile kShoulder{
+constexpr TeapotProfile kShoulder{
     {{1.5, 0.84, 2.4}, {1.75, 0.98, 1.875}, {2.0, 1.12, 1.35}, {2.0, 1.12, 0.9}}};
-constexpr Profile kBelly{
+constexpr TeapotProfile kBelly{
     {{2.0, 1.12, 0.9}, {2.0, 1.12, 0.45}, {1.5, 0.84, 0.225}, {1.5, 0.84, 0.15}}};
-constexpr Profile kKnob{{{0, 0, 3.15}, {0.8, 0.45, 3.15}, {0, 0, 2.85}, {0.2, 0.112, 2.7}}};
-constexpr Profile kLid{
+constexpr TeapotProfile kKnob{{{0, 0, 3.15}, {0.8, 0.45, 3.15}, {0, 0, 2.85}, {0.2, 0.112, 2.7}}};
+constexpr TeapotProfile kLid{
     {{0.2, 0.112, 2.7}, {0.4, 0.224, 2.55}, {1.3, 0.728, 2.55}, {1.3, 0.728, 2.4}}};
-constexpr Profile kBottom{{{0, 0, 0}, {1.425, 0.798, 0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}}};
+constexpr TeapotProfile kBottom{
+    {{0, 0, 0}, {1.425, 0.798, 0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}}};
 
 /// A row of handle or spout: two points of the outline in the plane y = 0, and how far the surface
 /// reaches from that plane.
@@ -47,7 +48,7 @@ constexpr Half kUpperSpout{{{2.7, 2.4, 3.3, 2.4, 0.25},
                             {2.8, 2.4, 3.2, 2.4, 0.15}}};
 
 /// Four quarters, the first from +x: towards -y (`sense` -1) or +y.
-void add_turned(const Profile& profile, double sense, std::vector<BezierPatch>& patches) {
+void add_turned(const TeapotProfile& profile, double sense, std::vector<BezierPatch>& patches) {
     for (int quarter = 0; quarter < 4; ++quarter) {
         BezierPatch patch;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -125,11 +126,11 @@ Weights derivatives(double t) {
 
 std::vector<BezierPatch> teapot_patches() {
     std::vector<BezierPatch> patches;
-    for (const Profile& profile : {kRim, kShoulder, kBelly}) add_turned(profile, -1, patches);
+    for (const TeapotProfile& profile : {kRim, kShoulder, kBelly}) add_turned(profile, -1, patches);
     for (const Half& half : {kUpperHandle, kLowerHandle, kLowerSpout, kUpperSpout}) {
         add_halves(half, patches);
     }
-    for (const Profile& profile : {kKnob, kLid}) add_turned(profile, -1, patches);
+    for (const TeapotProfile& profile : {kKnob, kLid}) add_turned(profile, -1, patches);
     add_turned(kBottom, 1, patches);
     return patches;
 }
