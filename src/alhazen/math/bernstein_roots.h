@@ -52,7 +52,8 @@ struct SignChanges {
 };
 
 /// Which sign changes a caller asks for: all of them. Another type may ask for fewer: of those that
-/// it does not want, u is anything between lo and hi.
+/// it does not want, u is anything between lo and hi. It is asked once of each, in ascending order,
+/// and may remember that.
 struct AllSignChanges {
     [[nodiscard]] bool wants(double /*lo*/, double /*hi*/) const { return true; }
 };
@@ -171,8 +172,7 @@ class SignChangeSearch {
     static constexpr double kRounding = kMustAnswer ? kDoubleDoubleUlp : 0x1p-52;
 
   public:
-    SignChangeSearch(const BernsteinPolynomial<Real, N>& p, const Wanted& wanted,
-                     SignChanges<N>& out)
+    SignChangeSearch(const BernsteinPolynomial<Real, N>& p, Wanted& wanted, SignChanges<N>& out)
         : p_(p), wanted_(wanted), out_(out) {}
 
     /// False when the signs are not certain (never in double-double).
@@ -373,23 +373,25 @@ class SignChangeSearch {
     }
 
     const BernsteinPolynomial<Real, N>& p_;
-    const Wanted& wanted_;
+    Wanted& wanted_;
     SignChanges<N>& out_;
 };
 
 }  // namespace bernstein
 
 /// False when double cannot tell; `out` is then to be ignored.
-template <int N, class Wanted = AllSignChanges>
+template <int N, class Wanted = const AllSignChanges>
 [[nodiscard]] bool find_sign_changes(const BernsteinPolynomial<double, N>& p, SignChanges<N>& out,
-                                     const Wanted& wanted = {}) {
-    return bernstein::SignChangeSearch<double, N, Wanted>(p, wanted, out).run();
+                                     Wanted&& wanted = {}) {
+    using W = std::remove_reference_t<Wanted>;
+    return bernstein::SignChangeSearch<double, N, W>(p, wanted, out).run();
 }
 /// Always answers; see the conventions above for what cannot be told from 0.
-template <int N, class Wanted = AllSignChanges>
+template <int N, class Wanted = const AllSignChanges>
 void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChanges<N>& out,
-                       const Wanted& wanted = {}) {
-    bernstein::SignChangeSearch<DoubleDouble, N, Wanted>(p, wanted, out).run();
+                       Wanted&& wanted = {}) {
+    using W = std::remove_reference_t<Wanted>;
+    bernstein::SignChangeSearch<DoubleDouble, N, W>(p, wanted, out).run();
 }
 
 /// `make(BernsteinPolynomial<Real, N>&)` computes the coefficients and their error bound: in double

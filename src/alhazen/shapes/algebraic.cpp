@@ -1,7 +1,10 @@
 #include "alhazen/shapes/algebraic.h"
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/instruction_sets.h"
 #include "alhazen/shapes/clipped_quadric.h"
+#include "alhazen/shapes/first_hit.h"
+#include "alhazen/shapes/plain_surface.h"
 #include "alhazen/shapes/polynomial_solid.h"
 
 namespace alhazen {
@@ -71,20 +74,52 @@ Interval Algebraic::extent(const Vec3& axis) const {
     return {range.lo - pad, range.hi + pad};
 }
 
-int Algebraic::intersect(const Ray& ray, ShapeHit* hits) const {
+namespace {
+
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+int all_hits(const Algebraic& shape, const Ray& ray, ShapeHit* hits) {
     ClipSegment s;
     const SolidFrame frame;
-    if (!clip_segment(frame, ray, clip_box, size, s)) return 0;
-    return intersect_segment(AlgebraicPolynomial{*this}, frame, ray, s, capped, hits);
+    if (!clip_segment(frame, ray, shape.clip_box, shape.size, s)) return 0;
+    return intersect_segment(AlgebraicPolynomial{shape}, frame, ray, s, shape.capped, hits);
+}
+
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+bool one_hit(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
+    ClipSegment s;
+    const SolidFrame frame;
+    if (!clip_segment(frame, ray, shape.clip_box, shape.size, s)) return false;
+    return first_on_segment(AlgebraicPolynomial{shape}, frame, ray, s, shape.capped, hit);
+}
+
+}  // namespace
+
+int Algebraic::intersect(const Ray& ray, ShapeHit* hits) const {
+    return all_hits(*this, ray, hits);
+}
+
+bool first_hit(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
+    return one_hit(shape, ray, hit);
+}
+
+namespace {
+
+ProjectedPoint point_on(const Algebraic& shape, const Ray& ray, const ShapeHit& hit) {
+    const Vec3 d = unit_or(ray.direction, {0, 0, 1});
+    return project_to_zero(AlgebraicPolynomial{shape}, ray.at(hit.t), (-1e-6 * shape.size) * d);
+}
+
+}  // namespace
+
+ShapeSurface plain_surface(const Algebraic& shape, const Ray& ray, const ShapeHit& hit) {
+    if (hit.part > 0) return shape.surface(ray, hit);
+    return surface_of(SolidFrame(), point_on(shape, ray, hit));
 }
 
 ShapeSurface Algebraic::surface(const Ray& ray, const ShapeHit& hit) const {
     const SolidFrame frame;
-    const Vec3 start = ray.at(hit.t);
-    if (hit.part > 0) return clip_face_surface(frame, clip_box, {}, start, hit.part);
-    const Vec3 d = unit_or(ray.direction, {0, 0, 1});
-    const ProjectedPoint at =
-        project_to_zero(AlgebraicPolynomial{*this}, start, (-1e-6 * size) * d);
+    if (hit.part > 0) return clip_face_surface(frame, clip_box, {}, ray.at(hit.t), hit.part);
+    const ProjectedPoint at = point_on(*this, ray, hit);
     ShapeSurface surface = surface_of(frame, at);
     const Vec3 p = at.point - clip_box.center();
     LocalUv local = turn_uv(p);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "alhazen/base/instruction_sets.h"
 #include "alhazen/math/bernstein_roots.h"
+#include "alhazen/shapes/plain_surface.h"
 #include "alhazen/shapes/shape_numerics.h"
 
 namespace alhazen {
@@ -345,19 +347,42 @@ Interval Blob::extent(const Vec3& axis) const {
     return range;
 }
 
-void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
-    static thread_local Workspace work;
+namespace {
+
+/// So many components are looked at one after the other; beyond that the tree is faster.
+constexpr std::size_t kFewComponents = 64;
+
+/// The pieces of all components that the line may meet.
+void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
+    const Blob& blob = local.blob;
+    const Vec3& d = local.given.direction;
+    const double pad = 0x1p-48 * (local.far + blob.reach);
+    if (blob.components.size() > kFewComponents) {
+        blob.tree->for_line(local.o, d, pad,
+                            [&](std::uint32_t i) { add_pieces(local, i, pieces); });
+        return;
+    }
+    const double dd = length_squared(d);
+    for (std::uint32_t i = 0; i < blob.components.size(); ++i) {
+        const BlobComponent& c = blob.components[i];
+        const double near = c.radius + pad;
+        if (!c.rod && length_squared(cross(local.o - c.base, d)) > near * near * dd) continue;
+        add_pieces(local, i, pieces);
+    }
+}
+
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits& hits) {
     work.pieces.clear();
-    work.events.clear();
     work.active.clear();
-    const LocalRay local(*this, ray);
+    const LocalRay local(blob, ray);
     if (!is_finite(local.o)) return;
-    const double pad = 0x1p-48 * (local.far + reach);
-    tree->for_line(local.o, ray.direction, pad,
-                   [&](std::uint32_t i) { add_pieces(local, i, work.pieces); });
+    collect_pieces(local, work.pieces);
+    work.events.resize(2 * work.pieces.size());
+    Event* events = work.events.data();
     for (std::uint32_t i = 0; i < work.pieces.size(); ++i) {
-        work.events.push_back({work.pieces[i].in, i, true});
-        work.events.push_back({work.pieces[i].out, i, false});
+        *events++ = {work.pieces[i].in, i, true};
+        *events++ = {work.pieces[i].out, i, false};
     }
     std::sort(work.events.begin(), work.events.end(), [](const Event& a, const Event& b) {
         return a.t != b.t ? a.t < b.t : a.piece < b.piece;
@@ -384,31 +409,43 @@ void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
     walk.gap(kInfinity);
 }
 
-ShapeSurface Blob::surface(const Ray& ray, const ShapeHit& hit) const {
+}  // namespace
+
+void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
+    static thread_local Workspace work;
+    intersect_blob(*this, ray, work, hits);
+}
+
+ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hit) {
     ShapeSurface surface;
     surface.point = ray.at(hit.t);
-    Density there = density_at(*this, surface.point);
+    Density there = density_at(shape, surface.point);
     double steepness = length(there.gradient);
     if (steepness > 0.0) {
         // One step to the surface; no farther than what the ray rounds.
-        const double off = (threshold - there.value) / steepness;
-        const double room = 0x1p-48 * (max_component(abs(ray.origin)) + reach);
+        const double off = (shape.threshold - there.value) / steepness;
+        const double room = 0x1p-48 * (max_component(abs(ray.origin)) + shape.reach);
         surface.point += (std::clamp(off, -room, room) / steepness) * there.gradient;
-        there = density_at(*this, surface.point);
+        there = density_at(shape, surface.point);
         steepness = length(there.gradient);
     }
     surface.normal = unit_or(-there.gradient, -unit_or(ray.direction, {0, 0, 1}));
     // Whether the ray enters here (v = -1) or leaves is known from all its crossings.
     if (dot(surface.normal, ray.direction) * hit.v < 0.0) surface.normal = -surface.normal;
     surface.shading_normal = surface.normal;
+    // What the density rounds, over its steepness; where that hardly tells, the last digits of all.
+    const double most = gamma_bound(48) * shape.reach;
+    const double off = 0x1p-53 * there.rounding / steepness + gamma_bound(4) * shape.reach;
+    const double error = off < most ? off : most;
+    surface.error = {error, error, error};
+    return surface;
+}
+
+ShapeSurface Blob::surface(const Ray& ray, const ShapeHit& hit) const {
+    ShapeSurface surface = plain_surface(*this, ray, hit);
     const Vec3 from_center = unit_or(surface.point - bounds.center(), {1, 0, 0});
     surface.uv = {turn_fraction(from_center.x, from_center.y),
                   0.5 + std::atan2(from_center.z, std::hypot(from_center.x, from_center.y)) / kPi};
-    // What the density rounds, over its steepness; where that hardly tells, the last digits of all.
-    const double most = gamma_bound(48) * reach;
-    const double off = 0x1p-53 * there.rounding / steepness + gamma_bound(4) * reach;
-    const double error = off < most ? off : most;
-    surface.error = {error, error, error};
     return surface;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "alhazen/base/instruction_sets.h"
 #include "alhazen/shapes/shape_numerics.h"
 
 namespace alhazen {
@@ -136,6 +137,13 @@ int intersect_side(const LocalLine& l, double half_height, const Ray& ray, Shape
     return count;
 }
 
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+int all_hits(const Frustum& f, const Ray& ray, bool capped, ShapeHit* hits) {
+    const LocalLine l = localise(f, ray);
+    return capped ? intersect_solid(l, f.half_height, ray, hits)
+                  : intersect_side(l, f.half_height, ray, hits);
+}
+
 }  // namespace
 
 Frustum::Frustum(const Vec3& base_point, const Vec3& top_point, double radius_at_base,
@@ -168,9 +176,7 @@ Interval Frustum::extent(const Vec3& direction) const {
 }
 
 int Frustum::intersect(const Ray& ray, bool capped, ShapeHit* hits) const {
-    const LocalLine l = localise(*this, ray);
-    return capped ? intersect_solid(l, half_height, ray, hits)
-                  : intersect_side(l, half_height, ray, hits);
+    return all_hits(*this, ray, capped, hits);
 }
 
 double Frustum::turn(const Vec3& across) const {

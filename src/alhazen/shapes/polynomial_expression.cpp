@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 
+#include "alhazen/base/instruction_sets.h"
 #include "alhazen/shapes/polynomial_parser.h"
 
 namespace alhazen {
@@ -10,6 +13,7 @@ namespace alhazen {
 namespace {
 
 using Op = PolynomialExpression::Op;
+using Node = PolynomialExpression::Node;
 
 constexpr std::size_t kRows = PolynomialExpression::kMaxDegree + 1;
 
@@ -140,11 +144,24 @@ double PolynomialExpression::magnitude(const Vec3& reach) const {
     return of.empty() ? 0.0 : of.back();
 }
 
+namespace {
+
+/// Room for as many values as an expression may have nodes or coefficients; they are not set.
+template <class T>
+class Values {
+  public:
+    T* data() { return reinterpret_cast<T*>(bytes_); }
+    T& operator[](std::size_t i) { return data()[i]; }
+
+  private:
+    alignas(T) std::byte bytes_[PolynomialExpression::kMaxCoefficients * sizeof(T)];
+};
+
 template <class Real>
-Real PolynomialExpression::value(const Point3<Real>& p) const {
-    std::array<Real, kMaxCoefficients> of;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        const Node& n = nodes_[i];
+Real value_of(std::span<const Node> nodes, const Point3<Real>& p) {
+    Values<Real> of;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Node& n = nodes[i];
         switch (n.op) {
             case Op::Constant:
                 of[i] = constant_as<Real>(n.constant);
@@ -169,17 +186,18 @@ Real PolynomialExpression::value(const Point3<Real>& p) const {
                 break;
         }
     }
-    return nodes_.empty() ? Real(0.0) : of[nodes_.size() - 1];
+    return nodes.empty() ? Real(0.0) : of[nodes.size() - 1];
 }
 
-Vec3 PolynomialExpression::gradient(const Vec3& p) const {
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+Vec3 gradient_of(std::span<const Node> nodes, const Vec3& p) {
     struct Value {
         double v;
         Vec3 g;
     };
-    std::vector<Value> of(nodes_.size());
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        const Node& n = nodes_[i];
+    Values<Value> of;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Node& n = nodes[i];
         switch (n.op) {
             case Op::Constant:
                 of[i] = {n.constant.high, {}};
@@ -204,14 +222,15 @@ Vec3 PolynomialExpression::gradient(const Vec3& p) const {
                 break;
         }
     }
-    return of.empty() ? Vec3{} : of.back().g;
+    return nodes.empty() ? Vec3{} : of[nodes.size() - 1].g;
 }
 
 template <class Real>
-void PolynomialExpression::restricted(const Point3<Real>& p, const Point3<Real>& q, Real* b) const {
+void restrict_to(std::span<const Node> nodes, const Point3<Real>& p, const Point3<Real>& q,
+                 Real* b) {
     // Of every node the coefficients times binomials.
-    std::array<Real, kMaxCoefficients> all;
-    for (const Node& n : nodes_) {
+    Values<Real> all;
+    for (const Node& n : nodes) {
         Real* out = all.data() + n.first;
         const auto ends = [&](const Real& at_p, const Real& at_q) {
             out[0] = at_p;
@@ -233,7 +252,7 @@ void PolynomialExpression::restricted(const Point3<Real>& p, const Point3<Real>&
             default:
                 break;
         }
-        const Node &left = nodes_[n.a], &right = nodes_[n.b];
+        const Node &left = nodes[n.a], &right = nodes[n.b];
         const Real *u = all.data() + left.first, *v = all.data() + right.first;
         if (n.op == Op::Multiply) {
             multiply(u, left.degree, v, right.degree, out);
@@ -241,11 +260,54 @@ void PolynomialExpression::restricted(const Point3<Real>& p, const Point3<Real>&
             add(u, left.degree, v, right.degree, n.op == Op::Add ? 1.0 : -1.0, out);
         }
     }
-    const Node& root = nodes_.back();
+    const Node& root = nodes.back();
     for (int i = 0; i <= root.degree; ++i) {
         b[i] =
             divided(all[static_cast<std::size_t>(root.first + i)],
                     kBinomials[static_cast<std::size_t>(root.degree)][static_cast<std::size_t>(i)]);
+    }
+}
+
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+double value_in_double(std::span<const Node> nodes, const Point3<double>& p) {
+    return value_of(nodes, p);
+}
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+DoubleDouble value_in_double_double(std::span<const Node> nodes, const Point3<DoubleDouble>& p) {
+    return value_of(nodes, p);
+}
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+void restrict_in_double(std::span<const Node> nodes, const Point3<double>& p,
+                        const Point3<double>& q, double* b) {
+    restrict_to(nodes, p, q, b);
+}
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+void restrict_in_double_double(std::span<const Node> nodes, const Point3<DoubleDouble>& p,
+                               const Point3<DoubleDouble>& q, DoubleDouble* b) {
+    restrict_to(nodes, p, q, b);
+}
+
+}  // namespace
+
+template <class Real>
+Real PolynomialExpression::value(const Point3<Real>& p) const {
+    if constexpr (std::is_same_v<Real, double>) {
+        return value_in_double(nodes_, p);
+    } else {
+        return value_in_double_double(nodes_, p);
+    }
+}
+
+Vec3 PolynomialExpression::gradient(const Vec3& p) const {
+    return gradient_of(nodes_, p);
+}
+
+template <class Real>
+void PolynomialExpression::restricted(const Point3<Real>& p, const Point3<Real>& q, Real* b) const {
+    if constexpr (std::is_same_v<Real, double>) {
+        restrict_in_double(nodes_, p, q, b);
+    } else {
+        restrict_in_double_double(nodes_, p, q, b);
     }
 }
 

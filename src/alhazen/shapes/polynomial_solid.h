@@ -101,6 +101,35 @@ struct CoveredSignChanges {
     [[nodiscard]] bool wants(double lo, double hi) const {
         return at(hi) >= ray.t_min && at(lo) <= ray.t_max;
     }
+    static void begin() {}
+};
+
+/// Of these the ones up to the first that lies in the ray's range for sure, wherever in its
+/// interval it is (or behind that range, where nothing more is sought).
+class UpToFirstCovered {
+  public:
+    explicit UpToFirstCovered(const CoveredSignChanges& covered) : covered_(covered) {}
+
+    /// A new search begins.
+    void begin() {
+        asked_ = 0;
+        found_ = false;
+    }
+    /// Asked of the changes in their order.
+    [[nodiscard]] bool wants(double lo, double hi) {
+        if (found_) return false;
+        ++asked_;
+        found_ = covered_.at(lo) >= covered_.ray.t_min;
+        return covered_.wants(lo, hi);
+    }
+    [[nodiscard]] bool found() const { return found_; }
+    /// How many changes there are up to the one that was found, itself included.
+    [[nodiscard]] int asked() const { return asked_; }
+
+  private:
+    const CoveredSignChanges& covered_;
+    int asked_ = 0;
+    bool found_ = false;
 };
 
 /// Where the slope is at least this share of the largest coefficient, a root found in double is
@@ -143,29 +172,86 @@ double improved_root(const Polynomial& f, const SolidFrame& frame, const Ray& ra
     return best;
 }
 
+/// The sign changes on the segment, those that `wanted` asks for: found in double, true, or where
+/// that is not certain in double-double, false.
+template <class Polynomial, int N, class Wanted>
+bool find_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                     const ClipSegment& s, const BernsteinPolynomial<double, N>& p,
+                     SignChanges<N>& changes, Wanted& wanted) {
+    if (find_sign_changes(p, changes, wanted)) return true;
+    wanted.begin();
+    BernsteinPolynomial<DoubleDouble, N> precise;
+    restrict_to_segment(f, frame, ray, s, precise);
+    find_sign_changes(precise, changes, wanted);
+    return false;
+}
+
+/// The parameter of change i.
+template <class Polynomial, int N>
+double parameter_of(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                    const CoveredSignChanges& covered, const BernsteinPolynomial<double, N>& p,
+                    const SignChanges<N>& changes, bool certain, int i) {
+    const auto k = static_cast<std::size_t>(i);
+    return certain ? improved_root(f, frame, ray, covered, p, changes, k)
+                   : covered.at(changes.u[k]);
+}
+
 /// Crossings of a segment whose range has been found; see report_solid for `capped`.
 template <class Polynomial>
 int intersect_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
                       const ClipSegment& s, bool capped, ShapeHit* hits) {
     constexpr int N = Polynomial::kDegree;
     SignChanges<N> changes;
-    const CoveredSignChanges covered{ray, s.range};
+    CoveredSignChanges covered{ray, s.range};
     BernsteinPolynomial<double, N> p;
     restrict_to_segment(f, frame, ray, s, p);
-    const bool certain = find_sign_changes(p, changes, covered);
-    if (!certain) {
-        BernsteinPolynomial<DoubleDouble, N> precise;
-        restrict_to_segment(f, frame, ray, s, precise);
-        find_sign_changes(precise, changes, covered);
-    }
+    const bool certain = find_on_segment(f, frame, ray, s, p, changes, covered);
     if (changes.count == 0 && !changes.negative_at_start) return 0;
     double t[N];
     for (int i = 0; i < changes.count; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        t[i] = certain ? improved_root(f, frame, ray, covered, p, changes, k)
-                       : covered.at(changes.u[k]);
+        t[i] = parameter_of(f, frame, ray, covered, p, changes, certain, i);
     }
     return report_solid(ray, s.range, changes.negative_at_start, t, changes.count, capped, hits);
+}
+
+/// Whether the segment begins where f is negative beyond the doubt of either precision.
+template <int N>
+bool begins_negative(const BernsteinPolynomial<double, N>& p) {
+    if (!(p.b[0] < -2.0 * p.error)) return false;
+    double total = p.error;
+    for (int i = 0; i <= p.degree; ++i) total += std::abs(p.b[static_cast<std::size_t>(i)]);
+    return std::isfinite(total);
+}
+
+/// The first of the crossings that `intersect_segment` writes. Those behind it are only counted,
+/// for whether double is certain of all decides how the first is computed.
+template <class Polynomial>
+bool first_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                      const ClipSegment& s, bool capped, ShapeHit& hit) {
+    constexpr int N = Polynomial::kDegree;
+    BernsteinPolynomial<double, N> p;
+    restrict_to_segment(f, frame, ray, s, p);
+    if (capped && begins_negative(p) &&
+        report_crossing(ray, {s.range.entry, 0, 0, s.range.entry_part}, &hit) > 0) {
+        return true;
+    }
+    SignChanges<N> changes;
+    const CoveredSignChanges covered{ray, s.range};
+    UpToFirstCovered wanted(covered);
+    const bool certain = find_on_segment(f, frame, ray, s, p, changes, wanted);
+    if (changes.count == 0 && !changes.negative_at_start) return false;
+    const int count = wanted.found() ? wanted.asked() : changes.count;
+    const bool inside = changes.negative_at_start;
+    const auto report = [&](double t, std::uint32_t part) {
+        return report_crossing(ray, {t, 0, 0, part}, &hit) > 0;
+    };
+    // In the order of report_solid.
+    if (inside && capped && report(s.range.entry, s.range.entry_part)) return true;
+    for (int i = 0; i < count; ++i) {
+        if (report(parameter_of(f, frame, ray, covered, p, changes, certain, i), 0)) return true;
+    }
+    const bool ends_inside = inside != (changes.count % 2 != 0);
+    return ends_inside && capped && report(s.range.exit, s.range.exit_part);
 }
 
 /// A point of the frame moved onto f = 0, and how far it may still be from there.
@@ -180,19 +266,23 @@ template <class Polynomial>
 ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
     Vec3 gradient = f.gradient(p);
     const double size = length(p) + length(back);
-    const auto value = [&] { return f.value(to_real<DoubleDouble>(p)).high; };
+    const auto value_at = [&] { return f.value(to_real<DoubleDouble>(p)).high; };
+    double value = value_at();
     for (int i = 0; i < 2; ++i) {
         const double squared = length_squared(gradient);
         if (!(squared > 0.0)) break;
-        const Vec3 step = (value() / squared) * gradient;
+        const Vec3 step = (value / squared) * gradient;
         // Near a singular point Newton's step may lead anywhere: the point then stays.
         if (!(length(step) <= 1e-5 * size)) break;
-        p -= step;
+        const Vec3 next = p - step;
+        if (next == p) break;
+        p = next;
         gradient = f.gradient(p);
+        value = value_at();
     }
     double error = 0.0;
     const double steepness = length(gradient);
-    if (steepness > 0.0) error = std::fmin(2.0 * std::abs(value()) / steepness, 1e-5 * size);
+    if (steepness > 0.0) error = std::fmin(2.0 * std::abs(value) / steepness, 1e-5 * size);
     // At a singular point the normal is that of the way by which the ray came, or beside it.
     Vec3 step = back;
     for (int i = 0; i < 8 && !(length_squared(gradient) > 0.0); ++i) {

@@ -1,6 +1,7 @@
 #include "alhazen/shapes/sphere.h"
 
 #include "alhazen/geometry/sphere_roots.h"
+#include "alhazen/shapes/plain_surface.h"
 #include "alhazen/shapes/shape_numerics.h"
 
 namespace alhazen {
@@ -28,20 +29,26 @@ int Sphere::intersect(const Ray& ray, ShapeHit* hits) const {
     return report_span(ray, roots.t_near, 0, roots.t_far, 0, hits);
 }
 
-ShapeSurface Sphere::surface(const Ray& ray, const ShapeHit& hit) const {
-    const Vec3 n = unit_or(ray.at(hit.t) - center, {0, 0, 1});
-    const Vec3 from_center = radius * n;
+ShapeSurface plain_surface(const Sphere& shape, const Ray& ray, const ShapeHit& hit) {
+    const Vec3 n = unit_or(ray.at(hit.t) - shape.center, {0, 0, 1});
+    const Vec3 from_center = shape.radius * n;
     ShapeSurface surface;
-    surface.point = center + from_center;
+    surface.point = shape.center + from_center;
     surface.normal = surface.shading_normal = n;
+    // |n| is 1 to four roundings, its product with the radius one more, the sum one.
+    surface.error = gamma_bound(6) * abs(from_center) + gamma_bound(2) * abs(surface.point);
+    return surface;
+}
+
+ShapeSurface Sphere::surface(const Ray& ray, const ShapeHit& hit) const {
+    ShapeSurface surface = plain_surface(*this, ray, hit);
+    const Vec3& n = surface.normal;
     const double across = std::hypot(n.x, n.y);
     surface.uv = {turn_fraction(n.x, n.y), 0.5 + std::atan2(n.z, across) / kPi};
     surface.dpdu = (2.0 * kPi * radius) * Vec3{-n.y, n.x, 0.0};
     // At a pole every u is the same point: the direction of u = 0 will do.
     const Vec3 outward = across > 0.0 ? Vec3{n.x / across, n.y / across, 0.0} : Vec3{1, 0, 0};
     surface.dpdv = (kPi * radius) * Vec3{-n.z * outward.x, -n.z * outward.y, across};
-    // |n| is 1 to four roundings, its product with the radius one more, the sum one.
-    surface.error = gamma_bound(6) * abs(from_center) + gamma_bound(2) * abs(surface.point);
     return surface;
 }
 

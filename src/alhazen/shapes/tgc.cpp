@@ -4,6 +4,7 @@
 
 #include "alhazen/shapes/ellipsoid.h"
 #include "alhazen/shapes/elliptic_cylinder.h"
+#include "alhazen/shapes/first_hit.h"
 #include "alhazen/shapes/polynomial_solid.h"
 
 namespace alhazen {
@@ -126,13 +127,32 @@ Interval Tgc::extent(const Vec3& axis) const {
                 ellipse_extent(axis, base + height, axis_c, axis_d));
 }
 
+namespace {
+
+bool segment_of(const Tgc& shape, const Ray& ray, ClipSegment& s) {
+    const Box3 around{{-kRoom, -kRoom, 0.0}, {kRoom, kRoom, 1.0}};
+    return clip_segment(shape.solid.frame, ray, around, 1.0, s);
+}
+
+}  // namespace
+
 int Tgc::intersect(const Ray& ray, ShapeHit* hits) const {
     if (!quartic) return solid.intersect(ray, hits);
     ClipSegment s;
-    if (!clip_segment(solid.frame, ray, {{-kRoom, -kRoom, 0.0}, {kRoom, kRoom, 1.0}}, 1.0, s)) {
-        return 0;
-    }
+    if (!segment_of(*this, ray, s)) return 0;
     return intersect_segment(polynomial_of(*this), solid.frame, ray, s, capped, hits);
+}
+
+bool first_hit(const Tgc& shape, const Ray& ray, ShapeHit& hit) {
+    if (!shape.quartic) {
+        ShapeHit hits[Tgc::kMaxHits];
+        if (shape.solid.intersect(ray, hits) == 0) return false;
+        hit = hits[0];
+        return true;
+    }
+    ClipSegment s;
+    if (!segment_of(shape, ray, s)) return false;
+    return first_on_segment(polynomial_of(shape), shape.solid.frame, ray, s, shape.capped, hit);
 }
 
 ShapeSurface Tgc::surface(const Ray& ray, const ShapeHit& hit) const {

@@ -1,5 +1,8 @@
 #include "alhazen/shapes/torus.h"
 
+#include "alhazen/base/instruction_sets.h"
+#include "alhazen/shapes/first_hit.h"
+#include "alhazen/shapes/plain_surface.h"
 #include "alhazen/shapes/polynomial_solid.h"
 
 namespace alhazen {
@@ -122,14 +125,39 @@ Interval Torus::extent(const Vec3& direction) const {
                               minor_radius * length(direction));
 }
 
-int Torus::intersect(const Ray& ray, ShapeHit* hits) const {
-    const double reach = kRoom * (1.0 + tube), height = kRoom * tube;
-    ClipSegment s;
+namespace {
+
+/// Cuts the line to the surroundings of the torus.
+bool segment_of(const Torus& torus, const Ray& ray, ClipSegment& s) {
+    const double reach = kRoom * (1.0 + torus.tube), height = kRoom * torus.tube;
     const auto cut = [&](const Vec3& o, const Vec3& d, ClipRange& range) {
         return cut_around(o, d, reach, height, range);
     };
-    if (!clip_segment_by(frame, ray, reach, cut, s)) return 0;
-    return intersect_segment(TorusPolynomial{tube}, frame, ray, s, true, hits);
+    return clip_segment_by(torus.frame, ray, reach, cut, s);
+}
+
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+int all_hits(const Torus& torus, const Ray& ray, ShapeHit* hits) {
+    ClipSegment s;
+    if (!segment_of(torus, ray, s)) return 0;
+    return intersect_segment(TorusPolynomial{torus.tube}, torus.frame, ray, s, true, hits);
+}
+
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+bool one_hit(const Torus& torus, const Ray& ray, ShapeHit& hit) {
+    ClipSegment s;
+    if (!segment_of(torus, ray, s)) return false;
+    return first_on_segment(TorusPolynomial{torus.tube}, torus.frame, ray, s, true, hit);
+}
+
+}  // namespace
+
+int Torus::intersect(const Ray& ray, ShapeHit* hits) const {
+    return all_hits(*this, ray, hits);
+}
+
+bool first_hit(const Torus& shape, const Ray& ray, ShapeHit& hit) {
+    return one_hit(shape, ray, hit);
 }
 
 namespace {
@@ -150,15 +178,28 @@ ProjectedPoint nearest_on_tube(const Vec3& p, double tube, const Vec3& back) {
     return {{p.x * ratio, p.y * ratio, p.z * scale}, {p.x * radial, p.y * radial, p.z}, 0.0};
 }
 
+ProjectedPoint point_on(const Torus& torus, const Ray& ray, const ShapeHit& hit) {
+    const SolidFrame& frame = torus.frame;
+    const Vec3 d = unit_or(frame.local_from_object * ray.direction, {0, 0, 1});
+    return nearest_on_tube(frame.to_local(ray.at(hit.t)), torus.tube, -1e-6 * torus.tube * d);
+}
+
+ShapeSurface surface_at(const Torus& torus, const ProjectedPoint& at) {
+    ShapeSurface surface = surface_of(torus.frame, at);
+    surface.error += torus.frame.object_error(at.point, 8);
+    return surface;
+}
+
 }  // namespace
 
+ShapeSurface plain_surface(const Torus& shape, const Ray& ray, const ShapeHit& hit) {
+    return surface_at(shape, point_on(shape, ray, hit));
+}
+
 ShapeSurface Torus::surface(const Ray& ray, const ShapeHit& hit) const {
-    const Vec3 start = frame.to_local(ray.at(hit.t));
-    const Vec3 d = unit_or(frame.local_from_object * ray.direction, {0, 0, 1});
-    const ProjectedPoint at = nearest_on_tube(start, tube, -1e-6 * tube * d);
-    ShapeSurface surface = surface_of(frame, at);
+    const ProjectedPoint at = point_on(*this, ray, hit);
+    ShapeSurface surface = surface_at(*this, at);
     const Vec3& p = at.point;
-    surface.error += frame.object_error(p, 8);
     LocalUv local = turn_uv(p);
     const double across = std::sqrt(p.x * p.x + p.y * p.y);
     const double out = across - 1.0;
