@@ -137,7 +137,8 @@ Opacity CsgAggregate::opacity(const CsgRay& ray, const Hit& hit) const {
 
 void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
                             Surface& surface) const {
-    const Look seen = look(solid_.prepare(ray), t, primitive);
+    const bool may_differ = solid_.has_media() || !shows_minuend_.empty();
+    const Look seen = may_differ ? look(solid_.prepare(ray), t, primitive) : Look{};
     if (seen.media.known) surface.media = seen.media;
     if (seen.material) {
         surface.materials[0] = *seen.material;

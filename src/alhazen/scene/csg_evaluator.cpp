@@ -5,6 +5,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/scene/csg_event_heap.h"
 #include "alhazen/scene/csg_roth.h"
+#include "alhazen/scene/csg_truth_table.h"
 
 namespace alhazen {
 
@@ -15,8 +16,12 @@ std::unique_ptr<const CsgEvaluator> make(const CsgSolid& solid) {
     return std::make_unique<const E>(solid);
 }
 
+std::unique_ptr<const CsgEvaluator> make_fastest(const CsgSolid& solid) {
+    return CsgTruthTable::fits(solid) ? make<CsgTruthTable>(solid) : make<CsgEventHeap>(solid);
+}
+
 constexpr std::array kEntries{
-    CsgEvaluatorEntry{CsgEventHeap::kName, CsgEventHeap::kDescription, &make<CsgEventHeap>},
+    CsgEvaluatorEntry{CsgEventHeap::kName, CsgEventHeap::kDescription, &make_fastest},
     CsgEvaluatorEntry{CsgRoth::kName, CsgRoth::kDescription, &make<CsgRoth>}};
 
 }  // namespace

@@ -13,6 +13,15 @@ namespace {
 /// Coordinates are rounded by an ulp of themselves: far from the origin that counts.
 constexpr double kOffsetShare = 0x1p-8;
 
+/// Only triangles look at it, and leaves are none.
+const RayShear kNoShear(Vec3{0, 0, 1});
+
+/// max_component of what is no NaN, without a call.
+double largest(const Vec3& v) {
+    const double xy = v.x > v.y ? v.x : v.y;
+    return xy > v.z ? xy : v.z;
+}
+
 }  // namespace
 
 CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
@@ -74,14 +83,13 @@ void CsgSolid::find_media() {
 
 CsgRay CsgSolid::prepare(const Ray& ray, RayMask mask) const {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    const double distance = max_component(abs(ray.origin - center_));
+    const double distance = largest(abs(ray.origin - center_));
     const double tolerance = kTolerance * (half_ + offset_ + distance);
     return {.line = {ray.origin, ray.direction, -kInfinite, kInfinite},
-            .shear = RayShear(ray.direction),
             .t_min = ray.t_min,
             .t_max = ray.t_max,
             .pad = kPadPerTolerance * tolerance,
-            .tau = tolerance / max_component(abs(ray.direction)),
+            .tau = tolerance / largest(abs(ray.direction)),
             .mask = mask};
 }
 
@@ -92,15 +100,11 @@ bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCross
     const std::uint32_t first_instance = table_.first(kInstanceKind);
     if (static_cast<std::uint32_t>(id) < first_instance) {
         ShapeHits found;
-        table_.intersect(id, ray.line, ray.shear, found);
-        if (stats != nullptr) {
-            ++stats->primitive_tests;
-            stats->primitive_hits += !found.empty();
-        }
+        const bool inside = cross_shape(leaf, ray, found, stats);
         for (const ShapeHit& hit : found) {
             crossings.push_back({hit.t, hit.u, hit.v, hit.part, leaf});
         }
-        return unbounded_ && table_.inside_at_minus_infinity(id, ray.line);
+        return inside;
     }
     const std::uint32_t index = static_cast<std::uint32_t>(id) - first_instance;
     const Instance& instance = table_.instances[index];
@@ -112,6 +116,18 @@ bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCross
         crossings.push_back({hits[i].t, 0, 0, static_cast<std::uint32_t>(i), leaf});
     }
     return solids_[index] != nullptr && solids_[index]->inside_at_minus_infinity(inner);
+}
+
+bool CsgSolid::cross_shape(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
+                           TraversalStats* stats) const {
+    const PrimitiveId id = expression_.leaves[leaf];
+    if (!table_.is_seen(id, ray.mask)) return false;
+    table_.intersect(id, ray.line, kNoShear, crossings);
+    if (stats != nullptr) {
+        ++stats->primitive_tests;
+        stats->primitive_hits += !crossings.empty();
+    }
+    return unbounded_ && table_.inside_at_minus_infinity(id, ray.line);
 }
 
 void CsgSolid::fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, Hit& hit) const {

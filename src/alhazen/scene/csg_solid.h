@@ -32,8 +32,7 @@ struct CsgCrossing {
 
 /// A ray as evaluators take it.
 struct CsgRay {
-    Ray line;  ///< for all t
-    RayShear shear;
+    Ray line;             ///< for all t
     double t_min, t_max;  ///< of the ray
     double pad;           ///< bound of how far from the line a computed crossing can be
     double tau;           ///< crossings closer than this are one
@@ -78,6 +77,9 @@ class CsgSolid {
     /// `hits`. True when the line begins inside.
     bool cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,
                std::vector<Hit>& hits, TraversalStats* stats) const;
+    /// The same for a leaf that is an analytic shape.
+    bool cross_shape(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
+                     TraversalStats* stats) const;
     /// The hit that a crossing is.
     void fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, Hit& hit) const;
 

@@ -1,0 +1,188 @@
+#include "alhazen/scene/csg_truth_table.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+namespace alhazen {
+
+namespace {
+
+/// [kind] how often a shape may cross a line.
+constexpr auto kMaxHitsOfKind = []<class... S>(std::type_identity<ShapeTypes<S...>>) {
+    return std::array<int, sizeof...(S)>{S::kMaxHits...};
+}(std::type_identity<AnalyticShapes>{});
+
+}  // namespace
+
+/// Places where a ray crosses leaves, in order, and how far along them a query is.
+class CsgTruthTable::Events {
+  public:
+    void add(const CsgCrossing& crossing) {
+        CsgCrossing* all = data();
+        std::size_t place = size_++;
+        for (; place > 0 && all[place - 1].t > crossing.t; --place) all[place] = all[place - 1];
+        all[place] = crossing;
+    }
+    [[nodiscard]] bool at_end() const { return at_ == size_; }
+    [[nodiscard]] const CsgCrossing& front() { return data()[at_]; }
+    /// Takes the next one.
+    const CsgCrossing& pass() {
+        const CsgCrossing& crossing = data()[at_++];
+        inside ^= LeafSet{1} << crossing.leaf;
+        return crossing;
+    }
+
+    LeafSet inside = 0;  ///< of what the place is inside
+
+  private:
+    CsgCrossing* data() { return reinterpret_cast<CsgCrossing*>(bytes_); }
+
+    std::size_t size_ = 0, at_ = 0;
+    // Bytes, not values: those would be set for every ray.
+    alignas(CsgCrossing) std::byte bytes_[kMaxLeaves * kMaxShapeHits * sizeof(CsgCrossing)];
+};
+
+bool CsgTruthTable::fits(const CsgSolid& solid) {
+    if (solid.leaf_count() > kMaxLeaves || solid.tree().nodes().size() > kMaxNodes) return false;
+    if (solid.has_media()) return false;
+    const std::vector<PrimitiveId>& leaves = solid.expression().leaves;
+    return std::all_of(leaves.begin(), leaves.end(), [&](PrimitiveId leaf) {
+        const std::uint32_t kind = solid.table().kind(leaf);
+        return kind < kTriangleKind && kMaxHitsOfKind[kind] <= kMaxShapeHits;
+    });
+}
+
+CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
+    const std::vector<CsgTree::Node>& nodes = solid.tree().nodes();
+    const std::vector<CsgTree::Leaf>& leaves = solid.tree().leaves();
+    const auto leaf_count = static_cast<std::uint32_t>(leaves.size());
+    // Operands that are true, node by node, in a place inside of these leaves.
+    std::array<std::int32_t, kMaxNodes> usual{};
+    for (LeafSet inside = 0; inside < LeafSet{1} << leaf_count; ++inside) {
+        std::array<std::int32_t, kMaxNodes> count{};
+        for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
+            count[leaves[leaf].parent] += ((inside >> leaf & 1) != 0) != leaves[leaf].complement;
+        }
+        // Children come after their parents.
+        for (std::size_t i = nodes.size(); i-- > 0;) {
+            if (inside == 0) usual[i] = count[i];
+            if (count[i] - usual[i] < nodes[i].need) continue;
+            tables_[i] |= std::uint64_t{1} << inside;
+            if (i > 0) ++count[nodes[i].parent];
+        }
+    }
+    for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
+        bool needed = true;
+        for (LeafSet inside = 0; inside < LeafSet{1} << leaf_count; ++inside) {
+            if ((inside >> leaf & 1) == 0 && is_solid(inside)) needed = false;
+        }
+        if (needed) needed_ |= LeafSet{1} << leaf;
+        order_[leaf] = leaf;
+    }
+    std::stable_partition(order_.begin(), order_.begin() + leaf_count,
+                          [&](std::uint32_t leaf) { return (needed_ >> leaf & 1) != 0; });
+}
+
+/// The crossings within the ray's range; false when it cannot meet the solid.
+bool CsgTruthTable::gather(const CsgRay& ray, Events& events, TraversalStats* stats) const {
+    const double last = ray.t_max + ray.tau;
+    for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
+        const std::uint32_t leaf = order_[i];
+        ShapeHits crossings;
+        bool inside = solid_.cross_shape(leaf, ray, crossings, stats);
+        bool any = false;
+        for (const ShapeHit& hit : crossings) {
+            if (hit.t < ray.t_min) {
+                inside = !inside;
+            } else if (hit.t <= last) {
+                any = true;
+                events.add({hit.t, hit.u, hit.v, hit.part, leaf});
+            }
+        }
+        if (!any && !inside && (needed_ >> leaf & 1) != 0) return false;
+        events.inside |= LeafSet{inside} << leaf;
+    }
+    return true;
+}
+
+/// Goes to the next transition, as the event heap does.
+bool CsgTruthTable::next(const CsgRay& ray, Events& events, CsgCrossing& found) const {
+    while (!events.at_end()) {
+        const double t = events.front().t;
+        if (t > ray.t_max) return false;
+        const LeafSet before = events.inside;
+        // What is crossed at t alone begins the transition or is none.
+        CsgCrossing cluster[kMaxLeaves * kMaxShapeHits];
+        std::size_t count = 0;
+        while (!events.at_end() && events.front().t <= t) cluster[count++] = events.pass();
+        if (is_solid(events.inside) == is_solid(before)) continue;
+        const double end = t + ray.tau;
+        while (!events.at_end() && events.front().t <= end) cluster[count++] = events.pass();
+        if (is_solid(events.inside) == is_solid(before)) continue;
+        bool any = false;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (any && cluster[i].leaf > found.leaf) continue;
+            if (!changes_all_the_way(cluster[i].leaf, before, events.inside)) continue;
+            found = cluster[i];  // of one leaf the last
+            any = true;
+        }
+        if (any && found.t <= ray.t_max) return true;
+    }
+    return false;
+}
+
+bool CsgTruthTable::changes_all_the_way(std::uint32_t leaf, LeafSet before, LeafSet after) const {
+    if (((before ^ after) >> leaf & 1) == 0) return false;
+    std::uint32_t node = solid_.tree().leaves()[leaf].parent;
+    for (; node != CsgTree::kNone; node = solid_.tree().nodes()[node].parent) {
+        if (((tables_[node] >> before ^ tables_[node] >> after) & 1) == 0) return false;
+    }
+    return true;
+}
+
+std::uint32_t CsgTruthTable::filling_leaf(LeafSet inside) const {
+    for (std::uint32_t leaf = 0; leaf < solid_.leaf_count(); ++leaf) {
+        const CsgTree::Leaf& l = solid_.tree().leaves()[leaf];
+        if ((inside >> leaf & 1) == 0 || l.complement) continue;
+        std::uint32_t node = l.parent;
+        while (node != CsgTree::kNone && (tables_[node] >> inside & 1) != 0) {
+            node = solid_.tree().nodes()[node].parent;
+        }
+        if (node == CsgTree::kNone) return leaf;
+    }
+    return CsgTree::kNone;
+}
+
+bool CsgTruthTable::first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const {
+    Events events;
+    CsgCrossing found{};
+    if (!gather(ray, events, stats) || !next(ray, events, found)) return false;
+    solid_.fill(found, {}, hit);
+    return true;
+}
+
+bool CsgTruthTable::all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const {
+    Events events;
+    if (!gather(ray, events, stats)) return false;
+    const bool begins_inside = is_solid(events.inside);
+    CsgCrossing found{};
+    while (next(ray, events, found)) solid_.fill(found, {}, hits.emplace_back());
+    return begins_inside;
+}
+
+CsgSides CsgTruthTable::sides(const CsgRay& ray, double t) const {
+    // All that makes one transition lies within tau of it.
+    CsgRay near = ray;
+    near.t_min = t - 2.0 * ray.tau;
+    near.t_max = t + 2.0 * ray.tau;
+    Events events;
+    CsgSides sides;
+    if (!gather(near, events, nullptr)) return sides;
+    sides.before = filling_leaf(events.inside);
+    while (!events.at_end() && events.front().t <= near.t_max) events.pass();
+    sides.after = filling_leaf(events.inside);
+    return sides;
+}
+
+}  // namespace alhazen

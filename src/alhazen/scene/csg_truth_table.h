@@ -1,0 +1,53 @@
+#pragma once
+/// The evaluator for solids of a few leaves, such as a sphere with a hole in it: no tree of boxes
+/// and no heap. The event heap leaves such solids to it.
+///
+/// Source: Roth, "Ray Casting for Modeling Solids", CGIP 18, 1982 (classification along a ray).
+/// Differs: which leaves a place is inside of is a number of so many bits, and whether a node of
+/// the expression is true there is looked up in a table with a bit for each such number. All
+/// crossings lie in one sorted list; a ray that misses a leaf without which there is nothing (what
+/// a difference takes from, an operand of an intersection) is done. Conventions: the transitions of
+/// csg_solid.h, the bits of the event heap. Leaves must be analytic shapes that cross a line no
+/// more than kMaxShapeHits times, and there is one medium. Threads: const functions may be called
+/// from many threads.
+
+#include <array>
+
+#include "alhazen/scene/csg_evaluator.h"
+
+namespace alhazen {
+
+class CsgTruthTable final : public CsgEvaluator {
+  public:
+    static constexpr std::uint32_t kMaxLeaves = 6;  ///< a table has 2^6 bits
+    static constexpr std::uint32_t kMaxNodes = 8;
+
+    [[nodiscard]] static bool fits(const CsgSolid& solid);
+    /// Precondition: it fits.
+    explicit CsgTruthTable(const CsgSolid& solid);
+
+    bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const override;
+    bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
+    [[nodiscard]] CsgSides sides(const CsgRay& ray, double t) const override;
+    [[nodiscard]] std::size_t memory_bytes() const override { return sizeof(*this); }
+
+  private:
+    /// A bit for each leaf that a place is inside of.
+    using LeafSet = std::uint32_t;
+    class Events;
+
+    [[nodiscard]] bool is_solid(LeafSet inside) const { return (tables_[0] >> inside & 1) != 0; }
+    bool gather(const CsgRay& ray, Events& events, TraversalStats* stats) const;
+    bool next(const CsgRay& ray, Events& events, CsgCrossing& found) const;
+    [[nodiscard]] bool changes_all_the_way(std::uint32_t leaf, LeafSet before, LeafSet after) const;
+    [[nodiscard]] std::uint32_t filling_leaf(LeafSet inside) const;
+
+    const CsgSolid& solid_;
+    std::array<std::uint64_t, kMaxNodes>
+        tables_{};  ///< [node] bit i: its value inside of LeafSet i
+    /// Leaves without which the solid is empty first.
+    std::array<std::uint32_t, kMaxLeaves> order_{};
+    LeafSet needed_ = 0;  ///< these
+};
+
+}  // namespace alhazen
