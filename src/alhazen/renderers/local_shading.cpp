@@ -119,9 +119,9 @@ void set_media(const Scene& scene, ShadingPoint& point) {
 }  // namespace
 
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
-                       double width, ShadingPoint& point) {
+                       double width, bool with_uv, ShadingPoint& point) {
     point.inside = inside;
-    point.surface = surface_at(*scene.aggregate, ray, hit);
+    set_surface(*scene.aggregate, ray, hit, with_uv, point.surface);
     std::array<UvFootprint, 2> footprint;
     if (scene.has_mipmaps && width > 0.0) {
         footprint = footprint_at(point.surface, ray.direction, width);
@@ -160,7 +160,8 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
         if (!scene.aggregate->closest(rest, found.hit, {stats, mask_of(RayKind::Eye)}))
             return false;
         found.t = passed + found.hit.t;
-        set_shading_point(scene, rest, found.hit, inside, cone.width_at(found.t), found.point);
+        set_shading_point(scene, rest, found.hit, inside, cone.width_at(found.t), true,
+                          found.point);
         const double coverage = found.point.material.coverage;
         if (coverage > 0.0) return true;
         passed = found.t;

@@ -50,9 +50,9 @@ struct ShadingPoint {
 /// ray came through the inside is known from its history, not from the normal: an open surface has
 /// a back but no inside. `width` is that of the ray's cone at the hit. The material is as the ray
 /// sees it: textures filtered, Fresnel's share for its angle, coverage 0 where a single-sided
-/// surface turns its back.
+/// surface turns its back. `with_uv`: else the surface's texture coordinates may be missing.
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
-                       double width, ShadingPoint& point);
+                       double width, bool with_uv, ShadingPoint& point);
 
 /// A surface that a ray sees.
 struct VisibleHit {

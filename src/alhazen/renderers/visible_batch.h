@@ -81,7 +81,8 @@ class VisibleBatch {
             return;
         }
         const double t = distance + hit.t;
-        set_shading_point(scene_, rest, hit, path.inside, path.cone.width_at(t), point_);
+        set_shading_point(scene_, rest, hit, path.inside, path.cone.width_at(t),
+                          !scene_.textures.empty(), point_);
         if (point_.material.coverage > 0.0) {
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;

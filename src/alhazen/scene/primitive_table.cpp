@@ -1,22 +1,16 @@
 #include "alhazen/scene/primitive_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "alhazen/base/error.h"
+#include "alhazen/scene/primitive_columns.h"
+#include "alhazen/shapes/first_hit.h"
 
 namespace alhazen {
 
 namespace {
-
-/// Calls `f(column)` for the column of an analytic kind.
-template <std::size_t I = 0, class Columns, class F>
-decltype(auto) with_column(Columns& columns, std::uint32_t kind, F&& f) {
-    if constexpr (I + 1 < AnalyticShapes::kCount) {
-        if (kind != I) return with_column<I + 1>(columns, kind, std::forward<F>(f));
-    }
-    return f(std::get<I>(columns));
-}
 
 /// Room for what carrying a ray into the inner frame and back rounds: it grows with the condition
 /// of the transform.
@@ -105,8 +99,11 @@ std::uint32_t PrimitiveTable::kind(PrimitiveId id) const {
     const std::uint32_t i = static_cast<std::uint32_t>(id);
     if (i >= first_[kTriangleKind])
         return i < first_[kInstanceKind] ? kTriangleKind : kInstanceKind;
+    // The last kind that begins at or before i: it is not empty.
     std::uint32_t kind = 0;
-    while (i >= first_[kind + 1]) ++kind;
+    for (std::uint32_t step = std::bit_floor(kTriangleKind); step > 0; step /= 2) {
+        if (kind + step < kTriangleKind && first_[kind + step] <= i) kind += step;
+    }
     return kind;
 }
 
@@ -280,17 +277,37 @@ bool PrimitiveTable::inside_at_minus_infinity(PrimitiveId id, const Ray& ray) co
     });
 }
 
+namespace {
+
+/// The first of what PrimitiveTable::intersect appends.
+bool first_hit_of(const PrimitiveTable& table, PrimitiveId id, const Ray& ray,
+                  const RayShear& shear, ShapeHit& hit) {
+    const std::uint32_t kind = table.kind(id);
+    const std::uint32_t i = static_cast<std::uint32_t>(id) - table.first(kind);
+    if (kind == kTriangleKind) {
+        const auto [a, b, c] = table.triangle_vertices(i);
+        return intersect_triangle(ray, shear, a, b, c, hit);
+    }
+    return with_column(table.columns, kind, [&](const auto& c) {
+        const std::uint32_t placement = c.placements[i];
+        if (placement == kNoPlacement) return find_first_hit(c.shapes[i], ray, hit);
+        const Affine& inner_from_outer = table.placements[placement].inner_from_outer;
+        return find_first_hit(c.shapes[i], transformed(inner_from_outer, ray), hit);
+    });
+}
+
+}  // namespace
+
 template <class Stats>
 void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best,
                              Stats stats, RayMask mask) const {
     if (!is_seen(id, mask)) return;
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
-        ShapeHits hits(1);
-        intersect(id, ray, shear, hits);
+        ShapeHit hit;
         stats.primitives(1);
-        if (hits.empty()) return;
+        if (!first_hit_of(*this, id, ray, shear, hit)) return;
         stats.primitive_hits(1);
-        offer(hits.front(), id, ray, best);
+        offer(hit, id, ray, best);
         return;
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
@@ -309,10 +326,9 @@ bool PrimitiveTable::occluded(PrimitiveId id, const Ray& ray, const RayShear& sh
                               RayMask mask) const {
     if (!is_seen(id, mask)) return false;
     if (static_cast<std::uint32_t>(id) < first_[kInstanceKind]) {
-        ShapeHits hits(1);
+        ShapeHit hit;
         stats.primitives(1);
-        intersect(id, ray, shear, hits);
-        if (hits.empty()) return false;
+        if (!first_hit_of(*this, id, ray, shear, hit)) return false;
         stats.primitive_hits(1);
         return true;
     }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/scene/primitive_columns.h"
+#include "alhazen/shapes/plain_surface.h"
 
 namespace alhazen {
 
@@ -68,28 +69,26 @@ Vec3 reach_of(const Box3& box, const Vec3& point) {
 /// the rounding of the next ray's test, which is relative to the size of the shape, not to where
 /// the point lies.
 template <class S>
-void shape_surface(const S& shape, const Ray& ray, const Hit& hit, Surface& surface) {
-    take(shape.surface(ray, hit), surface);
+void shape_surface(const S& shape, const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
+    take(surface_of_shape(shape, ray, hit, with_uv), surface);
     surface.error += 4 * kEpsilon * reach_of(shape.box(), surface.point);
 }
 
 void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
-                      const Ray& ray, const Hit& hit, Surface& surface) {
-    std::uint32_t k = 0;
-    const auto look_up = [&](const auto& column) {
-        if (k++ != kind) return;
+                      const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
+    with_column(table.columns, kind, [&](const auto& column) {
         const std::uint32_t placement = column.placements[index];
         if (placement == kNoPlacement) {
-            shape_surface(column.shapes[index], ray, hit, surface);
+            shape_surface(column.shapes[index], ray, hit, with_uv, surface);
         } else {
             const Placement& p = table.placements[placement];
-            shape_surface(column.shapes[index], transformed(p.inner_from_outer, ray), hit, surface);
+            shape_surface(column.shapes[index], transformed(p.inner_from_outer, ray), hit, with_uv,
+                          surface);
             carry_outward(p, surface);
         }
         surface.materials[0] = column.materials[index];
         if (!column.parts.empty()) surface.part = column.parts[index];
-    };
-    std::apply([&](const auto&... column) { (look_up(column), ...); }, table.columns);
+    });
 }
 
 /// What meshes may carry beyond positions, normals and one set of texture coordinates.
@@ -158,12 +157,12 @@ void triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hi
 
 /// Descends the path of instances from level `depth` (outermost = path.size()) inward.
 void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, std::size_t depth,
-                    Surface& surface) {
+                    bool with_uv, Surface& surface) {
     const PrimitiveTable& table = aggregate.primitives();
     if (depth > 0) {
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
         surface_inside(*instance.aggregate, transformed(instance.placement.inner_from_outer, ray),
-                       hit, depth - 1, surface);
+                       hit, depth - 1, with_uv, surface);
         carry_outward(instance.placement, surface);
         surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;
@@ -171,11 +170,11 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
         return;
     }
     const std::uint32_t kind = table.kind(hit.primitive);
-    const std::uint32_t index = table.index(hit.primitive);
+    const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table.first(kind);
     if (kind == kTriangleKind) {
         triangle_surface(table, index, hit, surface);
     } else {
-        analytic_surface(table, kind, index, ray, hit, surface);
+        analytic_surface(table, kind, index, ray, hit, with_uv, surface);
     }
     surface.instance = surface.part;
     aggregate.complete(ray, hit.t, hit.primitive, surface);
@@ -185,8 +184,14 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
 
 Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
     Surface surface;
-    surface_inside(aggregate, ray, hit, hit.path.size(), surface);
+    surface_inside(aggregate, ray, hit, hit.path.size(), true, surface);
     return surface;
+}
+
+void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
+                 Surface& surface) {
+    surface = Surface();
+    surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, surface);
 }
 
 Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {

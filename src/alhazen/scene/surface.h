@@ -47,6 +47,10 @@ struct Surface {
 
 /// `ray` is the world-space ray that found `hit` in `aggregate`.
 [[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit);
+/// The same into `surface`: it is large, and not copied. Without texture coordinates where
+/// `with_uv` is false and they would take time: uv and their derivatives are then zero or right.
+void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
+                 Surface& surface);
 
 /// The ray that leaves the surface along `direction`, as far as `t_max`. It starts outside the
 /// error bound of the point, on the side the direction points to, and excludes t = 0, so that it

@@ -1,0 +1,20 @@
+#pragma once
+/// Access to the column of an analytic kind that is known at run time.
+
+#include <tuple>
+#include <utility>
+
+#include "alhazen/scene/primitive_table.h"
+
+namespace alhazen {
+
+/// Calls `f(column)` for the column of a kind below kTriangleKind, of table.columns.
+template <std::size_t I = 0, class Columns, class F>
+decltype(auto) with_column(Columns& columns, std::uint32_t kind, F&& f) {
+    if constexpr (I + 1 < AnalyticShapes::kCount) {
+        if (kind != I) return with_column<I + 1>(columns, kind, std::forward<F>(f));
+    }
+    return f(std::get<I>(columns));
+}
+
+}  // namespace alhazen
