@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <map>
 #include <utility>
 
-#include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/compile_looks.h"
@@ -380,25 +378,6 @@ Scene compile(const SceneDescription& description, const CompileOptions& options
 
 Scene compile_taking_meshes(SceneDescription& description, const CompileOptions& options) {
     return Compiler(description, options, &description.meshes).run();
-}
-
-const CameraDescription& find_camera(const Scene& scene, const std::string& name) {
-    if (scene.cameras.empty()) throw Error(ErrorKind::Scene, "the scene has no camera");
-    if (name.empty()) return scene.cameras.front();
-    for (const CameraDescription& camera : scene.cameras) {
-        if (camera.name == name) return camera;
-    }
-    std::size_t index = 0;
-    const auto [end, status] = std::from_chars(name.data(), name.data() + name.size(), index);
-    if (status == std::errc{} && end == name.data() + name.size() && index < scene.cameras.size()) {
-        return scene.cameras[index];
-    }
-    std::string known;
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        known +=
-            fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, escape_controls(scene.cameras[i].name));
-    }
-    throw Error(ErrorKind::Usage, fmt::format("no camera '{}'; the scene has: {}", name, known));
 }
 
 }  // namespace alhazen
