@@ -29,6 +29,19 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
     }
     rays["refraction"]["total_internal"] = counters.total_internal;
     const TraversalStats& tests = counters.tests;
+    json tests_json;  // null: they were not counted
+    if (options.count_tests || options.aovs.has_tests()) {
+        tests_json = {{"box", tests.box_tests},
+                      {"primitive", tests.primitive_tests},
+                      {"primitive_hit", tests.primitive_hits},
+                      {"mailbox_saved", tests.mailbox_saved},
+                      {"node_visits", tests.node_visits},
+                      {"empty_cells", tests.empty_cells},
+                      {"slab", tests.slab_tests},
+                      {"heap_pushes", tests.heap_pushes},
+                      {"cache_lookups", tests.cache_lookups},
+                      {"cache_hits", tests.cache_hits}};
+    }
     const SceneCensus& census = loaded.scene.census;
     const std::optional<double> each = bytes_per_effective_primitive(census);
     const json bytes_each = each ? json(*each) : json(nullptr);
@@ -44,17 +57,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"seed", options.seed},
         {"complete", result.complete},
         {"rays", rays},
-        {"tests",
-         {{"box", tests.box_tests},
-          {"primitive", tests.primitive_tests},
-          {"primitive_hit", tests.primitive_hits},
-          {"mailbox_saved", tests.mailbox_saved},
-          {"node_visits", tests.node_visits},
-          {"empty_cells", tests.empty_cells},
-          {"slab", tests.slab_tests},
-          {"heap_pushes", tests.heap_pushes},
-          {"cache_lookups", tests.cache_lookups},
-          {"cache_hits", tests.cache_hits}}},
+        {"tests", tests_json},
         {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
         {"memory",
