@@ -149,14 +149,8 @@ void Bsp::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
             }
         }
         const Node& leaf = nodes_[at.node];
-        if (leaf.count == 0) stats.empty_cells(1);
-        for (std::uint32_t e = leaf.index; e < leaf.index + leaf.count; ++e) {
-            if (config_.mailbox && !mailbox.is_new(entries_[e])) {
-                stats.mailbox_saved(1);
-                continue;
-            }
-            if (visitor.visit(entries_[e])) return;
-        }
+        const std::span entries(entries_.data() + leaf.index, leaf.count);
+        if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
     }
 }
 static_assert(Accelerator<Bsp>);

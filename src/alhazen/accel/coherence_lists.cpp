@@ -120,12 +120,17 @@ const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
     if (slots == nullptr) return nullptr;
     const std::size_t cell = cube_of(origin).cell_of(direction);
     const List* known = slots[cell].load(std::memory_order_acquire);
-    if (known != nullptr) return known;
+    if (known != nullptr || full_) return known;
     auto made = std::make_unique<const List>(make(origin, cell));
     const std::lock_guard lock(making_);
     known = slots[cell].load(std::memory_order_relaxed);
     const std::size_t bytes = sizeof(List) + made->capacity() * sizeof(Candidate);
-    if (known != nullptr || used_ + bytes > most_bytes_) return known;
+    if (known != nullptr) return known;
+    if (used_ + bytes > most_bytes_) {
+        // Else every ray of this cell would make the list anew, for nothing.
+        full_ = true;
+        return nullptr;
+    }
     used_ += bytes;
     ++lists_made_;
     candidates_made_ += made->size();

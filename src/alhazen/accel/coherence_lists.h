@@ -81,6 +81,7 @@ class CoherenceLists {
     mutable std::vector<std::unique_ptr<Slot[]>> made_slots_;
     mutable std::vector<std::unique_ptr<const List>> made_lists_;
     mutable std::atomic<std::size_t> used_{0}, lists_made_{0}, candidates_made_{0};
+    mutable std::atomic<bool> full_{false};  ///< a list had no room: no more are made
 };
 
 }  // namespace alhazen

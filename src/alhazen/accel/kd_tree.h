@@ -21,6 +21,7 @@
 #include "alhazen/accel/accelerator.h"
 #include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/mailbox.h"
+#include "alhazen/accel/padded_box.h"
 #include "alhazen/accel/reentrant_stack.h"
 #include "alhazen/accel/traversal_trace.h"
 
@@ -59,7 +60,7 @@ class KdTree {
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
     /// The root's, a little wider than what is in it.
-    [[nodiscard]] const Box3& box() const { return box_; }
+    [[nodiscard]] const Box3& box() const { return space_.box; }
     /// The expected cost of a ray that meets the root's box, by the heuristic.
     [[nodiscard]] double expected_cost() const { return expected_cost_; }
 
@@ -78,8 +79,7 @@ class KdTree {
     };
 
     Config config_;
-    Box3 box_;
-    double pad_ = 0;
+    PaddedBox space_;
     std::uint32_t primitives_ = 0;
     double expected_cost_ = 0;
     std::vector<Node> nodes_;
@@ -89,31 +89,14 @@ class KdTree {
 template <class Visitor, class Stats>
 void KdTree::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
     if (nodes_.empty()) return;
-    if (max_component(abs(ray.origin)) > 0x1p44 * pad_) {
-        for (std::uint32_t i = 0; i < primitives_; ++i) {
-            if (visitor.visit(i)) return;
-        }
-        return;
-    }
-    double begin = ray.t_min, end = visitor.t_max();
-    Vec3 inverse;
-    for (int k = 0; k < 3; ++k) {
-        inverse[k] = 1.0 / ray.direction[k];
-        // Also for components so small that only infinity tells how far they lead.
-        if (std::isinf(inverse[k])) {
-            if (ray.origin[k] < box_.lo[k] || ray.origin[k] > box_.hi[k]) return;
-            continue;
-        }
-        const double a = (box_.lo[k] - ray.origin[k]) * inverse[k];
-        const double b = (box_.hi[k] - ray.origin[k]) * inverse[k];
-        begin = std::max(begin, std::min(a, b));
-        end = std::min(end, std::max(a, b));
-    }
-    if (begin > end) return;
+    if (!space_.covers(ray)) return visit_all(primitives_, visitor);
+    const RaySpan span(space_.box, ray, visitor.t_max());
+    if (span.empty()) return;
+    const Vec3& inverse = span.inverse;
 
     Mailbox mailbox;
     ReentrantStack<Segment> stack;
-    stack.push({0, begin, end});
+    stack.push({0, span.begin, span.end});
     while (!stack.empty()) {
         Segment at = stack.pop();
         // Not the end: where the ray runs in a plane, nearer segments may lie deeper in the stack.
@@ -125,7 +108,7 @@ void KdTree::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
             const int axis = node.axis;
             const double from = ray.origin[axis] - node.plane;
             // Both sides where the ray runs within the room for rounding of the plane.
-            const double room = pad_ * 0.5;
+            const double room = space_.pad * 0.5;
             const std::uint32_t lower = at.node + 1, upper = node.index;
             if (std::isinf(inverse[axis])) {
                 if (from > room) {
@@ -152,14 +135,8 @@ void KdTree::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         }
         const Node& leaf = nodes_[at.node];
         note_cell(stats, at.node);
-        if (leaf.count == 0) stats.empty_cells(1);
-        for (std::uint32_t e = leaf.index; e < leaf.index + leaf.count; ++e) {
-            if (config_.mailbox && !mailbox.is_new(entries_[e])) {
-                stats.mailbox_saved(1);
-                continue;
-            }
-            if (visitor.visit(entries_[e])) return;
-        }
+        const std::span entries(entries_.data() + leaf.index, leaf.count);
+        if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
     }
 }
 static_assert(Accelerator<KdTree>);

@@ -71,10 +71,9 @@ class LightBuffer {
 
     template <class Visitor, class Stats>
     void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
-        constexpr AsksFor kAsked = asks_for<Visitor>();
-        if constexpr (kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker) {
-            if (space_.covers(ray)) {
-                if (const auto found = ends_.find(ray)) return shadow(ray, *found, visitor, stats);
+        if (space_.covers(ray)) {
+            if (const auto to = ends_.find_for<Visitor>(ray)) {
+                return shadow(ray, *to, visitor, stats);
             }
         }
         others_.traverse(ray, visitor, stats);

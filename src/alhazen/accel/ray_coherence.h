@@ -37,15 +37,11 @@ class RayCoherence {
     template <class Visitor, class Stats>
     void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         if (lists_ != nullptr && space_.covers(ray)) {
-            constexpr AsksFor kAsked = asks_for<Visitor>();
-            if constexpr (kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker) {
-                if (const auto to = ends_.find(ray)) {
-                    const auto* list =
-                        lists_->find(lists_->origin_of_light(to->end), -ray.direction);
-                    if (list != nullptr) {
-                        return test(
-                            *list, [&] { return to->start; }, visitor, stats);
-                    }
+            if (const auto to = ends_.find_for<Visitor>(ray)) {
+                const auto* list = lists_->find(lists_->origin_of_light(to->end), -ray.direction);
+                if (list != nullptr) {
+                    return test(
+                        *list, [&] { return to->start; }, visitor, stats);
                 }
             }
             if (const auto* list = list_from(ray, stats)) {

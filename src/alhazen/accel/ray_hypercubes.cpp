@@ -138,7 +138,7 @@ RayHypercubes::Node* RayHypercubes::children_of(Node& node) const {
 const RayHypercubes::List* RayHypercubes::list_of(Node& child, const List& parent, int direction,
                                                   const Hypercube& cube) const {
     const List* known = child.list.load(std::memory_order_acquire);
-    if (known != nullptr) return known;
+    if (known != nullptr || full_) return known;
     auto made = std::make_unique<const List>(meeting(parent, direction, cube));
     const std::lock_guard lock(making_);
     known = child.list.load(std::memory_order_relaxed);
@@ -147,6 +147,8 @@ const RayHypercubes::List* RayHypercubes::list_of(Node& child, const List& paren
     if (made->size() == parent.size()) {
         known = &parent;  // inherited
     } else if (used_ + bytes > limits_.memory_bytes) {
+        // Else every ray of this class would make the list anew, for nothing.
+        full_ = true;
         return nullptr;
     } else {
         used_ += bytes;

@@ -104,6 +104,7 @@ class RayHypercubes {
     mutable std::vector<std::unique_ptr<Node[]>> nodes_;
     mutable std::vector<std::unique_ptr<const List>> lists_;
     mutable std::atomic<std::size_t> used_{0}, nodes_made_{6};
+    mutable std::atomic<bool> full_{false};  ///< a list had no room: no more are made
 };
 
 }  // namespace alhazen

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "alhazen/scene/accelerator_bytes.h"
 #include "alhazen/session/unique_bytes.h"
 
 namespace alhazen {
@@ -42,7 +43,9 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
                       {"cache_lookups", tests.cache_lookups},
                       {"cache_hits", tests.cache_hits}};
     }
-    const SceneCensus& census = loaded.scene.census;
+    SceneCensus census = loaded.scene.census;
+    // Some accelerators make their lists as rays come.
+    census.accelerator_bytes = accelerator_bytes(*loaded.scene.aggregate);
     const std::optional<double> each = bytes_per_effective_primitive(census);
     const json bytes_each = each ? json(*each) : json(nullptr);
     return {
