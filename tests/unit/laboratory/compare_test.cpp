@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -59,7 +60,9 @@ TEST(Compare, TheCostOfThePixelsIsAllThatIsVisitedAndTested) {
         EXPECT_EQ(cost,
                   static_cast<double>(tests.node_visits + tests.box_tests + tests.primitive_tests))
             << m.accelerator;
-        if (m.name() == "bounding_volumes") EXPECT_GT(tests.box_tests, tests.primitive_tests);
+        if (m.name() == "bounding_volumes") {
+            EXPECT_GT(tests.box_tests, tests.primitive_tests);
+        }
     }
 }
 
