@@ -11,18 +11,14 @@
 /// tested against everything. Complexity: O(n log n) to build; `build=n2` finds the same tree, bit
 /// for bit, in O(n^2).
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "alhazen/accel/accelerator.h"
 #include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/mailbox.h"
 #include "alhazen/accel/padded_box.h"
-#include "alhazen/accel/reentrant_stack.h"
+#include "alhazen/accel/plane_walk.h"
 #include "alhazen/accel/traversal_trace.h"
 
 namespace alhazen {
@@ -73,11 +69,6 @@ class KdTree {
 
   private:
     friend class KdTreeBuilder;
-    struct Segment {
-        std::uint32_t node;
-        double begin, end;
-    };
-
     Config config_;
     PaddedBox space_;
     std::uint32_t primitives_ = 0;
@@ -92,52 +83,17 @@ void KdTree::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
     if (!space_.covers(ray)) return visit_all(primitives_, visitor);
     const RaySpan span(space_.box, ray, visitor.t_max());
     if (span.empty()) return;
-    const Vec3& inverse = span.inverse;
-
     Mailbox mailbox;
-    ReentrantStack<Segment> stack;
-    stack.push({0, span.begin, span.end});
-    while (!stack.empty()) {
-        Segment at = stack.pop();
-        // Not the end: where the ray runs in a plane, nearer segments may lie deeper in the stack.
-        if (at.begin > visitor.t_max()) continue;
-        for (;;) {
-            const Node& node = nodes_[at.node];
-            stats.nodes(1);
-            if (node.is_leaf()) break;
-            const int axis = node.axis;
-            const double from = ray.origin[axis] - node.plane;
-            // Both sides where the ray runs within the room for rounding of the plane.
-            const double room = space_.pad * 0.5;
-            const std::uint32_t lower = at.node + 1, upper = node.index;
-            if (std::isinf(inverse[axis])) {
-                if (from > room) {
-                    at.node = upper;
-                } else {
-                    if (from >= -room) stack.push({upper, at.begin, at.end});
-                    at.node = lower;
-                }
-                continue;
-            }
-            const bool up = ray.direction[axis] > 0.0;
-            const std::uint32_t first = up ? lower : upper, second = up ? upper : lower;
-            const double t = -from * inverse[axis];
-            const double slack = room * std::abs(inverse[axis]);
-            if (t - slack > at.end) {
-                at.node = first;
-            } else if (t + slack < at.begin) {
-                at.node = second;
-            } else {
-                stack.push({second, std::max(at.begin, t - slack), at.end});
-                at.node = first;
-                at.end = std::min(at.end, t + slack);
-            }
-        }
-        const Node& leaf = nodes_[at.node];
-        note_cell(stats, at.node);
+    const auto from_plane = [&](const Node& node) {
+        return FromPlane{ray.origin[node.axis] - node.plane, span.inverse[node.axis]};
+    };
+    const auto test_leaf = [&](std::uint32_t number) {
+        const Node& leaf = nodes_[number];
+        note_cell(stats, number);
         const std::span entries(entries_.data() + leaf.index, leaf.count);
-        if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
-    }
+        return visit_entries(entries, config_.mailbox, mailbox, visitor, stats);
+    };
+    walk_through_planes(nodes_, span, 0.5 * space_.pad, from_plane, test_leaf, visitor, stats);
 }
 static_assert(Accelerator<KdTree>);
 

@@ -26,8 +26,9 @@ class RayCoherence {
         "lists for the directions from every primitive and light";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        int resolution = 8;  ///< of a face of the cube of directions
-        int most = 20000;    ///< with more primitives all rays are others
+        int resolution =
+            0;             ///< of a face of the cube of directions, 0: by the number of primitives
+        int most = 20000;  ///< with more primitives all rays are others
         int memory_mib = 256;
         OtherRays::Kind others = OtherRays::Kind::Hierarchy;
     };

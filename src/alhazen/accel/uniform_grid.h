@@ -26,6 +26,7 @@ class UniformGrid {
     struct Config {
         double density = 3;          ///< cells for each primitive
         std::array<int, 3> cells{};  ///< along each axis, by hand; 0: by the density
+        bool by_boxes = false;       ///< a primitive is in all cells that its box reaches into
         bool mailbox = true;         ///< a primitive in many cells is tested once a ray
         bool hit_in_cell = true;     ///< false shows what goes wrong without the rule
     };
