@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/accel/kd_tree.h"
@@ -66,19 +67,23 @@ void claim_b4(ClaimRun& run) {
                     published.cells_1);
     }
     run.note(
-        "Published figures of another program with other rules: how a density becomes cells along "
-        "the "
-        "axes, which primitives a cell holds (ours: spheres and triangles that reach into it, all "
-        "else "
-        "by its box), and whether a shadow ray ends at the first thing it meets (ours does).");
+        "Lists by boxes and no mailboxes, as the published figures evidently are. Of the others, "
+        "most are of scenes that differ: the mountain is another one, gears holds faces of 144 "
+        "corners as one primitive, the view of lattice is not known. In tetra at density 1 the "
+        "walls "
+        "of cells are walls of the tetrahedra, which lie in the cells on both sides here. In balls "
+        "and tree a large ground leaves the rest a few cells, so that one more or less counts. See "
+        "accelerators.md, Counts beside published ones.");
 }
 
 void claim_b5(ClaimRun& run) {
     for (const SpdScene& scene : kSpdScenes) {
         SceneTrial& trial = run.spd(scene);
         run.step(scene.name);
-        const ReplayFigures with = trial.ask("uniform_grid", counting(run));
-        const ReplayFigures without = trial.ask("uniform_grid:mailbox=off", counting(run));
+        // The same rays: what samples differ by is more than mailboxes save in some scenes.
+        const ReplayOptions all{.seconds = 1e3, .repetitions = 0, .in_batches = false};
+        const ReplayFigures with = trial.ask("uniform_grid", all);
+        const ReplayFigures without = trial.ask("uniform_grid:mailbox=off", all);
         const double saved = 1 - with.each(kPrimitives) / without.each(kPrimitives);
         run.expect(scene.name,
                    fmt::format("{:.2f} instead of {:.2f}, {:.1f} % fewer", with.each(kPrimitives),
@@ -173,10 +178,14 @@ void claim_b9(ClaimRun& run) {
     for (const std::size_t count : {10'000u, 100'000u, 1'000'000u}) {
         run.step(fmt::format("{} spheres", count));
         const SphereBoxes boxes(count, 3);
-        const CpuClock clock;
-        (void)KdTree::build(boxes, {});
+        double least = 1e300;
+        for (int i = 0; i < (count < 1'000'000 ? 3 : 1); ++i) {
+            const CpuClock clock;
+            (void)KdTree::build(boxes, {});
+            least = std::min(least, clock.seconds());
+        }
         n.push_back(static_cast<double>(count));
-        seconds.push_back(clock.seconds());
+        seconds.push_back(least);
         run.tell(fmt::format("{} spheres", count), fmt::format("{:.4g} s", seconds.back()));
     }
     const double slope = log_log_slope(n, seconds);
