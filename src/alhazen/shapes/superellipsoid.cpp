@@ -3,7 +3,9 @@
 #include <array>
 #include <utility>
 
+#include "alhazen/math/double_double_power.h"
 #include "alhazen/shapes/ellipsoid.h"
+#include "alhazen/shapes/polynomial_solid.h"
 
 namespace alhazen {
 
@@ -11,52 +13,85 @@ namespace {
 
 /// Beyond this the line is outside for sure.
 constexpr double kRoom = 1.0 + 1.0 / 64;
-/// Rounding of the sum of powers, relative: powers are right to an ulp, but their bases' own
-/// rounding grows with the exponent.
-constexpr double kSlack = 0x1p-48;
+/// Roundings of a sum of powers for every unit of the exponents, in half ulps.
+constexpr double kRoundings = 32.0;
+/// The same of double-double, relative.
+constexpr double kPreciseSlack = 0x1p-92;
+/// Where the slope is at least this share of its terms, a root found in double is right to about
+/// the rounding of t.
+constexpr double kSteepEnough = 1.0 / 8;
+/// Halvings of a part of the line, at the most.
+constexpr int kMostHalvings = 48;
+/// Of one line, at the most.
+constexpr int kMostSamples = 2000;
 
 /// The function at one point of the line, term by term.
 struct Sample {
     double t = 0;
     std::array<double, 3> at{};     ///< |x|, |y|, |z|
     std::array<double, 3> power{};  ///< |x|^p, |y|^p, |z|^q
-    bool inside = false;            ///< as it is computed
-    bool certain = false;           ///< not within the rounding of the surface
+    double error = 0;               ///< bound of that of the terms' sum
+    double value = 0;               ///< that sum minus 1, in double-double where double cannot tell
+    double value_error = 0;         ///< bound of that of `value`
+    bool inside = false;   ///< as it is computed: in double-double where double cannot tell
+    bool certain = false;  ///< not within the rounding of the surface
+};
+
+/// The line of a ray in the frame of the solid.
+struct LocalLine {
+    const Superellipsoid& solid;
+    const Ray& ray;
+    const ClipSegment& segment;
+
+    /// The function minus 1 on the exact line, t from the shifted origin.
+    [[nodiscard]] DoubleDouble precise(double t) const {
+        const Point3<DoubleDouble> o = solid.frame.local_point(to_real<DoubleDouble>(ray.origin));
+        const Point3<DoubleDouble> d =
+            solid.frame.local_vector(to_real<DoubleDouble>(ray.direction));
+        const DoubleDouble at = two_sum(segment.shift, t);
+        const DoubleDouble p(solid.p), q(solid.q);
+        const auto term = [&](const DoubleDouble& from, const DoubleDouble& step,
+                              const DoubleDouble& exponent) {
+            const DoubleDouble x = from + at * step;
+            return power(x.high < 0.0 ? -x : x, exponent);
+        };
+        const DoubleDouble across = term(o.x, d.x, p) + term(o.y, d.y, p);
+        return power(across, quotient(q, p)) + term(o.z, d.z, q) - DoubleDouble(1.0);
+    }
 };
 
 class CrossingSearch {
   public:
-    CrossingSearch(const Superellipsoid& s, const Vec3& o, const Vec3& d)
-        : p_(s.p), q_(s.q), o_(o), d_(d) {}
+    explicit CrossingSearch(const LocalLine& line)
+        : line_(line),
+          p_(line.solid.p),
+          q_(line.solid.q),
+          o_(line.segment.o),
+          coordinate_error_(0x1p-53 * line.segment.relative_error) {
+        // Each component to its own last digit: along a face two of them may be next to nothing.
+        const Point3<DoubleDouble> d =
+            line.solid.frame.local_vector(to_real<DoubleDouble>(line.ray.direction));
+        d_ = {d.x.high, d.y.high, d.z.high};
+    }
 
     /// Appends where the line goes in and out between two samples on one side of all planes
     /// through the axes.
-    void search(const Sample& a, const Sample& b, int depth) {
-        Interval value;
-        const bool one_way = monotone(a, b, value);
-        if (value.lo > 1.0 + slack() || value.hi < 1.0 - slack()) return;
-        if (one_way || depth == 0) {
-            if (a.inside != b.inside) put(bisected(a, b));
-            return;
+    void search_part(const Sample& a, const Sample& b) {
+        const double middle = 0.5 * a.t + 0.5 * b.t;
+        for (int k = 0; k < 3; ++k) {
+            const double x = o_[k] + middle * d_[k];
+            rate_[static_cast<std::size_t>(k)] = x < 0.0 ? -d_[k] : d_[k];
         }
-        Sample middle = sample(0.5 * a.t + 0.5 * b.t);
-        // Noise along a line that grazes must not look like crossings.
-        if (!middle.certain && a.inside == b.inside) middle.inside = a.inside;
-        search(a, middle, depth - 1);
-        search(middle, b, depth - 1);
+        search(a, b, kMostHalvings);
     }
 
     [[nodiscard]] Sample sample(double t) const {
-        Sample s;
-        s.t = t;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const int axis = static_cast<int>(k);
-            s.at[k] = std::abs(o_[axis] + t * d_[axis]);
-            s.power[k] = std::pow(s.at[k], k < 2 ? p_ : q_);
-        }
-        const double value = sum(s.power[0] + s.power[1], s.power[2]);
-        s.inside = value < 1.0;
-        s.certain = std::abs(value - 1.0) > slack();
+        Sample s = sample_in_double(t);
+        if (s.certain) return s;
+        s.value = line_.precise(t).high;
+        s.value_error = kPreciseSlack * (p_ + q_);
+        s.inside = s.value < 0.0;
+        s.certain = std::abs(s.value) > s.value_error;
         return s;
     }
 
@@ -64,55 +99,120 @@ class CrossingSearch {
     [[nodiscard]] int count() const { return count_; }
 
   private:
-    [[nodiscard]] double slack() const { return kSlack * (p_ + q_); }
-    [[nodiscard]] double sum(double across, double along) const {
-        return std::pow(across, q_ / p_) + along;
+    [[nodiscard]] Sample sample_in_double(double t) const {
+        Sample s;
+        s.t = t;
+        bool steep = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int axis = static_cast<int>(k);
+            const double exponent = k < 2 ? p_ : q_;
+            s.at[k] = std::abs(o_[axis] + t * d_[axis]);
+            s.power[k] = std::pow(s.at[k], exponent);
+            // A root falls without bound where its argument is next to nothing.
+            steep = steep || (exponent < 1.0 && s.at[k] < 0x1p-20);
+        }
+        const double across = s.power[0] + s.power[1];
+        const double bent = std::pow(across, q_ / p_);
+        const double value = bent + s.power[2];
+        double slopes = across > 0.0 ? bent / across * (slope(s, 0) + slope(s, 1)) : 0.0;
+        slopes = q_ * (slopes + slope(s, 2));
+        s.error = 2.0 * coordinate_error_ * slopes + 0x1p-53 * kRoundings * (p_ + q_) * value;
+        s.value = value - 1.0;
+        s.value_error = s.error;
+        s.inside = value < 1.0;
+        s.certain = std::abs(s.value) > s.error && !steep;
+        return s;
+    }
+    /// The slope of a power over its exponent.
+    static double slope(const Sample& s, std::size_t k) {
+        return s.at[k] > 0.0 ? s.power[k] / s.at[k] : 0.0;
     }
 
-    /// The range of the function between a and b; true when it only rises or only falls.
-    bool monotone(const Sample& a, const Sample& b, Interval& value) const {
+    struct Slope {
+        Interval range{0.0, 0.0};  ///< of the function over q, by t
+        double terms = 0;          ///< bound of the sum of the magnitudes of what it is made of
+        double noise = 0;          ///< it is not known better than to this
+
+        [[nodiscard]] bool has_sign() const { return range.lo > noise || range.hi < -noise; }
+        [[nodiscard]] double most() const {
+            return std::fmax(std::abs(range.lo), std::abs(range.hi)) + noise;
+        }
+        [[nodiscard]] bool is_steep() const {
+            return has_sign() &&
+                   std::fmin(std::abs(range.lo), std::abs(range.hi)) >= kSteepEnough * terms;
+        }
+    };
+
+    void search(const Sample& a, const Sample& b, int depth) {
+        Interval value;
+        const Slope slope = slope_between(a, b, value);
+        const double error = a.error + b.error;
+        if (value.lo > 1.0 + error || value.hi < 1.0 - error) return;
+        if (slope.has_sign() || depth == 0 || samples_ >= kMostSamples ||
+            (!a.certain && !b.certain)) {
+            if (a.inside != b.inside) put(root(a, b, slope.is_steep()));
+            return;
+        }
+        // Too far from the surface to come there and back.
+        const double way = q_ * slope.most() * (b.t - a.t);
+        if (a.inside == b.inside && std::abs(a.value) - a.value_error > way) return;
+        if (a.inside == b.inside && std::abs(b.value) - b.value_error > way) return;
+        ++samples_;
+        Sample middle = sample(0.5 * a.t + 0.5 * b.t);
+        // Noise along a line that grazes must not look like crossings.
+        if (!middle.certain && a.inside == b.inside) middle.inside = a.inside;
+        search(a, middle, depth - 1);
+        search(middle, b, depth - 1);
+    }
+
+    /// Slope / q = s^(r - 1) (x^(p - 1) x' + y^(p - 1) y') + z^(q - 1) z', each factor monotone
+    /// between a and b, as the terms of the function are: `value` is its range.
+    Slope slope_between(const Sample& a, const Sample& b, Interval& value) const {
         std::array<double, 3> lo, hi;
-        bool rises = false, falls = false;
         for (std::size_t k = 0; k < 3; ++k) {
             lo[k] = std::fmin(a.power[k], b.power[k]);
             hi[k] = std::fmax(a.power[k], b.power[k]);
-            rises = rises || a.at[k] < b.at[k];
-            falls = falls || a.at[k] > b.at[k];
         }
-        const double s_lo = lo[0] + lo[1], s_hi = hi[0] + hi[1];
         const double r = q_ / p_;
+        const double s_lo = lo[0] + lo[1], s_hi = hi[0] + hi[1];
         const double h_lo = std::pow(s_lo, r), h_hi = std::pow(s_hi, r);
         value = {h_lo + lo[2], h_hi + hi[2]};
-        if (!rises || !falls) return true;
-        // Slope / q = s^(r - 1) (x^(p - 1) x' + y^(p - 1) y') + z^(q - 1) z', each factor monotone.
-        const auto over = [](double power, double base) { return power / base; };
-        Interval slope{0.0, 0.0};
+        const Interval outer = ordered(h_lo / s_lo, h_hi / s_hi);
+        Slope slope;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double change = b.at[k] - a.at[k];
-            if (change == 0.0) continue;
-            double g0 = over(a.power[k], a.at[k]), g1 = over(b.power[k], b.at[k]);
-            if (g0 > g1) std::swap(g0, g1);
-            if (k < 2) {
-                const double f0 = over(h_lo, s_lo), f1 = over(h_hi, s_hi);
-                g0 *= std::fmin(f0, f1);
-                g1 *= std::fmax(f0, f1);
-            }
-            slope.lo += change * (change > 0.0 ? g0 : g1);
-            slope.hi += change * (change > 0.0 ? g1 : g0);
+            const double rate = rate_[k];
+            if (rate == 0.0) continue;
+            Interval g = ordered(a.power[k] / a.at[k], b.power[k] / b.at[k]);
+            if (k < 2) g = ordered(g.lo * outer.lo, g.hi * outer.hi);
+            slope.range.lo += rate * (rate > 0.0 ? g.lo : g.hi);
+            slope.range.hi += rate * (rate > 0.0 ? g.hi : g.lo);
+            slope.terms += std::abs(rate) * g.hi;
         }
-        const double scale = std::abs(slope.lo) + std::abs(slope.hi);
-        return slope.lo > kSlack * scale || slope.hi < -kSlack * scale;
+        slope.noise = 0x1p-53 * kRoundings * (p_ + q_) * slope.terms;
+        return slope;
+    }
+
+    /// Anything positive where one end is no number: on a plane of symmetry.
+    static Interval ordered(double a, double b) {
+        if (a <= b) return {a, b};
+        if (b <= a) return {b, a};
+        return {0.0, kInfinity};
     }
 
     /// The t between a and b, of which one is inside, where the function is 1.
-    [[nodiscard]] double bisected(Sample a, Sample b) const {
-        for (int i = 0; i < 80; ++i) {
-            const double t = 0.5 * a.t + 0.5 * b.t;
-            if (!(t > a.t && t < b.t)) break;
-            const Sample middle = sample(t);
-            (middle.inside == a.inside ? a : b) = middle;
-        }
-        return b.t;
+    [[nodiscard]] double root(const Sample& a, const Sample& b, bool steep) const {
+        const auto f = [&](double t, double& value, double& slope) {
+            const Sample s = sample_in_double(t);
+            const double across = s.power[0] + s.power[1];
+            const double bent = std::pow(across, q_ / p_);
+            value = steep ? (bent - 1.0) + s.power[2] : line_.precise(t).high;
+            double both = 0.0;
+            for (std::size_t k = 0; k < 2; ++k) both += rate_[k] * CrossingSearch::slope(s, k);
+            slope = q_ * ((across > 0.0 ? bent / across * both : 0.0) +
+                          rate_[2] * CrossingSearch::slope(s, 2));
+        };
+        return bernstein::bracketed_newton(f, a.t, b.t, a.inside ? -1.0 : 1.0,
+                                           0.5 * a.t + 0.5 * b.t);
     }
 
     void put(double t) {
@@ -120,10 +220,14 @@ class CrossingSearch {
         ++count_;
     }
 
+    const LocalLine& line_;
     double p_, q_;
     Vec3 o_, d_;
+    double coordinate_error_;       ///< bound of that of x, y and z
+    std::array<double, 3> rate_{};  ///< change of |x|, |y| and |z| in the part that is searched
     std::array<double, Superellipsoid::kMaxHits> t_{};
     int count_ = 0;
+    int samples_ = 0;
 };
 
 }  // namespace
@@ -155,36 +259,36 @@ Box3 Superellipsoid::box() const {
 }
 
 int Superellipsoid::intersect(const Ray& ray, ShapeHit* hits) const {
-    Vec3 o = frame.to_local(ray.origin);
-    const Vec3 d = frame.local_from_object * ray.direction;
-    ClipRange range;
-    if (!cut_by_box(o, d, {{-kRoom, -kRoom, -kRoom}, {kRoom, kRoom, kRoom}}, range)) return 0;
-    if (!(range.exit >= ray.t_min && range.entry <= ray.t_max)) return 0;
-    // From where the line enters: from afar its digits would be lost.
-    const double shift = range.entry;
-    o = frame.to_local(advanced(ray, shift).origin);
-    std::array<double, 5> cuts{0.0};
+    ClipSegment segment;
+    const Box3 around{{-kRoom, -kRoom, -kRoom}, {kRoom, kRoom, kRoom}};
+    if (!clip_segment(frame, ray, around, 1.0, segment)) return 0;
+    const Vec3 &o = segment.o, &d = segment.d;
+    const double entry = segment.range.entry - segment.shift;
+    const double exit = segment.range.exit - segment.shift;
+    std::array<double, 5> cuts{entry};
     std::size_t count = 1;
     for (int k = 0; k < 3; ++k) {
         const double t = -o[k] / d[k];
-        if (!(t > 0.0 && t < range.exit - shift)) continue;
+        if (!(t > entry && t < exit)) continue;
         std::size_t place = count++;
         for (; place > 1 && cuts[place - 1] > t; --place) cuts[place] = cuts[place - 1];
         cuts[place] = t;
     }
-    cuts[count++] = range.exit - shift;
-    CrossingSearch search(*this, o, d);
+    cuts[count++] = exit;
+    const LocalLine line{*this, ray, segment};
+    CrossingSearch search(line);
     Sample before = search.sample(cuts[0]);
     for (std::size_t i = 1; i < count; ++i) {
         Sample after = search.sample(cuts[i]);
         if (!after.certain) after.inside = before.inside && i + 1 < count;
-        search.search(before, after, 40);
+        search.search_part(before, after);
         before = after;
     }
     if (search.count() > kMaxHits || search.count() % 2 != 0) return 0;
     int written = 0;
     for (int i = 0; i < search.count(); ++i) {
-        written += report_crossing(ray, {shift + search.crossings()[i], 0, 0, 0}, hits + written);
+        const double t = segment.shift + search.crossings()[i];
+        written += report_crossing(ray, {t, 0, 0, 0}, hits + written);
     }
     return written;
 }

@@ -1,0 +1,61 @@
+#pragma once
+/// Powers with any exponent of numbers of about 32 decimal digits.
+///
+/// Source: Hida, Li and Bailey, "Library for Double-Double and Quad-Double Arithmetic", 2008 (the
+/// exponential by a series after halving, the logarithm by one step of Newton's method). Differs:
+/// what is summed and doubled is e^x - 1, so that halving costs no digits; whole exponents are
+/// multiplied out. Conventions: slow, for what double cannot decide; bases that are not positive
+/// have the power 0.
+
+#include <array>
+
+#include "alhazen/math/double_double.h"
+
+namespace alhazen {
+
+/// Right to about 2^-98 relative; 0 where it underflows. Precondition: a.high < 700.
+inline DoubleDouble exponential(const DoubleDouble& a) {
+    constexpr DoubleDouble kLn2(0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56);
+    if (a.high < -700.0) return {};
+    const double k = std::nearbyint(a.high / kLn2.high);
+    DoubleDouble x = a - DoubleDouble(k) * kLn2;
+    x = {x.high * 0x1p-8, x.low * 0x1p-8};
+    static const std::array<DoubleDouble, 11> kInverse = [] {
+        std::array<DoubleDouble, 11> inverse{};
+        for (std::size_t n = 1; n < inverse.size(); ++n) {
+            inverse[n] = quotient(DoubleDouble(1.0), DoubleDouble(static_cast<double>(n)));
+        }
+        return inverse;
+    }();
+    DoubleDouble s(0.0);  // x + x^2 / 2! + x^3 / 3! + ...
+    for (std::size_t n = 10; n >= 1; --n) s = x * kInverse[n] * (DoubleDouble(1.0) + s);
+    for (int i = 0; i < 8; ++i) s = DoubleDouble(2.0) * s + s * s;
+    s = s + DoubleDouble(1.0);
+    const double scale = std::ldexp(1.0, static_cast<int>(k));
+    return {s.high * scale, s.low * scale};
+}
+
+/// Right to about 2^-98, absolute for arguments near 1. Precondition: a is positive and finite.
+inline DoubleDouble logarithm(const DoubleDouble& a) {
+    const double first = std::log(a.high);
+    // a / e^first = 1 + rest, of which the logarithm is rest - rest^2 / 2 + ...
+    const DoubleDouble rest = a * exponential(DoubleDouble(-first)) - DoubleDouble(1.0);
+    return DoubleDouble(first) + (rest - DoubleDouble(0.5) * rest * rest);
+}
+
+/// base^exponent, right to about 2^-97 (1 + exponent) for bases near 1 and below.
+inline DoubleDouble power(const DoubleDouble& base, const DoubleDouble& exponent) {
+    if (!(base.high > 0.0)) return {};
+    if (exponent.low == 0.0 && exponent.high == std::floor(exponent.high) &&
+        exponent.high <= 64.0) {
+        DoubleDouble product(1.0), square = base;
+        for (int n = static_cast<int>(exponent.high); n > 0; n /= 2) {
+            if (n % 2 != 0) product = product * square;
+            if (n > 1) square = square * square;
+        }
+        return product;
+    }
+    return exponential(exponent * logarithm(base));
+}
+
+}  // namespace alhazen
