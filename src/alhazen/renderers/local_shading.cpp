@@ -1,10 +1,10 @@
 #include "alhazen/renderers/local_shading.h"
 
 #include <cmath>
-#include <new>
 
 #include "alhazen/shading/normal_map.h"
 #include "alhazen/shading/texture_inputs.h"
+#include "alhazen/shading/turn_to_view.h"
 
 namespace alhazen {
 
@@ -90,23 +90,31 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
 
 namespace {
 
-/// What the ray came through and what it finds behind the surface. The material must be as it is
-/// seen.
+/// What the ray came through and what it finds behind the surface, and the material as it is seen
+/// there.
 void set_media(const Scene& scene, ShadingPoint& point) {
     const SurfaceMedia& media = point.surface.media;
+    MaterialSample& material = point.material;
+    const double cosine = dot(point.view, point.normal);
     point.behind = {};
-    point.passing = point.medium = point.material.transmissive;
-    point.medium_is_physical = point.material.physical;
-    if (!media.known) return;
+    point.medium = material.transmissive;
+    point.medium_is_physical = material.physical;
+    if (!media.known) {
+        const bool from_inside = point.inside && !point.entering && !point.medium.is_black();
+        turn_to_view(material, cosine, from_inside);
+        point.passing = material.transmissive;
+        return;
+    }
     point.behind.known = true;
     double here = scene.conventions.air_index, beyond = here;
+    Rgb before_passes{1, 1, 1};
     if (media.before) {
         const MaterialSample before = medium_at(scene, point.surface, *media.before);
         here = before.index;
         point.medium = before.transmissive;
         point.medium_is_physical = before.physical;
         // The wall's own material is that of what is entered.
-        if (media.after) point.passing = point.passing * before.transmissive;
+        if (media.after) before_passes = before.transmissive;
     }
     if (media.after) {
         const MaterialSample after = medium_at(scene, point.surface, *media.after);
@@ -115,6 +123,8 @@ void set_media(const Scene& scene, ShadingPoint& point) {
         point.behind.absorption = after.absorption;
     }
     point.behind.eta = here / beyond;
+    turn_to_view_between(material, cosine, point.behind.eta, media.before && media.after);
+    point.passing = material.transmissive * before_passes;
 }
 
 }  // namespace
@@ -127,8 +137,7 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
     if (scene.has_mipmaps && width > 0.0) {
         footprint = footprint_at(point.surface, ray.direction, width);
     }
-    // In place: it is large.
-    ::new (&point.material) MaterialSample(material_at(scene, point.surface, footprint));
+    point.material = material_at(scene, point.surface, footprint);
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
@@ -146,10 +155,6 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
     }
     MaterialSample& m = point.material;
     if (!point.entering && is_unseen_from_behind(m)) m.coverage = 0.0;
-    if (m.physical) {
-        const bool from_inside = inside && !point.entering && !m.transmissive.is_black();
-        turn_to_view(m, dot(point.view, point.normal), from_inside);
-    }
     set_media(scene, point);
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "alhazen/shading/texture_inputs.h"
+#include "alhazen/shading/turn_to_view.h"
 
 namespace alhazen {
 
@@ -109,12 +110,22 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
 }
 
 void turn_to_view(MaterialSample& sample, double cosine, bool from_inside) {
+    const bool dense = from_inside && sample.index > 0.0;
+    turn_to_view_between(sample, cosine, dense ? sample.index : 1.0, false);
+}
+
+void turn_to_view_between(MaterialSample& sample, double cosine, double eta, bool wall) {
     if (!sample.physical) return;
+    if (const double outside = normal_reflectance(sample.index); wall && outside > 0.0) {
+        const double share = normal_reflectance(eta) / outside;
+        sample.reflective = share * sample.reflective;
+        sample.specular = share * sample.specular;
+    }
     double c = clamped(cosine);
-    if (from_inside && !sample.thin && sample.index > 0.0) {
+    if (eta > 1.0 && !sample.thin) {
         // Schlick's formula wants the angle on the thin side; there is none beyond the critical
         // angle.
-        const double squared = 1.0 - sample.index * sample.index * (1.0 - c * c);
+        const double squared = 1.0 - eta * eta * (1.0 - c * c);
         if (!(squared > 0.0)) {
             if (!sample.transmissive.is_black()) sample.reflective = {1, 1, 1};
             keep_below(sample, 0.0);

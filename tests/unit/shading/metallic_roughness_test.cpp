@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "alhazen/shading/material.h"
+#include "alhazen/shading/turn_to_view.h"
 
 namespace alhazen {
 namespace {
@@ -108,6 +109,22 @@ TEST(MetallicRoughness, InsideAVolumeBeyondTheCriticalAngleAllIsReflected) {
     MaterialSample above = sample_of(with(p));
     turn_to_view(above, 1.0, true);
     expect_near(above.reflective, {0.04, 0.04, 0.04});
+}
+
+TEST(MetallicRoughness, AWallBetweenTwoMediaReflectsByTheirRatio) {
+    MetallicRoughness p = parameters(0, 0);
+    p.transmission.value = 1;
+    p.thickness.value = 1;
+    const double ratio = 1.5 / 1.33, r = (ratio - 1) / (ratio + 1);
+    MaterialSample across = sample_of(with(p));
+    turn_to_view_between(across, 1.0, ratio, true);
+    expect_near(across.reflective, {r * r, r * r, r * r});
+    MaterialSample beyond = sample_of(with(p));
+    turn_to_view_between(beyond, std::sqrt(1 - 1 / (ratio * ratio)) - 0.01, ratio, true);
+    expect_near(beyond.reflective, {1, 1, 1});
+    MaterialSample alike = sample_of(with(p));
+    turn_to_view_between(alike, 1.0, 1.0, true);
+    expect_near(alike.reflective, {0, 0, 0});
 }
 
 TEST(MetallicRoughness, UnlitShowsItsColourAndNothingElse) {
