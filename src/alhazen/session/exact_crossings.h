@@ -3,14 +3,18 @@
 /// by other formulas than those that trace rays.
 ///
 /// Source: the definitions in the headers of the shapes. Differs: written for any number type, and
-/// for plainness. To add a shape: an overload of `exact_crossings` below, or in
-/// exact_polynomials.h; one without is not checked. Conventions: ascending; each crossing changes
-/// between inside and outside. Infinite where an unbounded solid has no end.
+/// for plainness. To add a shape: an overload of `exact_crossings` below, or in one of the headers
+/// exact_*.h beside this one; one without is not checked. Conventions: ascending; each crossing
+/// changes between inside and outside. Infinite where an unbounded solid has no end.
 
 #include <concepts>
 
 #include "alhazen/scene/csg_solid.h"
+#include "alhazen/session/exact_blob.h"
+#include "alhazen/session/exact_height_field.h"
 #include "alhazen/session/exact_polynomials.h"
+#include "alhazen/session/exact_superellipsoid.h"
+#include "alhazen/session/exact_swept.h"
 #include "alhazen/shapes/shape_list.h"
 
 namespace alhazen {
@@ -131,6 +135,12 @@ template <class S>
 concept HasExactCrossings = requires(const S& shape, const ExactLine& line) {
     { exact_crossings(shape, line) } -> std::same_as<ExactCrossings>;
 };
+
+/// Some shapes have a formula for some of their parameters only.
+template <class S>
+[[nodiscard]] bool has_formula(const S&) {
+    return HasExactCrossings<S>;
+}
 
 // ---- primitives of a table and solids made of them
 

@@ -54,16 +54,15 @@ PowersOf<R> derivative(const PowersOf<R>& p) {
     return d;
 }
 
-/// Where p changes its sign between lo and hi, of which it has one at either end; slope is that of
-/// its derivative p'.
-template <class R>
-R bracketed_root(const PowersOf<R>& p, const PowersOf<R>& slope, R lo, R hi) {
-    const bool negative_at_lo = value_at(p, lo) < 0;
+/// Where `value(t)` changes its sign between lo and hi; it is negative at one of them, `slope(t)`
+/// its derivative.
+template <class R, class Value, class Slope>
+R bracketed_zero(Value&& value, Slope&& slope, R lo, R hi, bool negative_at_lo) {
     R t = (lo + hi) / 2;
     for (int i = 0; i < 250 && lo < t && t < hi; ++i) {
-        const R value = value_at(p, t);
-        (negative_at_lo == (value < 0) ? lo : hi) = t;
-        const R next = t - value / value_at(slope, t);
+        const R v = value(t);
+        (negative_at_lo == (v < 0) ? lo : hi) = t;
+        const R next = t - v / slope(t);
         // Newton's step while it stays inside, and every fourth time a half.
         const R step = next > t ? next - t : t - next;
         if (next > lo && next < hi && i % 4 != 3) {
@@ -76,19 +75,37 @@ R bracketed_root(const PowersOf<R>& p, const PowersOf<R>& slope, R lo, R hi) {
     return t;
 }
 
+/// Where p, whose signs at lo and hi are given, changes its sign between them, ascending.
+template <class R>
+std::vector<R> sign_changes(const PowersOf<R>& p, const R& lo, const R& hi, bool negative_at_lo,
+                            bool negative_at_hi);
+
 /// Where p changes its sign in (lo, hi), ascending.
 template <class R>
 std::vector<R> sign_changes(PowersOf<R> p, const R& lo, const R& hi) {
     while (!p.empty() && p.back() == 0) p.pop_back();
     if (p.size() < 2) return {};
+    return sign_changes(p, lo, hi, value_at(p, lo) < 0, value_at(p, hi) < 0);
+}
+
+template <class R>
+std::vector<R> sign_changes(const PowersOf<R>& p, const R& lo, const R& hi, bool negative_at_lo,
+                            bool negative_at_hi) {
     const PowersOf<R> slope = derivative(p);
     std::vector<R> ends{lo};
     for (const R& turn : sign_changes(slope, lo, hi)) ends.push_back(turn);
     ends.push_back(hi);
     std::vector<R> changes;
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        if ((value_at(p, ends[i]) < 0) == (value_at(p, ends[i + 1]) < 0)) continue;
-        changes.push_back(bracketed_root(p, slope, ends[i], ends[i + 1]));
+    bool negative = negative_at_lo;
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+        const bool last = i + 1 == ends.size();
+        const bool next = last ? negative_at_hi : value_at(p, ends[i]) < 0;
+        if (next != negative) {
+            changes.push_back(bracketed_zero([&](const R& t) { return value_at(p, t); },
+                                             [&](const R& t) { return value_at(slope, t); },
+                                             ends[i - 1], ends[i], negative));
+        }
+        negative = next;
     }
     return changes;
 }

@@ -37,7 +37,9 @@ std::string why_unchecked(const PrimitiveTable& table, PrimitiveId id) {
              ...);
         },
         table.columns);
-    return fmt::format("a {} has no formula", name);
+    const bool some = std::string_view(name) == Superellipsoid::kName;
+    return fmt::format("a {}{} has no formula", name,
+                       some ? " with one exponent above 2 and one below" : "");
 }
 std::string why_unchecked(const CsgSolid& solid) {
     if (solid.leaf_count() > kMostLeaves) {
