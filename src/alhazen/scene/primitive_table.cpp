@@ -32,6 +32,8 @@ Box3 placed_box(const Placement& placement, const Box3& inner) {
 }  // namespace
 
 PrimitiveTable::PrimitiveTable() = default;
+PrimitiveTable::PrimitiveTable(const PrimitiveTable&) = default;
+PrimitiveTable& PrimitiveTable::operator=(const PrimitiveTable&) = default;
 PrimitiveTable::PrimitiveTable(PrimitiveTable&&) noexcept = default;
 PrimitiveTable& PrimitiveTable::operator=(PrimitiveTable&&) noexcept = default;
 PrimitiveTable::~PrimitiveTable() = default;

@@ -83,6 +83,8 @@ class PrimitiveTable final : public BoundsSource {
   public:
     // Out of line: a column per type of shape is much to make, move and destroy for each includer.
     PrimitiveTable();
+    PrimitiveTable(const PrimitiveTable&);
+    PrimitiveTable& operator=(const PrimitiveTable&);
     PrimitiveTable(PrimitiveTable&&) noexcept;
     PrimitiveTable& operator=(PrimitiveTable&&) noexcept;
     ~PrimitiveTable() override;

@@ -10,6 +10,7 @@
 #define ALHAZEN_SCENE_TRIANGLE_FILTER_INL_H_
 #endif
 
+#include <cstddef>
 #include <cstring>
 
 #include "alhazen/accel/wide_bvh/slab_ray-inl.h"
@@ -37,9 +38,12 @@ HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& l
     const std::uint32_t kz = local.main_axis;
     const float sz = slabs.reciprocal[kz];
     const auto turned = [&](const float* axes) HWY_ATTR { return permuted(axes, kTurned[kz]); };
-    // The fourth of each is set below.
-    store_lanes(turned(local.origin), filter.origin);
-    store_lanes(turned(local.direction) * AxisLanes::F(sz), &filter.sx);
+    // The fourth of each is set below. Addressed as parts of the whole, of which they are not the
+    // end: where lanes are stored one by one, compilers see it.
+    static_assert(offsetof(TriangleFilterRay, sx) == offsetof(TriangleFilterRay, origin) + 16);
+    float* origin = reinterpret_cast<float*>(&filter);
+    store_lanes(turned(local.origin), origin);
+    store_lanes(turned(local.direction) * AxisLanes::F(sz), origin + 4);
     std::memcpy(&filter.kx, kTurned[kz], sizeof(kTurned[kz]));
     filter.sz = sz;
     constexpr float e = 0x1p-24f;
