@@ -178,7 +178,7 @@ def write_povray(text, path):
 
 
 def alhazen_seconds(command, stats):
-    subprocess.run(command + ["--stats", stats], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run(command + ["--stats", stats, "--no-counts"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     with open(stats, encoding="utf-8") as file:
         seconds = json.load(file)["seconds"]
     return {"trace": seconds["render_processor"], "begin": seconds["load"] + seconds["build"]}

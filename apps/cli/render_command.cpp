@@ -32,7 +32,7 @@ struct RenderArguments {
     std::string size, crop, encoding, protocol, stats, aovs, view;
     int depth = -1;
     int bits = 8;
-    bool full_float = false, aov_png = false, quiet = false, strict = false;
+    bool full_float = false, aov_png = false, quiet = false, strict = false, no_counts = false;
     RenderOptions render;
 };
 
@@ -45,7 +45,7 @@ Encoding parse_encoding(const std::string& name) {
 RenderOptions render_options(const RenderArguments& args) {
     RenderOptions options = args.render;
     options.threads = args.scene.threads;
-    options.count_tests = !args.stats.empty();
+    options.count_tests = !args.stats.empty() && !args.no_counts;
     if (!args.size.empty()) {
         const Size size = parse_size(args.size);
         options.width = size.width;
@@ -80,6 +80,7 @@ void check_effects(const RenderArguments& args) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool jpeg = suffix == ".jpg" || suffix == ".jpeg";
     need(!args.aov_png || !args.aovs.empty(), "--aov-png needs --aov: no layers were asked for");
+    need(!args.no_counts || !args.stats.empty(), "--no-counts needs --stats");
     need(args.bits == 8 || suffix == ".png", "--bits 16 is for .png: no other picture has them");
     need(!args.full_float || suffix == ".exr", "--full-float is for .exr");
     need(args.encoding.empty() || suffix == ".png" || jpeg,
@@ -259,6 +260,8 @@ void add_render(CLI::App& app, int& exit_status) {
     command->add_flag("--aov-png", args->aov_png, "OUT.NAME.png of each layer beside an .exr, too");
     command->add_option("--protocol", args->protocol,
                         "Count as published: spd = 513x513 corner rays, depth 5");
+    command->add_flag("--no-counts", args->no_counts,
+                      "With --stats: count no tests, which takes time");
     command->add_option("--stats", args->stats, "Write statistics as JSON; - for stdout")
         ->type_name("FILE");
     command->add_flag("--strict", args->strict,

@@ -186,6 +186,12 @@ class CommandLine(CommandLineCase):
         for key in ("load", "build", "render", "write"):
             self.assertGreaterEqual(stats["seconds"][key], 0)
 
+    def test_statistics_without_counts_have_the_same_rays_and_no_tests(self):
+        counted = json.loads(self.render("--stats", "-", "-q").stdout)
+        plain = json.loads(self.render("--stats", "-", "--no-counts", "-q").stdout)
+        self.assertIsNone(plain["tests"])
+        self.assertEqual(plain["rays"], counted["rays"])
+
     def test_databases_are_generated_as_nff_and_as_native_scenes(self):
         for name in ("tetra.nff", "tetra.alhazen"):
             result = run("generate", "tetra", "--size", "2", "-q", "-o", self.path(name))

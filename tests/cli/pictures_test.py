@@ -46,7 +46,8 @@ class Pictures(CommandLineCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         header = self.read("layers.exr")[:8192]
         for channel in ("R", "A", "depth.Z", "N.X", "Ng.Y", "P.Z", "uv.U", "albedo.G", "id.object", "id.material",
-                        "id.instance", "error_bound", "count.rays", "count.node_visits", "count.primitive_tests", "time.seconds"):
+                        "id.instance", "error_bound", "count.rays", "count.node_visits", "count.box_tests",
+                        "count.primitive_tests", "time.seconds"):
             self.assertIn(b"\0" + channel.encode() + b"\0", header, channel)
         self.assertIn(b'"1":"mirror"', header)
         self.assertEqual(os.listdir(self.folder.name).count("layers.depth.png"), 0)

@@ -1,9 +1,11 @@
 #include "alhazen/accel/bsp.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 
+#include "alhazen/accel/bounded_bodies.h"
 #include "alhazen/accel/convex_cell.h"
 #include "alhazen/base/error.h"
 
@@ -15,10 +17,10 @@ constexpr std::size_t kSampled = 256;
 /// Splits in a row that do not pay, in the hope of later ones.
 constexpr int kForgivenSplits = 4;
 
-/// A primitive; of a triangle the part in the node.
+/// A primitive; of a flat polygon the part in the node.
 struct Piece {
     std::uint32_t primitive;
-    std::vector<Vec3> outline;  ///< empty where it is no triangle
+    std::vector<Vec3> outline;  ///< empty where it is none
 };
 
 struct Plane {
@@ -63,9 +65,7 @@ class BspBuilder {
         std::vector<Piece> pieces;
         for (std::uint32_t i = 0; i < source_.size(); ++i) {
             pieces.push_back({i, {}});
-            if (const auto corners = source_.triangle(i)) {
-                pieces.back().outline.assign(corners->begin(), corners->end());
-            }
+            pieces.back().outline = outline_of(source_, i);
         }
         max_depth_ = config_.max_depth > 0
                          ? config_.max_depth
@@ -159,19 +159,19 @@ class BspBuilder {
         }
     }
 
-    /// The planes of triangles and those through their edges, across them.
+    /// The planes of flat polygons and those through their edges, across them.
     void add_polygon_candidates(const std::vector<Piece>& pieces,
                                 std::vector<Candidate>& candidates) const {
         const auto most = static_cast<std::size_t>(config_.candidates);
         const std::size_t stride = (pieces.size() + most - 1) / most;
         for (std::size_t i = 0; i < pieces.size(); i += stride) {
-            const auto corners = source_.triangle(pieces[i].primitive);
-            if (!corners) continue;
-            const auto& [a, b, c] = *corners;
-            const auto normal = unit_normal(b - a, c - a);
+            const std::vector<Vec3> corners = outline_of(source_, pieces[i].primitive);
+            if (corners.empty()) continue;
+            const auto normal = unit_normal(corners[1] - corners[0], corners[2] - corners[0]);
             if (!normal) continue;
             add_beside(*normal, pieces[i], pieces, candidates);
-            for (const Vec3& edge : {b - a, c - b, a - c}) {
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const Vec3 edge = corners[(k + 1) % corners.size()] - corners[k];
                 if (const auto across = unit_normal(edge, *normal)) {
                     add_beside(*across, pieces[i], pieces, candidates);
                 }
@@ -262,6 +262,31 @@ class BspBuilder {
         }
     }
 
+    /// Leaves out what is no flat polygon and does not reach into a cell: planes alone do not tell
+    /// of a corner.
+    void drop_beside(const ConvexCell& cell, std::vector<Piece>& pieces) const {
+        std::array<Interval, 13> ranges;
+        for (std::uint32_t k = 0; k < fixed_; ++k) {
+            const Interval inside = extent(cell, tree_.normals_[k]);
+            if (inside.empty()) return;
+            ranges[k] = {inside.lo - tree_.space_.pad, inside.hi + tree_.space_.pad};
+        }
+        Box3 box;
+        for (int k = 0; k < 3; ++k) {
+            box.lo[k] = ranges[static_cast<std::size_t>(k)].lo;
+            box.hi[k] = ranges[static_cast<std::size_t>(k)].hi;
+        }
+        std::erase_if(pieces, [&](const Piece& piece) {
+            if (!piece.outline.empty()) return false;
+            if (!source_.overlaps(piece.primitive, box)) return true;
+            for (std::uint32_t k = 3; k < fixed_; ++k) {
+                const Interval e = source_.extent(piece.primitive, tree_.normals_[k]);
+                if (intersection(e, ranges[k]).empty()) return true;
+            }
+            return false;
+        });
+    }
+
     void build(std::vector<Piece> pieces, ConvexCell cell, int depth, int forgiven) {
         const std::size_t index = tree_.nodes_.size();
         tree_.nodes_.emplace_back();
@@ -279,6 +304,8 @@ class BspBuilder {
         ConvexCell upper_cell = cell.upper_part(split.plane.normal, local);
         std::vector<Piece> lower, upper;
         deal(std::move(pieces), split.plane, lower, upper);
+        drop_beside(lower_cell, lower);
+        drop_beside(upper_cell, upper);
         std::uint32_t normal = split.plane.direction;
         if (normal == Bsp::Node::kLeaf) {
             normal = static_cast<std::uint32_t>(tree_.normals_.size());
@@ -316,12 +343,11 @@ Bsp::Config Bsp::configure(SettingsReader& reader) {
     static constexpr int kDirections[] = {3, 7, 13, 3};
     Config config;
     const std::size_t planes = reader.choice(
-        "planes", "across so many directions, or the axes and all that triangles have", 2, kPlanes);
+        "planes", "across so many directions, or the axes and all that polygons have", 2, kPlanes);
     config.directions = kDirections[planes];
     config.polygons = planes == 3;
-    config.candidates =
-        reader.count("candidates", "planes weighed for each direction, triangles that offer theirs",
-                     16, 1, 1000);
+    config.candidates = reader.count(
+        "candidates", "planes weighed for each direction, polygons that offer theirs", 16, 1, 1000);
     config.axis_cost =
         reader.number("axis_cost", "of a step at a plane across an axis", 15, 0.001, 1e6);
     config.traversal_cost =

@@ -4,14 +4,15 @@
 ///
 /// Source: Fuchs, Kedem and Naylor, "On Visible Surface Generation by A Priori Tree Structures",
 /// SIGGRAPH 1980 (the tree); Ize, Wald and Parker, "Ray Tracing with the BSP Tree", RT 2008
-/// (`planes=polygons`: planes of triangles and through their edges, exact areas of cells, a cheaper
-/// step at planes across an axis); Kammaje and Mora, "A Study of Restricted BSP Trees for Ray
-/// Tracing", RT 2007 (`planes=directions7` or `directions13`: few directions, prepared once a ray,
-/// as Kay and Kajiya do). Differs: in nodes of many primitives the planes that are weighed are a
-/// fixed number, chosen by rank among those of evenly chosen primitives; a triangle is never in a
-/// plane of its own but beside it, so that it lies on one side. What is no triangle is clipped to
-/// nothing, only tested against each plane. Rays from so far away that rounding could lead past a
-/// cell are tested against everything. Complexity: O(n log n) to build, with a large factor.
+/// (`planes=polygons`: planes of flat polygons and through their edges, exact areas of cells, a
+/// cheaper step at planes across an axis); Kammaje and Mora, "A Study of Restricted BSP Trees for
+/// Ray Tracing", RT 2007 (`planes=directions7` or `directions13`: few directions, prepared once a
+/// ray, as Kay and Kajiya do). Differs: in nodes of many primitives the planes that are weighed are
+/// a fixed number, chosen by rank among those of evenly chosen primitives; a polygon is never in a
+/// plane of its own but beside it, so that it lies on one side. What is no flat polygon is clipped
+/// to nothing, only left out of cells that it does not reach into. Rays from so far away that
+/// rounding could lead past a cell are tested against everything. Complexity: O(n log n) to build,
+/// with a large factor.
 
 #include <array>
 #include <cstdint>
@@ -22,7 +23,7 @@
 #include "alhazen/accel/bounds.h"
 #include "alhazen/accel/mailbox.h"
 #include "alhazen/accel/padded_box.h"
-#include "alhazen/accel/reentrant_stack.h"
+#include "alhazen/accel/plane_walk.h"
 
 namespace alhazen {
 
@@ -34,8 +35,8 @@ class Bsp {
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
         int directions = 13;         ///< 3, 7 or 13: those that planes across them are looked for
-        bool polygons = false;       ///< planes of triangles as well
-        int candidates = 16;         ///< planes for each direction; triangles that offer theirs
+        bool polygons = false;       ///< planes of flat polygons as well
+        int candidates = 16;         ///< planes for each direction; polygons that offer theirs
         double axis_cost = 15;       ///< of a step at a plane across an axis
         double traversal_cost = 25;  ///< of a step at any other plane
         double test_cost = 20;       ///< of a primitive
@@ -78,10 +79,6 @@ class Bsp {
 
   private:
     friend class BspBuilder;
-    struct Segment {
-        std::uint32_t node;
-        double begin, end;
-    };
     /// Where a ray is along a direction, and how fast it goes there.
     struct Along {
         double place, inverse;
@@ -108,56 +105,18 @@ void Bsp::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
     const auto directions = static_cast<std::uint32_t>(config_.directions);
     for (std::uint32_t k = 0; k < directions; ++k) prepared[k] = along(normals_[k], ray);
 
-    // Both sides where the ray runs within the room for rounding of the plane.
-    const double room = 0.5 * space_.pad;
     Mailbox mailbox;
-    ReentrantStack<Segment> stack;
-    stack.push({0, span.begin, span.end});
-    while (!stack.empty()) {
-        Segment at = stack.pop();
-        // Not the end: where the ray runs in a plane, nearer segments may lie deeper in the stack.
-        if (at.begin > visitor.t_max()) continue;
-        for (;;) {
-            const Node& node = nodes_[at.node];
-            stats.nodes(1);
-            if (node.is_leaf()) break;
-            const Along a = node.normal < directions ? prepared[node.normal]
-                                                     : along(normals_[node.normal], ray);
-            const double from = a.place - node.offset;
-            const std::uint32_t lower = at.node + 1, upper = node.index;
-            if (std::isinf(a.inverse)) {
-                if (from > room) {
-                    at.node = upper;
-                } else {
-                    if (from >= -room) stack.push({upper, at.begin, at.end});
-                    at.node = lower;
-                }
-                continue;
-            }
-            const bool up = a.inverse > 0.0;
-            const std::uint32_t first = up ? lower : upper, second = up ? upper : lower;
-            const double t = -from * a.inverse;
-            const double slack = room * std::abs(a.inverse);
-            if (t - slack > at.end) {
-                at.node = first;
-            } else if (t + slack < at.begin) {
-                at.node = second;
-            } else {
-                stack.push({second, std::max(at.begin, t - slack), at.end});
-                at.node = first;
-                at.end = std::min(at.end, t + slack);
-            }
-        }
-        const Node& leaf = nodes_[at.node];
-        if (leaf.count == 0) stats.empty_cells(1);
-        for (std::uint32_t e = leaf.index; e < leaf.index + leaf.count; ++e) {
-            if (config_.mailbox && !mailbox.is_new(entries_[e])) {
-                stats.mailbox_saved(1);
-                continue;
-            }
-            if (visitor.visit(entries_[e])) return;
-        }
-    }
+    const auto from_plane = [&](const Node& node) {
+        const Along a =
+            node.normal < directions ? prepared[node.normal] : along(normals_[node.normal], ray);
+        return FromPlane{a.place - node.offset, a.inverse};
+    };
+    const auto test_leaf = [&](std::uint32_t number) {
+        const Node& leaf = nodes_[number];
+        const std::span entries(entries_.data() + leaf.index, leaf.count);
+        return visit_entries(entries, config_.mailbox, mailbox, visitor, stats);
+    };
+    walk_through_planes(nodes_, span, 0.5 * space_.pad, from_plane, test_leaf, visitor, stats);
 }
 static_assert(Accelerator<Bsp>);
 

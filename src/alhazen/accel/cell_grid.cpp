@@ -2,16 +2,6 @@
 
 namespace alhazen {
 
-void CellGrid::set_box(const Box3& around) {
-    const Vec3 extent = around.size();
-    const Vec3 reach{std::max(std::abs(around.lo.x), std::abs(around.hi.x)),
-                     std::max(std::abs(around.lo.y), std::abs(around.hi.y)),
-                     std::max(std::abs(around.lo.z), std::abs(around.hi.z))};
-    pad = 0x1p-32 * max_component(extent) + 0x1p-46 * max_component(reach) +
-          std::numeric_limits<double>::min();
-    box = {around.lo - Vec3{pad, pad, pad}, around.hi + Vec3{pad, pad, pad}};
-}
-
 void CellGrid::divide(const std::array<int, 3>& along) {
     cells = along;
     for (int k = 0; k < 3; ++k) {
@@ -21,13 +11,11 @@ void CellGrid::divide(const std::array<int, 3>& along) {
     }
 }
 
-CellGrid::CellGrid(const Box3& around, const std::array<int, 3>& along) {
-    set_box(around);
+CellGrid::CellGrid(const Box3& around, const std::array<int, 3>& along) : PaddedBox(around) {
     divide(along);
 }
 
-CellGrid::CellGrid(const Box3& around, double count, int most) {
-    set_box(around);
+CellGrid::CellGrid(const Box3& around, double count, int most) : PaddedBox(around) {
     const Vec3 size = box.size();
     // Edges of a cube of the volume that is left to each cell; flat axes have one cell.
     int flat = 0;

@@ -13,16 +13,13 @@
 #include <cstdint>
 #include <limits>
 
-#include "alhazen/geometry/box.h"
-#include "alhazen/geometry/ray.h"
+#include "alhazen/accel/padded_box.h"
 
 namespace alhazen {
 
-struct CellGrid {
-    Box3 box;  ///< padded
+struct CellGrid : PaddedBox {
     std::array<int, 3> cells{1, 1, 1};
     Vec3 cell_size, per_cell_size;
-    double pad = 0;
 
     CellGrid() = default;
     /// About `count` cells, as near to cubes as can be, at most `most` along an axis.
@@ -51,13 +48,7 @@ struct CellGrid {
     /// The first and the last cell that come within `pad` of a box.
     [[nodiscard]] std::array<std::array<int, 3>, 2> range(const Box3& b) const;
 
-    /// Whether the ray begins so near that rounding stays far below `pad`.
-    [[nodiscard]] bool covers(const Ray& ray) const {
-        return max_component(abs(ray.origin)) <= 0x1p44 * pad;
-    }
-
   private:
-    void set_box(const Box3& around);
     void divide(const std::array<int, 3>& along);
 };
 
@@ -66,23 +57,12 @@ class CellWalk {
   public:
     /// `outside` when the ray misses the grid on its way to t_max.
     CellWalk(const CellGrid& grid, const Ray& ray, double t_max) : grid_(grid), ray_(ray) {
-        double near = ray.t_min;
-        double far = t_max;
-        for (int k = 0; k < 3; ++k) {
-            inverse_[k] = 1.0 / ray.direction[k];
-            if (std::isinf(inverse_[k])) {
-                if (ray.origin[k] < grid.box.lo[k] || ray.origin[k] > grid.box.hi[k]) return;
-                continue;
-            }
-            const double a = (grid.box.lo[k] - ray.origin[k]) * inverse_[k];
-            const double b = (grid.box.hi[k] - ray.origin[k]) * inverse_[k];
-            near = std::max(near, std::min(a, b));
-            far = std::min(far, std::max(a, b));
-        }
-        if (near > far) return;
+        const RaySpan span(grid.box, ray, t_max);
+        if (span.empty()) return;
+        inverse_ = span.inverse;
         outside_ = false;
-        entry_ = near;
-        const Vec3 p = ray.at(near);
+        entry_ = span.begin;
+        const Vec3 p = ray.at(entry_);
         for (int k = 0; k < 3; ++k) {
             cell_[static_cast<std::size_t>(k)] = grid.index(k, p[k]);
             set_next(k);

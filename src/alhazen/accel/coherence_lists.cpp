@@ -23,6 +23,13 @@ struct DirectionCone {
     }
 };
 
+/// As it is given, or for about two cells for each primitive.
+int resolution_for(std::size_t primitives, int given) {
+    if (given > 0) return given;
+    return static_cast<int>(
+        std::clamp(std::sqrt(static_cast<double>(primitives) / 3.0), 4.0, 64.0));
+}
+
 bool touches(const BoundingSphere& sphere, double room, const Box3& box) {
     double square = 0;
     for (int k = 0; k < 3; ++k) {
@@ -39,10 +46,10 @@ CoherenceLists::CoherenceLists(const BoundsSource& source, const std::vector<Vec
                                double room, int resolution, std::size_t most_bytes)
     : primitives_(source.size()),
       room_(room),
-      cube_(resolution),
-      light_cube_(4 * resolution),
+      cube_(resolution_for(source.size(), resolution)),
+      light_cube_(4 * cube_.resolution()),
       most_bytes_(most_bytes),
-      slots_(source.size() + lights.size()) {
+      origins_(source.size() + lights.size()) {
     Box3 all;
     for (std::size_t i = 0; i < source.size(); ++i) {
         spheres_.push_back(source.sphere(i));
@@ -51,7 +58,7 @@ CoherenceLists::CoherenceLists(const BoundsSource& source, const std::vector<Vec
     for (const Vec3& light : lights) spheres_.push_back({light, 0});
     grid_ = CellGrid(all, static_cast<double>(source.size()), 256);
     sort_into_cells();
-    used_ = spheres_.capacity() * sizeof(spheres_[0]) + slots_.size() * sizeof(slots_[0]) +
+    used_ = spheres_.capacity() * sizeof(spheres_[0]) + origins_.size() * sizeof(origins_[0]) +
             (starts_.capacity() + entries_.capacity()) * sizeof(std::uint32_t);
 }
 
@@ -100,37 +107,52 @@ CoherenceLists::Origin CoherenceLists::origin_at(const Vec3& point) const {
     return found;
 }
 
-CoherenceLists::Slot* CoherenceLists::slots_of(std::uint32_t origin) const {
-    Slot* slots = slots_[origin].load(std::memory_order_acquire);
-    if (slots != nullptr) return slots;
+template <class T>
+T* CoherenceLists::made_at(std::atomic<T*>& place, std::size_t count,
+                           std::vector<std::unique_ptr<T[]>>& made) const {
+    T* known = place.load(std::memory_order_acquire);
+    if (known != nullptr) return known;
     const std::lock_guard lock(making_);
-    slots = slots_[origin].load(std::memory_order_relaxed);
-    const std::size_t cells = cube_of(origin).size();
-    const std::size_t bytes = cells * sizeof(Slot);
-    if (slots != nullptr || used_ + bytes > most_bytes_) return slots;
-    slots = made_slots_.emplace_back(std::make_unique<Slot[]>(cells)).get();
+    known = place.load(std::memory_order_relaxed);
+    const std::size_t bytes = count * sizeof(T);
+    if (known != nullptr || used_ + bytes > most_bytes_) return known;
+    known = made.emplace_back(std::make_unique<T[]>(count)).get();
     used_ += bytes;
-    slots_[origin].store(slots, std::memory_order_release);
-    return slots;
+    place.store(known, std::memory_order_release);
+    return known;
+}
+
+CoherenceLists::Slot* CoherenceLists::slot_of(std::uint32_t origin, std::size_t cell) const {
+    constexpr std::size_t kCells = std::tuple_size_v<Block>;
+    const std::size_t count = (cube_of(origin).size() + kCells - 1) / kCells;
+    Blocks* blocks = made_at(origins_[origin], count, made_origins_);
+    if (blocks == nullptr) return nullptr;
+    Block* block = made_at(blocks[cell / kCells], 1, made_blocks_);
+    return block == nullptr ? nullptr : &(*block)[cell % kCells];
 }
 
 const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
                                                  const Vec3& direction) const {
-    Slot* slots = slots_of(origin);
-    if (slots == nullptr) return nullptr;
     const std::size_t cell = cube_of(origin).cell_of(direction);
-    const List* known = slots[cell].load(std::memory_order_acquire);
-    if (known != nullptr) return known;
+    Slot* slot = slot_of(origin, cell);
+    if (slot == nullptr) return nullptr;
+    const List* known = slot->load(std::memory_order_acquire);
+    if (known != nullptr || full_) return known;
     auto made = std::make_unique<const List>(make(origin, cell));
     const std::lock_guard lock(making_);
-    known = slots[cell].load(std::memory_order_relaxed);
+    known = slot->load(std::memory_order_relaxed);
     const std::size_t bytes = sizeof(List) + made->capacity() * sizeof(Candidate);
-    if (known != nullptr || used_ + bytes > most_bytes_) return known;
+    if (known != nullptr) return known;
+    if (used_ + bytes > most_bytes_) {
+        // Else every ray of this cell would make the list anew, for nothing.
+        full_ = true;
+        return nullptr;
+    }
     used_ += bytes;
     ++lists_made_;
     candidates_made_ += made->size();
     known = made_lists_.emplace_back(std::move(made)).get();
-    slots[cell].store(known, std::memory_order_release);
+    slot->store(known, std::memory_order_release);
     return known;
 }
 

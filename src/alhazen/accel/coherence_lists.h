@@ -12,6 +12,7 @@
 /// Threads: `find` may be called from many; lists do not depend on who asks first, unless memory
 /// runs out.
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -33,8 +34,10 @@ class CoherenceLists {
     };
     using List = std::vector<Candidate>;
 
-    /// Lights have four times the `resolution`: they are points, so their cones are thin. `room` is
-    /// how far rays may pass beside where they should; lists take `most_bytes` at most.
+    /// A cube of directions has `resolution` cells along an edge, 0: so many that there are two
+    /// cells for each primitive. Lights have four times as many: they are points, so their cones
+    /// are thin. `room` is how far rays may pass beside where they should; lists take `most_bytes`
+    /// at most.
     CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights, double room,
                    int resolution, std::size_t most_bytes);
     CoherenceLists(const CoherenceLists&) = delete;
@@ -59,12 +62,19 @@ class CoherenceLists {
 
   private:
     using Slot = std::atomic<const List*>;
+    /// Cells of an origin side by side: most are never asked for.
+    using Block = std::array<Slot, 64>;
+    using Blocks = std::atomic<Block*>;
 
     void sort_into_cells();
     [[nodiscard]] const DirectionCube& cube_of(std::uint32_t origin) const {
         return origin < primitives_ ? cube_ : light_cube_;
     }
-    [[nodiscard]] Slot* slots_of(std::uint32_t origin) const;
+    /// Null when there is no memory left.
+    [[nodiscard]] Slot* slot_of(std::uint32_t origin, std::size_t cell) const;
+    template <class T>
+    [[nodiscard]] T* made_at(std::atomic<T*>& place, std::size_t count,
+                             std::vector<std::unique_ptr<T[]>>& made) const;
     [[nodiscard]] List make(std::uint32_t origin, std::size_t cell) const;
 
     std::vector<BoundingSphere> spheres_;  ///< [origin]
@@ -76,11 +86,13 @@ class CoherenceLists {
     CellGrid grid_;
     std::vector<std::uint32_t> starts_, entries_;
 
-    mutable std::vector<std::atomic<Slot*>> slots_;  ///< [origin] null, or one for each cell
+    mutable std::vector<std::atomic<Blocks*>> origins_;  ///< null, or blocks of all its cells
     mutable std::mutex making_;
-    mutable std::vector<std::unique_ptr<Slot[]>> made_slots_;
+    mutable std::vector<std::unique_ptr<Blocks[]>> made_origins_;
+    mutable std::vector<std::unique_ptr<Block[]>> made_blocks_;
     mutable std::vector<std::unique_ptr<const List>> made_lists_;
     mutable std::atomic<std::size_t> used_{0}, lists_made_{0}, candidates_made_{0};
+    mutable std::atomic<bool> full_{false};  ///< a list had no room: no more are made
 };
 
 }  // namespace alhazen

@@ -53,7 +53,7 @@ std::uint32_t InsertionTree::child_to_descend(const Node& node, const BoxBound& 
     return best;
 }
 
-InsertionTree::Place InsertionTree::best_place(const BoxBound& bound) const {
+InsertionTree::Place InsertionTree::best_place(const BoxBound& bound) {
     Place best;
     double inherited = 0;
     const auto offer = [&](std::uint32_t node, bool as_child, double increase) {
@@ -64,6 +64,7 @@ InsertionTree::Place InsertionTree::best_place(const BoxBound& bound) const {
     };
     for (std::uint32_t n = root_;;) {
         const Node& node = nodes_[n];
+        looked_at_ += n == root_ ? 1 : 0;
         const double area = insertion_area(node.bound);
         const double grown = insertion_area(hull(node.bound, bound));
         const auto k = static_cast<double>(node.children.size());
@@ -74,6 +75,7 @@ InsertionTree::Place InsertionTree::best_place(const BoxBound& bound) const {
         }
         inherited += k * (grown - area);
         if (inherited >= best.increase) return best;
+        looked_at_ += node.children.size();
         n = child_to_descend(node, bound);
     }
 }

@@ -27,6 +27,8 @@ class InsertionTree {
     /// The sum of k A, added up anew.
     [[nodiscard]] double cost() const;
     [[nodiscard]] BoundTree<BoxBound> flattened() const;
+    /// By all insertions, to find their places.
+    [[nodiscard]] std::uint64_t nodes_looked_at() const { return looked_at_; }
 
   private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -45,7 +47,7 @@ class InsertionTree {
         double increase = std::numeric_limits<double>::infinity();
     };
 
-    [[nodiscard]] Place best_place(const BoxBound& bound) const;
+    [[nodiscard]] Place best_place(const BoxBound& bound);
     [[nodiscard]] std::uint32_t child_to_descend(const Node& node, const BoxBound& bound) const;
     [[nodiscard]] std::uint32_t new_node();
     void put_beside(std::uint32_t node, std::uint32_t leaf);
@@ -57,6 +59,7 @@ class InsertionTree {
     std::vector<std::uint32_t> free_;     ///< nodes not in use
     std::vector<std::uint32_t> leaf_of_;  ///< [primitive]
     std::uint32_t root_ = kNone;
+    std::uint64_t looked_at_ = 0;
 };
 
 /// Half the surface and a little of the edges: flat boxes are compared, too.

@@ -54,11 +54,9 @@ class KdTreeBuilder {
     void run() {
         std::vector<Piece> pieces;
         for (std::size_t i = 0; i < source_.size(); ++i) {
-            const Box3 b = widened(source_.box(i));
-            tree_.box_.include(b);
-            pieces.push_back({static_cast<std::uint32_t>(i), b});
+            pieces.push_back({static_cast<std::uint32_t>(i), widened(source_.box(i))});
         }
-        root_area_ = area(tree_.box_);
+        root_area_ = area(tree_.box());
         max_depth_ = config_.max_depth > 0
                          ? config_.max_depth
                          : static_cast<int>(8.5 + 1.3 * std::log2(double(source_.size())));
@@ -67,7 +65,7 @@ class KdTreeBuilder {
             for (std::uint32_t i = 0; i < pieces.size(); ++i) add_events(pieces[i].box, i, events);
             sort(events);
         }
-        build(std::move(pieces), std::move(events), tree_.box_, 0, 0);
+        build(std::move(pieces), std::move(events), tree_.box(), 0, 0);
     }
 
   private:
@@ -78,10 +76,7 @@ class KdTreeBuilder {
         const Vec3 s = b.size();
         return s.x * s.y + s.y * s.z + s.z * s.x;
     }
-    [[nodiscard]] Box3 widened(const Box3& b) const {
-        const Vec3 pad{tree_.pad_, tree_.pad_, tree_.pad_};
-        return {b.lo - pad, b.hi + pad};
-    }
+    [[nodiscard]] Box3 widened(const Box3& b) const { return tree_.space_.widened(b); }
     static void sort(std::vector<Event>& events) {
         std::sort(events.begin(), events.end(),
                   [](const Event& a, const Event& b) { return a.before(b); });
@@ -311,11 +306,7 @@ KdTree KdTree::build(const BoundsSource& source, const Config& config) {
     tree.config_ = config;
     tree.primitives_ = static_cast<std::uint32_t>(source.size());
     if (source.size() == 0) return tree;
-    Box3 all;
-    for (std::size_t i = 0; i < source.size(); ++i) all.include(source.box(i));
-    const double reach = std::max(max_component(abs(all.lo)), max_component(abs(all.hi)));
-    tree.pad_ =
-        0x1p-32 * max_component(all.size()) + 0x1p-46 * reach + std::numeric_limits<double>::min();
+    tree.space_ = PaddedBox(source);
     KdTreeBuilder(source, tree).run();
     return tree;
 }

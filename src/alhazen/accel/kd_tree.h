@@ -11,17 +11,14 @@
 /// tested against everything. Complexity: O(n log n) to build; `build=n2` finds the same tree, bit
 /// for bit, in O(n^2).
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "alhazen/accel/accelerator.h"
 #include "alhazen/accel/accelerator_settings.h"
 #include "alhazen/accel/mailbox.h"
-#include "alhazen/accel/reentrant_stack.h"
+#include "alhazen/accel/padded_box.h"
+#include "alhazen/accel/plane_walk.h"
 #include "alhazen/accel/traversal_trace.h"
 
 namespace alhazen {
@@ -59,7 +56,7 @@ class KdTree {
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
     /// The root's, a little wider than what is in it.
-    [[nodiscard]] const Box3& box() const { return box_; }
+    [[nodiscard]] const Box3& box() const { return space_.box; }
     /// The expected cost of a ray that meets the root's box, by the heuristic.
     [[nodiscard]] double expected_cost() const { return expected_cost_; }
 
@@ -72,14 +69,8 @@ class KdTree {
 
   private:
     friend class KdTreeBuilder;
-    struct Segment {
-        std::uint32_t node;
-        double begin, end;
-    };
-
     Config config_;
-    Box3 box_;
-    double pad_ = 0;
+    PaddedBox space_;
     std::uint32_t primitives_ = 0;
     double expected_cost_ = 0;
     std::vector<Node> nodes_;
@@ -89,78 +80,20 @@ class KdTree {
 template <class Visitor, class Stats>
 void KdTree::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
     if (nodes_.empty()) return;
-    if (max_component(abs(ray.origin)) > 0x1p44 * pad_) {
-        for (std::uint32_t i = 0; i < primitives_; ++i) {
-            if (visitor.visit(i)) return;
-        }
-        return;
-    }
-    double begin = ray.t_min, end = visitor.t_max();
-    Vec3 inverse;
-    for (int k = 0; k < 3; ++k) {
-        inverse[k] = 1.0 / ray.direction[k];
-        // Also for components so small that only infinity tells how far they lead.
-        if (std::isinf(inverse[k])) {
-            if (ray.origin[k] < box_.lo[k] || ray.origin[k] > box_.hi[k]) return;
-            continue;
-        }
-        const double a = (box_.lo[k] - ray.origin[k]) * inverse[k];
-        const double b = (box_.hi[k] - ray.origin[k]) * inverse[k];
-        begin = std::max(begin, std::min(a, b));
-        end = std::min(end, std::max(a, b));
-    }
-    if (begin > end) return;
-
+    if (!space_.covers(ray)) return visit_all(primitives_, visitor);
+    const RaySpan span(space_.box, ray, visitor.t_max());
+    if (span.empty()) return;
     Mailbox mailbox;
-    ReentrantStack<Segment> stack;
-    stack.push({0, begin, end});
-    while (!stack.empty()) {
-        Segment at = stack.pop();
-        // Not the end: where the ray runs in a plane, nearer segments may lie deeper in the stack.
-        if (at.begin > visitor.t_max()) continue;
-        for (;;) {
-            const Node& node = nodes_[at.node];
-            stats.nodes(1);
-            if (node.is_leaf()) break;
-            const int axis = node.axis;
-            const double from = ray.origin[axis] - node.plane;
-            // Both sides where the ray runs within the room for rounding of the plane.
-            const double room = pad_ * 0.5;
-            const std::uint32_t lower = at.node + 1, upper = node.index;
-            if (std::isinf(inverse[axis])) {
-                if (from > room) {
-                    at.node = upper;
-                } else {
-                    if (from >= -room) stack.push({upper, at.begin, at.end});
-                    at.node = lower;
-                }
-                continue;
-            }
-            const bool up = ray.direction[axis] > 0.0;
-            const std::uint32_t first = up ? lower : upper, second = up ? upper : lower;
-            const double t = -from * inverse[axis];
-            const double slack = room * std::abs(inverse[axis]);
-            if (t - slack > at.end) {
-                at.node = first;
-            } else if (t + slack < at.begin) {
-                at.node = second;
-            } else {
-                stack.push({second, std::max(at.begin, t - slack), at.end});
-                at.node = first;
-                at.end = std::min(at.end, t + slack);
-            }
-        }
-        const Node& leaf = nodes_[at.node];
-        note_cell(stats, at.node);
-        if (leaf.count == 0) stats.empty_cells(1);
-        for (std::uint32_t e = leaf.index; e < leaf.index + leaf.count; ++e) {
-            if (config_.mailbox && !mailbox.is_new(entries_[e])) {
-                stats.mailbox_saved(1);
-                continue;
-            }
-            if (visitor.visit(entries_[e])) return;
-        }
-    }
+    const auto from_plane = [&](const Node& node) {
+        return FromPlane{ray.origin[node.axis] - node.plane, span.inverse[node.axis]};
+    };
+    const auto test_leaf = [&](std::uint32_t number) {
+        const Node& leaf = nodes_[number];
+        note_cell(stats, number);
+        const std::span entries(entries_.data() + leaf.index, leaf.count);
+        return visit_entries(entries, config_.mailbox, mailbox, visitor, stats);
+    };
+    walk_through_planes(nodes_, span, 0.5 * space_.pad, from_plane, test_leaf, visitor, stats);
 }
 static_assert(Accelerator<KdTree>);
 

@@ -29,7 +29,7 @@ std::uint64_t LastOccluders::new_number() {
 class LightBufferBuilder {
   public:
     LightBufferBuilder(const BoundsSource& source, LightBuffer& made)
-        : source_(source), made_(made), bodies_(source), cube_(made.cube_) {}
+        : source_(source), made_(made), bodies_(source), room_(4 * made.ends_.room()) {}
 
     void run() {
         for (const Vec3& light : made_.ends_.places()) add_light(light);
@@ -37,116 +37,194 @@ class LightBufferBuilder {
 
   private:
     struct Entry {
-        std::uint32_t cell;
+        std::size_t cell;
         double begin;
         std::uint32_t body;
     };
 
     void add_light(const Vec3& light) {
-        std::vector<Entry> entries;
-        std::vector<LightBuffer::Cell> cells(cube_.size());
-        for (std::uint32_t i = 0; i < bodies_.size(); ++i) add_body(light, i, entries, cells);
-        const std::size_t first = made_.entries_.size();
-        if (first + entries.size() > 0xFFFFFFFFu) {
-            throw Error(ErrorKind::Resource,
-                        "light_buffer: more than 4294967295 entries in its lists; lower the "
-                        "resolution or the number of lights");
+        light_ = light;
+        LightBuffer::Light& made = made_.lights_.emplace_back();
+        windows_ = {};
+        for (std::uint32_t i = 0; i < bodies_.size(); ++i) windows_.include(box_from_light(i));
+        const double all = windows_.area();
+        add_windows(made.all);
+        windows_ = {};
+        for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+            DirectionWindows own;
+            own.include(box_from_light(i));
+            if (own.area() < kLarge * all) windows_.include(box_from_light(i));
         }
-        std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        if (windows_.area() < 0.5 * all) add_windows(made.small);
+    }
+
+    /// Divides the windows and makes the lists of their cells.
+    void add_windows(LightBuffer::Light::Windows& made) {
+        divide();
+        cells_.assign(windows_.size(), {});
+        entries_.clear();
+        for (std::uint32_t i = 0; i < bodies_.size(); ++i) add_body(i);
+        std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
             if (a.cell != b.cell) return a.cell < b.cell;
             return a.begin != b.begin ? a.begin < b.begin : a.body < b.body;
         });
-        for (std::size_t e = 0; e < entries.size(); ++e) {
-            LightBuffer::Cell& cell = cells[entries[e].cell];
-            if (cell.count++ == 0) cell.first = static_cast<std::uint32_t>(first + e);
-            cell.lit += entries[e].begin <= cell.filled_to;
-            made_.entries_.push_back(entries[e].body);
-            made_.begins_.push_back(entries[e].begin);
+        for (const Entry& entry : entries_) {
+            LightBuffer::Cell& cell = cells_[entry.cell];
+            // Behind what fills the cell there is no light.
+            if (entry.begin > cell.filled_to) continue;
+            if (cell.count++ == 0) cell.first = static_cast<std::uint32_t>(made_.entries_.size());
+            made_.entries_.push_back(entry.body);
+            made_.begins_.push_back(entry.begin);
         }
-        made_.cells_.insert(made_.cells_.end(), cells.begin(), cells.end());
+        if (made_.entries_.size() > 0xFFFFFFFFu) {
+            throw Error(ErrorKind::Resource,
+                        "light_buffer: more than 4294967295 entries in its lists; lower the "
+                        "density or the number of lights");
+        }
+        made = {windows_, made_.cells_.size()};
+        made_.cells_.insert(made_.cells_.end(), cells_.begin(), cells_.end());
     }
 
-    [[nodiscard]] double room() const { return 4 * made_.ends_.room(); }
+    void divide() {
+        const LightBuffer::Config& config = made_.config_;
+        const double count = std::min(kMostCells, config.density * double(bodies_.size()));
+        const double edge = config.resolution > 0 ? windows_.longest_edge() / config.resolution
+                                                  : std::sqrt(windows_.area() / count);
+        windows_.divide(edge, kMostInRow);
+    }
+
+    /// A box seen from the light, and from wherever a ray may pass beside it.
+    [[nodiscard]] Box3 box_from_light(std::uint32_t i) const {
+        const Box3& b = bodies_.box(i);
+        const Vec3 room{room_, room_, room_};
+        return {b.lo - light_ - room, b.hi - light_ + room};
+    }
 
     /// Not farther than its nearest point from the light.
-    [[nodiscard]] double begin_of(const Vec3& light, std::uint32_t i) const {
-        const Box3& b = bodies_.box(i);
+    [[nodiscard]] double begin_of(const Box3& box, std::uint32_t i) const {
         double square = 0;
         for (int k = 0; k < 3; ++k) {
-            const double beside = std::max(0.0, std::max(b.lo[k] - light[k], light[k] - b.hi[k]));
+            const double beside = std::max(0.0, std::max(box.lo[k], -box.hi[k]));
             square += beside * beside;
         }
         const BoundingSphere& sphere = bodies_.sphere(i);
-        const double to_sphere = length(sphere.center - light) - sphere.radius;
-        return std::max(0.0, std::max(std::sqrt(square), to_sphere) - room());
+        const double to_sphere = length(sphere.center - light_) - sphere.radius;
+        return std::max(0.0, std::max(std::sqrt(square), to_sphere) - room_);
     }
 
-    /// Which rows (or columns) of a face see the body: the wedge between two planes through the
-    /// light, `side` 0 for columns.
-    void find_rows(const Vec3& light, std::uint32_t i, int face, int side,
-                   std::vector<bool>& seen) const {
-        Vec3 along, across;
-        along[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
-        across[(face / 2 + 1 + side) % 3] = 1.0;
-        seen.assign(static_cast<std::size_t>(cube_.resolution()), false);
-        bool above_last = true;  // above the plane that the row begins at
-        for (int r = 0; r <= cube_.resolution(); ++r) {
-            const Vec3 normal = across - cube_.bound(r) * along;
-            const double steepness = length(normal);
-            const double place = dot(normal, light);
-            const Interval e = bodies_.extent(i, normal, steepness);
-            const bool below = e.lo - place <= room() * steepness;
-            if (r > 0) seen[static_cast<std::size_t>(r - 1)] = above_last && below;
-            above_last = e.hi - place >= -room() * steepness;
-        }
+    /// Range of normal . (p - light) over the points of a body.
+    [[nodiscard]] Interval extent(std::uint32_t i, const Vec3& normal, double steepness) const {
+        Interval range = bodies_.extent(i, normal, steepness);
+        if (bodies_.outline(i).empty()) range = intersection(range, source_.extent(i, normal));
+        const double place = dot(normal, light_);
+        return {range.lo - place, range.hi - place};
     }
 
-    void add_body(const Vec3& light, std::uint32_t i, std::vector<Entry>& entries,
-                  std::vector<LightBuffer::Cell>& cells) {
-        const double begin = begin_of(light, i);
+    /// A plane through the light: where a u + b v = w on a face. A body may be above it, below it,
+    /// or both.
+    struct Sides {
+        bool above, below;
+    };
+    [[nodiscard]] Sides sides_of(std::uint32_t i, int face, double a, double b, double w) const {
+        Vec3 normal = -w * DirectionCube::direction(face, 0, 0);
+        normal[(face / 2 + 1) % 3] = a;
+        normal[(face / 2 + 2) % 3] = b;
+        const double steepness = length(normal);
+        const Interval e = extent(i, normal, steepness);
+        return {e.hi >= -room_ * steepness, e.lo <= room_ * steepness};
+    }
+    /// Leaves out columns (side 0) or rows (side 1) at both ends that the body is beside.
+    void trim(std::uint32_t i, std::size_t side, DirectionWindows::Cells& cells) const {
+        auto& [first, last] = cells.ends[side];
+        const double a = side == 0 ? 1 : 0;
+        const auto sides = [&](int bound) {
+            return sides_of(i, cells.face, a, 1 - a, windows_.bound(cells.face, side, bound));
+        };
+        while (first < last && !sides(first + 1).below) ++first;
+        while (first < last && !sides(last).above) --last;
+    }
+
+    void add_body(std::uint32_t i) {
+        const Box3 box = box_from_light(i);
+        const double begin = begin_of(box, i);
         const bool may_fill = made_.config_.full_cells && source_.blocks_light(i);
         for (int face = 0; face < 6; ++face) {
-            const Vec3 along = DirectionCube::direction(face, 0, 0);
-            if (bodies_.extent(i, along, 1.0).hi - dot(along, light) < -room()) continue;
-            find_rows(light, i, face, 0, columns_);
-            find_rows(light, i, face, 1, rows_);
-            for (int row = 0; row < cube_.resolution(); ++row) {
-                if (!rows_[static_cast<std::size_t>(row)]) continue;
-                for (int column = 0; column < cube_.resolution(); ++column) {
-                    if (!columns_[static_cast<std::size_t>(column)]) continue;
-                    const Cover cover = cover_of(light, i, begin, {face, column, row});
-                    if (cover == Cover::None) continue;
-                    const std::size_t cell = cube_.number(face, column, row);
-                    entries.push_back({static_cast<std::uint32_t>(cell), begin, i});
-                    if (may_fill && cover == Cover::Full)
-                        fill(light, i, begin, {face, column, row}, cells[cell]);
+            const auto slopes = DirectionWindows::slopes_of(box, face);
+            if (!slopes) continue;
+            const auto seen = windows_.cells_of(*slopes, face);
+            if (!seen) continue;
+            DirectionWindows::Cells cells = *seen;
+            trim(i, 0, cells);
+            trim(i, 1, cells);
+            const auto [columns, rows] = cells.ends;
+            const bool corners = columns[0] < columns[1] && rows[0] < rows[1];
+            for (int row = rows[0]; row <= rows[1]; ++row) {
+                for (int column = columns[0]; column <= columns[1]; ++column) {
+                    const DirectionWindows::Slopes at = windows_.slopes_of_cell(face, column, row);
+                    const std::size_t cell = windows_.number(face, column, row);
+                    const double begin_here = std::max(begin, begin_in(box, face, at));
+                    if (!bodies_.outline(i).empty()) {
+                        add_polygon(i, face, at, cell, begin_here, may_fill);
+                    } else if (!corners || !is_beside(i, face, at)) {
+                        entries_.push_back({cell, begin_here, i});
+                    }
                 }
             }
         }
     }
 
-    struct CellPlace {
-        int face, column, row;
-    };
-    enum class Cover { None, Part, Full };
+    /// Not farther from the light than the part of a box that is seen in a cell.
+    [[nodiscard]] double begin_in(const Box3& box, int face,
+                                  const DirectionWindows::Slopes& at) const {
+        const auto part = DirectionWindows::depth_of(box, face, at);
+        double square = 1;
+        for (const Interval& s : at) {
+            const double least = std::max(0.0, std::max(s.lo, -s.hi));
+            square += least * least;
+        }
+        return std::max(0.0, (1.0 - 1e-12) * part * std::sqrt(square) - room_);
+    }
 
-    /// How much of a cell a triangle covers, by the planes through the light and its edges. A ray
-    /// passes within the room of a line from the light: a cell is beside the triangle, or filled by
+    /// Whether a body is beside a cell across one of its diagonals.
+    [[nodiscard]] bool is_beside(std::uint32_t i, int face,
+                                 const DirectionWindows::Slopes& at) const {
+        const auto& [u, v] = at;
+        return !sides_of(i, face, 1, 1, u.hi + v.hi).below ||
+               !sides_of(i, face, 1, 1, u.lo + v.lo).above ||
+               !sides_of(i, face, 1, -1, u.hi - v.lo).below ||
+               !sides_of(i, face, 1, -1, u.lo - v.hi).above;
+    }
+
+    enum class Cover { None, Part, Full };
+    using Corners = std::array<Vec3, 4>;
+
+    void add_polygon(std::uint32_t i, int face, const DirectionWindows::Slopes& at,
+                     std::size_t cell, double begin, bool may_fill) {
+        const Corners corners{DirectionCube::direction(face, at[0].lo, at[1].lo),
+                              DirectionCube::direction(face, at[0].hi, at[1].lo),
+                              DirectionCube::direction(face, at[0].hi, at[1].hi),
+                              DirectionCube::direction(face, at[0].lo, at[1].hi)};
+        outline_.clear();
+        for (const Vec3& p : bodies_.outline(i)) outline_.push_back(p - light_);
+        const Cover cover = cover_of(begin, corners);
+        if (cover == Cover::None) return;
+        entries_.push_back({cell, begin, i});
+        if (may_fill && cover == Cover::Full) fill(i, begin, corners, cells_[cell]);
+    }
+
+    /// How much of a cell the outline covers, by the planes through the light and its edges. A ray
+    /// passes within the room of a line from the light: a cell is beside the polygon, or filled by
     /// it, when that is so for all of those.
-    [[nodiscard]] Cover cover_of(const Vec3& light, std::uint32_t i, double begin,
-                                 const CellPlace& at) const {
-        const std::array<Vec3, 3>* triangle = bodies_.triangle(i);
-        if (triangle == nullptr) return Cover::Part;
-        const auto corners = cube_.corners(at.face, at.column, at.row);
-        const Vec3 p[3] = {(*triangle)[0] - light, (*triangle)[1] - light, (*triangle)[2] - light};
-        // Where the triangle is, points of the cell are at least so far along its corners.
+    [[nodiscard]] Cover cover_of(double begin, const Corners& corners) const {
+        // Where the polygon is, points of the cell are at least so far along its corners.
         const double depth = begin / std::sqrt(3.0);
         bool full = true;
-        for (int k = 0; k < 3; ++k) {
-            Vec3 normal = cross(p[k], p[(k + 1) % 3]);
-            if (dot(normal, p[(k + 2) % 3]) < 0.0) normal = -normal;
+        const std::size_t n = outline_.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            Vec3 normal = cross(outline_[k], outline_[(k + 1) % n]);
+            if (dot(normal, outline_[(k + 2) % n]) < 0.0) normal = -normal;
             const double size = length(normal);
-            // Of a sliver, or a triangle that the light lies in the plane of, nothing is known.
+            // Of a sliver, or a polygon that the light lies in the plane of, nothing is known.
             if (!(size > 0.0) || !std::isfinite(size)) return Cover::Part;
             double least = std::numeric_limits<double>::infinity(), most = -least;
             for (const Vec3& c : corners) {
@@ -154,54 +232,70 @@ class LightBufferBuilder {
                 least = std::min(least, beside);
                 most = std::max(most, beside);
             }
-            if (most * depth < -room()) return Cover::None;
-            full = full && least * depth > 64 * room();
+            if (most * depth < -room_) return Cover::None;
+            full = full && least * depth > 64 * room_;
         }
-        return full && is_steep(p, corners) ? Cover::Full : Cover::Part;
+        return full && is_steep(corners) ? Cover::Full : Cover::Part;
     }
 
-    /// Whether rays of the cell come steeply enough to a triangle for what they pass beside the
+    /// Whether rays of the cell come steeply enough to the polygon for what they pass beside the
     /// light not to matter.
-    static bool is_steep(const Vec3 (&p)[3], const std::array<Vec3, 4>& corners) {
-        const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    [[nodiscard]] bool is_steep(const Corners& corners) const {
+        const Vec3 normal = outline_normal();
         const double size = length(normal);
         return size > 0.0 && std::all_of(corners.begin(), corners.end(), [&](const Vec3& c) {
                    return std::abs(dot(normal, c)) > 0.1 * size * length(c);
                });
     }
 
-    /// The cell ends behind the nearest triangle that fills it: distances from the light are
+    [[nodiscard]] Vec3 outline_normal() const {
+        return cross(outline_[1] - outline_[0], outline_[2] - outline_[0]);
+    }
+
+    /// The cell ends behind the nearest polygon that fills it: distances from the light are
     /// largest at its corners.
-    void fill(const Vec3& light, std::uint32_t i, double begin, const CellPlace& at,
+    void fill(std::uint32_t i, double begin, const Corners& corners,
               LightBuffer::Cell& cell) const {
-        const auto& [a, b, c] = *bodies_.triangle(i);
-        const Vec3 normal = cross(b - a, c - a);
-        const double height = dot(normal, a - light);
+        const Vec3 normal = outline_normal();
+        const double height = dot(normal, outline_[0]);
         double end = 0;
-        for (const Vec3& corner : cube_.corners(at.face, at.column, at.row)) {
+        for (const Vec3& corner : corners) {
             end = std::max(end, std::abs(height / dot(normal, corner)) * length(corner));
         }
-        // Beside the light a ray comes to the triangle so much later where it is slanted most.
-        const double filled_to = (1.0 + 1e-9) * end + 16 * room();
+        // Beside the light a ray comes to the polygon so much later where it is slanted most.
+        const double filled_to = (1.0 + 1e-9) * end + 16 * room_;
         if (!(filled_to < cell.filled_to)) return;
         cell.filled_to = filled_to;
         cell.filled_from = begin;
+        cell.filler = i;
     }
+
+    /// Share of all that is seen from the light.
+    static constexpr double kLarge = 0.01;
+    static constexpr double kMostCells = 1 << 21;
+    static constexpr int kMostInRow = 4096;
 
     const BoundsSource& source_;
     LightBuffer& made_;
     BoundedBodies bodies_;
-    const DirectionCube& cube_;
-    std::vector<bool> rows_, columns_;
+    double room_;  ///< how far rays may pass beside the light
+    Vec3 light_;
+    DirectionWindows windows_;
+    std::vector<Entry> entries_;
+    std::vector<LightBuffer::Cell> cells_;
+    std::vector<Vec3> outline_;  ///< of the polygon that is looked at, from the light
 };
 
 LightBuffer::Config LightBuffer::configure(SettingsReader& reader) {
     Config config;
-    config.resolution =
-        reader.count("resolution", "cells along an edge of the cube around a light", 32, 1, 512);
+    config.density =
+        reader.number("density", "cells of a light for each primitive", 16, 1e-6, 1000);
+    config.resolution = reader.count(
+        "resolution", "cells along the longest edge of what a light sees, 0: by the density", 0, 0,
+        4096);
     config.lights = reader.count("lights", "so many get a buffer", 16, 0, 1000);
     config.full_cells =
-        reader.flag("full_cells", "lists end behind a triangle that fills their cell", true);
+        reader.flag("full_cells", "lists end behind a polygon that fills their cell", true);
     config.shadow_cache = reader.flag("shadow_cache", "test the last occluder first", true);
     config.others = OtherRays::configure(reader);
     return config;
@@ -214,7 +308,6 @@ LightBuffer LightBuffer::build(const BoundsSource& source, const Config& config)
     if (source.size() == 0) return made;
     made.space_ = PaddedBox(source);
     made.ends_ = RayEndFinder(source, made.space_, static_cast<std::size_t>(config.lights));
-    made.cube_ = DirectionCube(config.resolution);
     made.number_ = LastOccluders::new_number();
     LightBufferBuilder(source, made).run();
     return made;

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace alhazen {
 
@@ -44,5 +45,21 @@ class Mailbox {
 
     std::uint64_t ray_;
 };
+
+/// Tests what is listed in a cell; true when the visitor stops. Where `remembers` is false, the
+/// mailbox is not asked.
+template <class Visitor, class Stats>
+bool visit_entries(std::span<const std::uint32_t> entries, bool remembers, Mailbox& mailbox,
+                   Visitor& visitor, Stats stats) {
+    if (entries.empty()) stats.empty_cells(1);
+    for (const std::uint32_t primitive : entries) {
+        if (remembers && !mailbox.is_new(primitive)) {
+            stats.mailbox_saved(1);
+            continue;
+        }
+        if (visitor.visit(primitive)) return true;
+    }
+    return false;
+}
 
 }  // namespace alhazen

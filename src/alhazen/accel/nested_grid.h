@@ -169,14 +169,8 @@ void NestedGrid::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
             walk.enter(cell.index, walk.at.entry);
             continue;
         }
-        if (cell.count == 0) stats.empty_cells(1);
-        for (std::uint32_t e = cell.index; e < cell.index + cell.count; ++e) {
-            if (config_.mailbox && !mailbox.is_new(entries_[e])) {
-                stats.mailbox_saved(1);
-                continue;
-            }
-            if (visitor.visit(entries_[e])) return;
-        }
+        const std::span entries(entries_.data() + cell.index, cell.count);
+        if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
         // A hit beyond the cell may lie behind another one in the cells up to it.
         if (visitor.t_max() < walk.exit()) return;
         while (!walk.step()) {

@@ -35,12 +35,7 @@ class Octree {
     template <class Visitor, class Stats>
     void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         if (cells_.empty()) return;
-        if (!cells_.covers(ray)) {
-            for (std::uint32_t i = 0; i < primitives_; ++i) {
-                if (visitor.visit(i)) return;
-            }
-            return;
-        }
+        if (!cells_.covers(ray)) return visit_all(primitives_, visitor);
         const OctreeRay inside(cells_, ray, visitor.t_max());
         if (inside.misses()) return;
         Mailbox mailbox;
@@ -70,15 +65,8 @@ class Octree {
               Stats stats) const {
         const OctreeCells::Node& cell = cells_.nodes()[leaf];
         note_cell(stats, leaf);
-        if (cell.count == 0) stats.empty_cells(1);
-        for (std::uint32_t e = cell.first; e < cell.first + cell.count; ++e) {
-            const std::uint32_t primitive = cells_.entries()[e];
-            if (config_.mailbox && !mailbox.is_new(primitive)) {
-                stats.mailbox_saved(1);
-                continue;
-            }
-            if (visitor.visit(primitive)) return true;
-        }
+        const std::span entries(cells_.entries().data() + cell.first, cell.count);
+        if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return true;
         return visitor.t_max() < exit;
     }
 

@@ -1,7 +1,6 @@
 #include "alhazen/accel/octree_cells.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "alhazen/base/error.h"
@@ -9,20 +8,15 @@
 namespace alhazen {
 
 OctreeCells::OctreeCells(const BoundsSource& source, int max_depth, int leaf_size)
-    : max_depth_(max_depth) {
+    : space_(source), max_depth_(max_depth) {
     if (source.size() == 0) return;
-    Box3 all;
-    for (std::size_t i = 0; i < source.size(); ++i) all.include(source.box(i));
-    const double reach = std::max(max_component(abs(all.lo)), max_component(abs(all.hi)));
-    const double widest = max_component(all.size());
-    pad_ = 0x1p-32 * widest + 0x1p-46 * reach + std::numeric_limits<double>::min();
-    box_ = {all.lo - Vec3{pad_, pad_, pad_}, all.hi + Vec3{pad_, pad_, pad_}};
+    Box3& box = space_.box;
+    // Cells as flat as rounding would divide primitives that lie side by side.
+    const double least = std::max(1e-6 * max_component(box.size()), 4 * space_.pad);
     for (int k = 0; k < 3; ++k) {
-        // Cells as flat as rounding would divide primitives that lie side by side.
-        const double least = std::max(1e-6 * widest, 4 * pad_);
-        if (box_.hi[k] - box_.lo[k] < least) box_.hi[k] = box_.lo[k] + least;
-        unit_size_[k] = (box_.hi[k] - box_.lo[k]) / (std::int32_t{1} << max_depth_);
-        per_unit_size_[k] = (std::int32_t{1} << max_depth_) / (box_.hi[k] - box_.lo[k]);
+        if (box.hi[k] - box.lo[k] < least) box.hi[k] = box.lo[k] + least;
+        unit_size_[k] = (box.hi[k] - box.lo[k]) / (std::int32_t{1} << max_depth_);
+        per_unit_size_[k] = (std::int32_t{1} << max_depth_) / (box.hi[k] - box.lo[k]);
     }
     std::vector<std::uint32_t> inside(source.size());
     std::iota(inside.begin(), inside.end(), 0u);
@@ -34,8 +28,8 @@ Box3 OctreeCells::cell_box(const Node& node) const {
     Box3 b;
     for (int k = 0; k < 3; ++k) {
         const std::int32_t from = node.origin[static_cast<std::size_t>(k)];
-        b.lo[k] = plane(k, from) - pad_;
-        b.hi[k] = plane(k, from + span(node)) + pad_;
+        b.lo[k] = plane(k, from) - space_.pad;
+        b.hi[k] = plane(k, from + span(node)) + space_.pad;
     }
     return b;
 }

@@ -13,8 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "alhazen/geometry/bounds_source.h"
-#include "alhazen/geometry/ray.h"
+#include "alhazen/accel/padded_box.h"
 
 namespace alhazen {
 
@@ -41,21 +40,21 @@ class OctreeCells {
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
-    [[nodiscard]] const Box3& box() const { return box_; }
+    [[nodiscard]] const Box3& box() const { return space_.box; }
     [[nodiscard]] int max_depth() const { return max_depth_; }
-    [[nodiscard]] double pad() const { return pad_; }
+    [[nodiscard]] double pad() const { return space_.pad; }
 
     /// Edge of a cell, in units.
     [[nodiscard]] std::int32_t span(const Node& node) const {
         return std::int32_t{1} << (max_depth_ - node.level);
     }
     [[nodiscard]] double plane(int axis, std::int32_t unit) const {
-        return unit == std::int32_t{1} << max_depth_ ? box_.hi[axis]
-                                                     : box_.lo[axis] + unit * unit_size_[axis];
+        return unit == std::int32_t{1} << max_depth_ ? box().hi[axis]
+                                                     : box().lo[axis] + unit * unit_size_[axis];
     }
     /// The unit that a coordinate lies in; the nearest one of those in [lo, hi].
     [[nodiscard]] std::int32_t unit(int axis, double x, std::int32_t lo, std::int32_t hi) const {
-        const double place = (x - box_.lo[axis]) * per_unit_size_[axis];
+        const double place = (x - box().lo[axis]) * per_unit_size_[axis];
         return place >= hi ? hi : place <= lo ? lo : static_cast<std::int32_t>(place);
     }
     /// The octant of a unit in a node that is no leaf.
@@ -69,9 +68,7 @@ class OctreeCells {
     }
 
     /// Whether the ray begins so near that rounding stays far below `pad`.
-    [[nodiscard]] bool covers(const Ray& ray) const {
-        return max_component(abs(ray.origin)) <= 0x1p44 * pad_;
-    }
+    [[nodiscard]] bool covers(const Ray& ray) const { return space_.covers(ray); }
     [[nodiscard]] std::size_t memory_bytes() const {
         return nodes_.capacity() * sizeof(Node) + entries_.capacity() * sizeof(std::uint32_t);
     }
@@ -84,9 +81,8 @@ class OctreeCells {
 
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> entries_;
-    Box3 box_;
+    PaddedBox space_;
     Vec3 unit_size_, per_unit_size_;
-    double pad_ = 0;
     int max_depth_ = 0;
 };
 

@@ -26,33 +26,19 @@ namespace alhazen {
 class OctreeRay {
   public:
     OctreeRay(const OctreeCells& cells, const Ray& ray, double t_max)
-        : cells_(cells), ray_(ray), enter_(ray.t_min) {
-        double exit = t_max;
-        for (int k = 0; k < 3; ++k) {
-            const double inverse = 1.0 / ray.direction[k];
-            moves_[k] = !std::isinf(inverse);
-            inverse_[k] = inverse;
-            if (!moves_[k]) {
-                if (ray.origin[k] < cells.box().lo[k] || ray.origin[k] > cells.box().hi[k]) return;
-                continue;
-            }
-            const double a = (cells.box().lo[k] - ray.origin[k]) * inverse;
-            const double b = (cells.box().hi[k] - ray.origin[k]) * inverse;
-            enter_ = std::max(enter_, std::min(a, b));
-            exit = std::min(exit, std::max(a, b));
-        }
-        misses_ = !(enter_ <= exit);
+        : cells_(cells), ray_(ray), span_(cells.box(), ray, t_max) {
+        for (int k = 0; k < 3; ++k) moves_[k] = !std::isinf(span_.inverse[k]);
     }
 
-    [[nodiscard]] bool misses() const { return misses_; }
-    [[nodiscard]] double enter() const { return enter_; }
+    [[nodiscard]] bool misses() const { return span_.empty(); }
+    [[nodiscard]] double enter() const { return span_.begin; }
     [[nodiscard]] bool moves(int axis) const { return moves_[axis]; }
     [[nodiscard]] bool upward(int axis) const { return ray_.direction[axis] > 0.0; }
     [[nodiscard]] double origin(int axis) const { return ray_.origin[axis]; }
     /// Where it crosses a plane; never, where it runs along the axis' planes.
     [[nodiscard]] double at_plane(int axis, std::int32_t unit) const {
         if (!moves_[axis]) return std::numeric_limits<double>::infinity();
-        return (cells_.plane(axis, unit) - ray_.origin[axis]) * inverse_[axis];
+        return (cells_.plane(axis, unit) - ray_.origin[axis]) * span_.inverse[axis];
     }
     /// The axis across which it leaves a cell, and when.
     struct Exit {
@@ -91,10 +77,8 @@ class OctreeRay {
   private:
     const OctreeCells& cells_;
     const Ray& ray_;
-    Vec3 inverse_;
+    RaySpan span_;
     std::array<bool, 3> moves_{};
-    double enter_;
-    bool misses_ = true;
 };
 
 namespace octree_detail {

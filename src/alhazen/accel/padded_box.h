@@ -24,6 +24,10 @@ struct PaddedBox {
         if (source.size() == 0) return;
         Box3 all;
         for (std::size_t i = 0; i < source.size(); ++i) all.include(source.box(i));
+        *this = PaddedBox(all);
+    }
+    /// Around a box that is not empty.
+    explicit PaddedBox(const Box3& all) {
         const double reach = std::max(max_component(abs(all.lo)), max_component(abs(all.hi)));
         pad = 0x1p-32 * max_component(all.size()) + 0x1p-46 * reach +
               std::numeric_limits<double>::min();
@@ -50,7 +54,8 @@ struct RaySpan {
             // Also for components so small that only infinity tells how far they lead.
             if (std::isinf(inverse[k])) {
                 if (ray.origin[k] < box.lo[k] || ray.origin[k] > box.hi[k]) {
-                    end = -std::numeric_limits<double>::infinity();
+                    begin = std::numeric_limits<double>::infinity();
+                    end = -begin;
                 }
                 continue;
             }

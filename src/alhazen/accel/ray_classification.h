@@ -5,14 +5,16 @@
 /// Source: Arvo and Kirk, "Fast Ray Tracing by Ray Classification", SIGGRAPH 1987; Arvo and Kirk,
 /// "A Survey of Ray Tracing Acceleration Techniques", in Glassner (ed.), "An Introduction to Ray
 /// Tracing", 1989. Differs: what a class may meet is found by five planes around its beam and the
-/// extents of triangles, or of the box and sphere around all else, along their normals, where Arvo
-/// and Kirk take cones or linear programs. Lists are not cut off behind blockers, nor by faces that
-/// are turned away. When the memory is used up, no list is made shorter any more (they throw away
-/// what was not used lately). A thread remembers its last four classes for each of the six
-/// directions, whatever its rays are for. Rays from so far away that rounding could lead beside
-/// their class are tested against everything. Complexity and threads: classes are divided as rays
-/// come to them, by all threads at once; a ray costs the depth of its class, or nothing where it is
-/// that of a ray before.
+/// extents of flat polygons, or of the box and sphere around all else, along their normals, and by
+/// the sides on which its rays pass the edges of polygons, where Arvo and Kirk take cones or linear
+/// programs. Lists are not cut off behind blockers: what is behind a hit is not tested anyway. Nor
+/// are faces that are turned away left out: others could tell the difference. When the memory is
+/// used up, all classes are thrown away and made anew as rays come (they throw away what was not
+/// used lately). A thread
+/// remembers its last 16 classes for each of the six directions, for the nearest and for any hit.
+/// Rays from so far away that rounding could lead beside their class are tested against everything.
+/// Complexity and threads: classes are divided as rays come to them, by all threads at once; a ray
+/// costs the depth of its class, or nothing where it is that of a ray before.
 
 #include <cstddef>
 #include <memory>
@@ -46,7 +48,9 @@ class RayClassification {
         const RaySpan span(space.box, ray, visitor.t_max());
         if (span.empty()) return;
         const ClassifiedRay classified(ray, span.begin);
-        const RayHypercubes::Found found = classes_->find(classified);
+        constexpr AsksFor kAsked = asks_for<Visitor>();
+        const RayHypercubes::Found found =
+            classes_->find(classified, kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker);
         stats.cache_lookup(found.cached);
         stats.nodes(static_cast<std::uint64_t>(found.nodes));
         note_cell(stats, static_cast<std::size_t>(found.nodes));

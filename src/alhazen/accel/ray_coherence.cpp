@@ -4,8 +4,9 @@ namespace alhazen {
 
 RayCoherence::Config RayCoherence::configure(SettingsReader& reader) {
     Config config;
-    config.resolution =
-        reader.count("resolution", "cells along an edge of the cube of directions", 8, 1, 64);
+    config.resolution = reader.count(
+        "resolution",
+        "cells along an edge of the cube of directions, 0: by the number of primitives", 0, 0, 64);
     config.most =
         reader.count("most", "with more primitives all rays are others", 20000, 0, 1000000);
     config.memory_mib =

@@ -26,8 +26,9 @@ class RayCoherence {
         "lists for the directions from every primitive and light";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        int resolution = 8;  ///< of a face of the cube of directions
-        int most = 20000;    ///< with more primitives all rays are others
+        int resolution =
+            0;             ///< of a face of the cube of directions, 0: by the number of primitives
+        int most = 20000;  ///< with more primitives all rays are others
         int memory_mib = 256;
         OtherRays::Kind others = OtherRays::Kind::Hierarchy;
     };
@@ -37,15 +38,11 @@ class RayCoherence {
     template <class Visitor, class Stats>
     void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         if (lists_ != nullptr && space_.covers(ray)) {
-            constexpr AsksFor kAsked = asks_for<Visitor>();
-            if constexpr (kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker) {
-                if (const auto to = ends_.find(ray)) {
-                    const auto* list =
-                        lists_->find(lists_->origin_of_light(to->end), -ray.direction);
-                    if (list != nullptr) {
-                        return test(
-                            *list, [&] { return to->start; }, visitor, stats);
-                    }
+            if (const auto to = ends_.find_for<Visitor>(ray)) {
+                const auto* list = lists_->find(lists_->origin_of_light(to->end), -ray.direction);
+                if (list != nullptr) {
+                    return test(
+                        *list, [&] { return to->start; }, visitor, stats);
                 }
             }
             if (const auto* list = list_from(ray, stats)) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "alhazen/accel/accelerator.h"
 #include "alhazen/accel/padded_box.h"
 
 namespace alhazen {
@@ -47,6 +48,16 @@ class RayEndFinder {
             if (start > 4 * room_ && stop >= -room_) return Found{i, start, stop};
         }
         return std::nullopt;
+    }
+    /// The same of rays that ask what is in their way; others go nowhere.
+    template <class Visitor>
+    [[nodiscard]] std::optional<Found> find_for(const Ray& ray) const {
+        constexpr AsksFor kAsked = asks_for<Visitor>();
+        if constexpr (kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker) {
+            return find(ray);
+        } else {
+            return std::nullopt;
+        }
     }
 
   private:

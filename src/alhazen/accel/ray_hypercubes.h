@@ -13,6 +13,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -59,12 +60,14 @@ class RayHypercubes {
     RayHypercubes& operator=(const RayHypercubes&) = delete;
 
     struct Found {
-        const List* list;  ///< ascending by where bodies begin along the direction
-        int nodes;         ///< hypercubes that were entered on the way to it
-        bool cached;       ///< found among those that the thread used last
+        const List* list;                  ///< ascending by where bodies begin along the direction
+        int nodes;                         ///< hypercubes that were entered on the way to it
+        bool cached;                       ///< found among those that the thread used last
+        std::shared_ptr<const void> kept;  ///< the list lives as long as this
     };
     /// Of a ray that begins in the space, or is off it by rounding.
-    [[nodiscard]] Found find(ClassifiedRay ray) const;
+    /// What a thread found for closest hits and for any hit it remembers apart.
+    [[nodiscard]] Found find(ClassifiedRay ray, bool any_hit = false) const;
 
     [[nodiscard]] const PaddedBox& space() const { return space_; }
     [[nodiscard]] const BoundedBodies& bodies() const { return bodies_; }
@@ -74,36 +77,58 @@ class RayHypercubes {
         return direction % 2 == 0 ? b.lo[direction / 2] : -b.hi[direction / 2];
     }
     /// Of bodies and of what has been made of the trees.
-    [[nodiscard]] std::size_t memory_bytes() const { return bodies_.memory_bytes() + used_; }
+    [[nodiscard]] std::size_t memory_bytes() const {
+        const std::shared_ptr<Trees> trees = std::atomic_load(&trees_);
+        return bodies_.memory_bytes() + trees->used;
+    }
     /// Hypercubes in all trees.
-    [[nodiscard]] std::size_t nodes_made() const { return nodes_made_; }
+    [[nodiscard]] std::size_t nodes_made() const { return std::atomic_load(&trees_)->nodes_made; }
 
   private:
-    static constexpr std::size_t kChildren = 32;
+    /// Of the 32 children of a hypercube there are only those that rays have come to: few.
     struct Node {
         std::atomic<const List*> list{nullptr};  ///< null: nobody has asked yet
-        std::atomic<Node*> children{nullptr};    ///< kChildren, or null
+        std::atomic<Node*> first_child{nullptr};
+        Node* next = nullptr;     ///< the sibling that was made before
+        std::uint32_t index = 0;  ///< which child of its parent
     };
     struct Recent;
+    struct Trees {
+        explicit Trees(std::size_t bytes) : used(bytes) {}
+        /// Of no other ones, ever: what threads remember is asked for by it.
+        std::uint64_t id = new_id();
+        std::array<Node, 6> roots;
+        std::mutex making;
+        std::deque<Node> nodes;
+        std::vector<std::unique_ptr<const List>> lists;
+        std::atomic<std::size_t> used, nodes_made{6};
+    };
+    [[nodiscard]] static std::uint64_t new_id();
 
     [[nodiscard]] Hypercube root() const;
     /// What of `parent` the rays of a hypercube may meet, in the same order.
     [[nodiscard]] List meeting(const List& parent, int direction, const Hypercube& cube) const;
     /// Null when there is no memory left.
-    [[nodiscard]] Node* children_of(Node& node) const;
-    [[nodiscard]] const List* list_of(Node& child, const List& parent, int direction,
-                                      const Hypercube& cube) const;
+    [[nodiscard]] Node* child_of(Trees& trees, Node& node, std::uint32_t index) const;
+    [[nodiscard]] const List* list_of(Trees& trees, Node& child, const List& parent, int direction,
+                                      const Hypercube& cube, bool last) const;
+    struct Leaf {
+        const List* list;
+        Hypercube cube;
+        int depth;
+        bool whole;  ///< false where there was no memory left to divide further
+    };
+    [[nodiscard]] Leaf descend(Trees& trees, const ClassifiedRay& ray) const;
+    /// New trees instead of those that are full, unless another thread has made them.
+    [[nodiscard]] std::shared_ptr<Trees> begin_anew(const std::shared_ptr<Trees>& full) const;
 
     PaddedBox space_;
     BoundedBodies bodies_;
     Limits limits_;
-    std::uint64_t id_;  ///< of no other one, ever: what threads remember is asked for by it
     std::array<List, 6> everything_;
-    mutable std::array<Node, 6> roots_;
-    mutable std::mutex making_;
-    mutable std::vector<std::unique_ptr<Node[]>> nodes_;
-    mutable std::vector<std::unique_ptr<const List>> lists_;
-    mutable std::atomic<std::size_t> used_{0}, nodes_made_{6};
+    std::size_t least_bytes_ = 0;  ///< of these lists
+    /// Those who are in them keep the old ones until they have done.
+    mutable std::shared_ptr<Trees> trees_;
 };
 
 }  // namespace alhazen

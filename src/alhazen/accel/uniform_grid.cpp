@@ -9,17 +9,18 @@ namespace {
 constexpr int kMostAlongAxis = 1024;
 constexpr double kMostCells = 1 << 27;
 
-/// Calls add(cell number) for all cells that the primitive may have a point in.
+/// Calls add(cell number) for all cells that the primitive, or its box, may have a point in.
 template <class Add>
-void for_cells(const CellGrid& grid, const BoundsSource& source, std::size_t i, const Add& add) {
+void for_cells(const CellGrid& grid, const BoundsSource& source, std::size_t i, bool by_box,
+               const Add& add) {
     const auto [first, last] = grid.range(source.box(i));
     const Vec3 pad{grid.pad, grid.pad, grid.pad};
-    const bool one = first == last;
+    const bool all = by_box || first == last;
     for (int z = first[2]; z <= last[2]; ++z) {
         for (int y = first[1]; y <= last[1]; ++y) {
             for (int x = first[0]; x <= last[0]; ++x) {
                 const Box3 cell = grid.cell_box({x, y, z});
-                if (!one && !source.overlaps(i, {cell.lo - pad, cell.hi + pad})) continue;
+                if (!all && !source.overlaps(i, {cell.lo - pad, cell.hi + pad})) continue;
                 add(grid.number({x, y, z}));
             }
         }
@@ -36,6 +37,10 @@ UniformGrid::Config UniformGrid::configure(SettingsReader& reader) {
         config.cells[k] = reader.count(kAlong[k], "cells along the axis, 0: by the density", 0, 0,
                                        kMostAlongAxis);
     }
+    static constexpr const char* kLists[] = {"exact", "boxes"};
+    config.by_boxes =
+        reader.choice("lists", "what must reach into a cell: the primitive, or its box", 0,
+                      kLists) == 1;
     config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
     config.hit_in_cell =
         reader.flag("hit_in_cell", "off: a hit beyond its cell counts (wrong pictures)", true);
@@ -64,7 +69,7 @@ UniformGrid UniformGrid::build(const BoundsSource& source, const Config& config)
     std::vector<std::uint32_t> counts(made.grid_.size() + 1, 0);
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < source.size(); ++i) {
-        for_cells(made.grid_, source, i, [&](std::size_t cell) {
+        for_cells(made.grid_, source, i, config.by_boxes, [&](std::size_t cell) {
             ++counts[cell + 1];
             ++total;
         });
@@ -78,7 +83,7 @@ UniformGrid UniformGrid::build(const BoundsSource& source, const Config& config)
     made.starts_ = counts;
     made.entries_.resize(total);
     for (std::size_t i = 0; i < source.size(); ++i) {
-        for_cells(made.grid_, source, i, [&](std::size_t cell) {
+        for_cells(made.grid_, source, i, config.by_boxes, [&](std::size_t cell) {
             made.entries_[counts[cell]++] = static_cast<std::uint32_t>(i);
         });
     }

@@ -26,6 +26,7 @@ class UniformGrid {
     struct Config {
         double density = 3;          ///< cells for each primitive
         std::array<int, 3> cells{};  ///< along each axis, by hand; 0: by the density
+        bool by_boxes = false;       ///< a primitive is in all cells that its box reaches into
         bool mailbox = true;         ///< a primitive in many cells is tested once a ray
         bool hit_in_cell = true;     ///< false shows what goes wrong without the rule
     };
@@ -37,12 +38,7 @@ class UniformGrid {
     template <class Visitor, class Stats>
     void traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         if (starts_.empty()) return;
-        if (!grid_.covers(ray)) {
-            for (std::uint32_t i = 0; i < primitives_; ++i) {
-                if (visitor.visit(i)) return;
-            }
-            return;
-        }
+        if (!grid_.covers(ray)) return visit_all(primitives_, visitor);
         const double t_max = visitor.t_max();
         Mailbox mailbox;
         for (CellWalk walk(grid_, ray, t_max); !walk.outside(); walk.step()) {
@@ -50,15 +46,9 @@ class UniformGrid {
             const std::size_t cell = grid_.number(walk.cell());
             stats.nodes(1);
             note_cell(stats, cell);
-            if (starts_[cell] == starts_[cell + 1]) stats.empty_cells(1);
-            for (std::uint32_t e = starts_[cell]; e < starts_[cell + 1]; ++e) {
-                const std::uint32_t primitive = entries_[e];
-                if (config_.mailbox && !mailbox.is_new(primitive)) {
-                    stats.mailbox_saved(1);
-                    continue;
-                }
-                if (visitor.visit(primitive)) return;
-            }
+            const std::span entries(entries_.data() + starts_[cell],
+                                    starts_[cell + 1] - starts_[cell]);
+            if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
             // A hit beyond the cell may lie behind another one in the cells up to it.
             const double known = config_.hit_in_cell ? walk.exit() : t_max;
             if (visitor.t_max() < known) return;

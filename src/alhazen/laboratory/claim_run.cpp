@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "alhazen/base/error.h"
 #include "alhazen/math/random.h"
@@ -19,14 +20,21 @@ constexpr std::size_t kRecordedRays = 300'000;
 
 SceneTrial& ClaimRun::spd(const SpdScene& scene) {
     std::unique_ptr<SceneTrial>& trial = trials_[scene.name];
-    if (trial) return *trial;
+    if (!trial) trial = trial_of(scene, kRecordedRays);
+    return *trial;
+}
+
+std::unique_ptr<SceneTrial> ClaimRun::spd_with_all_rays(const SpdScene& scene) const {
+    return trial_of(scene, std::numeric_limits<std::size_t>::max());
+}
+
+std::unique_ptr<SceneTrial> ClaimRun::trial_of(const SpdScene& scene, std::size_t most_rays) const {
     SceneDescription description = generated(scene.name, scene.size);
     step(std::string(scene.name) + ": the rays");
     TrialOptions options;
     options.spd = true;
-    options.most_rays = kRecordedRays;
-    trial = std::make_unique<SceneTrial>(std::move(description), options);
-    return *trial;
+    options.most_rays = most_rays;
+    return std::make_unique<SceneTrial>(std::move(description), options);
 }
 
 SceneDescription ClaimRun::generated(const std::string& name, std::uint64_t size) const {

@@ -47,6 +47,8 @@ class ClaimRun {
     /// Throws ClaimUnavailable when there is no such generator. Of the databases the rays are those
     /// of the published protocol; at most `most_rays` of them are recorded.
     [[nodiscard]] SceneTrial& spd(const SpdScene& scene);
+    /// The same with every ray of the picture, not kept for others.
+    [[nodiscard]] std::unique_ptr<SceneTrial> spd_with_all_rays(const SpdScene& scene) const;
     /// A scene of another generator at a size.
     [[nodiscard]] SceneDescription generated(const std::string& name, std::uint64_t size) const;
     /// Throws ClaimUnavailable when there is no such accelerator.
@@ -61,6 +63,9 @@ class ClaimRun {
     void step(const std::string& what) const;
 
   private:
+    [[nodiscard]] std::unique_ptr<SceneTrial> trial_of(const SpdScene& scene,
+                                                       std::size_t most_rays) const;
+
     ClaimReport& report_;
     const ClaimOptions& options_;
     TrialCache& trials_;

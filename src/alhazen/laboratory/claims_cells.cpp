@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/accel/kd_tree.h"
@@ -39,8 +40,8 @@ constexpr std::array kPublishedGrids{PublishedGrid{{"balls", 4}, 358.66, 72.54, 
                                      PublishedGrid{{"tree", 11}, 727.62, 246.08, 355.45, 7.60}};
 
 void expect_near(ClaimRun& run, const std::string& what, double ours, double published) {
-    run.expect(what, fmt::format("{:.2f} ({:+.0f} %)", ours, 100 * (ours / published - 1)),
-               fmt::format("{:.2f}", published), std::abs(ours / published - 1) <= 0.1);
+    run.expect(what, fmt::format("{:.4g} ({:+.0f} %)", ours, 100 * (ours / published - 1)),
+               fmt::format("{:.4g}", published), std::abs(ours / published - 1) <= 0.1);
 }
 
 }  // namespace
@@ -51,7 +52,9 @@ void claim_b4(ClaimRun& run) {
         const char* name = published.scene.name;
         run.step(name);
         const auto ask = [&](int density) {
-            return trial.ask(fmt::format("uniform_grid:density={}", density), counting(run));
+            return trial.ask(
+                fmt::format("uniform_grid:lists=boxes,mailbox=off,density={}", density),
+                counting(run));
         };
         const ReplayFigures one = ask(1), ten = ask(10), twenty = ask(20);
         expect_near(run, fmt::format("{}: tests, density 1", name), one.each(kPrimitives),
@@ -64,19 +67,23 @@ void claim_b4(ClaimRun& run) {
                     published.cells_1);
     }
     run.note(
-        "Published figures of another program with other rules: how a density becomes cells along "
-        "the "
-        "axes, which primitives a cell holds (ours: spheres and triangles that reach into it, all "
-        "else "
-        "by its box), and whether a shadow ray ends at the first thing it meets (ours does).");
+        "Lists by boxes and no mailboxes, as the published figures evidently are. Of the others, "
+        "most are of scenes that differ: the mountain is another one, gears holds faces of 144 "
+        "corners as one primitive, the view of lattice is not known. In tetra at density 1 the "
+        "walls "
+        "of cells are walls of the tetrahedra, which lie in the cells on both sides here. In balls "
+        "and tree a large ground leaves the rest a few cells, so that one more or less counts. See "
+        "accelerators.md, Counts beside published ones.");
 }
 
 void claim_b5(ClaimRun& run) {
     for (const SpdScene& scene : kSpdScenes) {
         SceneTrial& trial = run.spd(scene);
         run.step(scene.name);
-        const ReplayFigures with = trial.ask("uniform_grid", counting(run));
-        const ReplayFigures without = trial.ask("uniform_grid:mailbox=off", counting(run));
+        // The same rays: what samples differ by is more than mailboxes save in some scenes.
+        const ReplayOptions all{.seconds = 1e3, .repetitions = 0, .in_batches = false};
+        const ReplayFigures with = trial.ask("uniform_grid", all);
+        const ReplayFigures without = trial.ask("uniform_grid:mailbox=off", all);
         const double saved = 1 - with.each(kPrimitives) / without.each(kPrimitives);
         run.expect(scene.name,
                    fmt::format("{:.2f} instead of {:.2f}, {:.1f} % fewer", with.each(kPrimitives),
@@ -146,17 +153,13 @@ void claim_b8(ClaimRun& run) {
         }
         const double ratio =
             by_walk["parametric"].each(kNodes) / by_walk["point_location"].each(kNodes);
-        run.expect(fmt::format("depth {}, top-down over point location", published.depth),
-                   fmt::format("{:.3f}", ratio),
-                   fmt::format("{:.3f}", published.top_down / published.point_location),
-                   ratio >= 0.35 && ratio <= 0.45);
+        expect_near(run, fmt::format("depth {}, top-down over point location", published.depth),
+                    ratio, published.top_down / published.point_location);
     }
     run.note(
         "Steps are all nodes that are looked at, inner ones too. balls, one primitive to a leaf. "
-        "The "
-        "published octrees divide where it pays, ours at the middle; their own ratios leave the "
-        "range, "
-        "too.");
+        "The published octrees (octree-84-A and octree-93-A) divide where it pays, ours at the "
+        "middle.");
 }
 
 void claim_b9(ClaimRun& run) {
@@ -175,10 +178,14 @@ void claim_b9(ClaimRun& run) {
     for (const std::size_t count : {10'000u, 100'000u, 1'000'000u}) {
         run.step(fmt::format("{} spheres", count));
         const SphereBoxes boxes(count, 3);
-        const CpuClock clock;
-        (void)KdTree::build(boxes, {});
+        double least = 1e300;
+        for (int i = 0; i < (count < 1'000'000 ? 3 : 1); ++i) {
+            const CpuClock clock;
+            (void)KdTree::build(boxes, {});
+            least = std::min(least, clock.seconds());
+        }
         n.push_back(static_cast<double>(count));
-        seconds.push_back(clock.seconds());
+        seconds.push_back(least);
         run.tell(fmt::format("{} spheres", count), fmt::format("{:.4g} s", seconds.back()));
     }
     const double slope = log_log_slope(n, seconds);

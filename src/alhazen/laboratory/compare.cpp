@@ -10,6 +10,7 @@
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/laboratory/picture_check.h"
 #include "alhazen/laboratory/tuning.h"
+#include "alhazen/scene/accelerator_bytes.h"
 #include "alhazen/scene/accelerator_table.h"
 
 namespace alhazen {
@@ -80,14 +81,10 @@ class Comparer {
         m.build_seconds = built.seconds;
         m.figures = trial_.ask(built.scene, {.seconds = options_.time_limit,
                                              .in_batches = m.name() == kDefaultAccelerator});
-        // What accelerators find out about a scene while rays are traced counts, too.
-        m.bytes = accelerator_bytes(built.scene);
         m.cost = pictures_.check(built.scene, m.figures, options_.time_limit, m.picture);
+        // Last: what accelerators find out about a scene while rays are traced counts, too.
+        m.bytes = accelerator_bytes(*built.scene.aggregate);
         return m;
-    }
-    static std::uint64_t accelerator_bytes(const Scene& scene) {
-        return std::max<std::uint64_t>(scene.census.accelerator_bytes,
-                                       scene.aggregate->memory_bytes());
     }
 
     /// Adds the accelerator with the best settings that are found, when they are not the defaults.

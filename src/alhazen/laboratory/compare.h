@@ -47,13 +47,13 @@ struct Measurement {
     Variant variant = Variant::Default;
     std::string unavailable;  ///< why it could not be built; empty: it was
     double build_seconds = 0;
-    std::uint64_t bytes = 0;  ///< of the acceleration structures
+    std::uint64_t bytes = 0;  ///< of the acceleration structures, after all rays
     ReplayFigures figures;
     PictureCheck picture;
     int tried = 0;  ///< builds of the search; 0 without
     bool search_cut_short = false;
-    /// Nodes and cells visited and primitives tested for each pixel, all its rays together; NaN
-    /// where it was not rendered. [height][width].
+    /// Nodes and cells visited, bounds and primitives tested for each pixel, all its rays together;
+    /// NaN where it was not rendered. [height][width].
     std::vector<float> cost;
 
     [[nodiscard]] bool agrees() const {

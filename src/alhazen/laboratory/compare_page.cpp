@@ -98,7 +98,8 @@ std::string viewer(const Comparison& c) {
         "is shown, the rest is the cost\"><div class=\"ends\"><span>&#9664; the picture</span>"
         "<span>cost of <b class=\"shown\">{3}</b> &#9654;</span></div>"
         "<div class=\"scale\" style=\"background:{5}\"></div><div class=\"ends\"><span>{6}</span>"
-        "<span>nodes, cells and primitives for each pixel (logarithmic, one scale for all)</span>"
+        "<span>nodes and cells visited, bounds and primitives tested for each pixel (logarithmic, "
+        "one scale for all)</span>"
         "<span>{7}</span></div></div><div class=\"thumbs\">{8}</div></div>\n",
         c.width, c.height, png_data_uri(picture), first_name, first, gradient(),
         short_number(std::pow(10, scale.low)), short_number(std::pow(10, scale.high)), thumbs);

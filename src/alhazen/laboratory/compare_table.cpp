@@ -9,10 +9,15 @@ namespace {
 
 constexpr int kNameWidth = 34;
 
-/// Three digits that tell, and no more width than seven.
+/// Three digits that tell, and no more width than six.
 std::string figure(double x) {
     if (x == 0) return "-";
-    if (x >= 99999.5) return fmt::format("{:.2e}", x);
+    if (x >= 999999.5) {
+        // 1.23e6: the sign and the leading zero of the exponent have no room.
+        const std::string text = fmt::format("{:.2e}", x);
+        const std::size_t digits = text.find_first_not_of("+0", text.find('e') + 1);
+        return text.substr(0, text.find('e') + 1) + text.substr(digits);
+    }
     return x >= 99.95   ? fmt::format("{:.0f}", x)
            : x >= 9.995 ? fmt::format("{:.1f}", x)
                         : fmt::format("{:.2f}", x);
@@ -44,14 +49,15 @@ std::string line_of_all(const Comparison& c, const Measurement& m) {
     if (!m.unavailable.empty()) return named_line(name_of(m)) + " " + m.unavailable + "\n";
     const ReplayFigures& f = m.figures;
     const auto each = [&](std::uint64_t TraversalStats::*count) { return figure(f.each(count)); };
-    return fmt::format("{}{:>8.3f}{:>9}{:>8}{:>8}{:>8}{:>8}{:>7}{:>7}{:>8}{}{:>8}{:>8}  {}\n",
-                       named_line(name_of(m)), m.build_seconds,
-                       figure(static_cast<double>(m.bytes) / (1024.0 * 1024.0)),
-                       each(&TraversalStats::node_visits), each(&TraversalStats::box_tests),
-                       each(&TraversalStats::primitive_tests), each(&TraversalStats::mailbox_saved),
-                       each(&TraversalStats::heap_pushes), each(&TraversalStats::empty_cells),
-                       figure(f.nanoseconds()), f.all_timed ? ' ' : '*', ratio(c.find("list"), m),
-                       ratio(c.find("wide_bvh"), m), verdict(m));
+    return fmt::format(
+        "{} {:>7.3f} {:>8} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}{} {:>7} {:>7}  {}\n",
+        named_line(name_of(m)), m.build_seconds,
+        figure(static_cast<double>(m.bytes) / (1024.0 * 1024.0)),
+        each(&TraversalStats::node_visits), each(&TraversalStats::box_tests),
+        each(&TraversalStats::primitive_tests), each(&TraversalStats::mailbox_saved),
+        each(&TraversalStats::heap_pushes), each(&TraversalStats::empty_cells),
+        figure(f.nanoseconds()), f.all_timed ? ' ' : '*', ratio(c.find("list"), m),
+        ratio(c.find("wide_bvh"), m), verdict(m));
 }
 
 std::string line_by_kind(const Comparison& c, const Measurement& m) {
@@ -60,7 +66,7 @@ std::string line_by_kind(const Comparison& c, const Measurement& m) {
         if (c.recorded[k] == 0) continue;
         const KindFigures& kind = m.figures.kinds[k];
         line +=
-            fmt::format("{:>8}{:>8}{:>8}{:>8}  ", figure(kind.each(kind.tests.node_visits)),
+            fmt::format(" {:>7} {:>7} {:>7} {:>7}  ", figure(kind.each(kind.tests.node_visits)),
                         figure(kind.each(kind.tests.box_tests)),
                         figure(kind.each(kind.tests.primitive_tests)), figure(kind.nanoseconds()));
     }

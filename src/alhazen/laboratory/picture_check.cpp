@@ -42,8 +42,9 @@ std::vector<PixelBox> tiles_by_chance(const PixelBox& frame, double seconds_a_pi
 RenderOptions PictureChecker::options_for(const PixelBox* crop) const {
     RenderOptions options = trial_.render_options();
     options.count_tests = true;
-    options.aovs.add(AovKind::NodeVisits);
-    options.aovs.add(AovKind::PrimitiveTests);
+    for (const AovKind cost : {AovKind::NodeVisits, AovKind::BoxTests, AovKind::PrimitiveTests}) {
+        options.aovs.add(cost);
+    }
     if (crop != nullptr) options.crop = *crop;
     return options;
 }

@@ -51,6 +51,7 @@ struct ReplayOptions {
     double seconds = 10;     ///< for the counts, and again for the times
     int repetitions = 3;     ///< of the times, of which the least counts; 0: no times
     bool in_batches = true;  ///< as the renderer does; else pieces of 64 rays
+    bool in_order = false;   ///< of the picture; else by chance, so that any part is a fair sample
     RayMask mask = 0;        ///< what rays see instead of what their kind sees; 0: nothing instead
 };
 

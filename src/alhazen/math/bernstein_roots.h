@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #include "alhazen/math/double_double.h"
 
@@ -75,24 +76,57 @@ inline DoubleDouble blend(const DoubleDouble& a, const DoubleDouble& b, double r
     return DoubleDouble(1.0 - r) * a + DoubleDouble(r) * b;
 }
 
+/// A degree that the compiler knows or, as int, one that it does not.
+template <int N>
+using KnownDegree = std::integral_constant<int, N>;
+
+/// Calls f with the degree of the polynomial: known, where it is N and N is small.
+template <class Real, int N, class F>
+decltype(auto) with_degree(const BernsteinPolynomial<Real, N>& p, F&& f) {
+    if constexpr (N <= 6 && std::is_same_v<Real, double>) {
+        if (p.degree == N) return f(KnownDegree<N>());
+    }
+    return f(p.degree);
+}
+
+/// Calls f(i) for i from 0 to n: without a loop where n is known.
+template <class F>
+void for_indices(int n, F&& f) {
+    for (int i = 0; i <= n; ++i) f(i);
+}
+template <int N, class F>
+void for_indices(KnownDegree<N>, F&& f) {
+    [&]<int... i>(std::integer_sequence<int, i...>) {
+        (f(i), ...);
+    }
+    (std::make_integer_sequence<int, N + 1>());
+}
+
 /// Value and slope at u by de Casteljau's algorithm.
-template <class Real, int N>
-void evaluate(const BernsteinPolynomial<Real, N>& p, double u, Real& value, double& slope) {
+template <class Real, int N, class Degree>
+void evaluate(const BernsteinPolynomial<Real, N>& p, Degree degree, double u, Real& value,
+              double& slope) {
     const DoubleDouble rest = two_sum(1.0, -u);
-    Real row[N + 1];
-    std::copy_n(p.b.begin(), p.degree + 1, row);
+    Real row[N + 2];  // the compiler does not see that the last is not read
+    std::copy_n(p.b.begin(), degree + 1, row);
     slope = 0.0;
-    for (int n = p.degree; n > 0; --n) {
-        if (n == 1) slope = p.degree * leading(row[1] - row[0]);
-        for (int i = 0; i < n; ++i) {
+    for_indices(degree, [&](int step) {
+        const int n = degree - step;
+        if (n == 1) slope = degree * leading(row[1] - row[0]);
+        for_indices(degree, [&](int i) {
+            if (i >= n) return;
             if constexpr (std::is_same_v<Real, double>) {
                 row[i] = rest.high * row[i] + u * row[i + 1];
             } else {
                 row[i] = rest * row[i] + DoubleDouble(u) * row[i + 1];
             }
-        }
-    }
+        });
+    });
     value = row[0];
+}
+template <class Real, int N>
+void evaluate(const BernsteinPolynomial<Real, N>& p, double u, Real& value, double& slope) {
+    with_degree(p, [&](auto degree) { evaluate(p, degree, u, value, slope); });
 }
 
 /// Newton's method within a bracket that it keeps: the root of f where f has `sign_lo` at lo and
@@ -141,30 +175,31 @@ inline constexpr std::array<std::array<double, N + 1>, N + 1> kBinomials = [] {
 }();
 
 /// C(n, i) b[i]: p(u) = (1 - u)^n q(u / (1 - u)) with these as the coefficients of q.
-template <int N>
+template <int N, class Degree>
 struct ScaledPolynomial {
-    int degree;
+    [[no_unique_address]] Degree degree;
     std::array<double, N + 1> s{};  // the compiler does not see that no more is read than written
 
-    explicit ScaledPolynomial(const BernsteinPolynomial<double, N>& p) : degree(p.degree) {
-        const double* row = kBinomials<N>[static_cast<std::size_t>(degree)].data();
+    ScaledPolynomial(const BernsteinPolynomial<double, N>& p, Degree n) : degree(n) {
+        const double* row = kBinomials<N>[static_cast<std::size_t>(static_cast<int>(n))].data();
         const double* b = p.b.data();
         double* to = s.data();
-        for (int i = 0; i <= degree; ++i) to[i] = row[i] * b[i];
+        for_indices(n, [&](int i) { to[i] = row[i] * b[i]; });
     }
     void operator()(double w, double& value, double& slope) const {
         const double* from = s.data();
         value = from[degree];
         slope = 0.0;
-        for (int i = degree - 1; i >= 0; --i) {
+        for_indices(degree, [&](int step) {
+            if (step == 0) return;
             slope = slope * w + value;
-            value = value * w + from[i];
-        }
+            value = value * w + from[degree - step];
+        });
     }
 };
 
 /// The one search, for both kinds of numbers.
-template <class Real, int N, class Wanted>
+template <class Real, int N, class Wanted, class Degree>
 class SignChangeSearch {
     static constexpr bool kMustAnswer = !std::is_same_v<Real, double>;
     /// Rounding of one step of a split, relative to the largest coefficient: two products and
@@ -172,16 +207,17 @@ class SignChangeSearch {
     static constexpr double kRounding = kMustAnswer ? kDoubleDoubleUlp : 0x1p-52;
 
   public:
-    SignChangeSearch(const BernsteinPolynomial<Real, N>& p, Wanted& wanted, SignChanges<N>& out)
-        : p_(p), wanted_(wanted), out_(out) {}
+    SignChangeSearch(const BernsteinPolynomial<Real, N>& p, Degree degree, Wanted& wanted,
+                     SignChanges<N>& out)
+        : p_(p), degree_(degree), wanted_(wanted), out_(out) {}
 
     /// False when the signs are not certain (never in double-double).
     bool run() {
         out_.count = 0;
         out_.negative_at_start = false;
-        const int n = p_.degree;
+        const int n = degree_;
         double total = p_.error;
-        for (int i = 0; i <= n; ++i) total += std::abs(leading(p_.b[i]));
+        for_indices(degree_, [&](int i) { total += std::abs(leading(p_.b[i])); });
         // Overflow or no number: nothing can be said of such a polynomial; it has no crossings.
         if (!std::isfinite(total)) return true;
         int first = sign(p_.b[0], p_.error), last = sign(p_.b[n], p_.error);
@@ -209,7 +245,7 @@ class SignChangeSearch {
     /// The sign next to an end where p is 0: that of the first coefficient that has one.
     int sign_beside(int end, int step) const {
         if (p_.shared_ends) return 1;
-        for (int i = end; i >= 0 && i <= p_.degree; i += step) {
+        for (int i = end; i >= 0 && i <= degree_; i += step) {
             const int s = sign(p_.b[static_cast<std::size_t>(i)], p_.error);
             if (s != 0) return s;
         }
@@ -219,16 +255,17 @@ class SignChangeSearch {
     /// How many changes of sign the coefficients have at most, whatever the unknown ones are.
     int most_variations(const Real* b, double error, int first, int last) const {
         int most = 0, previous = first, unknown = 0;
-        for (int i = 1; i <= p_.degree; ++i) {
-            const int s = i == p_.degree ? last : sign(b[i], error);
+        for_indices(degree_, [&](int i) {
+            if (i == 0) return;
+            const int s = i == degree_ ? last : sign(b[i], error);
             if (s == 0) {
                 ++unknown;
-                continue;
+                return;
             }
             most += s == previous ? (unknown + 1) / 2 * 2 : 1 + unknown / 2 * 2;
             previous = s;
             unknown = 0;
-        }
+        });
         return most;
     }
 
@@ -239,7 +276,7 @@ class SignChangeSearch {
         const bool mirrored = e.middle > 0.5;
         const double far = mirrored ? e.middle : 1.0 - e.middle;  // the larger part
         double value, slope;
-        const ScaledPolynomial<N> q(p_);
+        const ScaledPolynomial<N, Degree> q(p_, degree_);
         if (mirrored) {
             reversed(q)((1.0 - e.middle) / far, value, slope);
         } else {
@@ -247,12 +284,12 @@ class SignChangeSearch {
         }
         // The value is that of p over far^n; its rounding relative to the largest coefficient.
         double scale = 1.0;
-        for (int i = 0; i < p_.degree; ++i) scale *= far;
-        const double error = p_.error + 4.0 * p_.degree * kRounding * e.largest;
+        for_indices(degree_, [&](int i) { scale *= i == 0 ? 1.0 : far; });
+        const double error = p_.error + 4.0 * degree_ * kRounding * e.largest;
         if (!(-first * value * scale > error)) return false;
         return emit(0.0, e.middle, first) && emit(e.middle, 1.0, -first);
     }
-    static ScaledPolynomial<N> reversed(ScaledPolynomial<N> q) {
+    static ScaledPolynomial<N, Degree> reversed(ScaledPolynomial<N, Degree> q) {
         std::reverse(q.s.begin(), q.s.begin() + q.degree + 1);
         return q;
     }
@@ -265,28 +302,30 @@ class SignChangeSearch {
         Extremes e;
         double lowest = 0.0;
         int at = 0;
-        for (int i = 0; i <= p_.degree; ++i) {
+        for_indices(degree_, [&](int i) {
             const double value = leading(b[i]);
             e.largest = std::max(e.largest, std::abs(value));
-            if (i == 0 || i == p_.degree || !(first * value < lowest)) continue;
+            if (i == 0 || i == degree_ || !(first * value < lowest)) return;
             lowest = first * value;
             at = i;
-        }
+        });
         if (at > 0) {
-            e.middle = std::clamp(static_cast<int>(8.0 * at / p_.degree + 0.5), 1, 7) / 8.0;
+            e.middle = std::clamp(static_cast<int>(8.0 * at / degree_ + 0.5), 1, 7) / 8.0;
         }
         return e;
     }
 
     /// Splits b at r: `left` and `right` are the coefficients of both sides.
     void split(const Real* b, double r, Real* left, Real* right) const {
-        const int n = p_.degree;
-        for (int i = 0; i <= n; ++i) right[i] = b[i];
+        for_indices(degree_, [&](int i) { right[i] = b[i]; });
         left[0] = right[0];
-        for (int k = 1; k <= n; ++k) {
-            for (int i = 0; i <= n - k; ++i) right[i] = blend(right[i], right[i + 1], r);
+        for_indices(degree_, [&](int k) {
+            if (k == 0) return;
+            for_indices(degree_, [&](int i) {
+                if (i <= degree_ - k) right[i] = blend(right[i], right[i + 1], r);
+            });
             left[k] = right[0];
-        }
+        });
     }
 
     bool search(const Real* b, double error, double lo, double hi, int first, int last) {
@@ -297,8 +336,8 @@ class SignChangeSearch {
         if (!(hi - lo > 0x1p-52) || e.largest <= 8.0 * error) {
             return cluster(lo, hi, first, last);
         }
-        Real left[N + 1], right[N + 1];
-        const double child_error = error + p_.degree * kRounding * e.largest;
+        Real left[N + 2], right[N + 2];  // as in `evaluate`
+        const double child_error = error + degree_ * kRounding * e.largest;
         const double candidates[] = {e.middle, 0.5, 0.375, 0.625, 0.25, 0.75};
         int middle_sign = 0;
         double r = 0.5;
@@ -337,7 +376,7 @@ class SignChangeSearch {
         if constexpr (kMustAnswer) {
             const auto f = [&](double u, double& value, double& slope) {
                 Real exact;
-                evaluate(p_, u, exact, slope);
+                evaluate(p_, degree_, u, exact, slope);
                 value = leading(exact);
             };
             return put(bracketed_newton(f, lo, hi, sign_lo, 0.5 * (lo + hi)), lo, hi);
@@ -349,7 +388,7 @@ class SignChangeSearch {
     /// The root in [lo, hi], as one of the scaled polynomial or of its mirror image, whichever has
     /// it at w <= 1.
     double polish(double lo, double hi, double sign_lo) const {
-        const ScaledPolynomial<N> q(p_);
+        const ScaledPolynomial<N, Degree> q(p_, degree_);
         if (lo < 0.5 && hi > 0.5) {
             double value, slope;
             q(1.0, value, slope);
@@ -363,7 +402,8 @@ class SignChangeSearch {
         return 1.0 / (1.0 + w);
     }
 
-    static double root_of(const ScaledPolynomial<N>& q, double lo, double hi, double sign_lo) {
+    static double root_of(const ScaledPolynomial<N, Degree>& q, double lo, double hi,
+                          double sign_lo) {
         double f_lo = q.s[0], f_hi, slope;
         if (lo > 0.0) q(lo, f_lo, slope);
         q(hi, f_hi, slope);
@@ -373,6 +413,7 @@ class SignChangeSearch {
     }
 
     const BernsteinPolynomial<Real, N>& p_;
+    [[no_unique_address]] Degree degree_;
     Wanted& wanted_;
     SignChanges<N>& out_;
 };
@@ -384,14 +425,17 @@ template <int N, class Wanted = const AllSignChanges>
 [[nodiscard]] bool find_sign_changes(const BernsteinPolynomial<double, N>& p, SignChanges<N>& out,
                                      Wanted&& wanted = {}) {
     using W = std::remove_reference_t<Wanted>;
-    return bernstein::SignChangeSearch<double, N, W>(p, wanted, out).run();
+    return bernstein::with_degree(p, [&](auto degree) {
+        return bernstein::SignChangeSearch<double, N, W, decltype(degree)>(p, degree, wanted, out)
+            .run();
+    });
 }
 /// Always answers; see the conventions above for what cannot be told from 0.
 template <int N, class Wanted = const AllSignChanges>
 void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChanges<N>& out,
                        Wanted&& wanted = {}) {
     using W = std::remove_reference_t<Wanted>;
-    bernstein::SignChangeSearch<DoubleDouble, N, W>(p, wanted, out).run();
+    bernstein::SignChangeSearch<DoubleDouble, N, W, int>(p, p.degree, wanted, out).run();
 }
 
 /// `make(BernsteinPolynomial<Real, N>&)` computes the coefficients and their error bound: in double

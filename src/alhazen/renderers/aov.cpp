@@ -143,6 +143,11 @@ std::span<const AovEntry> aov_table() {
          "nodes that they entered",
          {"count.node_visits"},
          Float},
+        {AovKind::BoxTests,
+         "count.box_tests",
+         "bounds that they were tested with, one for each child of a wide node",
+         {"count.box_tests"},
+         Float},
         {AovKind::PrimitiveTests,
          "count.primitive_tests",
          "primitives that they were tested with",
@@ -223,6 +228,7 @@ void AovRecorder::record_costs(int i, int j) {
     };
     set(AovKind::Rays, grown(counters_.total_cast(), rays_before_));
     set(AovKind::NodeVisits, grown(counters_.tests.node_visits, tests_before_.node_visits));
+    set(AovKind::BoxTests, grown(counters_.tests.box_tests, tests_before_.box_tests));
     set(AovKind::PrimitiveTests,
         grown(counters_.tests.primitive_tests, tests_before_.primitive_tests));
 }

@@ -38,6 +38,7 @@ enum class AovKind {
     ErrorBound,
     Rays,
     NodeVisits,
+    BoxTests,
     PrimitiveTests,
     Time,
 };
@@ -63,7 +64,7 @@ class AovSet {
     [[nodiscard]] bool has_geometry() const { return (bits_ & (bit(AovKind::Rays) - 1)) != 0; }
     /// One of them needs RenderJob::count_tests.
     [[nodiscard]] bool has_tests() const {
-        return has(AovKind::NodeVisits) || has(AovKind::PrimitiveTests);
+        return has(AovKind::NodeVisits) || has(AovKind::BoxTests) || has(AovKind::PrimitiveTests);
     }
     /// One of them needs to know what each pixel cost.
     [[nodiscard]] bool has_costs() const {

@@ -1,6 +1,7 @@
 #include "alhazen/renderers/local_shading.h"
 
 #include <cmath>
+#include <new>
 
 #include "alhazen/shading/normal_map.h"
 #include "alhazen/shading/texture_inputs.h"
@@ -137,7 +138,8 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
     if (scene.has_mipmaps && width > 0.0) {
         footprint = footprint_at(point.surface, ray.direction, width);
     }
-    point.material = material_at(scene, point.surface, footprint);
+    // In place: it is large.
+    ::new (&point.material) MaterialSample(material_at(scene, point.surface, footprint));
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;

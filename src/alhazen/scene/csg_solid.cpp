@@ -100,11 +100,15 @@ bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCross
     const std::uint32_t first_instance = table_.first(kInstanceKind);
     if (static_cast<std::uint32_t>(id) < first_instance) {
         ShapeHits found;
-        const bool inside = cross_shape(leaf, ray, found, stats);
+        table_.intersect(id, ray.line, kNoShear, found);
+        if (stats != nullptr) {
+            ++stats->primitive_tests;
+            stats->primitive_hits += !found.empty();
+        }
         for (const ShapeHit& hit : found) {
             crossings.push_back({hit.t, hit.u, hit.v, hit.part, leaf});
         }
-        return inside;
+        return unbounded_ && table_.inside_at_minus_infinity(id, ray.line);
     }
     const std::uint32_t index = static_cast<std::uint32_t>(id) - first_instance;
     const Instance& instance = table_.instances[index];
@@ -116,18 +120,6 @@ bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCross
         crossings.push_back({hits[i].t, 0, 0, static_cast<std::uint32_t>(i), leaf});
     }
     return solids_[index] != nullptr && solids_[index]->inside_at_minus_infinity(inner);
-}
-
-bool CsgSolid::cross_shape(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
-                           TraversalStats* stats) const {
-    const PrimitiveId id = expression_.leaves[leaf];
-    if (!table_.is_seen(id, ray.mask)) return false;
-    table_.intersect(id, ray.line, kNoShear, crossings);
-    if (stats != nullptr) {
-        ++stats->primitive_tests;
-        stats->primitive_hits += !crossings.empty();
-    }
-    return unbounded_ && table_.inside_at_minus_infinity(id, ray.line);
 }
 
 void CsgSolid::fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, Hit& hit) const {

@@ -77,9 +77,6 @@ class CsgSolid {
     /// `hits`. True when the line begins inside.
     bool cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,
                std::vector<Hit>& hits, TraversalStats* stats) const;
-    /// The same for a leaf that is an analytic shape.
-    bool cross_shape(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
-                     TraversalStats* stats) const;
     /// The hit that a crossing is.
     void fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, Hit& hit) const;
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "alhazen/scene/primitive_columns.h"
+
 namespace alhazen {
 
 namespace {
@@ -79,9 +81,34 @@ CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
         }
         if (needed) needed_ |= LeafSet{1} << leaf;
         order_[leaf] = leaf;
+        const PrimitiveId id = solid.expression().leaves[leaf];
+        places_[leaf] = {solid.table().kind(id), solid.table().index(id)};
     }
     std::stable_partition(order_.begin(), order_.begin() + leaf_count,
                           [&](std::uint32_t leaf) { return (needed_ >> leaf & 1) != 0; });
+}
+
+/// All crossings of the line with a leaf, ascending; true when it begins inside.
+bool CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
+                          TraversalStats* stats) const {
+    const PrimitiveTable& table = solid_.table();
+    if (!table.is_seen(solid_.expression().leaves[leaf], ray.mask)) return false;
+    const Place place = places_[leaf];
+    const bool inside = with_column(table.columns, place.kind, [&](const auto& column) {
+        const auto& shape = column.shapes[place.index];
+        const auto cross_in_frame = [&](const Ray& line) {
+            append_hits(shape, line, crossings);
+            return inside_at_minus_infinity(shape, line);
+        };
+        const std::uint32_t placement = column.placements[place.index];
+        if (placement == kNoPlacement) return cross_in_frame(ray.line);
+        return cross_in_frame(transformed(table.placements[placement].inner_from_outer, ray.line));
+    });
+    if (stats != nullptr) {
+        ++stats->primitive_tests;
+        stats->primitive_hits += !crossings.empty();
+    }
+    return inside;
 }
 
 /// The crossings within the ray's range; false when it cannot meet the solid.
@@ -90,7 +117,7 @@ bool CsgTruthTable::gather(const CsgRay& ray, Events& events, TraversalStats* st
     for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
         const std::uint32_t leaf = order_[i];
         ShapeHits crossings;
-        bool inside = solid_.cross_shape(leaf, ray, crossings, stats);
+        bool inside = cross(leaf, ray, crossings, stats);
         bool any = false;
         for (const ShapeHit& hit : crossings) {
             if (hit.t < ray.t_min) {

@@ -37,12 +37,20 @@ class CsgTruthTable final : public CsgEvaluator {
     class Events;
 
     [[nodiscard]] bool is_solid(LeafSet inside) const { return (tables_[0] >> inside & 1) != 0; }
+    /// Where a leaf lies in the table of primitives.
+    struct Place {
+        std::uint32_t kind = 0, index = 0;
+    };
+
+    bool cross(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
+               TraversalStats* stats) const;
     bool gather(const CsgRay& ray, Events& events, TraversalStats* stats) const;
     bool next(const CsgRay& ray, Events& events, CsgCrossing& found) const;
     [[nodiscard]] bool changes_all_the_way(std::uint32_t leaf, LeafSet before, LeafSet after) const;
     [[nodiscard]] std::uint32_t filling_leaf(LeafSet inside) const;
 
     const CsgSolid& solid_;
+    std::array<Place, kMaxLeaves> places_{};
     std::array<std::uint64_t, kMaxNodes>
         tables_{};  ///< [node] bit i: its value inside of LeafSet i
     /// Leaves without which the solid is empty first.

@@ -19,11 +19,29 @@ Vec3 times_abs(const Mat3& m, const Vec3& v) {
     return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
 }
 
+void carry_normals_outward(const Affine& inner, Surface& surface) {
+    const bool same = surface.shading_normal == surface.normal;
+    surface.normal = normalize(transpose_times(inner.linear, surface.normal));
+    surface.shading_normal =
+        same ? surface.normal : normalize(transpose_times(inner.linear, surface.shading_normal));
+}
+
 /// Carries a surface out of an inner frame. The new error has the old one, the rounding of the
 /// transform, and that of the ray on its way in (which the next ray will suffer again).
 void carry_outward(const Placement& placement, Surface& surface) {
     const Affine& outer = placement.outer_from_inner;
     const Affine& inner = placement.inner_from_outer;
+    carry_normals_outward(inner, surface);
+    if (outer == Affine{}) {
+        // The terms below, products with 0 and 1 left out: a CSG object that stands where it is.
+        const Vec3 terms = 4 * kEpsilon * abs(surface.point);
+        surface.error = (surface.error + terms) + terms;
+        if (!surface.is_of_mesh) {
+            surface.dpdu2 = surface.dpdu;
+            surface.dpdv2 = surface.dpdv;
+        }
+        return;
+    }
     const Vec3 rounded_terms = times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
     const Vec3 outer_point = outer.point(surface.point);
     const Vec3 inner_terms = times_abs(inner.linear, abs(outer_point)) + abs(inner.translation);
@@ -41,8 +59,18 @@ void carry_outward(const Placement& placement, Surface& surface) {
         surface.dpdu2 = surface.dpdu;
         surface.dpdv2 = surface.dpdv;
     }
-    surface.normal = normalize(transpose_times(inner.linear, surface.normal));
-    surface.shading_normal = normalize(transpose_times(inner.linear, surface.shading_normal));
+}
+
+/// Sets all that `take` leaves alone. Field by field: all of it is larger than what changes.
+void begin(Surface& surface) {
+    surface.tangent = surface.bitangent = {};
+    surface.color = {1, 1, 1, 1};
+    surface.is_of_mesh = false;
+    surface.materials = {};
+    surface.weights = {1, 0, 0};
+    surface.material_count = 1;
+    surface.media = {};
+    surface.part = surface.instance = 0;
 }
 
 void take(const ShapeSurface& s, Surface& surface) {
@@ -190,7 +218,7 @@ Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
 
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
                  Surface& surface) {
-    surface = Surface();
+    begin(surface);
     surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, surface);
 }
 

@@ -158,6 +158,13 @@ bool packets_pay(const WideBvhLayout& layout) {
            8 * (layout.spheres.size() + kBlockWidth * shapes) <= layout.triangles.size();
 }
 
+/// Whether coherent rays are faster one by one than in the stream, which hides the way to memory:
+/// in trees that lie next to the core what neighbours do is predicted well.
+bool is_next_to_core(const WideBvhLayout& layout) {
+    constexpr std::size_t kNearBytes = std::size_t{256} << 10;
+    return layout.memory_bytes() <= kNearBytes;
+}
+
 }  // namespace
 
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
@@ -174,6 +181,12 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
     }
     if (layout_.tree.empty) return;
     const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
+    if (!coherent && coherence == Coherence::Coherent && is_next_to_core(layout_)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            kernels_->closest(scene(query.mask), rays[i], hits[i], query.stats);
+        }
+        return;
+    }
     (coherent ? kernels_->closest_coherent : kernels_->closest_batch)(scene(query.mask), rays, hits,
                                                                       query.stats);
 }

@@ -177,6 +177,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
         case AovKind::ErrorBound:
         case AovKind::Rays:
         case AovKind::NodeVisits:
+        case AovKind::BoxTests:
         case AovKind::PrimitiveTests:
             break;
     }

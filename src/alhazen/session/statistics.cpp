@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "alhazen/scene/accelerator_bytes.h"
 #include "alhazen/session/unique_bytes.h"
 
 namespace alhazen {
@@ -29,7 +30,22 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
     }
     rays["refraction"]["total_internal"] = counters.total_internal;
     const TraversalStats& tests = counters.tests;
-    const SceneCensus& census = loaded.scene.census;
+    json tests_json;  // null: they were not counted
+    if (options.count_tests || options.aovs.has_tests()) {
+        tests_json = {{"box", tests.box_tests},
+                      {"primitive", tests.primitive_tests},
+                      {"primitive_hit", tests.primitive_hits},
+                      {"mailbox_saved", tests.mailbox_saved},
+                      {"node_visits", tests.node_visits},
+                      {"empty_cells", tests.empty_cells},
+                      {"slab", tests.slab_tests},
+                      {"heap_pushes", tests.heap_pushes},
+                      {"cache_lookups", tests.cache_lookups},
+                      {"cache_hits", tests.cache_hits}};
+    }
+    SceneCensus census = loaded.scene.census;
+    // Some accelerators make their lists as rays come.
+    census.accelerator_bytes = accelerator_bytes(*loaded.scene.aggregate);
     const std::optional<double> each = bytes_per_effective_primitive(census);
     const json bytes_each = each ? json(*each) : json(nullptr);
     return {
@@ -44,17 +60,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"seed", options.seed},
         {"complete", result.complete},
         {"rays", rays},
-        {"tests",
-         {{"box", tests.box_tests},
-          {"primitive", tests.primitive_tests},
-          {"primitive_hit", tests.primitive_hits},
-          {"mailbox_saved", tests.mailbox_saved},
-          {"node_visits", tests.node_visits},
-          {"empty_cells", tests.empty_cells},
-          {"slab", tests.slab_tests},
-          {"heap_pushes", tests.heap_pushes},
-          {"cache_lookups", tests.cache_lookups},
-          {"cache_hits", tests.cache_hits}}},
+        {"tests", tests_json},
         {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
         {"memory",

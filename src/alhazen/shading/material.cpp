@@ -54,24 +54,40 @@ double coverage_of(const Material& material, std::span<const Texture> textures,
     return alpha > 0.0 ? std::min(alpha, 1.0) : 0.0;
 }
 
+namespace {
+
+/// Whitted's coefficients. Written at once: setting the fields of a sample that was made before
+/// takes as long again.
+MaterialSample evaluate_whitted(const Material& m, std::span<const Texture> textures,
+                                const SurfaceLookup& lookup) {
+    const auto color = [&](const ColorInput& input) {
+        return input.texture == kNoTexture ? input.color : color_at(input, textures, lookup);
+    };
+    const auto value = [&](const ScalarInput& input) {
+        return input.texture == kNoTexture ? input.value : value_at(input, textures, lookup);
+    };
+    const Rgb vertex = lookup.color.rgb();
+    const Rgb diffuse = vertex * color(m.diffuse);
+    return {.emission = color(m.emission),
+            .ambient = vertex * color(m.ambient),
+            .diffuse = diffuse,
+            .specular = color(m.specular),
+            .reflective = color(m.reflective),
+            .transmissive = color(m.transmissive),
+            .shininess = value(m.shininess),
+            .index = value(m.index),
+            .coverage = coverage_of(m, textures, lookup),
+            .albedo = diffuse,
+            .single_sided = !m.double_sided};
+}
+
+}  // namespace
+
 MaterialSample evaluate(const Material& material, std::span<const Texture> textures,
                         const SurfaceLookup& lookup) {
-    MaterialSample sample;
-    if (material.metallic_roughness) {
-        sample =
-            evaluate_metallic_roughness(material, *material.metallic_roughness, textures, lookup);
-    } else {
-        const Rgb vertex = lookup.color.rgb();
-        sample.emission = color_at(material.emission, textures, lookup);
-        sample.ambient = vertex * color_at(material.ambient, textures, lookup);
-        sample.diffuse = vertex * color_at(material.diffuse, textures, lookup);
-        sample.specular = color_at(material.specular, textures, lookup);
-        sample.reflective = color_at(material.reflective, textures, lookup);
-        sample.transmissive = color_at(material.transmissive, textures, lookup);
-        sample.shininess = value_at(material.shininess, textures, lookup);
-        sample.index = value_at(material.index, textures, lookup);
-        sample.albedo = sample.diffuse;
-    }
+    if (!material.metallic_roughness) return evaluate_whitted(material, textures, lookup);
+    MaterialSample sample =
+        evaluate_metallic_roughness(material, *material.metallic_roughness, textures, lookup);
     sample.coverage = coverage_of(material, textures, lookup);
     sample.single_sided = !material.double_sided;
     return sample;

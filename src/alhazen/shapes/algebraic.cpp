@@ -11,8 +11,10 @@ namespace alhazen {
 
 namespace {
 
+/// Of at most so high a degree.
+template <int N>
 struct AlgebraicPolynomial {
-    static constexpr int kDegree = PolynomialExpression::kMaxDegree;
+    static constexpr int kDegree = N;
     const Algebraic& shape;
 
     template <class Real>
@@ -28,6 +30,23 @@ struct AlgebraicPolynomial {
     [[nodiscard]] double magnitude() const { return shape.magnitude; }
     [[nodiscard]] double roundings() const { return shape.roundings; }
 };
+
+constexpr int kMostDegree = PolynomialExpression::kMaxDegree;
+
+/// Calls f with the polynomial, of a type for its degree where that is a usual one.
+template <class F>
+auto with_polynomial(const Algebraic& shape, F&& f) {
+    switch (shape.polynomial->degree()) {
+        case 3:
+            return f(AlgebraicPolynomial<3>{shape});
+        case 4:
+            return f(AlgebraicPolynomial<4>{shape});
+        case 6:
+            return f(AlgebraicPolynomial<6>{shape});
+        default:
+            return f(AlgebraicPolynomial<kMostDegree>{shape});
+    }
+}
 
 /// Farthest coordinates of a box.
 Vec3 reach_of(const Box3& box) {
@@ -81,7 +100,9 @@ int all_hits(const Algebraic& shape, const Ray& ray, ShapeHit* hits) {
     ClipSegment s;
     const SolidFrame frame;
     if (!clip_segment(frame, ray, shape.clip_box, shape.size, s)) return 0;
-    return intersect_segment(AlgebraicPolynomial{shape}, frame, ray, s, shape.capped, hits);
+    return with_polynomial(shape, [&](const auto& f) {
+        return intersect_segment(f, frame, ray, s, shape.capped, hits);
+    });
 }
 
 ALHAZEN_FOR_EACH_INSTRUCTION_SET
@@ -89,7 +110,9 @@ bool one_hit(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
     ClipSegment s;
     const SolidFrame frame;
     if (!clip_segment(frame, ray, shape.clip_box, shape.size, s)) return false;
-    return first_on_segment(AlgebraicPolynomial{shape}, frame, ray, s, shape.capped, hit);
+    return with_polynomial(shape, [&](const auto& f) {
+        return first_on_segment(f, frame, ray, s, shape.capped, hit);
+    });
 }
 
 }  // namespace
@@ -106,7 +129,8 @@ namespace {
 
 ProjectedPoint point_on(const Algebraic& shape, const Ray& ray, const ShapeHit& hit) {
     const Vec3 d = unit_or(ray.direction, {0, 0, 1});
-    return project_to_zero(AlgebraicPolynomial{shape}, ray.at(hit.t), (-1e-6 * shape.size) * d);
+    return project_to_zero(AlgebraicPolynomial<kMostDegree>{shape}, ray.at(hit.t),
+                           (-1e-6 * shape.size) * d);
 }
 
 }  // namespace

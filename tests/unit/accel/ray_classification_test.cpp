@@ -75,6 +75,21 @@ TEST(RayHypercubes, WithoutMemoryTheListIsEverything) {
     EXPECT_EQ(classes.find(ray).list->size(), 50u);
 }
 
+TEST(RayHypercubes, WhereMemoryRunsOutListsAreMadeAnewAndHoldAllTheSame) {
+    const Boxes boxes = random_boxes(500, 0.1, 2);
+    constexpr std::size_t kMemory = 200'000;
+    const RayHypercubes all(boxes, {}), few(boxes, {.memory_bytes = kMemory});
+    RandomStream random(7);
+    for (int i = 0; i < 3000; ++i) {
+        const ClassifiedRay ray(random_ray(random, 1), 0);
+        const RayHypercubes::List& shorter = *all.find(ray).list;
+        const RayHypercubes::List& list = *few.find(ray).list;
+        EXPECT_EQ(list, shorter) << "ray " << i;
+    }
+    EXPECT_LE(few.memory_bytes(), kMemory + few.bodies().memory_bytes());
+    EXPECT_LT(few.nodes_made(), all.nodes_made());
+}
+
 TEST(RayHypercubes, ARayLikeTheLastOneIsInItsClass) {
     const RayHypercubes classes(random_boxes(500, 0.1, 2), {});
     Ray ray{{0.1, 0.1, 0.1}, {1, 0.3, 0.2}};

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/compare_report.h"
@@ -42,6 +44,61 @@ TEST(Compare, EveryAcceleratorGivesTheSamePictureAndRays) {
         EXPECT_EQ(m.picture.pixels, 40u * 30u) << m.accelerator;
         EXPECT_GT(m.figures.each(&TraversalStats::primitive_tests), 0.0) << m.accelerator;
         for (const float cost : m.cost) EXPECT_TRUE(std::isfinite(cost)) << m.accelerator;
+    }
+}
+
+TEST(Compare, TheCostOfThePixelsIsAllThatIsVisitedAndTested) {
+    const Comparison c =
+        compare(small_scene(), "small",
+                options_with({"bounding_volumes", "kay_kajiya", "uniform_grid", "octree", "bsp"}));
+    for (const Measurement& m : c.measurements) {
+        if (m.name() == kDefaultAccelerator) continue;  // measured in batches, rendered without
+        ASSERT_TRUE(m.figures.all_counted && m.picture.complete) << m.accelerator;
+        double cost = 0;
+        for (const float pixel : m.cost) cost += double{pixel};
+        const TraversalStats tests = m.figures.total().tests;
+        EXPECT_EQ(cost,
+                  static_cast<double>(tests.node_visits + tests.box_tests + tests.primitive_tests))
+            << m.accelerator;
+        if (m.name() == "bounding_volumes") {
+            EXPECT_GT(tests.box_tests, tests.primitive_tests);
+        }
+    }
+}
+
+TEST(Compare, ColumnsOfTheTableStayApartWhateverTheFigures) {
+    Comparison c = compare(small_scene(), "small", options_with({"kd_tree"}));
+    const auto words_of_lines = [&] {
+        std::vector<std::size_t> counts;
+        std::istringstream table(comparison_table(c));
+        for (std::string line, word; std::getline(table, line);) {
+            std::istringstream words(line);
+            std::size_t count = 0;
+            bool named = false;
+            for (; words >> word; ++count) named = named || word == "kd_tree";
+            if (named) counts.push_back(count);
+        }
+        return counts;
+    };
+    const std::vector<std::size_t> usual = words_of_lines();
+    ASSERT_EQ(usual.size(), 2u);
+    for (const double factor : {1e3, 99999.6, 1e6, 3.3e8, 9.999e11}) {
+        for (KindFigures& kind : c.measurements[2].figures.kinds) {
+            const auto count =
+                static_cast<std::uint64_t>(factor * static_cast<double>(kind.counted));
+            kind.tests = {.box_tests = count,
+                          .primitive_tests = count,
+                          .primitive_hits = count,
+                          .mailbox_saved = count,
+                          .node_visits = count,
+                          .empty_cells = count,
+                          .slab_tests = count,
+                          .heap_pushes = count};
+            kind.seconds = 1e-9 * factor * static_cast<double>(kind.timed);
+        }
+        c.measurements[2].build_seconds = std::min(factor, 99999.0);
+        c.measurements[2].bytes = static_cast<std::uint64_t>(1e6 * factor);
+        EXPECT_EQ(words_of_lines(), usual) << comparison_table(c);
     }
 }
 

@@ -180,6 +180,8 @@ TEST(Aov, CountsOfThePixelsAddUpToThoseOfThePicture) {
     EXPECT_GT(seen.counters.total_cast(), 16u * 16u * 4u);
     EXPECT_EQ(sum("count.rays"), seen.counters.total_cast());
     EXPECT_EQ(sum("count.node_visits"), seen.counters.tests.node_visits);
+    EXPECT_EQ(sum("count.box_tests"), seen.counters.tests.box_tests);
+    EXPECT_GT(sum("count.box_tests"), 0u);
     EXPECT_EQ(sum("count.primitive_tests"), seen.counters.tests.primitive_tests);
     EXPECT_EQ(seen.counters.aov_rays, 16u * 16u * 4u);
     for (const float t : seen.layers.find("time.seconds")->values) EXPECT_GT(t, 0.0f);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "alhazen/math/random.h"
+#include "alhazen/scene/accelerator_bytes.h"
 #include "alhazen/scene/primitive_table.h"
 #include "alhazen/scene/scene.h"
 #include "support/scene_maker.h"
@@ -74,6 +75,28 @@ TEST(OwnAccelerators, AreLeftOutWhereEverythingIsToBeTracedAlike) {
             .census.accelerator_bytes;
     };
     EXPECT_GT(bytes(true), 2 * bytes(false));
+}
+
+TEST(AcceleratorBytes, AreThoseOfTheCensusUntilRaysMakeLists) {
+    for (const auto& [inner, outer, grows] :
+         {std::tuple{"octree", "wide_bvh", false}, std::tuple{"bsp", "light_buffer", false},
+          std::tuple{"ray_classification", "kd_tree", true},
+          std::tuple{"list", "ray_coherence", true}}) {
+        const Scene scene = field(inner, "hierarchy").compile(outer);
+        const std::uint64_t built = accelerator_bytes(*scene.aggregate);
+        EXPECT_EQ(built, scene.census.accelerator_bytes) << inner << " in " << outer;
+        RandomStream random(3);
+        for (int i = 0; i < 300; ++i) {
+            Ray ray;
+            for (int k = 0; k < 3; ++k) {
+                ray.origin[k] = random.uniform(-3, 3);
+                ray.direction[k] = random.uniform(-1, 1);
+            }
+            (void)scene.aggregate->occluded(ray, nullptr);
+        }
+        const std::uint64_t traced = accelerator_bytes(*scene.aggregate);
+        EXPECT_EQ(traced > built, grows) << inner << " in " << outer;
+    }
 }
 
 TEST(OwnAccelerators, OnesThatThereAreNotAreFindings) {
