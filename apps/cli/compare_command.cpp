@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
 
@@ -19,7 +20,6 @@
 #include "messages.h"
 #include "options.h"
 #include "progress_display.h"
-#include "stop_signals.h"
 
 namespace alhazen::cli {
 
@@ -32,6 +32,7 @@ struct CompareArguments {
     CompareOptions compare;
     int depth = -1;
     bool no_tuning = false, quiet = false;
+    bool of_scenes = false;  ///< an option was given that --claim has no use for
 };
 
 CompareOptions compare_options(const CompareArguments& args) {
@@ -66,6 +67,12 @@ std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args)
         throw Error(ErrorKind::Usage, "--json and --html name the same file");
     }
     return outputs;
+}
+
+/// Long work on the scenes before it would be for nothing.
+void check_readable(const std::string& scene) {
+    if (std::ifstream(scene).good() && std::filesystem::is_regular_file(scene)) return;
+    throw Error(ErrorKind::File, fmt::format("cannot read {}: no file that may be read", scene));
 }
 
 SceneDescription read_scene(const CompareArguments& args, const std::string& scene,
@@ -111,6 +118,9 @@ void check_effects(const CompareArguments& args) {
          "--trace-ray makes a figure and nothing else");
     need(!claims || (args.json.empty() && args.html.empty()),
          "--json and --html are for scenes, --claim has --markdown");
+    need(!claims || !args.of_scenes,
+         "--claim makes its own scenes and chooses accelerators: of the options, --time-limit, "
+         "--markdown and -q are for it");
 }
 
 int run_claims(const CompareArguments& args) {
@@ -120,16 +130,20 @@ int run_claims(const CompareArguments& args) {
     ClaimOptions options;
     options.time_limit = args.compare.time_limit;
     options.progress = &progress;
-    options.stop = &stop_on_signals();
-    const std::vector<ClaimReport> reports =
-        check_claims(ids, options, [&](const ClaimReport& report) {
-            progress.finish();
-            if (args.markdown != "-") print("{}", claims_table({&report, 1}));
-        });
+    std::vector<ClaimReport> reports;
+    (void)check_claims(ids, options, [&](const ClaimReport& report) {
+        progress.finish();
+        reports.push_back(report);
+        if (args.markdown != "-") print("{}", claims_table({&report, 1}));
+        // What is measured stays, whatever ends the rest.
+        if (!args.markdown.empty() && args.markdown != "-") {
+            write_report(args.markdown, claims_markdown(reports));
+        }
+    });
+    if (args.markdown == "-") write_report(args.markdown, claims_markdown(reports));
     const bool holds = std::all_of(reports.begin(), reports.end(), [](const ClaimReport& r) {
         return r.verdict == Verdict::Holds;
     });
-    if (!args.markdown.empty()) write_report(args.markdown, claims_markdown(reports));
     return holds ? kDone : kCheckFailed;
 }
 
@@ -152,29 +166,40 @@ int run_figure(const CompareArguments& args) {
     return kDone;
 }
 
-int run(const CompareArguments& args) {
-    check_effects(args);
-    if (!args.trace_ray.empty()) return run_figure(args);
-    if (!args.claims.empty()) return run_claims(args);
+void write_reports(const CompareArguments& args, std::span<const Comparison> comparisons) {
+    if (!args.json.empty() && args.json != "-") {
+        write_report(args.json, comparison_json(comparisons).dump(2) + "\n");
+    }
+    if (!args.html.empty()) write_report(args.html, comparison_page(comparisons));
+}
+
+/// The reports are written after every scene: what is measured stays, whatever ends the rest.
+int run_scenes(const CompareArguments& args) {
     CompareOptions options = compare_options(args);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args);
+    for (const std::string& scene : args.scenes) check_readable(scene);
     ProgressDisplay progress(args.quiet);
     options.progress = &progress;
-    options.stop = &stop_on_signals();
     std::vector<Comparison> comparisons;
-    bool holds = true;
     for (const std::string& scene : args.scenes) {
         SceneDescription description = read_scene(args, scene, outputs);
         comparisons.push_back(
             compare(std::move(description), std::filesystem::path(scene).filename(), options));
         progress.finish();
-        holds = holds && comparisons.back().holds();
         if (args.json != "-") print("{}\n", comparison_table(comparisons.back()));
+        write_reports(args, comparisons);
     }
-    if (!args.json.empty()) write_report(args.json, comparison_json(comparisons).dump(2) + "\n");
-    if (!args.html.empty()) write_report(args.html, comparison_page(comparisons));
+    if (args.json == "-") write_report(args.json, comparison_json(comparisons).dump(2) + "\n");
+    const bool holds = std::all_of(comparisons.begin(), comparisons.end(),
+                                   [](const Comparison& c) { return c.holds(); });
     if (!holds) tell("alhazen: the accelerators do not agree\n");
     return holds ? kDone : kCheckFailed;
+}
+
+int run(const CompareArguments& args) {
+    check_effects(args);
+    if (!args.trace_ray.empty()) return run_figure(args);
+    return args.claims.empty() ? run_scenes(args) : run_claims(args);
 }
 
 }  // namespace
@@ -241,7 +266,13 @@ void add_compare(CLI::App& app, int& exit_status) {
                      "From where: x, y, z or isometric; default: across the ray")
         ->type_name("AXIS");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
-    command->callback([args, &exit_status] { exit_status = run(*args); });
+    command->callback([args, command, &exit_status] {
+        for (const char* name : {"--accelerators", "--no-tuning", "--size", "--depth", "--camera",
+                                 "--protocol", "--allow-path"}) {
+            args->of_scenes = args->of_scenes || command->count(name) > 0;
+        }
+        exit_status = run(*args);
+    });
 }
 
 }  // namespace alhazen::cli

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <optional>
 
 #include "alhazen/base/error.h"
@@ -15,20 +16,23 @@ namespace alhazen::cli {
 namespace {
 
 struct GenerateArguments {
-    std::string name, output;
-    std::optional<std::int64_t> size;
+    std::string name, output, size;
+    bool sized = false;  ///< --size was given
     std::optional<int> digits;
     bool quiet = false;
 };
 
-/// Numbers below 1 are refused here: without a sign they would be other numbers.
 std::optional<std::uint64_t> size_of(const GenerateArguments& args) {
-    if (!args.size) return std::nullopt;
-    if (*args.size < 1) {
-        throw Error(ErrorKind::Usage, fmt::format("--size {} of {}: expected 1 to {}", *args.size,
-                                                  args.name, find_generator(args.name).max_size));
+    if (!args.sized) return std::nullopt;
+    const char* const end = args.size.data() + args.size.size();
+    std::uint64_t size = 0;
+    const auto [rest, status] = std::from_chars(args.size.data(), end, size);
+    const std::uint64_t most = find_generator(args.name).max_size;
+    if (status != std::errc{} || rest != end || size < 1 || size > most) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--size '{}' of {}: expected 1 to {}", args.size, args.name, most));
     }
-    return static_cast<std::uint64_t>(*args.size);
+    return size;
 }
 
 /// Returns the bytes written.
@@ -66,7 +70,8 @@ void add_generate(CLI::App& app, int& exit_status) {
     command->footer("Names:" + names);
     const auto args = std::make_shared<GenerateArguments>();
     command->add_option("name", args->name, "Which one; see below")->required()->type_name("NAME");
-    command->add_option("--size", args->size, "How much of it; by default as listed below");
+    command->add_option("--size", args->size, "How much of it; by default as listed below")
+        ->type_name("N");
     command->add_option("--digits", args->digits,
                         "Significant digits of the numbers in .nff (6, as published)");
     command
@@ -75,7 +80,10 @@ void add_generate(CLI::App& app, int& exit_status) {
         ->required()
         ->type_name("OUT");
     command->add_flag("-q,--quiet", args->quiet, "No summary");
-    command->callback([args, &exit_status] { exit_status = run(*args); });
+    command->callback([args, command, &exit_status] {
+        args->sized = command->count("--size") > 0;
+        exit_status = run(*args);
+    });
 }
 
 }  // namespace alhazen::cli

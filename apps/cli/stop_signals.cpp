@@ -28,7 +28,7 @@ long now_seconds() {
 
 extern "C" void on_stop_signal(int signal_number) {
     if (!work_stops.load()) {
-        static constexpr char kMessage[] = "alhazen: stopped; no result was written\n";
+        static constexpr char kMessage[] = "alhazen: stopped; the work in hand has no result\n";
         (void)!write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
         _exit(kStopped);
     }

@@ -23,6 +23,38 @@ class CommandLine(CommandLineCase):
             self.assertTrue(result.stdout)
             self.assertEqual(result.stderr, "")
 
+    def test_compare_keeps_what_it_has_measured(self):
+        report = self.path("report.json")
+        options = ["--accelerators", "kd_tree", "--no-tuning", "--size", "24x18", "--time-limit", "0.05", "-q"]
+        missing = run("compare", self.scene, self.path("none.alhazen"), "--json", report, *options)
+        self.assertEqual(missing.returncode, 4)
+        self.assertIn("none.alhazen", missing.stderr)
+        self.assertFalse(os.path.exists(report))
+        bad = self.write("bad.alhazen", "alhazen 1\nsphere { radius = -1 }\n")
+        self.assertEqual(run("compare", self.scene, bad, "--json", report, *options).returncode, 3)
+        with open(report, encoding="utf-8") as file:
+            self.assertEqual(len(json.load(file)["scenes"]), 1)
+
+    def test_a_signal_ends_compare_and_leaves_the_scenes_before(self):
+        report = self.path("report.json")
+        process = subprocess.Popen(
+            [ALHAZEN, "compare", self.scene, self.scene, "--json", report, "--accelerators", "kd_tree", "--no-tuning",
+             "--size", "64x48", "--time-limit", "20", "-q"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        begin = time.time()
+        while not os.path.exists(report) and process.poll() is None and time.time() < begin + 120:
+            time.sleep(0.01)
+        process.terminate()
+        process.communicate(timeout=60)
+        self.assertIn(process.returncode, (75, 0))  # 0: it was done already
+        with open(report, encoding="utf-8") as file:
+            self.assertIn(len(json.load(file)["scenes"]), (1, 2))
+        claims = subprocess.Popen([ALHAZEN, "compare", "--claim", "A3", "-q"], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        claims.terminate()
+        claims.communicate(timeout=60)
+        self.assertEqual(claims.returncode, 75)
+
     def test_wrong_usage_exits_2_and_says_why(self):
         picture = self.path("out.png")
         for arguments in ([], ["paint"], ["render"], ["render", self.scene], ["render", self.scene, "-o", "x.gif"],
@@ -57,6 +89,11 @@ class CommandLine(CommandLineCase):
                           ["section", self.scene, "--plane", "0,0,1,1", "--svg", self.path("s.svg"), "--budget", "nan"],
                           ["measure", self.scene, "--error", "nan"], ["measure", self.scene, "--density", "nan"],
                           ["compare", self.scene, "--time-limit", "nan"],
+                          ["compare", "--claim", "B1", "--size", "10x10"],
+                          ["compare", "--claim", "B1", "--accelerators", "octree"],
+                          ["generate", "balls", "--size", "99999999999999999999", "-o", self.path("b.nff")],
+                          ["generate", "balls", "--size", "", "-o", self.path("b.nff")],
+                          ["generate", "balls", "--size", "-1", "-o", self.path("b.nff")],
                           ["diff", self.scene, self.scene, "--max", "nan"],
                           ["verify", self.scene, "--rays", "-1"],
                           ["diff", self.scene], ["list", "colours"]):

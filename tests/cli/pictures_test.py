@@ -150,7 +150,7 @@ class Pictures(CommandLineCase):
             if ends[-1] == 75:
                 break
         self.assertEqual(ends[-1], 75, ends)
-        self.assertIn("no result was written", messages)
+        self.assertIn("the work in hand has no result", messages)
         self.assertFalse(os.path.exists(self.path("big.png")))
 
     def test_the_readme_scene_renders(self):

@@ -92,7 +92,9 @@ void read_native_object(const NativeBlock& block, NativeContext& context, Native
     }
     reader.read("name", object.name);
     read_combination(reader, object);
-    reader.read("accelerator", object.accelerator);
+    if (reader.read("accelerator", object.accelerator) && object.accelerator.empty()) {
+        reader.error(*reader.find("accelerator"), "'accelerator' is empty: expected a name");
+    }
     reader.finish(true);
     read_native_items(*block.block, context, inner);
     define_object(block, std::move(object), context);
