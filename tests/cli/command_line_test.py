@@ -250,7 +250,7 @@ class CommandLine(CommandLineCase):
     def test_sizes_and_formats_that_generators_do_not_have_are_refused_as_they_were_written(self):
         result = run("generate", "balls", "--size", "-1", "-o", self.path("b.nff"))
         self.assertEqual(result.returncode, 2)
-        self.assertIn("--size -1", result.stderr)
+        self.assertIn("--size '-1'", result.stderr)
         result = run("generate", "balls", "--size", "1", "-o", self.path("b.stl"))
         self.assertEqual(result.returncode, 2)
         self.assertNotIn("--meshes-only", result.stderr)
