@@ -1,5 +1,7 @@
 #include "alhazen/scene/bounded_primitives.h"
 
+#include "alhazen/parallel/parallel.h"
+
 namespace alhazen {
 namespace {
 
@@ -13,9 +15,30 @@ bool within_reach(const Box3& box) {
 }  // namespace
 
 BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table) {
+    // Mostly all are bounded: then nothing has to be written down.
+    constexpr std::size_t kGrain = 16384;
+    struct Part {
+        Box3 box;
+        bool bounded = true;
+    };
+    std::vector<Part> parts((table.size() + kGrain - 1) / kGrain);
+    parallel_for(table.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Part part;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Box3 box = table.box(i);
+            part.box.include(box);
+            part.bounded = part.bounded && box != Box3{} && within_reach(box);
+        }
+        parts[begin / kGrain] = part;
+    });
+    identity_ = true;
+    for (const Part& part : parts) {
+        all_.include(part.box);
+        identity_ = identity_ && part.bounded;
+    }
+    if (identity_) return;
     for (std::size_t i = 0; i < table.size(); ++i) {
         const Box3 box = table.box(i);
-        all_.include(box);
         // An empty box (an instance of nothing) cannot be hit.
         if (box == Box3{}) continue;
         if (within_reach(box)) {
@@ -24,8 +47,6 @@ BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table
             unbounded_.push_back(PrimitiveId{static_cast<std::uint32_t>(i)});
         }
     }
-    identity_ = bounded_.size() == table.size();
-    if (identity_) bounded_ = {};
 }
 
 }  // namespace alhazen

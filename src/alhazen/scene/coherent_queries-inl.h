@@ -20,6 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// Packets of fewer rays are no faster than rays on their own.
+inline constexpr int kFewRays = 16;
+
 /// Calls `otherwise(first, count)` for rays that fit in no packet. Rays and results as in
 /// WideBvhKernels::closest_batch.
 template <class Stats, class Otherwise>
@@ -27,9 +30,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
                              std::span<Hit> results, Stats stats, Otherwise&& otherwise) {
     const WideBvhLayout& layout = *scene.layout;
     // Packets need vertices in the leaves.
-    if (layout.is_indexed() || layout.triangles.size() > PacketDecider::kMaxBlocks) {
-        return otherwise(0, rays.size());
-    }
+    if (layout.is_indexed()) return otherwise(0, rays.size());
     const Places places(
         layout.tree.nodes.data(),
         {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
@@ -51,9 +52,8 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         RayPacket packet;
         const std::uint64_t wanted = ~std::uint64_t{0} >> (kPacketRays - count);
         std::uint64_t used = wanted;
-        // Packets of few rays are no faster than rays on their own.
         bool done = packet.make(layout.frame, rays.subspan(i, count), used) &&
-                    std::popcount(used) >= static_cast<int>(kGroupRays);
+                    std::popcount(used) >= kFewRays;
         if (done) {
             ClosestPacket leaves(scene, rays.subspan(i, count), results.subspan(i, count), packet);
             done = traverse_packet(layout.tree.nodes.data(), layout.tree.root, places, packet,

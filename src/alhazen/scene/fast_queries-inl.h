@@ -71,6 +71,7 @@ struct FastQuery : LeafQuery<Derived> {
 
 struct FastClosestQuery : FastQuery<FastClosestQuery> {
     static constexpr bool kOrdered = true;
+    static constexpr bool kFirstCrossings = true;
     Hit& best;
 
     HWY_INLINE FastClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
@@ -130,6 +131,7 @@ struct FastClosestQuery : FastQuery<FastClosestQuery> {
 
 struct FastOccludedQuery : FastQuery<FastOccludedQuery> {
     static constexpr bool kOrdered = false;
+    static constexpr bool kFirstCrossings = true;
     bool& occluded;
 
     HWY_INLINE FastOccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)

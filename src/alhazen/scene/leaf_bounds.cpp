@@ -11,18 +11,6 @@
 namespace alhazen {
 namespace {
 
-/// Position of a shape in AnalyticShapes.
-template <class S>
-constexpr std::uint32_t column_of() {
-    std::uint32_t column = 0;
-    const auto search = [&]<class... T>(ShapeTypes<T...>) {
-        bool found = false;
-        ((found = found || std::is_same_v<S, T>, column += found ? 0 : 1), ...);
-    };
-    search(AnalyticShapes{});
-    return column;
-}
-
 template <class S>
 const S& shape_of(const PrimitiveTable& table, PrimitiveId id) {
     return std::get<ShapeColumn<S>>(table.columns).shapes[table.index(id)];

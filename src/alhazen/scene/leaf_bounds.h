@@ -7,10 +7,24 @@
 /// rectangle or a turned instance has no empty corners.
 /// Conventions: in the frame of the aggregate, in double.
 
+#include <type_traits>
+
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/scene/primitive_table.h"
 
 namespace alhazen {
+
+/// Position of a shape in AnalyticShapes: its kind.
+template <class S>
+constexpr std::uint32_t column_of() {
+    std::uint32_t column = 0;
+    const auto search = [&]<class... T>(ShapeTypes<T...>) {
+        bool found = false;
+        ((found = found || std::is_same_v<S, T>, column += found ? 0 : 1), ...);
+    };
+    search(AnalyticShapes{});
+    return column;
+}
 
 /// The kind of leaf that a bounded primitive goes to.
 [[nodiscard]] LeafType leaf_type(const PrimitiveTable& table, PrimitiveId id);

@@ -12,8 +12,10 @@
 #endif
 
 #include <bit>
+#include <type_traits>
 
 #include "alhazen/scene/shape_filters-inl.h"
+#include "alhazen/scene/sphere_decider-inl.h"
 #include "alhazen/scene/triangle_decider-inl.h"
 #include "alhazen/scene/triangle_filter-inl.h"
 #include "alhazen/scene/wide_bvh_kernels.h"
@@ -24,8 +26,8 @@ namespace HWY_NAMESPACE {
 
 /// The part of a query on one ray that is the same for all. `Derived` offers
 /// `bool block(triangle_block, stats)`, `bool other(id, stats)` and `bool crossing(id, hit)`, for a
-/// triangle that is hit for certain, true to stop; and `DistanceBound slab_slack(frame)`, the slack
-/// of its slab test.
+/// primitive that is hit for certain, true to stop; `DistanceBound slab_slack(frame)`, the slack of
+/// its slab test; and `kFirstCrossings`: the first crossing with a shape tells it all.
 template <class Derived>
 struct LeafQuery {
     SlabRay slabs;
@@ -94,10 +96,32 @@ struct LeafQuery {
                     stats.primitives(1);
                     continue;
                 }
-                if (static_cast<Derived&>(*this).other(id, stats)) return true;
+                if constexpr (std::is_same_v<Block, SphereBlock>) {
+                    if (visit_sphere(id, stats)) return true;
+                } else {
+                    if (static_cast<Derived&>(*this).other(id, stats)) return true;
+                }
             }
         }
         return false;
+    }
+
+    /// The first crossing with a sphere is all that most queries ask for.
+    template <class Stats>
+    HWY_NOINLINE bool visit_sphere(BlockId id, Stats stats) {
+        Derived& query = static_cast<Derived&>(*this);
+        if constexpr (!Derived::kFirstCrossings) return query.other(id, stats);
+        if (!scene.sees(id.id())) return false;
+        const auto& spheres = std::get<ShapeColumn<Sphere>>(scene.table->columns).shapes;
+        ShapeHit hit;
+        const std::uint32_t place =
+            static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<Sphere>());
+        const PlainVerdict verdict = intersect_plain(ray, spheres[place], hit);
+        if (HWY_UNLIKELY(verdict == PlainVerdict::Unsure)) return query.other(id, stats);
+        stats.primitives(1);
+        if (verdict == PlainVerdict::Missed) return false;
+        stats.primitive_hits(1);
+        return query.crossing(id, hit);
     }
 
     /// Triangles of which the leaf has the numbers only: all are tested in double, eight at a time.
@@ -189,6 +213,7 @@ struct RobustQuery : LeafQuery<Derived> {
 /// interruption.
 struct ClosestQuery : RobustQuery<ClosestQuery> {
     static constexpr bool kOrdered = true;
+    static constexpr bool kFirstCrossings = true;
     static constexpr std::uint32_t kMaxPending = 8;
 
     Hit& best;
@@ -269,6 +294,7 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
 /// Whether there is any hit.
 struct OccludedQuery : RobustQuery<OccludedQuery> {
     static constexpr bool kOrdered = false;
+    static constexpr bool kFirstCrossings = true;
     bool& occluded;
 
     HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
@@ -306,6 +332,7 @@ struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
     using Base = RobustQuery<CollectQuery<kStopAtOpaque>>;
     using Base::ray, Base::scene, Base::shear;
     static constexpr bool kOrdered = false;
+    static constexpr bool kFirstCrossings = false;
     std::vector<Hit>& hits;
 
     HWY_INLINE CollectQuery(const WideBvhScene& s, const Ray& r, std::vector<Hit>& found)

@@ -1,6 +1,6 @@
 /// The test in double of what packets have left, eight pairs of a ray and a triangle at a time.
 ///
-/// Source: TrianglePairs, which decides; here rays come from the packet and vertices are gathered.
+/// Source: TrianglePairs, which decides; here rays come from the packet.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_SCENE_PACKET_DECIDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -58,10 +58,6 @@ class PacketDecider {
         count_ = 0;
     }
 
-    /// With more, offsets would not fit.
-    static constexpr std::size_t kBlockFloats = sizeof(TriangleBlock) / sizeof(float);
-    static constexpr std::size_t kMaxBlocks = std::size_t{0x7FFFFFFF} / kBlockFloats;
-
   private:
     [[nodiscard]] HWY_INLINE BlockId id(std::size_t lane) const {
         return scene_.layout->triangles[place_[lane] / kBlockWidth].ids[place_[lane] % kBlockWidth];
@@ -92,25 +88,21 @@ class PacketDecider {
         const LocalFrame& frame = scene_.layout->frame;
         const double center[3] = {frame.center.x, frame.center.y, frame.center.z};
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        const LaneTag<float> d;
-        const hn::RebindToSigned<LaneTag<float>> di;
-        // In floats from the first block, whose lanes are side by side; see kMaxBlocks.
-        HWY_ALIGN std::int32_t offset[kLaneCount];
+        // One by one: gathers take longer on processors that mend them in microcode.
+        HWY_ALIGN float x[3][3][kLaneCount];
         for (std::size_t i = 0; i < kLaneCount; ++i) {
-            offset[i] = static_cast<std::int32_t>(place_[i] / kBlockWidth * kBlockFloats +
-                                                  place_[i] % kBlockWidth);
+            const TriangleBlock& block = scene_.layout->triangles[place_[i] / kBlockWidth];
+            const std::size_t lane = place_[i] % kBlockWidth;
+            HWY_UNROLL(3)
+            for (std::size_t k = 0; k < 3; ++k) {
+                for (std::size_t c = 0; c < 3; ++c) x[c][k][i] = block.vertex[c][axes[k]][lane];
+            }
         }
-        const float* first = scene_.layout->triangles.data()->vertex[0][0];
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t k = 0; k < 3; ++k) {
-                const float* row = first + (3 * c + axes[k]) * kBlockWidth;
-                HWY_ALIGN float x[kLaneCount];
-                ALHAZEN_UNROLL
-                for (std::size_t i = 0; i < kLaneCount; i += hn::Lanes(d)) {
-                    hn::Store(hn::GatherIndex(d, row, hn::Load(di, offset + i)), d, x + i);
-                }
-                store_lanes(Doubles(frame.inverse_scale) * as_doubles(x) + Doubles(center[axes[k]]),
-                            pairs_.vertex[c][k]);
+                store_lanes(
+                    Doubles(frame.inverse_scale) * as_doubles(x[c][k]) + Doubles(center[axes[k]]),
+                    pairs_.vertex[c][k]);
             }
         }
     }

@@ -1,9 +1,20 @@
-/// The queries of the wide BVH aggregate on the leaves, for packets: each triangle against sixteen
+/// The queries of the wide BVH aggregate on the leaves, for packets: each triangle against eight
 /// rays.
 ///
-/// Source: triangle_filter.h, the same formulas and bounds with rays in the lanes.
-/// Differs: of a block only those triangles are tested whose projection the pyramid of the rays
-/// meets; there is one bound of the coordinates, hence of the error, for all rays of a group.
+/// Source: triangle_filter.h, with rays in the lanes; that of rays with a common point an edge
+/// function is linear in the slopes: Amanatides and Choi, "Ray Tracing Triangular Meshes", Western
+/// Computer Graphics Symposium 1997, among others.
+/// Differs: slopes are taken from the middle one of the packet, which keeps the rounding as small
+/// as that of one ray; of a block only those triangles are tested whose slopes, seen from the
+/// point, meet those of a group.
+/// With e, R, E and L as there, S the slope of a ray, m the middle one, w the largest |S - m| and P
+/// the point of the packet:
+/// - a corner (v - P) - S (v - P)_z is off by E as there, by e w R for S - m, and by as much as the
+///   ray passes P by: E' = 1.1 E + |away|
+/// - so an edge function is off by 4 E' L + 2 E'^2, where L is the largest |x|, |y| of a corner
+///   sheared along m and w |z| more; its three parts and their sum round 9.1 e L^2 where nothing is
+///   fused, less than 1.5 E' L: 5.6 E' L + 2.2 E'^2 are taken
+/// - the place of the hit has one sum more: 1.1 times the bound there.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_SCENE_PACKET_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -25,47 +36,115 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The corners of a block of triangles, seen from the point of a packet.
+/// The triangles of a block as the rays of a packet see them.
 struct SeenBlock {
-    Floats x[3], y[3], z[3];
+    /// [1 2, 2 0, 0 1][constant, times the slopes beside the middle in x, in y][lane]
+    HWY_ALIGN float edge[3][3][kBlockWidth];
+    HWY_ALIGN float error[kBlockWidth];                                  ///< of an edge function
+    HWY_ALIGN float z[3][kBlockWidth];                                   ///< from the point
+    HWY_ALIGN float slope_lo[2][kBlockWidth], slope_hi[2][kBlockWidth];  ///< [x, y]
+    HWY_ALIGN float nearest[kBlockWidth];                                ///< how deep they begin
+    std::uint32_t anywhere;  ///< bits of those of which the slopes say nothing
 
     HWY_INLINE SeenBlock(const TriangleBlock& block, const RayPacket& packet) {
-        const Floats px(packet.point[0]), py(packet.point[1]), pz(packet.point[2]);
+        const std::uint32_t axes[3] = {packet.kx, packet.ky, packet.kz};
+        Floats v[3][3];  // [corner][axis]
         HWY_UNROLL(3)
         for (std::size_t i = 0; i < 3; ++i) {
-            x[i] = load_lanes(block.vertex[i][packet.kx]) - px;
-            y[i] = load_lanes(block.vertex[i][packet.ky]) - py;
-            z[i] = load_lanes(block.vertex[i][packet.kz]) - pz;
+            for (std::size_t k = 0; k < 3; ++k) {
+                v[i][k] = load_lanes(block.vertex[i][axes[k]]) - Floats(packet.point[k]);
+            }
+            store_lanes(v[i][2], z[i]);
         }
+        find_slopes(v, packet);
+        find_edges(v, packet);
     }
 
-    /// Bits of the triangles that rays of the group may hit; `error` is that of their edge
-    /// functions. With a slope anywhere in the group's range, and a ray as far from the point as
-    /// any, a sheared coordinate lies between those of the two ends, give and take `slack`.
-    HWY_INLINE std::uint32_t meet(const RayPacket& packet, const RayGroup& group,
-                                  float* error) const {
-        Floats far(0.0f);
-        const auto missed = [&](const Floats(&v)[3], std::size_t i) HWY_ATTR {
-            const Floats lo(group.slope_lo[i]), hi(group.slope_hi[i]);
-            const Floats slack(packet.error + packet.away[i]);
-            Floats a[3], b[3];
-            HWY_UNROLL(3)
-            for (std::size_t c = 0; c < 3; ++c) {
-                a[c] = neg_mul_add(lo, z[c], v[c]);
-                b[c] = neg_mul_add(hi, z[c], v[c]);
-            }
-            const Floats least = min_lanes(min_lanes(min_lanes(a[0], a[1]), min_lanes(a[2], b[0])),
-                                           min_lanes(b[1], b[2]));
-            const Floats most = max_lanes(max_lanes(max_lanes(a[0], a[1]), max_lanes(a[2], b[0])),
-                                          max_lanes(b[1], b[2]));
-            far = max_lanes(far, max_lanes(-least, most) + slack + slack);
-            return (least > slack) | (most < -slack);
-        };
-        const LaneMask<float> outside = missed(x, 0) | missed(y, 1);
-        const float edge_slack = 5.12f * packet.error;
-        const float edge_slack_min = 2.12f * packet.error * packet.error;
-        store_lanes(mul_add(far, Floats(edge_slack), Floats(edge_slack_min)), error);
-        return kAllLanes & ~bits_of(outside);
+    /// Bits of the groups of which a ray may hit the triangle.
+    [[nodiscard]] HWY_INLINE std::uint32_t groups(const RayPacket& packet, std::size_t lane) const {
+        const auto beyond = load_lanes(packet.group_k_max) < Floats(nearest[lane]);
+        LaneMask<float> missed = beyond;
+        HWY_UNROLL(2)
+        for (std::size_t i = 0; i < 2; ++i) {
+            missed = missed | (load_lanes(packet.slope_lo[i]) > Floats(slope_hi[i][lane])) |
+                     (load_lanes(packet.slope_hi[i]) < Floats(slope_lo[i][lane]));
+        }
+        const std::uint32_t all = (1u << packet.group_count) - 1;
+        return all & ~bits_of((anywhere >> lane & 1) != 0 ? beyond : missed);
+    }
+
+  private:
+    /// A ray that hits a triangle in front of the point, or behind it, has a slope between those of
+    /// its corners, give and take what the ray and they are off over the depth.
+    HWY_INLINE void find_slopes(const Floats (&v)[3][3], const RayPacket& packet) {
+        const auto least = [](const Floats& a, const Floats& b, const Floats& c)
+                               HWY_ATTR { return min_lanes(min_lanes(a, b), c); };
+        const auto most = [](const Floats& a, const Floats& b, const Floats& c)
+                              HWY_ATTR { return max_lanes(max_lanes(a, b), c); };
+        const Floats tiny(0x1p-60f);
+        anywhere = kAllLanes & ~bits_of((least(v[0][2], v[1][2], v[2][2]) > tiny) |
+                                        (most(v[0][2], v[1][2], v[2][2]) < -tiny));
+        Floats q[3];
+        HWY_UNROLL(3)
+        for (std::size_t i = 0; i < 3; ++i) q[i] = Floats(1.0f) / v[i][2];
+        const Floats off = Floats(2.0f) * most(abs(q[0]), abs(q[1]), abs(q[2]));
+        HWY_UNROLL(2)
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Floats slack = off * Floats(packet.error + packet.away[k]);
+            const Floats a = v[0][k] * q[0], b = v[1][k] * q[1], c = v[2][k] * q[2];
+            store_lanes(least(a, b, c) - slack, slope_lo[k]);
+            store_lanes(most(a, b, c) + slack, slope_hi[k]);
+        }
+        const Floats sign(packet.sign());
+        store_lanes(least(v[0][2] * sign, v[1][2] * sign, v[2][2] * sign), nearest);
+    }
+    /// Sheared along the middle slope m a corner is at (x, y) and at (x - a z, y - b z) along the
+    /// slope m + (a, b); of its edge functions the terms in a b cancel.
+    HWY_INLINE void find_edges(const Floats (&v)[3][3], const RayPacket& packet) {
+        struct {
+            Floats x, y, z;
+        } p[3];
+        Floats far(0.0f), deep(0.0f);
+        HWY_UNROLL(3)
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i].z = v[i][2];
+            p[i].x = neg_mul_add(Floats(packet.middle[0]), v[i][2], v[i][0]);
+            p[i].y = neg_mul_add(Floats(packet.middle[1]), v[i][2], v[i][1]);
+            far = max_lanes(far, max_lanes(abs(p[i].x), abs(p[i].y)));
+            deep = max_lanes(deep, abs(p[i].z));
+        }
+        HWY_UNROLL(3)
+        for (std::size_t e = 0; e < 3; ++e) {
+            const auto &a = p[(e + 1) % 3], &b = p[(e + 2) % 3];
+            store_lanes(mul_sub(a.x, b.y, a.y * b.x), edge[e][0]);
+            store_lanes(mul_sub(a.y, b.z, a.z * b.y), edge[e][1]);
+            store_lanes(mul_sub(a.z, b.x, a.x * b.z), edge[e][2]);
+        }
+        const float off = 1.1f * packet.error + std::max(packet.away[0], packet.away[1]);
+        far = mul_add(deep, Floats(packet.widest), far);
+        store_lanes(mul_add(far, Floats(5.6f * off), Floats(2.2f * off * off)), error);
+    }
+};
+
+/// A triangle of a block in every lane.
+struct SeenTriangle {
+    Floats edge[3][3], error, z[3];
+    Floats first, last;  ///< of z
+    Floats spread;       ///< by how much the weights' errors move a place, times their sum
+    Floats place_error;  ///< beside that
+    TrianglePlace place;
+
+    HWY_INLINE SeenTriangle(const SeenBlock& block, const RayPacket& packet, std::size_t lane,
+                            TrianglePlace at)
+        : error(block.error[lane]), place_error(packet.s_error), place(at) {
+        HWY_UNROLL(3)
+        for (std::size_t e = 0; e < 3; ++e) {
+            for (std::size_t k = 0; k < 3; ++k) edge[e][k] = Floats(block.edge[e][k][lane]);
+            z[e] = Floats(block.z[e][lane]);
+        }
+        first = min_lanes(min_lanes(z[0], z[1]), z[2]);
+        last = max_lanes(max_lanes(z[0], z[1]), z[2]);
+        spread = Floats(25.0f) * error * (last - first);
     }
 };
 
@@ -79,44 +158,29 @@ struct FilteredGroup {
 };
 
 /// As `filter_triangles`; false when no ray hits the triangle for all one knows.
-HWY_INLINE bool filter_group(const TriangleBlock& block, std::size_t lane, float edge_error,
-                             const RayPacket& packet, const RayGroup& group, FilteredGroup& out) {
+HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, FilteredGroup& out) {
     using F = GroupFloats;
     const auto row = [](const GroupRow& r) HWY_ATTR { return load_lanes<kGroupRays>(r); };
-    struct {
-        F x, y, z;
-    } v[3];
-    const F sx = row(group.slope[0]), sy = row(group.slope[1]);
-    const F ox = row(group.origin[packet.kx]), oy = row(group.origin[packet.ky]);
-    const F oz = row(group.origin[packet.kz]);
-    HWY_UNROLL(3)
-    for (int i = 0; i < 3; ++i) {
-        v[i].z = F(block.vertex[i][packet.kz][lane]) - oz;
-        v[i].x = neg_mul_add(sx, v[i].z, F(block.vertex[i][packet.kx][lane]) - ox);
-        v[i].y = neg_mul_add(sy, v[i].z, F(block.vertex[i][packet.ky][lane]) - oy);
-    }
-    const auto edge = [](const auto& a, const auto& b)
-                          HWY_ATTR { return mul_sub(a.x, b.y, a.y * b.x); };
-    const F eu = edge(v[1], v[2]), ev = edge(v[2], v[0]), ew = edge(v[0], v[1]);
-    const F error(edge_error), minus_error(-edge_error);
+    const F a = row(group.aside[0]), b = row(group.aside[1]);
+    const auto edge = [&](std::size_t e) HWY_ATTR {
+        return mul_add(b, seen.edge[e][2], mul_add(a, seen.edge[e][1], seen.edge[e][0]));
+    };
+    const F eu = edge(0), ev = edge(1), ew = edge(2);
+    const F &error = seen.error, minus_error = -error;
     const F least = min_lanes(min_lanes(eu, ev), ew);
     const F most = max_lanes(max_lanes(eu, ev), ew);
-    const std::uint32_t missed = bits_of((least < minus_error) & (most > error));
-    if ((group.used & ~missed) == 0) return false;
-    const F sz = row(group.reciprocal);
-    const F sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
+    const auto missed = (least < minus_error) & (most > error);
+    if ((group.used & ~bits_of(missed)) == 0) return false;
     const F inverse = F(1.0f) / (eu + ev + ew);
-    const F first = min_lanes(min_lanes(sa, sb), sc);
-    const F last = max_lanes(max_lanes(sa, sb), sc);
-    const F place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
-    const F s = min_lanes(max_lanes(place, first), last);
-    const F slack =
-        mul_add(F(25.0f) * error * (last - first), abs(inverse), F(packet.s_error) * abs(sz));
+    const F place = mul_add(eu, seen.z[0], mul_add(ev, seen.z[1], ew * seen.z[2])) * inverse;
+    const F reciprocal = row(group.reciprocal);
+    const F s =
+        (min_lanes(max_lanes(place, seen.first), seen.last) + row(group.shift)) * reciprocal;
+    const F slack = abs(reciprocal) * mul_add(seen.spread, abs(inverse), seen.place_error);
     out.lo = s - slack;
     out.hi = s + slack;
     // Written so that a NaN is a candidate and not sure.
-    const auto outside = ((least < minus_error) & (most > error)) | (out.lo > row(group.s_max)) |
-                         (out.hi < row(group.s_min));
+    const auto outside = missed | (out.lo > row(group.s_max)) | (out.hi < row(group.s_min));
     const auto inside = ((least > error) | (most < minus_error)) & (out.lo >= row(group.sure_min)) &
                         (out.hi <= row(group.sure_max));
     for (std::size_t i = 0; i < kParts<float, kGroupRays>; ++i) {
@@ -150,31 +214,24 @@ class PacketLeaves {
         for (std::uint32_t i = 0; i < ref.count(); ++i) {
             const TriangleBlock& block = scene_.layout->triangles[ref.offset() + i];
             const SeenBlock seen(block, packet_);
-            HWY_ALIGN float error[kPacketGroups][kBlockWidth];
-            // Eight bits for each group: one loop over all is predicted better than one for each.
-            std::uint32_t rest = 0;
-            for (std::size_t g = 0; g < packet_.group_count; ++g) {
-                const RayGroup& group = packet_.groups[g];
-                const std::uint32_t reached = nearest > group.k_max ? 0u : kAllLanes;
-                rest |= (seen.meet(packet_, group, error[g]) & reached) << (kBlockWidth * g);
-            }
-            for (; rest != 0; rest &= rest - 1) {
-                const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
-                const std::size_t g = bit / kBlockWidth, lane = bit % kBlockWidth;
-                const RayGroup& group = packet_.groups[g];
-                if (!block.ids[lane].used() || !scene_.sees(block.ids[lane].id())) continue;
-                stats.primitives(static_cast<std::uint64_t>(std::popcount(group.used)));
-                FilteredGroup found;
-                if (!filter_group(block, lane, error[g][lane], packet_, group, found)) continue;
-                self.found(g, static_cast<TrianglePlace>((ref.offset() + i) * kBlockWidth + lane),
-                           found, stats);
-                changed |= 1u << g;
+            for (std::size_t lane = 0; lane < kBlockWidth && block.ids[lane].used(); ++lane) {
+                std::uint32_t rest = seen.groups(packet_, lane);
+                if (rest == 0 || !scene_.sees(block.ids[lane].id())) continue;
+                const SeenTriangle triangle(
+                    seen, packet_, lane,
+                    static_cast<TrianglePlace>((ref.offset() + i) * kBlockWidth + lane));
+                for (; rest != 0; rest &= rest - 1) {
+                    const auto g = static_cast<std::size_t>(std::countr_zero(rest));
+                    const RayGroup& group = packet_.groups[g];
+                    stats.primitives(static_cast<std::uint64_t>(std::popcount(group.used)));
+                    FilteredGroup found;
+                    if (!filter_group(triangle, group, found)) continue;
+                    self.found(g, triangle.place, found, stats);
+                    changed |= 1u << g;
+                }
             }
         }
-        if (changed == 0) return false;
-        for (; changed != 0; changed &= changed - 1) {
-            packet_.shrink(packet_.groups[std::countr_zero(changed)]);
-        }
+        if (changed != 0) packet_.shrink(changed);
         return false;
     }
 
@@ -192,7 +249,7 @@ class PacketLeaves {
     HWY_NOINLINE bool visit_one_by_one(NodeRef ref, float nearest, Stats stats) {
         for (std::size_t g = 0; g < packet_.group_count; ++g) {
             RayGroup& group = packet_.groups[g];
-            if (nearest > group.k_max) continue;
+            if (nearest > packet_.group_k_max[g]) continue;
             for (std::uint32_t rest = group.used; rest != 0; rest &= rest - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
                 Query& one = query(g * kGroupRays + lane);
@@ -200,7 +257,7 @@ class PacketLeaves {
                 (void)one.visit(ref, stats);  // a query for the nearest hit never stops
                 group.s_max[lane] = one.s_max;
             }
-            packet_.shrink(group);
+            packet_.shrink(1u << g);
         }
         return false;
     }

@@ -256,6 +256,26 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
     compare("parallel rays in a beam", table, rays);
 }
 
+TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
+    // Corners behind the eye, beside it and at its very depth, whose slopes say nothing.
+    Random random(18);
+    TableBuilder builder;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 a = 0.5 * lattice_point(random, 4);
+        builder.add_triangle(a, a + 0.5 * lattice_point(random, 3),
+                             a + 0.5 * lattice_point(random, 3), random() % 2 == 0);
+    }
+    const PrimitiveTable table = builder.finish();
+    for (const Vec3& eye : {Vec3{0, 0, 0}, Vec3{0.5, -0.5, 1}, Vec3{0.51, 0.24, 0.5}}) {
+        for (const Vec3& look : {Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0.5, 0.25}}) {
+            compare("triangles around the eye", table, eye_rays(eye, look, 0.4, 24), false);
+            Rays rays = eye_rays(eye, look, 0.1, 16);
+            for (Ray& ray : rays) ray.t_min = -1;
+            compare("and from behind it", table, rays, false);
+        }
+    }
+}
+
 TEST(CoherentBatch, FarRaysAndOddScalesHitWhatTheListHits) {
     for (const double size : {1e-100, 1e-30, 1e-6, 1e6, 1e30, 1e100}) {
         std::ostringstream name;

@@ -11,7 +11,7 @@ class Builder {
     Builder(std::span<BuildReference> references, const LeafKinds& kinds)
         : references_(references),
           kinds_(kinds),
-          nodes_(std::make_unique_for_overwrite<BinaryNode[]>(2 * references.size())) {}
+          nodes_(make_huge_array<BinaryNode>(2 * references.size())) {}
 
     BinaryBvh build() {
         build(0, static_cast<std::uint32_t>(references_.size()), summarize(references_), 0, 0);
@@ -52,7 +52,7 @@ class Builder {
 
     std::span<BuildReference> references_;
     LeafKinds kinds_;
-    std::unique_ptr<BinaryNode[]> nodes_;
+    HugeArray<BinaryNode> nodes_;
 };
 
 }  // namespace

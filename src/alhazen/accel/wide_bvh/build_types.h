@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 
 #include "alhazen/accel/wide_bvh/wide_node.h"
+#include "alhazen/base/huge_array.h"
 
 namespace alhazen {
 
@@ -68,8 +68,8 @@ struct BinaryNode {
 };
 
 struct BinaryBvh {
-    std::unique_ptr<BinaryNode[]> nodes;  ///< [0] is the root; not every index is used
-    std::uint32_t index_count = 0;        ///< indices are below this
+    HugeArray<BinaryNode> nodes;    ///< [0] is the root; not every index is used
+    std::uint32_t index_count = 0;  ///< indices are below this
     bool empty = true;
 };
 

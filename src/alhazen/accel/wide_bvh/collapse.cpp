@@ -82,7 +82,7 @@ class Collapse {
           references_(references),
           kinds_(kinds),
           sink_(sink),
-          choices_(std::make_unique_for_overwrite<Choice[]>(binary.index_count)) {}
+          choices_(make_huge_array<Choice>(binary.index_count)) {}
 
     WideBvh run() {
         choose(0);
@@ -257,11 +257,14 @@ class Collapse {
             sum.surface += emitted[i].surface;
             sum.cost += emitted[i].cost * box.weight();
             promise[i] = promise_of(emitted[i], box);
-            order[i] = i;
+            // Insertion sort; of equal ones the first stays the first.
+            std::uint32_t place = i;
+            for (; place > 0 && promise[order[place - 1]] < promise[i]; --place) {
+                order[place] = order[place - 1];
+            }
+            order[place] = i;
         }
         sum.cost = 1.0f + sum.cost / binary_.nodes[index].box.weight();
-        std::stable_sort(order.begin(), order.begin() + all.count,
-                         [&](std::uint32_t a, std::uint32_t b) { return promise[a] > promise[b]; });
         Node& node = nodes_[number];
         for (std::uint32_t slot = 0; slot < all.count; ++slot) {
             node.set_box(slot, binary_.nodes[all.node[order[slot]]].box);
@@ -275,7 +278,7 @@ class Collapse {
     std::span<const BuildReference> references_;
     LeafKinds kinds_;
     LeafSink& sink_;
-    std::unique_ptr<Choice[]> choices_;
+    HugeArray<Choice> choices_;
     WideBvh wide_;
     Node* nodes_ = nullptr;
 };

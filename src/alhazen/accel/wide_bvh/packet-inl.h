@@ -52,6 +52,12 @@ class RayPacket {
     float point[3];     ///< P, along kx, ky, kz
     float away[2];      ///< how far the rays pass it by, in x and in y, at most
     float k_max = 0;    ///< the largest of the groups
+    /// [x, y][group] the slopes of their rays; those of no group are never met
+    HWY_ALIGN float slope_lo[2][kPacketGroups];
+    HWY_ALIGN float slope_hi[2][kPacketGroups];
+    HWY_ALIGN float group_k_max[kPacketGroups];  ///< no ray of the group needs to go deeper
+    float middle[2];                             ///< of all slopes, in x and in y
+    float widest = 0;                            ///< how far a slope lies beside it, at most
 
     /// False when the rays are too different; then nothing else may be called. `used` has bits for
     /// the rays that are wanted; those are cleared that do not fit in, and remain to be traced in
@@ -60,10 +66,15 @@ class RayPacket {
                             std::uint64_t& used) {
         used &= load(frame, rays);
         if (used == 0 || !keep_one_way(used)) return false;
-        for (std::size_t g = 0; g < group_count; ++g) make_slopes(groups[g]);
+        for (std::size_t i = 0; i < 2; ++i) {
+            store_lanes(Floats(std::numeric_limits<float>::infinity()), slope_lo[i]);
+            store_lanes(Floats(-std::numeric_limits<float>::infinity()), slope_hi[i]);
+        }
+        store_lanes(Floats(-std::numeric_limits<float>::infinity()), group_k_max);
+        for (std::size_t g = 0; g < group_count; ++g) make_slopes(g);
         if (!find_point() || !find_planes()) return false;
         for (std::size_t g = 0; g < group_count; ++g) {
-            retire(groups[g], 0xFFFF & ~groups[g].used);
+            retire(groups[g], kAllLanes & ~groups[g].used);
         }
         shrink_all();
         return true;
@@ -103,19 +114,17 @@ class RayPacket {
         float& s_max = groups[i / kGroupRays].s_max[i % kGroupRays];
         s_max = std::min(s_max, s);
     }
-    void shrink_all() {
-        for (std::size_t g = 0; g < group_count; ++g) groups[g].shrink(k_slack_);
-        shrink();
+    void shrink_all() { shrink((1u << group_count) - 1); }
+    /// After groups have changed: bits of those that have.
+    HWY_INLINE void shrink(std::uint32_t changed) {
+        for (; changed != 0; changed &= changed - 1) {
+            const auto g = static_cast<std::size_t>(std::countr_zero(changed));
+            group_k_max[g] = groups[g].deepest(k_slack_);
+        }
+        k_max = RayGroup::most_of(load_lanes(group_k_max));
     }
-    /// After a group has changed.
-    HWY_INLINE void shrink(RayGroup& group) {
-        group.shrink(k_slack_);
-        shrink();
-    }
-    HWY_INLINE void shrink() {
-        k_max = groups[0].k_max;
-        for (std::size_t g = 1; g < group_count; ++g) k_max = std::max(k_max, groups[g].k_max);
-    }
+    /// Along z, upwards where rays go.
+    [[nodiscard]] HWY_INLINE float sign() const { return sign_; }
 
   private:
     static constexpr float kUnit = 0x1p-24f;
@@ -125,7 +134,7 @@ class RayPacket {
 
     std::uint64_t load(const LocalFrame& frame, std::span<const Ray> rays);
     bool keep_one_way(std::uint64_t& used);
-    HWY_INLINE void make_slopes(RayGroup& group) const;
+    HWY_INLINE void make_slopes(std::size_t g);
     bool find_point();
     bool find_planes();
 
@@ -168,7 +177,6 @@ inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ra
     reach_ = frame.slack.reach.at(distance);
     delta_ = frame.slack.delta.at(distance);
     error = 13.2f * kUnit * reach_ + 4.0f * delta_;
-    s_error = 14.2f * kUnit * reach_ + 4.0f * delta_;
     return used & given;
 }
 
@@ -207,12 +215,13 @@ inline bool RayPacket::keep_one_way(std::uint64_t& used) {
         group.s_max[at] = leader.s_max[lane];
     }
     for (std::size_t g = 0; g < group_count; ++g) {
-        groups[g].used = static_cast<std::uint32_t>(used >> (g * kGroupRays)) & 0xFFFF;
+        groups[g].used = static_cast<std::uint32_t>(used >> (g * kGroupRays)) & kAllLanes;
     }
     return true;
 }
 
-HWY_INLINE void RayPacket::make_slopes(RayGroup& group) const {
+HWY_INLINE void RayPacket::make_slopes(std::size_t g) {
+    RayGroup& group = groups[g];
     const GroupFloats z = load_lanes<kGroupRays>(group.direction[kz]);
     const GroupFloats reciprocal = GroupFloats(1.0f) / z;
     store_lanes(reciprocal, group.reciprocal);
@@ -222,8 +231,8 @@ HWY_INLINE void RayPacket::make_slopes(RayGroup& group) const {
     for (std::size_t i = 0; i < 2; ++i) {
         const GroupFloats s = load_lanes<kGroupRays>(group.direction[axes[i]]) * reciprocal;
         store_lanes(s, group.slope[i]);
-        group.slope_lo[i] = RayGroup::least_of(s);
-        group.slope_hi[i] = RayGroup::most_of(s);
+        slope_lo[i][g] = RayGroup::least_of(s);
+        slope_hi[i][g] = RayGroup::most_of(s);
     }
 }
 
@@ -288,7 +297,8 @@ inline bool RayPacket::find_point() {
 
 inline bool RayPacket::find_planes() {
     error = 13.2f * kUnit * reach_ + 4.0f * delta_;
-    s_error = 14.2f * kUnit * reach_ + 4.0f * delta_;
+    // With the sum that takes a place from the point to the origin.
+    s_error = 15.7f * kUnit * reach_ + 4.4f * delta_;
     depth_of_point_ = sign_ * point[2];
     k_slack_ = 2.0f * error + std::max(away[0], away[1]);
     near_row_ = sign_ > 0 ? kz : kz + 3;
@@ -297,12 +307,11 @@ inline bool RayPacket::find_planes() {
     lateral_row_[1] = ky;
     const float turn = from_start_ ? sign_ : -sign_;
     for (std::size_t i = 0; i < 2; ++i) {
-        float lo = groups[0].slope_lo[i], hi = groups[0].slope_hi[i];
-        for (std::size_t g = 1; g < group_count; ++g) {
-            lo = std::min(lo, groups[g].slope_lo[i]);
-            hi = std::max(hi, groups[g].slope_hi[i]);
-        }
+        const float lo = RayGroup::least_of(load_lanes(slope_lo[i]));
+        const float hi = RayGroup::most_of(load_lanes(slope_hi[i]));
         if (!(hi - lo <= kWidest)) return false;
+        middle[i] = 0.5f * (lo + hi);
+        widest = std::max(widest, std::max(hi - middle[i], middle[i] - lo));
         const float a = turn > 0 ? lo : -hi, b = turn > 0 ? hi : -lo;
         lo_up_[i] = std::max(a, 0.0f);
         lo_down_[i] = std::min(a, 0.0f);
@@ -318,6 +327,11 @@ inline bool RayPacket::find_planes() {
         const GroupFloats depth = mul_add(load_lanes<kGroupRays>(group.origin[kz]),
                                           GroupFloats(sign_), GroupFloats(-depth_of_point_));
         store_lanes(depth, group.depth);
+        store_lanes(GroupFloats(point[2]) - load_lanes<kGroupRays>(group.origin[kz]), group.shift);
+        for (std::size_t i = 0; i < 2; ++i) {
+            store_lanes(load_lanes<kGroupRays>(group.slope[i]) - GroupFloats(middle[i]),
+                        group.aside[i]);
+        }
         const GroupFloats k =
             mul_add(load_lanes<kGroupRays>(group.s_min), load_lanes<kGroupRays>(group.rate), depth);
         least = g == 0 ? k : min_lanes(least, k);
@@ -333,7 +347,7 @@ template <class Leaf, class Stats>
 HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root, const Places& places,
                                 const RayPacket& packet, Leaf& leaf, Stats stats) {
     // Measured: about what the rays cost one by one.
-    constexpr std::uint32_t kMaxWork = 80;
+    constexpr std::uint32_t kMaxWork = 200;
     std::uint32_t work = 0;
     StackEntry stack[kTraversalStackSize<8>];
     std::size_t height = 1;
@@ -354,9 +368,10 @@ HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root, const Place
         const std::uint32_t hit = packet.meet_children(node, entries);
         HWY_ALIGN float entry[WideNode::kWidth];
         store_lanes(entries, entry);
-        const std::size_t base = height;
         height = push_sorted(node, hit, entry, stack, height);
-        for (std::size_t i = base; i < height; ++i) places.prefetch(stack[i].ref.bits());
+        // The next two; those below come up later.
+        const std::size_t soon = std::min<std::size_t>(height, 2);
+        for (std::size_t i = height - soon; i < height; ++i) places.prefetch(stack[i].ref.bits());
     }
     return true;
 }

@@ -1,4 +1,4 @@
-/// Sixteen rays side by side in lanes: a part of a packet (packet-inl.h).
+/// Eight rays side by side in lanes: a part of a packet (packet-inl.h).
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -21,27 +21,28 @@ namespace HWY_NAMESPACE {
 
 /// Rays of a packet, and of a group of it whose rays are in the lanes together.
 inline constexpr std::size_t kPacketRays = 64;
-inline constexpr std::size_t kGroupRays = 16;
+inline constexpr std::size_t kGroupRays = 8;
 inline constexpr std::size_t kPacketGroups = kPacketRays / kGroupRays;
 using GroupFloats = Lanes<float, kGroupRays>;
 using GroupRow = float[kGroupRays];
 
-/// Sixteen rays in the local frame. Lanes that are not used repeat a ray and end before they begin.
+/// Eight rays in the local frame. Lanes that are not used repeat a ray and end before they begin.
 struct alignas(64) RayGroup {
     GroupRow origin[3], direction[3];  ///< [axis]: of the scene first, then as in TriangleFilterRay
     GroupRow s_min, s_max;             ///< as in SlabRay
     GroupRow sure_min, sure_max;       ///< as in TriangleFilterRay
     GroupRow slope[2], reciprocal;     ///< TriangleFilterRay::sx, sy, sz
+    GroupRow aside[2];                 ///< slopes beside the middle one of the packet
+    GroupRow shift;                    ///< from the origin to the point of the packet, along z
     GroupRow depth, rate;              ///< k at s = 0, and by how much it grows with s
-    float slope_lo[2], slope_hi[2];
-    float k_max;  ///< no ray of the group needs to go deeper
     std::uint32_t used;
 
-    HWY_INLINE void shrink(float slack) {
+    /// No ray of the group needs to go deeper.
+    [[nodiscard]] HWY_INLINE float deepest(float slack) const {
         const GroupFloats k = mul_add(load_lanes<kGroupRays>(s_max), load_lanes<kGroupRays>(rate),
                                       load_lanes<kGroupRays>(depth));
         // Finite, so that no free slot is met.
-        k_max = most_of(min_lanes(k, GroupFloats(1e30f))) + slack;
+        return most_of(min_lanes(k, GroupFloats(1e30f))) + slack;
     }
     static HWY_INLINE float most_of(const GroupFloats& a) { return -least_of(-a); }
     static HWY_INLINE float least_of(const GroupFloats& a) {

@@ -223,19 +223,6 @@ ObjectSplit sweep(std::span<const BuildReference> references, const RangeSummary
     return best;
 }
 
-/// Moves those for which is_left(r) to the front.
-template <class IsLeft>
-std::uint32_t partition(std::span<BuildReference> references, const IsLeft& is_left,
-                        RangeSummary& left, RangeSummary& right) {
-    std::size_t i = 0, j = references.size();
-    for (;;) {
-        for (; i < j && is_left(references[i]); ++i) left.include(references[i]);
-        for (; i < j && !is_left(references[j - 1]); --j) right.include(references[j - 1]);
-        if (i >= j) return static_cast<std::uint32_t>(i);
-        std::swap(references[i], references[j - 1]);
-    }
-}
-
 /// Precondition: `out` is that of nothing.
 void summarize_some(std::span<const BuildReference> references, RangeSummary& out) {
     // Apart from the counts the boxes stay in registers.
@@ -256,6 +243,22 @@ void summarize_both(std::span<const BuildReference> references, std::uint32_t mi
                     RangeSummary& left, RangeSummary& right) {
     summarize_some(references.first(middle), left);
     summarize_some(references.subspan(middle), right);
+}
+
+/// Moves those for which is_left(r) to the front. Every reference is swapped, with itself if need
+/// be: to which side one goes cannot be predicted.
+template <class IsLeft>
+std::uint32_t partition(std::span<BuildReference> references, const IsLeft& is_left,
+                        RangeSummary& left, RangeSummary& right) {
+    std::uint32_t middle = 0;
+    for (BuildReference& place : references) {
+        const BuildReference r = place;
+        place = references[middle];
+        references[middle] = r;
+        middle += static_cast<std::uint32_t>(is_left(r));
+    }
+    summarize_both(references, middle, left, right);
+    return middle;
 }
 
 }  // namespace

@@ -133,7 +133,7 @@ class Builder {
             kSpatialSplitBudget * static_cast<double>(count) + 8, double{NodeRef::kMaxNodes} / 2));
         const RangeSummary all = summarize(references_);
         references_.resize(std::max(count, limit));
-        nodes_ = std::make_unique_for_overwrite<BinaryNode[]>(2 * references_.size());
+        nodes_ = make_huge_array<BinaryNode>(2 * references_.size());
         least_overlap_ = kAlpha * half_area(all.box.box());
         build({0, count, static_cast<std::uint32_t>(references_.size())}, all, 0, 0, {});
         return {std::move(nodes_), static_cast<std::uint32_t>(2 * references_.size()), false};
@@ -305,7 +305,7 @@ class Builder {
     std::vector<BuildReference>& references_;
     LeafKinds kinds_;
     const ReferenceSplitter& splitter_;
-    std::unique_ptr<BinaryNode[]> nodes_;
+    HugeArray<BinaryNode> nodes_;
     float least_overlap_ = 0;
 };
 

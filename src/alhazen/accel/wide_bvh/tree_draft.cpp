@@ -20,8 +20,7 @@ class Linearizer {
         measure();
         const Sums& all = sums_[draft_.root];
         ordered_.resize(all.references);
-        BinaryBvh tree{std::make_unique_for_overwrite<BinaryNode[]>(2 * all.leaves - 1),
-                       2 * all.leaves - 1, false};
+        BinaryBvh tree{make_huge_array<BinaryNode>(2 * all.leaves - 1), 2 * all.leaves - 1, false};
         nodes_ = tree.nodes.get();
         write(draft_.root, 0, 0, 0);
         ordered = std::move(ordered_);

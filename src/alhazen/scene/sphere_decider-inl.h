@@ -1,0 +1,84 @@
+/// The test in double of a sphere that the filter has left, without a call into code for another
+/// instruction set.
+///
+/// Source: geometry/sphere_roots.h, the same formulas in the same order: the bits are those of the
+/// test of the shape. What is not plain is left to that one.
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_SCENE_SPHERE_DECIDER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SCENE_SPHERE_DECIDER_INL_H_
+#undef ALHAZEN_SCENE_SPHERE_DECIDER_INL_H_
+#else
+#define ALHAZEN_SCENE_SPHERE_DECIDER_INL_H_
+#endif
+
+#include <cmath>
+
+#include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/ray.h"
+#include "alhazen/scene/leaf_bounds.h"
+#include "alhazen/scene/triangle_decider-inl.h"
+#include "alhazen/shapes/sphere.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+namespace sphere_numbers {
+
+#include "alhazen/geometry/sphere_roots_formula-inl.h"
+
+/// A double whose fmin and fmax are one instruction: of two zeros or a NaN among the operands they
+/// give either, so who reads a result that is one of these has to ask again.
+struct PlainDouble {
+    double x;
+
+    friend HWY_INLINE PlainDouble operator-(PlainDouble a) { return {-a.x}; }
+    friend HWY_INLINE PlainDouble operator+(PlainDouble a, PlainDouble b) { return {a.x + b.x}; }
+    friend HWY_INLINE PlainDouble operator-(PlainDouble a, PlainDouble b) { return {a.x - b.x}; }
+    friend HWY_INLINE PlainDouble operator*(PlainDouble a, PlainDouble b) { return {a.x * b.x}; }
+    friend HWY_INLINE PlainDouble operator/(PlainDouble a, PlainDouble b) { return {a.x / b.x}; }
+    friend HWY_INLINE PlainDouble sqrt(PlainDouble a) { return {std::sqrt(a.x)}; }
+    friend HWY_INLINE PlainDouble copysign(PlainDouble a, PlainDouble b) {
+        return {std::copysign(a.x, b.x)};
+    }
+    friend HWY_INLINE PlainDouble fmin(PlainDouble a, PlainDouble b) {
+        return {a.x < b.x ? a.x : b.x};
+    }
+    friend HWY_INLINE PlainDouble fmax(PlainDouble a, PlainDouble b) {
+        return {a.x > b.x ? a.x : b.x};
+    }
+};
+
+}  // namespace sphere_numbers
+
+/// The first crossing of a ray with a sphere, as Sphere::intersect finds it.
+HWY_INLINE PlainVerdict intersect_plain(const Ray& ray, const Sphere& sphere, ShapeHit& hit) {
+    using sphere_numbers::PlainDouble;
+    const Vec3& d = ray.direction;
+    const Vec3 f = ray.origin - sphere.center;
+    const PlainDouble dx{d.x}, dy{d.y}, dz{d.z}, fx{f.x}, fy{f.y}, fz{f.z};
+    const PlainDouble a{length_squared(d)}, radius{sphere.radius};
+    const auto line = sphere_numbers::sphere_line(dx, dy, dz, a, fx, fy, fz, radius);
+    if (!(line.discriminant.x >= 0.0)) return PlainVerdict::Missed;
+    const auto roots = sphere_numbers::sphere_roots(line, a, fx, fy, fz, radius);
+    const double entry = roots.t_near.x, exit = roots.t_far.x;
+    // Written so that what is not finite is not plain.
+    constexpr double kFar = 0x1p1000;
+    if (!(entry <= exit && entry > -kFar && exit < kFar && entry != 0.0 && exit != 0.0)) {
+        return PlainVerdict::Unsure;
+    }
+    if (ray.covers(entry)) {
+        hit = {entry, 0, 0, 0};
+    } else if (ray.covers(exit)) {
+        hit = {exit, 0, 0, 0};
+    } else {
+        return PlainVerdict::Missed;
+    }
+    return PlainVerdict::Hit;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
