@@ -16,6 +16,11 @@ constexpr double kStepCost = 0.5;
 /// A grid must save at least a quarter: what saves less is not worth its memory.
 constexpr double kSaving = 0.75;
 
+/// So many primitives that all lie in the same cells are not parted by finer ones.
+constexpr std::size_t kHeap = 16;
+constexpr double kSameCells = 0.9;
+constexpr std::size_t kCellsAroundHeap = 8;
+
 /// About how many cells along each axis make `count` that are as near to cubes as can be; flat axes
 /// have one.
 std::array<std::uint32_t, 3> resolution(const Vec3& size, double count, double least_edge) {
@@ -225,9 +230,23 @@ class NestedGridBuilder {
         }
     }
 
+    /// Whether the cells that hold any primitives hold nearly all of them: they lie upon each
+    /// other, and finer cells would copy their list over and over.
+    static bool parts_nothing(const Draft& draft, std::size_t count) {
+        std::size_t used = 0;
+        for (std::size_t c = 0; c + 1 < draft.starts.size(); ++c) {
+            used += draft.starts[c + 1] > draft.starts[c];
+        }
+        // In a few cells they may be a small heap in a large box, which is worth finding.
+        if (used <= kCellsAroundHeap) return false;
+        return static_cast<double>(draft.entries.size()) >=
+               kSameCells * static_cast<double>(used) * static_cast<double>(count);
+    }
+
     /// Whether a ray that meets the box is expected to cost less with the grid than with the list:
     /// it meets a cell in it with the chance of their areas.
     static bool pays(const Draft& draft, std::size_t count, const Box3& box) {
+        if (count >= kHeap && parts_nothing(draft, count)) return false;
         double cost = 0;
         draft.for_cells(draft.all(), [&](std::size_t c, const Box3& cell) {
             const double tests = draft.starts[c + 1] - draft.starts[c];

@@ -9,7 +9,8 @@
 /// SIGGRAPH 1984
 /// (`planes=balanced`: a grid whose planes stand where the load is even).
 /// Differs: few primitives stay a list; a cell keeps its list, too, where by the areas of its cells
-/// a grid would not save tests: where primitives lie upon each other. Dippe and Swensen move the
+/// a grid would not save tests, or its used cells would all hold the same primitives: where they
+/// lie upon each other. Dippe and Swensen move the
 /// corners of cells during rendering; here whole planes are placed once, at equal shares of the
 /// primitives' centers along their axis. Clusters of Cazals are not sought: recursion finds them.
 /// Conventions: cells are numbered x + nx (y + ny z) in their grid; a ray's walk is that of

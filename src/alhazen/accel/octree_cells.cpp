@@ -7,6 +7,16 @@
 
 namespace alhazen {
 
+namespace {
+
+/// So many primitives that all lie in the same cells are not parted by smaller ones; the first
+/// levels cut away the empty space around them.
+constexpr std::size_t kHeap = 16;
+constexpr double kSameCells = 0.9;
+constexpr int kLevelsAroundHeaps = 3;
+
+}  // namespace
+
 OctreeCells::OctreeCells(const BoundsSource& source, int max_depth, int leaf_size)
     : space_(source), max_depth_(max_depth) {
     if (source.size() == 0) return;
@@ -51,7 +61,7 @@ void OctreeCells::divide(std::uint32_t index, std::vector<std::uint32_t> inside,
     const std::int32_t half = span(nodes_[index]) / 2;
     std::array<Node, 8> children;
     std::array<std::vector<std::uint32_t>, 8> parts;
-    std::size_t sum = 0;
+    std::size_t sum = 0, used = 0;
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
         Node& child = children[octant];
         child = {0,
@@ -69,9 +79,15 @@ void OctreeCells::divide(std::uint32_t index, std::vector<std::uint32_t> inside,
             if (source.overlaps(i, cell)) parts[octant].push_back(i);
         }
         sum += parts[octant].size();
+        used += !parts[octant].empty();
     }
     // Most lie in most children: they fill the cell, and smaller ones would not part them.
     if (sum > 5 * inside.size()) return make_leaf(index, inside);
+    // Or they lie upon each other.
+    if (inside.size() >= kHeap && used > 1 && nodes_[index].level >= kLevelsAroundHeaps &&
+        static_cast<double>(sum) >= kSameCells * static_cast<double>(used * inside.size())) {
+        return make_leaf(index, inside);
+    }
     if (nodes_.size() + 8 >= kNone) {
         throw Error(ErrorKind::Resource, "octree: more than 4294967286 nodes");
     }

@@ -5,9 +5,10 @@
 /// Source: Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984.
 /// Differs: children lie side by side and are found by index, not by hashing their names; a cell is
 /// not divided further where the lists of its children together would be more than five times as
-/// long as its own: its primitives fill it. Conventions: an axis
-/// of the root is 2^max_depth units long. Octant bit k is set for the upper half along axis k.
-/// Primitives are in every leaf that comes within `pad` of them.
+/// long as its own: its primitives fill it; nor where sixteen or more of them lie in the same
+/// children: they lie upon each other. Conventions: an axis of the root is 2^max_depth units long.
+/// Octant bit k is set for the upper half along axis k. Primitives are in every leaf that comes
+/// within `pad` of them.
 
 #include <array>
 #include <cstdint>

@@ -17,13 +17,13 @@ bool within_reach(const Box3& box) {
 BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table) {
     // Mostly all are bounded: then nothing has to be written down.
     constexpr std::size_t kGrain = 16384;
-    struct Part {
+    struct Share {
         Box3 box;
         bool bounded = true;
     };
-    std::vector<Part> parts((table.size() + kGrain - 1) / kGrain);
+    std::vector<Share> parts((table.size() + kGrain - 1) / kGrain);
     parallel_for(table.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Part part;
+        Share part;
         for (std::size_t i = begin; i < end; ++i) {
             const Box3 box = table.box(i);
             part.box.include(box);
@@ -32,7 +32,7 @@ BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table
         parts[begin / kGrain] = part;
     });
     identity_ = true;
-    for (const Part& part : parts) {
+    for (const Share& part : parts) {
         all_.include(part.box);
         identity_ = identity_ && part.bounded;
     }

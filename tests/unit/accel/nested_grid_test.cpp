@@ -50,6 +50,12 @@ TEST(NestedGrid, PrimitivesUponEachOtherStayAList) {
     EXPECT_EQ(longest_list(made), 200u);
 }
 
+TEST(NestedGrid, AHeapOfSlantedPlatesIsNotDividedOverAndOver) {
+    const NestedGrid made = NestedGrid::build(SlantedHeap(500), {});
+    EXPECT_EQ(made.grids().size(), 1u);
+    EXPECT_EQ(longest_list(made), 500u);
+}
+
 TEST(NestedGrid, FewPrimitivesAreAListWithoutAGrid) {
     const NestedGrid made = NestedGrid::build(random_boxes(8, 0.1, 4), {});
     EXPECT_TRUE(made.grids().empty());

@@ -62,6 +62,15 @@ TEST(Octree, TheFourWalksGoThroughTheSameLeavesInTheSameOrder) {
     EXPECT_GT(walked, 20000u);
 }
 
+TEST(Octree, AHeapOfSlantedPlatesIsCutOutButNotDividedOverAndOver) {
+    const OctreeCells heap(SlantedHeap(2000), 12, 1);
+    EXPECT_GT(heap.nodes().size(), 9u);
+    EXPECT_LT(heap.nodes().size(), 1000u);
+    EXPECT_LT(heap.entries().size(), 2000u * 512u);
+    // Few in a place are divided as before.
+    EXPECT_GT(OctreeCells(SlantedHeap(8), 6, 1).nodes().size(), 1000u);
+}
+
 TEST(Octree, NeighborsAreFoundInFewerStepsThanPointsFromTheRoot) {
     const OctreeCells cells(random_boxes(2000, 0.02, 3), 8, 1);
     RandomStream random(4);

@@ -18,6 +18,20 @@ class Boxes final : public BoundsSource {
     std::vector<Box3> boxes_;
 };
 
+/// The same slanted plate in the unit cube, many times: where x + y / 10 is 0.7.
+class SlantedHeap final : public BoundsSource {
+  public:
+    explicit SlantedHeap(std::size_t count) : count_(count) {}
+    [[nodiscard]] std::size_t size() const override { return count_; }
+    [[nodiscard]] Box3 box(std::size_t) const override { return {{0, 0, 0}, {1, 1, 1}}; }
+    [[nodiscard]] bool overlaps(std::size_t, const Box3& cell) const override {
+        return cell.lo.x + 0.1 * cell.lo.y <= 0.7 && cell.hi.x + 0.1 * cell.hi.y >= 0.7;
+    }
+
+  private:
+    std::size_t count_;
+};
+
 inline Boxes random_boxes(std::size_t count, double size, std::uint64_t seed) {
     RandomStream random(seed);
     std::vector<Box3> boxes;
