@@ -1,8 +1,9 @@
 #pragma once
 /// A small tree of boxes over the components of a blob: which of them a line or a point may touch.
 ///
-/// Source: Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (slabs); split at the median
-/// of the longest axis. Differs: boxes are tested with room for what the origin rounds.
+/// Source: Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996 (a line misses a box when an axis
+/// across both parts them); split at the median of the longest axis. Differs: the axes are the
+/// three cross products with the line; boxes are tested with room for what the origin rounds.
 /// Conventions: answers may hold too many, never too few. Threads: const functions may be called
 /// from many.
 

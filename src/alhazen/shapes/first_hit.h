@@ -3,7 +3,7 @@
 ///
 /// Source: polynomial_solid.h. Differs: nothing. Conventions: the same bits as the first crossing
 /// that `intersect` writes; false where that writes none. A shape with an overload here has to keep
-/// the two true to each other; the conformance test of the shapes compares them.
+/// the two true to each other, and to join first_hit_test.cpp, which compares them.
 
 #include "alhazen/shapes/algebraic.h"
 #include "alhazen/shapes/tgc.h"
