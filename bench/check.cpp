@@ -91,23 +91,29 @@ void decide_all(const Judge& judge, const RaySet& set, const std::vector<double>
     }
 }
 
+/// Puts a wrong answer in place of ours: the judge must see it.
+void plant(const Judge& judge, const RaySet& set, std::size_t i, double ours, double wrong,
+           CheckResult& result) {
+    const Verdict verdict = judge.decide(set.rays[i], set.any_hit, ours, wrong);
+    result.ours_wrong += verdict.ours_wrong;
+    if (verdict.peer_wrong) return;
+    ++result.planted_unseen;
+    if (result.unseen.size() < kFaultsShown) {
+        result.unseen.push_back(describe(set.rays[i], ours, wrong, verdict));
+    }
+}
+
 /// Judges our answers to some rays of the set, and wrong ones.
 void judge_samples(const Judge& judge, const RaySet& set, const std::vector<double>& ours,
                    CheckResult& result) {
     const std::size_t step = std::max<std::size_t>(1, set.rays.size() / kSamples);
     for (std::size_t i = 0; i < set.rays.size(); i += step) {
-        const Ray& ray = set.rays[i];
         const bool hit = std::isfinite(ours[i]);
         // A miss where there is a hit, a hit where there is none.
-        const double flipped = hit ? HUGE_VAL : 0.5 * (length(ray.origin) + 1);
-        const Verdict verdict = judge.decide(ray, set.any_hit, ours[i], flipped);
+        plant(judge, set, i, ours[i], hit ? HUGE_VAL : 0.5 * (length(set.rays[i].origin) + 1),
+              result);
         ++result.samples;
-        result.ours_wrong += verdict.ours_wrong;
-        result.planted_unseen += !verdict.peer_wrong;
-        if (hit && !set.any_hit) {
-            const Verdict farther = judge.decide(ray, false, ours[i], 1.01 * ours[i]);
-            result.planted_unseen += !farther.peer_wrong;
-        }
+        if (hit && !set.any_hit) plant(judge, set, i, ours[i], 1.01 * ours[i], result);
     }
 }
 

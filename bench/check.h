@@ -27,6 +27,7 @@ struct CheckResult {
     /// its place, which the judge must see.
     std::size_t samples = 0, planted_unseen = 0;
     std::vector<std::string> our_faults;  ///< the first few, to be looked at
+    std::vector<std::string> unseen;      ///< the same of planted errors
 };
 
 /// Traces the set by `closest` or `occluded`, by the batch, and by each peer with packets of 1 and

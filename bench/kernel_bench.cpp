@@ -1,6 +1,6 @@
 /// Rays per second of wide_bvh beside Embree: same scene, same rays, one thread, in turn, medians.
 /// Usage: alhazen_kernel_bench SCENE... [--side N] [--rounds N] [--only RAYS] [--json FILE]
-///            [--markdown FILE] [--build fast|default|high] [--width 4|8|16] [--compact]
+///            [--markdown FILE] [--build fast|default|high] [--width 4|8|16] [--compact] [--masks]
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
 /// SCENE: see kernel_scenes.h. --check does not measure: it counts the rays that the tracers
 /// disagree about and decides each by brute force in extended precision.
@@ -27,6 +27,7 @@ struct Settings {
     int rounds = 5;
     std::string only;  ///< name of a ray set; empty: all
     BuildOptions build{BuildQuality::High};
+    bool masks = false;  ///< also through masks
 };
 
 /// Both trees of Embree, and where there are cylinders both ways to have them.
@@ -65,6 +66,13 @@ std::vector<Tracer> our_tracers(const Aggregate& aggregate, const Aggregate& fas
             {kOursFast, "batch", {}, [&] { return trace_batches(fast, set); }, {}}};
 }
 
+void add_masked(const Aggregate& masked, const RaySet& set, std::vector<Tracer>& tracers) {
+    tracers.push_back(
+        {kOursMasked, "single", {}, [&] { return trace_single(masked, set, kSeeing); }, {}});
+    tracers.push_back(
+        {kOursMasked, "batch", {}, [&] { return trace_batches(masked, set, kSeeing); }, {}});
+}
+
 #ifdef ALHAZEN_HAVE_EMBREE
 /// All ways to trace the set in Embree; packets share the rays in their form.
 void add_peers(const Peers& peers, const RaySet& set,
@@ -96,6 +104,7 @@ SceneResult run(const KernelScene& scene, const Settings& settings) {
     BuildOptions fast_options = settings.build;
     fast_options.precision = Precision::Fast;
     const auto fast = build_ours(scene, fast_options);
+    const auto masked = settings.masks ? build_masked(scene, settings.build) : nullptr;
     const Peers peers(scene);
     SceneResult result{scene.name, scene.contents(), {}};
     fmt::print("{}: {}\n", scene.name, result.contents);
@@ -103,6 +112,7 @@ SceneResult run(const KernelScene& scene, const Settings& settings) {
         if (!settings.only.empty() && set.name != settings.only) continue;
         if (set.rays.empty()) continue;
         std::vector<Tracer> tracers = our_tracers(*aggregate, *fast, set);
+        if (masked != nullptr) add_masked(*masked, set, tracers);
 #ifdef ALHAZEN_HAVE_EMBREE
         std::vector<std::unique_ptr<EmbreePackets>> packets;
         add_peers(peers, set, packets, tracers);
@@ -136,6 +146,7 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
             for (const CheckResult& r : results) {
                 faults += r.ours_wrong + r.batch_differs + r.planted_unseen;
                 for (const std::string& fault : r.our_faults) fmt::print("OURS: {}\n", fault);
+                for (const std::string& ray : r.unseen) fmt::print("UNSEEN: {}\n", ray);
             }
             std::fflush(stdout);
             all.insert(all.end(), results.begin(), results.end());
@@ -153,7 +164,7 @@ std::size_t run_checks([[maybe_unused]] const CommandLine& line,
 int run_program(int argc, char** argv) {
     const CommandLine line(
         argc, argv, {"--side", "--rounds", "--only", "--json", "--markdown", "--build", "--width"},
-        {"--check", "--compact"});
+        {"--check", "--compact", "--masks"});
     if (line.rest.empty()) {
         throw Error(ErrorKind::Usage, fmt::format("no scene; scenes are {}", kSceneSpecs));
     }
@@ -165,6 +176,7 @@ int run_program(int argc, char** argv) {
         find_build_quality(line.text("--build", name_of(settings.build.quality)));
     settings.build.width = static_cast<std::uint32_t>(line.count("--width", 8));
     if (line.has("--compact")) settings.build.leaves = Leaves::Indices;
+    settings.masks = line.has("--masks");
     if (line.has("--check")) {
         const std::size_t faults = run_checks(line, settings);
         fmt::print("{} faults of wide_bvh or of the judge\n", faults);

@@ -10,40 +10,74 @@ namespace alhazen::bench {
 
 namespace {
 
+/// Set in no ray of the benchmark.
+constexpr RayMask kUnseen = 2;
+
 template <class S>
-void add_shapes(PrimitiveTable& table, const std::vector<S>& shapes) {
+void add_shapes(PrimitiveTable& table, const std::vector<S>& shapes, RayMask visible_to) {
     auto& column = std::get<ShapeColumn<S>>(table.columns);
     column.shapes = shapes;
     column.placements.assign(shapes.size(), kNoPlacement);
     column.materials.assign(shapes.size(), MaterialId{0});
+    if (visible_to != kAllRays) column.visible_to.assign(shapes.size(), visible_to);
 }
 
-}  // namespace
-
-std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene, const BuildOptions& options) {
+PrimitiveTable table_of(const KernelScene& scene, RayMask visible_to) {
     PrimitiveTable table;
-    add_shapes(table, scene.spheres);
-    add_shapes(table, scene.cylinders);
-    table.meshes.push_back({std::make_shared<TriangleMesh>(scene.mesh), MaterialId{0}, 0, false});
+    add_shapes(table, scene.spheres, visible_to);
+    add_shapes(table, scene.cylinders, visible_to);
+    PlacedMesh mesh{std::make_shared<TriangleMesh>(scene.mesh), MaterialId{0}, 0, false};
+    mesh.visible_to = visible_to;
+    table.meshes.push_back(std::move(mesh));
+    return table;
+}
+
+PlacedMesh unseen_triangle(const Box3& box, std::uint32_t first) {
+    const double edge = 1e-3 * max_component(box.size());
+    TriangleMesh corner;
+    corner.positions = {box.lo, box.lo + Vec3{edge, 0, 0}, box.lo + Vec3{0, edge, 0}};
+    corner.triangles = {{0, 1, 2}};
+    PlacedMesh mesh{std::make_shared<TriangleMesh>(std::move(corner)), MaterialId{0}, first, false};
+    mesh.visible_to = kUnseen;
+    return mesh;
+}
+
+std::shared_ptr<const Aggregate> build(PrimitiveTable table, const BuildOptions& options) {
     table.material_opacity = {Opacity::Opaque};
     table.finish();
     return make_aggregate("wide_bvh", std::move(table), options);
 }
 
-std::size_t trace_single(const Aggregate& aggregate, const RaySet& set) {
+}  // namespace
+
+std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene, const BuildOptions& options) {
+    return build(table_of(scene, kAllRays), options);
+}
+
+std::shared_ptr<const Aggregate> build_masked(const KernelScene& scene,
+                                              const BuildOptions& options) {
+    PrimitiveTable table = table_of(scene, kSeeing);
+    const auto first = static_cast<std::uint32_t>(scene.mesh.triangles.size());
+    table.meshes.push_back(unseen_triangle(scene.box(), first));
+    return build(std::move(table), options);
+}
+
+std::size_t trace_single(const Aggregate& aggregate, const RaySet& set, RayMask mask) {
+    const RayQuery query(nullptr, mask);
     std::size_t hits = 0;
     for (const Ray& ray : set.rays) {
         if (set.any_hit) {
-            hits += aggregate.occluded(ray, nullptr);
+            hits += aggregate.occluded(ray, query);
         } else {
             Hit hit;
-            hits += aggregate.closest(ray, hit, nullptr);
+            hits += aggregate.closest(ray, hit, query);
         }
     }
     return hits;
 }
 
-std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set) {
+std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set, RayMask mask) {
+    const RayQuery query(nullptr, mask);
     std::vector<Hit> hits(kBatch);
     const auto occluded = std::make_unique<bool[]>(kBatch);
     std::size_t count = 0;
@@ -52,10 +86,10 @@ std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set) {
         const std::size_t n = std::min(kBatch, set.rays.size() - i);
         const std::span<const Ray> rays(&set.rays[i], n);
         if (set.any_hit) {
-            aggregate.occluded_batch(rays, {occluded.get(), n}, nullptr, coherence);
+            aggregate.occluded_batch(rays, {occluded.get(), n}, query, coherence);
             for (std::size_t k = 0; k < n; ++k) count += occluded[k];
         } else {
-            aggregate.closest_batch(rays, std::span(hits).first(n), nullptr, coherence);
+            aggregate.closest_batch(rays, std::span(hits).first(n), query, coherence);
             for (std::size_t k = 0; k < n; ++k) count += hits[k].found();
         }
     }

@@ -16,11 +16,18 @@ inline constexpr std::size_t kBatch = 1024;
 [[nodiscard]] std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene,
                                                           const BuildOptions& options = {
                                                               BuildQuality::High});
+/// The same seen by rays of `kSeeing` only, and besides one small triangle in a corner that they do
+/// not see: every test asks for masks, and the hits are the same.
+[[nodiscard]] std::shared_ptr<const Aggregate> build_masked(const KernelScene& scene,
+                                                            const BuildOptions& options);
+inline constexpr RayMask kSeeing = 1;
 
 /// Traces all rays of the set, `closest` or `occluded`; the number that hit.
-[[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set);
+[[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set,
+                                       RayMask mask = kAllRays);
 /// The same by `closest_batch` or `occluded_batch`, kBatch rays a call.
-[[nodiscard]] std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set);
+[[nodiscard]] std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set,
+                                        RayMask mask = kAllRays);
 
 /// What a ray of the set costs on average, counted.
 struct WorkPerRay {

@@ -56,6 +56,23 @@ std::string spread_row(const SetResult& set) {
     return row + fmt::format(" {} |", quartiles(ratio_by_round(*batch, *peer)));
 }
 
+/// Rates through masks, and over those without, round by round.
+std::string masks_row(const SetResult& set) {
+    std::string row;
+    for (const char* name : {"single", "batch"}) {
+        const Measured* masked = find(set.tracers, kOursMasked, name);
+        const Spread ratio = ratio_by_round(*masked, *find(set.tracers, kOurs, name));
+        row += fmt::format(" {} | {:.2f} ({:.2f} to {:.2f}) |", number(masked), ratio.median,
+                           ratio.min, ratio.max);
+    }
+    return row;
+}
+
+bool has_masks(const std::vector<SceneResult>& scenes) {
+    return !scenes.empty() && !scenes.front().sets.empty() &&
+           find(scenes.front().sets.front().tracers, kOursMasked, "single") != nullptr;
+}
+
 /// The tracers whose number of hits is not that of ours, and by how much.
 std::string hit_differences(const SetResult& set) {
     std::string text;
@@ -182,6 +199,13 @@ std::string as_markdown(const RunFacts& facts, const std::vector<SceneResult>& s
         "| scene | rays | single | batch | robust best | batch / robust best, round by round |\n"
         "|---|---|---|---|---|---|\n";
     text += rows(scenes, spread_row);
+    if (has_masks(scenes)) {
+        text +=
+            "\nThrough masks, of which one triangle has another one:\n\n"
+            "| scene | rays | single | over that without | batch | over that without |\n"
+            "|---|---|---|---|---|---|\n";
+        text += rows(scenes, masks_row);
+    }
     std::string differences;
     for (const SceneResult& scene : scenes) {
         for (const SetResult& set : scene.sets) {

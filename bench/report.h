@@ -11,6 +11,7 @@ namespace alhazen::bench {
 
 inline constexpr const char* kOurs = "alhazen";
 inline constexpr const char* kOursFast = "alhazen fast";
+inline constexpr const char* kOursMasked = "alhazen masked";
 inline constexpr const char* kRobust = "embree robust";
 inline constexpr const char* kFast = "embree fast";
 
@@ -38,7 +39,8 @@ struct RunFacts {
 [[nodiscard]] std::string as_text(const SetResult& set);
 [[nodiscard]] nlohmann::ordered_json as_json(const RunFacts& facts,
                                              const std::vector<SceneResult>& scenes);
-/// Three tables: medians and ratios, their spread, and the numbers of hits where they differ.
+/// Tables: medians and ratios, their spread, what masks cost where that was measured, and the
+/// numbers of hits where they differ.
 [[nodiscard]] std::string as_markdown(const RunFacts& facts,
                                       const std::vector<SceneResult>& scenes);
 
