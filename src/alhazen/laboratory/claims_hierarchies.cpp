@@ -34,6 +34,12 @@ ReplayOptions timing(const ClaimRun& run) {
     return {.seconds = run.time_limit(), .repetitions = 3, .in_batches = false};
 }
 
+/// Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and his
+/// program's counts: tests of boxes by all rays of the picture, in millions, in the order of
+/// kSpdScenes.
+constexpr std::array<double, kSpdScenes.size()> kPublishedBoxTests{51.726, 107.105, 31.106, 91.591,
+                                                                   57.05,  7.637,   22.002};
+
 struct NamedShape {
     const char* name;
     ClaimShape shape;
@@ -233,7 +239,8 @@ void claim_b1(ClaimRun& run) {
 
 void claim_b2(ClaimRun& run) {
     int cheaper = 0, fewer = 0;
-    for (const SpdScene& scene : kSpdScenes) {
+    for (std::size_t i = 0; i < kSpdScenes.size(); ++i) {
+        const SpdScene& scene = kSpdScenes[i];
         SceneTrial& trial = run.spd(scene);
         run.step(scene.name);
         const BoundedPrimitives source(trial.reference().aggregate->primitives());
@@ -252,11 +259,19 @@ void claim_b2(ClaimRun& run) {
             fmt::format("{:.1f} medians", median));
         run.tell(fmt::format("{}: bounds for each ray", scene.name), fmt::format("{:.1f}", bounds),
                  fmt::format("{:.1f} medians", median_bounds));
+        const RayStream& rays = trial.stream();
+        const double all = bounds * static_cast<double>(rays.rays.size()) / rays.share / 1e6;
+        run.tell(fmt::format("{}: bounds for all rays", scene.name),
+                 fmt::format("{:.2f} M ({:+.0f} %)", all, 100 * (all / kPublishedBoxTests[i] - 1)),
+                 fmt::format("{:.2f} M published", kPublishedBoxTests[i]));
     }
     run.expect("scenes where it is cheaper by cost", fmt::format("{}", cheaper), ">= 5 of 7",
                cheaper >= 5);
     run.expect("scenes with fewer tests of bounds", fmt::format("{}", fewer), ">= 5 of 7",
                fewer >= 5);
+    run.note(
+        "Published totals are those of another program, whose shadow rays may have looked for the "
+        "closest hit; the mountain is another one.");
 }
 
 void claim_b3(ClaimRun& run) {
