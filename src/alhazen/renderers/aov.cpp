@@ -67,7 +67,7 @@ struct PixelGeometry {
         geometric += point.geometric;
         position += surface.point;
         uv = {uv.x + surface.uv.x, uv.y + surface.uv.y};
-        albedo += point.material.albedo;
+        albedo += point.material->albedo;
         error = std::max(error, length(surface.error));
         ++hits;
     }

@@ -23,6 +23,11 @@ Vec2 in_coordinates(const Vec3& v, const Vec3& dpdu, const Vec3& dpdv) {
     return {(vv * u - uv * w) / determinant, (uu * w - uv * u) / determinant};
 }
 
+bool has_normal_map(const Scene& scene, const Surface& surface) {
+    const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
+    return material.normal_map.texture != kNoTexture;
+}
+
 /// The interpolated normal, bent by the material's normal map.
 Vec3 mapped_normal(const Scene& scene, const Surface& surface,
                    const std::array<UvFootprint, 2>& footprint) {
@@ -91,21 +96,45 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
 
 namespace {
 
+/// The point's own sample, to be changed.
+MaterialSample& own_material(ShadingPoint& point) {
+    if (point.material != &point.own) {
+        point.own = *point.material;
+        point.material = &point.own;
+    }
+    return point.own;
+}
+
+/// Looks the material up; false where it is one that many points share.
+bool set_material(const Scene& scene, const Vec3& direction, double width, MaterialCache* constant,
+                  std::array<UvFootprint, 2>& footprint, ShadingPoint& point) {
+    const Surface& surface = point.surface;
+    if (constant != nullptr && !surface.has_extras) {
+        point.material = constant->find(surface.materials[0]);
+        if (point.material != nullptr) return false;
+    }
+    if (scene.has_mipmaps && width > 0.0) footprint = footprint_at(surface, direction, width);
+    // In place: it is large.
+    ::new (&point.own) MaterialSample(material_at(scene, surface, footprint));
+    point.material = &point.own;
+    return true;
+}
+
 /// What the ray came through and what it finds behind the surface, and the material as it is seen
 /// there.
 void set_media(const Scene& scene, ShadingPoint& point) {
     const SurfaceMedia& media = point.surface.media;
-    MaterialSample& material = point.material;
     const double cosine = dot(point.view, point.normal);
     point.behind = {};
-    point.medium = material.transmissive;
-    point.medium_is_physical = material.physical;
+    point.medium = point.material->transmissive;
+    point.medium_is_physical = point.material->physical;
     if (!media.known) {
         const bool from_inside = point.inside && !point.entering && !point.medium.is_black();
-        turn_to_view(material, cosine, from_inside);
-        point.passing = material.transmissive;
+        if (point.material->physical) turn_to_view(own_material(point), cosine, from_inside);
+        point.passing = point.material->transmissive;
         return;
     }
+    MaterialSample& material = own_material(point);
     point.behind.known = true;
     double here = scene.conventions.air_index, beyond = here;
     Rgb before_passes{1, 1, 1};
@@ -130,16 +159,13 @@ void set_media(const Scene& scene, ShadingPoint& point) {
 
 }  // namespace
 
-void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
-                       double width, bool with_uv, ShadingPoint& point) {
-    point.inside = inside;
-    set_surface(*scene.aggregate, ray, hit, with_uv, point.surface);
+void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
+                       const PointNeeds& needs, ShadingPoint& point) {
+    point.inside = arrival.inside;
+    set_surface(*scene.aggregate, ray, hit, needs.uv, point.surface);
     std::array<UvFootprint, 2> footprint;
-    if (scene.has_mipmaps && width > 0.0) {
-        footprint = footprint_at(point.surface, ray.direction, width);
-    }
-    // In place: it is large.
-    ::new (&point.material) MaterialSample(material_at(scene, point.surface, footprint));
+    const bool varies =
+        set_material(scene, ray.direction, arrival.width, needs.constant, footprint, point);
     point.view = -ray.direction;
     point.entering = dot(ray.direction, point.surface.normal) < 0.0;
     point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
@@ -147,16 +173,15 @@ void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool 
     // against their normals, it may face the ray although the geometric one does not.
     const Vec3& shading = point.surface.shading_normal;
     const bool turned = dot(ray.direction, shading) > 0.0;
-    const Material& material =
-        scene.materials[static_cast<std::size_t>(point.surface.materials[0])];
-    if (material.normal_map.texture != kNoTexture) {
+    if (varies && has_normal_map(scene, point.surface)) {
         const Vec3 bent = mapped_normal(scene, point.surface, footprint);
         point.normal = turned_to_view(turned ? -bent : bent, point.view);
     } else {
         point.normal = turned ? -shading : shading;
     }
-    MaterialSample& m = point.material;
-    if (!point.entering && is_unseen_from_behind(m)) m.coverage = 0.0;
+    if (!point.entering && is_unseen_from_behind(*point.material)) {
+        own_material(point).coverage = 0.0;
+    }
     set_media(scene, point);
 }
 
@@ -169,9 +194,9 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
         if (!scene.aggregate->closest(rest, found.hit, {stats, mask_of(RayKind::Eye)}))
             return false;
         found.t = passed + found.hit.t;
-        set_shading_point(scene, rest, found.hit, inside, cone.width_at(found.t), true,
+        set_shading_point(scene, rest, found.hit, {inside, cone.width_at(found.t)}, {},
                           found.point);
-        const double coverage = found.point.material.coverage;
+        const double coverage = found.point.material->coverage;
         if (coverage > 0.0) return true;
         passed = found.t;
         rest = leaving_ray(found.point.surface, ray.direction, ray.t_max - passed);
@@ -181,7 +206,7 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
 
 Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
     const ShadingConventions& conventions = scene.conventions;
-    const MaterialSample& m = point.material;
+    const MaterialSample& m = *point.material;
     Rgb ambient_factor = conventions.ambient_factor == ShadingConventions::AmbientFactor::Diffuse
                              ? m.diffuse
                              : m.ambient;
@@ -195,7 +220,9 @@ Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
 
 Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
                        const Vec3& to_light, double cosine) {
-    const MaterialSample& m = point.material;
+    const MaterialSample& m = *point.material;
+    Rgb fraction = cosine * m.diffuse;
+    if (m.specular.is_black()) return fraction;
     double highlight_cosine;
     if (conventions.highlight == ShadingConventions::Highlight::BlinnPhong) {
         highlight_cosine = dot(point.normal, normalize(to_light + point.view));
@@ -203,10 +230,9 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
         const Vec3 mirrored = 2.0 * cosine * point.normal - to_light;
         highlight_cosine = dot(mirrored, point.view);
     }
-    Rgb fraction = cosine * m.diffuse;
     // 0^0 would light every point of a material without shininess from behind: only the lit side
     // counts.
-    if (highlight_cosine > 0.0 && !m.specular.is_black()) {
+    if (highlight_cosine > 0.0) {
         const double falloff = m.physical ? cosine : 1.0;
         fraction += (falloff * std::pow(highlight_cosine, m.shininess)) * m.specular;
     }

@@ -6,6 +6,7 @@
 /// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977. Differs: what
 /// formats do otherwise is read from ShadingConventions.
 
+#include "alhazen/renderers/material_cache.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/scene/surface.h"
 
@@ -21,8 +22,13 @@ struct BehindSurface {
 
 /// A hit made ready for shading: everything turned to the side the ray came from.
 struct ShadingPoint {
+    ShadingPoint() = default;
+    ShadingPoint(const ShadingPoint&) = delete;  // `material` may point into it
+    ShadingPoint& operator=(const ShadingPoint&) = delete;
+
     Surface surface;
-    MaterialSample material;
+    const MaterialSample* material = &own;  ///< `own`, or one that many points share
+    MaterialSample own;
     bool inside = false;   ///< the ray came through the inside of something transparent
     bool entering = true;  ///< the ray met the outside (by the geometric normal)
     BehindSurface behind;
@@ -46,13 +52,25 @@ struct ShadingPoint {
 [[nodiscard]] std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
                                                       double width);
 
-/// Fills in all of `point`: it is large, and not copied. `ray.direction` must be unit. Whether the
-/// ray came through the inside is known from its history, not from the normal: an open surface has
-/// a back but no inside. `width` is that of the ray's cone at the hit. The material is as the ray
-/// sees it: textures filtered, Fresnel's share for its angle, coverage 0 where a single-sided
-/// surface turns its back. `with_uv`: else the surface's texture coordinates may be missing.
-void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, bool inside,
-                       double width, bool with_uv, ShadingPoint& point);
+/// How a ray comes to a surface.
+struct Arrival {
+    /// Through the inside of something: known from the ray's history, not from the normal: an open
+    /// surface has a back but no inside.
+    bool inside = false;
+    double width = 0;  ///< of the ray's cone at the hit
+};
+
+/// What is asked of a shading point.
+struct PointNeeds {
+    bool uv = true;                     ///< else texture coordinates may be missing
+    MaterialCache* constant = nullptr;  ///< samples that many points share; may be null
+};
+
+/// Fills in all of `point`: it is large, and not copied. `ray.direction` must be unit. The material
+/// is as the ray sees it: textures filtered, Fresnel's share for its angle, coverage 0 where a
+/// single-sided surface turns its back.
+void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
+                       const PointNeeds& needs, ShadingPoint& point);
 
 /// A surface that a ray sees.
 struct VisibleHit {

@@ -26,24 +26,32 @@ Rgb shade(const Scene& scene, const ShadingPoint& point) {
     return sum;
 }
 
-/// Casts the rays of one tile.
+/// Casts eye rays.
 class Caster {
   public:
-    Caster(const RenderJob& job, RayCounters& counters)
+    Caster(const RenderJob& job, std::size_t /*rays_at_once*/, RayCounters& counters)
         : job_(job),
           count_(counters[RayKind::Eye]),
+          eye_{0, 1.0, job.cone},
           visible_(job.scene, job.count_tests ? &counters.tests : nullptr) {}
 
-    void cast(std::span<const Ray> eye_rays, std::span<Rgb> radiance) {
+    void trace(std::span<const Ray> eye_rays, std::span<Rgb> radiance) {
         count_.cast += eye_rays.size();
         on_way_.clear();
-        rays_.assign(eye_rays.begin(), eye_rays.end());
-        for (std::size_t i = 0; i < eye_rays.size(); ++i) on_way_.push_back({i, 1.0, job_.cone});
-        for (int met = 0; met < kMaxPassedSurfaces && !rays_.empty(); ++met) {
+        behind_.clear();
+        rays_behind_.clear();
+        visible_.find(
+            eye_rays, Coherence::Coherent, [&](std::size_t) -> const OnWay& { return eye_; },
+            [&](std::size_t k, const ShadingPoint* point, double t) {
+                if (point == nullptr) return end(k, 1.0, radiance);
+                ++count_.hit;
+                meet({k, 1.0, job_.cone}, eye_rays[k], *point, t, radiance);
+            });
+        for (int met = 1; met < kMaxPassedSurfaces && !behind_.empty(); ++met) {
             if (job_.stop_requested()) return;
-            pass(radiance, met == 0);
+            go_on(radiance);
         }
-        for (const OnWay& o : on_way_) end(o, radiance);
+        for (const OnWay& o : behind_) end(o.sample, o.left, radiance);
     }
 
   private:
@@ -56,33 +64,39 @@ class Caster {
         RayKind kind = RayKind::Eye;
     };
 
-    void end(const OnWay& o, std::span<Rgb> radiance) const {
-        radiance[o.sample] = radiance[o.sample] + o.left * job_.scene.background;
+    void end(std::size_t sample, double left, std::span<Rgb> radiance) const {
+        radiance[sample] = radiance[sample] + left * job_.scene.background;
     }
 
-    void pass(std::span<Rgb> radiance, bool first) {
-        behind_.clear();
-        rays_behind_.clear();
-        const auto path = [&](std::size_t k) -> const OnWay& { return on_way_[k]; };
-        const Coherence coherence = first ? Coherence::Coherent : Coherence::Any;
-        visible_.find(rays_, coherence, path,
-                      [&](std::size_t k, const ShadingPoint* point, double t) {
-                          OnWay& o = on_way_[k];
-                          if (point == nullptr) return end(o, radiance);
-                          count_.hit += first;
-                          const double coverage = point->material.coverage;
-                          radiance[o.sample] += (o.left * coverage) * shade(job_.scene, *point);
-                          o.left *= 1.0 - coverage;
-                          if (!(o.left >= kLeastTransmittance)) return;
-                          behind_.push_back({o.sample, o.left, o.cone.from(t)});
-                          rays_behind_.push_back(leaving_ray(point->surface, rays_[k].direction));
-                      });
+    /// What a ray finds of a surface, and what goes on behind it.
+    void meet(const OnWay& o, const Ray& ray, const ShadingPoint& point, double t,
+              std::span<Rgb> radiance) {
+        const double coverage = point.material->coverage;
+        radiance[o.sample] += (o.left * coverage) * shade(job_.scene, point);
+        const double left = o.left * (1.0 - coverage);
+        if (!(left >= kLeastTransmittance)) return;
+        behind_.push_back({o.sample, left, o.cone.from(t)});
+        rays_behind_.push_back(leaving_ray(point.surface, ray.direction));
+    }
+
+    /// The next surface along the rays that are left.
+    void go_on(std::span<Rgb> radiance) {
         on_way_.swap(behind_);
         rays_.swap(rays_behind_);
+        behind_.clear();
+        rays_behind_.clear();
+        visible_.find(
+            rays_, Coherence::Any, [&](std::size_t k) -> const OnWay& { return on_way_[k]; },
+            [&](std::size_t k, const ShadingPoint* point, double t) {
+                const OnWay& o = on_way_[k];
+                if (point == nullptr) return end(o.sample, o.left, radiance);
+                meet(o, rays_[k], *point, t, radiance);
+            });
     }
 
     const RenderJob& job_;
     RayCount& count_;
+    const OnWay eye_;  ///< what every eye ray has behind it
     VisibleBatch visible_;
     std::vector<OnWay> on_way_, behind_;
     std::vector<Ray> rays_, rays_behind_;
@@ -90,11 +104,8 @@ class Caster {
 
 }  // namespace
 
-void RayCasting::render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
-                             RayCounters& counters) const {
-    Caster caster(job, counters);
-    render_pixels(job, tile, film, counters, kRaysAtOnce,
-                  [&](std::span<const Ray> rays, std::span<Rgb> c) { caster.cast(rays, c); });
+std::unique_ptr<TileRenderer> RayCasting::begin(const RenderJob& job) const {
+    return std::make_unique<PixelRenderer<Caster>>(job, kRaysAtOnce);
 }
 
 }  // namespace alhazen

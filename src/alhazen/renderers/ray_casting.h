@@ -11,8 +11,7 @@ namespace alhazen {
 
 class RayCasting final : public Renderer {
   public:
-    void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
-                     RayCounters& counters) const override;
+    [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
 };
 
 }  // namespace alhazen

@@ -31,12 +31,25 @@ struct RenderJob {
     [[nodiscard]] bool stop_requested() const { return stop != nullptr && stop->requested(); }
 };
 
+/// Renders tiles of a job, one after the other; what it needs besides is kept from tile to tile.
+/// Threads: belongs to one at a time.
+class TileRenderer {
+  public:
+    virtual ~TileRenderer() = default;
+    /// Renders the pixels of `tile` into `film`, adding to `counters`.
+    virtual void render(const PixelBox& tile, Film& film, RayCounters& counters) = 0;
+};
+
 class Renderer {
   public:
     virtual ~Renderer() = default;
-    /// Renders the pixels of `tile` into `film`, adding to `counters`. Called from many threads.
-    virtual void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
-                             RayCounters& counters) const = 0;
+    /// `job` must outlive what is made. Called from many threads.
+    [[nodiscard]] virtual std::unique_ptr<TileRenderer> begin(const RenderJob& job) const = 0;
+    /// One tile alone.
+    void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
+                     RayCounters& counters) const {
+        begin(job)->render(tile, film, counters);
+    }
 };
 
 /// A renderer by name, and what it does in one line.

@@ -3,7 +3,7 @@
 /// all of them, in batches.
 ///
 /// Conventions: surfaces are told one at a time, in any order of the rays; what is told of a
-/// surface is gone with the next: it is large.
+/// surface is gone with the next: it is large. Memory is kept from batch to batch.
 
 #include <cstdint>
 #include <span>
@@ -15,7 +15,8 @@ namespace alhazen {
 
 class VisibleBatch {
   public:
-    VisibleBatch(const Scene& scene, TraversalStats* stats) : scene_(scene), stats_(stats) {}
+    VisibleBatch(const Scene& scene, TraversalStats* stats)
+        : scene_(scene), stats_(stats), constant_(scene) {}
 
     /// `path(k)` gives `kind`, `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for
     /// each ray: a null pointer where nothing is seen, else what is seen and its distance from the
@@ -25,7 +26,11 @@ class VisibleBatch {
         behind_.clear();
         const auto kind = [&](std::size_t k) { return path(k).kind; };
         for (std::size_t k = 0; const Hit& hit : closest(rays, coherence, kind)) {
-            meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
+            if (hit.found()) {
+                meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
+            } else {
+                tell(k, static_cast<const ShadingPoint*>(nullptr), 0.0);
+            }
             ++k;
         }
         for (int passed = 0; passed < kMaxPassedSurfaces && !behind_.empty(); ++passed) {
@@ -36,7 +41,11 @@ class VisibleBatch {
             const auto kind_behind = [&](std::size_t i) { return path(on_way_[i].ray).kind; };
             for (std::size_t i = 0; const Hit& hit : closest(rest_, Coherence::Any, kind_behind)) {
                 const Passed& p = on_way_[i++];
-                meet(p.ray, rays[p.ray], p.rest, p.distance, hit, path(p.ray), tell);
+                if (hit.found()) {
+                    meet(p.ray, rays[p.ray], p.rest, p.distance, hit, path(p.ray), tell);
+                } else {
+                    tell(p.ray, static_cast<const ShadingPoint*>(nullptr), 0.0);
+                }
             }
         }
         for (const Passed& p : behind_) tell(p.ray, static_cast<const ShadingPoint*>(nullptr), 0.0);
@@ -72,18 +81,15 @@ class VisibleBatch {
     void trace(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, RayMask mask);
     void trace_chosen(std::span<const Ray> rays, Coherence coherence, RayMask mask);
 
-    /// `rest`: ray k from the last surface on, `distance` behind the origin of `whole`.
+    /// The hit is a surface. `rest`: ray k from the last surface on, `distance` behind the origin
+    /// of `whole`.
     template <class Path, class Tell>
     void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
               const Path& path, Tell&& tell) {
-        if (!hit.found()) {
-            tell(k, static_cast<const ShadingPoint*>(nullptr), 0.0);
-            return;
-        }
         const double t = distance + hit.t;
-        set_shading_point(scene_, rest, hit, path.inside, path.cone.width_at(t),
-                          !scene_.textures.empty(), point_);
-        if (point_.material.coverage > 0.0) {
+        const PointNeeds needs{.uv = !scene_.textures.empty(), .constant = &constant_};
+        set_shading_point(scene_, rest, hit, {path.inside, path.cone.width_at(t)}, needs, point_);
+        if (point_.material->coverage > 0.0) {
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;
         }
@@ -92,6 +98,7 @@ class VisibleBatch {
 
     const Scene& scene_;
     TraversalStats* stats_;
+    MaterialCache constant_;
     ShadingPoint point_;
     std::vector<Hit> hits_;
     // Of the rays of one kind, where the kinds are told apart.

@@ -34,7 +34,7 @@ Coherence coherence_of_shadows(std::span<const Light> lights) {
 /// Traces the rays of one tile; holds what would be allocated per ray otherwise.
 class Tracer {
   public:
-    Tracer(const RenderJob& job, RayCounters& counters, std::size_t rays_at_once)
+    Tracer(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
         : job_(job),
           scene_(job.scene),
           conventions_(job.scene.conventions),
@@ -104,7 +104,7 @@ class Tracer {
                           counters_[path.kind].hit += first;
                           if (!path.absorption.is_black())
                               left = left * transmittance(path.absorption, t);
-                          const double coverage = point->material.coverage;
+                          const double coverage = point->material->coverage;
                           MetSurface& met = front.met.emplace_back();
                           met.ray = i;
                           met.share = coverage * left;
@@ -146,9 +146,9 @@ class Tracer {
     /// by rays of the next generation.
     void shade(const Seen& seen, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
-        met.lit = !point.material.unlit;
+        met.lit = !point.material->unlit;
         if (!met.lit) {
-            met.own = point.material.emission;
+            met.own = point.material->emission;
             return;
         }
         met.own = unshadowed_terms(scene_, point);
@@ -183,9 +183,9 @@ class Tracer {
     /// `onward`: the path of the new ray, but for its kind and for what this surface does to it.
     void reflect(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
-        const Rgb& kr = point.material.reflective;
+        const Rgb& kr = point.material->reflective;
         const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
-                                             !point.material.transmissive.is_black());
+                                             !point.material->transmissive.is_black());
         onward.kind = RayKind::Reflection;
         onward.contribution = onward.contribution * kr;
         if (!cast || onward.contribution.max() < conventions_.min_contribution) return;
@@ -200,7 +200,7 @@ class Tracer {
 
     void transmit(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
-        const MaterialSample& material = point.material;
+        const MaterialSample& material = *point.material;
         const Rgb& kt = point.passing;
         onward.kind = RayKind::Refraction;
         onward.contribution = onward.contribution * kt;
@@ -226,8 +226,8 @@ class Tracer {
     [[nodiscard]] bool refracted(const ShadingPoint& point, const Ray& ray, Vec3& direction) const {
         const double air = conventions_.air_index;
         const double eta = point.behind.known ? point.behind.eta
-                           : point.entering   ? air / point.material.index
-                                              : point.material.index / air;
+                           : point.entering   ? air / point.material->index
+                                              : point.material->index / air;
         if (!refract(ray.direction, point.normal, eta, direction)) return false;
         return !conventions_.correct_interpolated_normals ||
                !(dot(direction, point.geometric) > 0.0) ||
@@ -248,11 +248,8 @@ class Tracer {
 
 }  // namespace
 
-void Whitted::render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
-                          RayCounters& counters) const {
-    Tracer tracer(job, counters, rays_at_once_);
-    render_pixels(job, tile, film, counters, rays_at_once_,
-                  [&](std::span<const Ray> rays, std::span<Rgb> c) { tracer.trace(rays, c); });
+std::unique_ptr<TileRenderer> Whitted::begin(const RenderJob& job) const {
+    return std::make_unique<PixelRenderer<Tracer>>(job, rays_at_once_);
 }
 
 }  // namespace alhazen

@@ -21,8 +21,7 @@ class Whitted final : public Renderer {
     /// `rays_at_once`: of a generation, at least 1; the picture does not depend on it.
     explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
 
-    void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
-                     RayCounters& counters) const override;
+    [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
 
   private:
     static constexpr std::size_t kRaysAtOnce = 256;

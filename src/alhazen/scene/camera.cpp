@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "alhazen/scene/eye_rays.h"
+
 namespace alhazen {
 
 namespace {
@@ -15,12 +17,8 @@ Vec3 any_perpendicular_up(const Vec3& forward, const Vec3& up) {
 }  // namespace
 
 Ray eye_ray(const Camera& camera, double x, double y) {
-    if (const auto* p = std::get_if<PerspectiveCamera>(&camera)) {
-        const Vec3 direction = p->look + (x - 0.5) * p->right + (y - 0.5) * p->up;
-        return {p->eye, normalize(direction)};
-    }
-    const auto& o = std::get<OrthographicCamera>(camera);
-    return {o.origin + (x - 0.5) * o.right + (y - 0.5) * o.up, normalize(o.direction)};
+    const EyeRays rays(camera);
+    return rays.ray(rays.column(x), rays.row(y));
 }
 
 RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel) {

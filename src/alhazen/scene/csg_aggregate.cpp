@@ -139,7 +139,10 @@ void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
                             Surface& surface) const {
     const bool may_differ = solid_.has_media() || !shows_minuend_.empty();
     const Look seen = may_differ ? look(solid_.prepare(ray), t, primitive) : Look{};
-    if (seen.media.known) surface.media = seen.media;
+    if (seen.media.known) {
+        surface.media = seen.media;
+        surface.has_extras = true;
+    }
     if (seen.material) {
         surface.materials[0] = *seen.material;
         surface.material_count = 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "alhazen/scene/primitive_columns.h"
 #include "alhazen/shapes/plain_surface.h"
@@ -28,7 +29,7 @@ void carry_normals_outward(const Affine& inner, Surface& surface) {
 
 /// Carries a surface out of an inner frame. The new error has the old one, the rounding of the
 /// transform, and that of the ray on its way in (which the next ray will suffer again).
-void carry_outward(const Placement& placement, Surface& surface) {
+void carry_outward(const Placement& placement, bool with_uv, Surface& surface) {
     const Affine& outer = placement.outer_from_inner;
     const Affine& inner = placement.inner_from_outer;
     carry_normals_outward(inner, surface);
@@ -36,10 +37,6 @@ void carry_outward(const Placement& placement, Surface& surface) {
         // The terms below, products with 0 and 1 left out: a CSG object that stands where it is.
         const Vec3 terms = 4 * kEpsilon * abs(surface.point);
         surface.error = (surface.error + terms) + terms;
-        if (!surface.is_of_mesh) {
-            surface.dpdu2 = surface.dpdu;
-            surface.dpdv2 = surface.dpdv;
-        }
         return;
     }
     const Vec3 rounded_terms = times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
@@ -48,6 +45,7 @@ void carry_outward(const Placement& placement, Surface& surface) {
     surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
                     4 * kEpsilon * rounded_terms;
     surface.point = outer_point;
+    if (!with_uv) return;
     surface.dpdu = outer.linear * surface.dpdu;
     surface.dpdv = outer.linear * surface.dpdv;
     if (surface.is_of_mesh) {
@@ -55,32 +53,32 @@ void carry_outward(const Placement& placement, Surface& surface) {
         surface.dpdv2 = outer.linear * surface.dpdv2;
         surface.tangent = outer.linear * surface.tangent;
         surface.bitangent = outer.linear * surface.bitangent;
-    } else {
-        surface.dpdu2 = surface.dpdu;
-        surface.dpdv2 = surface.dpdv;
     }
 }
 
-/// Sets all that `take` leaves alone. Field by field: all of it is larger than what changes.
+/// Sets all that nobody sets but where it is something else.
 void begin(Surface& surface) {
+    if (!surface.has_extras) return;
     surface.tangent = surface.bitangent = {};
     surface.color = {1, 1, 1, 1};
-    surface.is_of_mesh = false;
     surface.materials = {};
     surface.weights = {1, 0, 0};
     surface.material_count = 1;
     surface.media = {};
-    surface.part = surface.instance = 0;
+    surface.has_extras = false;
 }
 
-void take(const ShapeSurface& s, Surface& surface) {
-    surface.point = s.point;
-    surface.normal = s.normal;
-    surface.shading_normal = s.shading_normal;
-    surface.uv = surface.uv2 = s.uv;
-    surface.dpdu = surface.dpdu2 = s.dpdu;
-    surface.dpdv = surface.dpdv2 = s.dpdv;
-    surface.error = s.error;
+/// Writes what `shape_surface()` returns in its place: it is large.
+template <class F>
+void set_shape_part(Surface& surface, F&& shape_surface) {
+    ::new (static_cast<ShapeSurface*>(&surface)) ShapeSurface(shape_surface());
+}
+
+/// The second set of coordinates is the first.
+void share_coordinates(Surface& surface) {
+    surface.uv2 = surface.uv;
+    surface.dpdu2 = surface.dpdu;
+    surface.dpdv2 = surface.dpdv;
 }
 
 /// Farthest coordinate of a shape along each axis; where it is unbounded, that of the point.
@@ -98,13 +96,14 @@ Vec3 reach_of(const Box3& box, const Vec3& point) {
 /// the point lies.
 template <class S>
 void shape_surface(const S& shape, const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
-    take(surface_of_shape(shape, ray, hit, with_uv), surface);
+    set_shape_part(surface, [&] { return surface_of_shape(shape, ray, hit, with_uv); });
     surface.error += 4 * kEpsilon * reach_of(shape.box(), surface.point);
 }
 
 void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
                       const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
     with_column(table.columns, kind, [&](const auto& column) {
+        surface.is_of_mesh = false;
         const std::uint32_t placement = column.placements[index];
         if (placement == kNoPlacement) {
             shape_surface(column.shapes[index], ray, hit, with_uv, surface);
@@ -112,10 +111,10 @@ void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint
             const Placement& p = table.placements[placement];
             shape_surface(column.shapes[index], transformed(p.inner_from_outer, ray), hit, with_uv,
                           surface);
-            carry_outward(p, surface);
+            carry_outward(p, with_uv, surface);
         }
         surface.materials[0] = column.materials[index];
-        if (!column.parts.empty()) surface.part = column.parts[index];
+        surface.part = column.parts.empty() ? 0 : column.parts[index];
     });
 }
 
@@ -134,6 +133,7 @@ void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, con
         surface.dpdv2 = derivatives.dpdv;
     }
     if (!mesh.colors.empty()) {
+        surface.has_extras = true;
         surface.color = {0, 0, 0, 0};
         for (std::size_t i = 0; i < 3; ++i) {
             const VertexColor& c = mesh.colors[corners[i]];
@@ -141,6 +141,7 @@ void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, con
         }
     }
     if (!mesh.tangents.empty()) {
+        surface.has_extras = true;
         for (std::size_t i = 0; i < 3; ++i) {
             const VertexTangent& t = mesh.tangents[corners[i]];
             surface.tangent += weights[i] * Vec3{t.x, t.y, t.z};
@@ -156,7 +157,8 @@ void triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hi
     const PlacedMesh& placed = table.mesh_of(index);
     const TriangleMesh& mesh = *placed.mesh;
     const std::uint32_t triangle = index - placed.first_triangle;
-    take(mesh.surface(triangle, hit), surface);
+    set_shape_part(surface, [&] { return mesh.surface(triangle, hit); });
+    share_coordinates(surface);
     surface.is_of_mesh = true;
     const auto& corners = mesh.triangles[triangle];
     // The test of the next ray rounds relative to the size of the triangle, not to where the point
@@ -175,6 +177,7 @@ void triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hi
     surface.materials[0] = placed.material;
     surface.part = placed.part;
     if (!mesh.vertex_materials.empty()) {
+        surface.has_extras = true;
         for (std::size_t i = 0; i < 3; ++i) {
             surface.materials[i] = MaterialId{mesh.vertex_materials[corners[i]]};
         }
@@ -191,7 +194,7 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
         surface_inside(*instance.aggregate, transformed(instance.placement.inner_from_outer, ray),
                        hit, depth - 1, with_uv, surface);
-        carry_outward(instance.placement, surface);
+        carry_outward(instance.placement, with_uv, surface);
         surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;
         aggregate.complete(ray, hit.t, hit.path[depth - 1], surface);
@@ -212,7 +215,7 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
 
 Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
     Surface surface;
-    surface_inside(aggregate, ray, hit, hit.path.size(), true, surface);
+    set_surface(aggregate, ray, hit, true, surface);
     return surface;
 }
 
@@ -220,6 +223,7 @@ void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, boo
                  Surface& surface) {
     begin(surface);
     surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, surface);
+    if (with_uv && !surface.is_of_mesh) share_coordinates(surface);
 }
 
 Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {

@@ -8,6 +8,7 @@
 #include "alhazen/geometry/ray.h"
 #include "alhazen/scene/aggregate.h"
 #include "alhazen/shading/material.h"
+#include "alhazen/shapes/shape.h"
 
 namespace alhazen {
 
@@ -18,21 +19,19 @@ struct SurfaceMedia {
     std::optional<MaterialId> before, after;
 };
 
-/// World space. `normal` is the geometric one, outward for closed shapes; both normals are unit.
-struct Surface {
-    Vec3 point;
-    Vec3 normal;
-    Vec3 shading_normal;
-    Vec2 uv;
+/// World space. `normal` is the geometric one, outward for closed shapes; both normals are unit;
+/// `error` bounds the distance of `point` from the true surface, component by component.
+struct Surface : ShapeSurface {
     Vec2 uv2;           ///< second set of texture coordinates; `uv` where there is none
-    Vec3 dpdu, dpdv;    ///< change of the point by uv; zero where unknown
-    Vec3 dpdu2, dpdv2;  ///< the same by uv2
+    Vec3 dpdu2, dpdv2;  ///< change of the point by uv2
     /// Interpolated from tangents at the vertices, unit before they are interpolated and placed;
     /// both zero for surfaces without.
     Vec3 tangent, bitangent;
     Rgba color{1, 1, 1, 1};   ///< of the vertices; white without
     bool is_of_mesh = false;  ///< else the second set of coordinates is the first
-    Vec3 error;  ///< bound of the distance of `point` from the true surface, component by component
+    /// Whether colour, tangents, weights or media are other than above and below: most surfaces
+    /// have none, and are done with sooner.
+    bool has_extras = false;
     /// One material, or those of a triangle's vertices with their weights.
     std::array<MaterialId, 3> materials{};
     std::array<double, 3> weights{1, 0, 0};
@@ -48,7 +47,7 @@ struct Surface {
 /// `ray` is the world-space ray that found `hit` in `aggregate`.
 [[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit);
 /// The same into `surface`: it is large, and not copied. Without texture coordinates where
-/// `with_uv` is false and they would take time: uv and their derivatives are then zero or right.
+/// `with_uv` is false: they and their derivatives are then anything.
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
                  Surface& surface);
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -94,6 +95,31 @@ class TileReport {
     std::mutex mutex_;
 };
 
+/// One for each thread that is at work.
+class TileRenderers {
+  public:
+    TileRenderers(const Renderer& renderer, const RenderJob& job)
+        : renderer_(renderer), job_(job) {}
+
+    [[nodiscard]] std::unique_ptr<TileRenderer> take() {
+        const std::lock_guard lock(mutex_);
+        if (idle_.empty()) return renderer_.begin(job_);
+        std::unique_ptr<TileRenderer> taken = std::move(idle_.back());
+        idle_.pop_back();
+        return taken;
+    }
+    void give_back(std::unique_ptr<TileRenderer> renderer) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(renderer));
+    }
+
+  private:
+    const Renderer& renderer_;
+    const RenderJob& job_;
+    std::vector<std::unique_ptr<TileRenderer>> idle_;
+    std::mutex mutex_;
+};
+
 }  // namespace
 
 void apply_spd(ShadingConventions& conventions) {
@@ -138,17 +164,20 @@ RenderResult render(const Scene& original, const PictureSettings& picture,
     std::vector<RayCounters> counters(tiles.size());
     TileReport report(options.progress, tiles.size());
     ThreadLimit threads(options.threads);
+    TileRenderers renderers(*renderer, job);
     const Stopwatch time;
     const std::clock_t processor = std::clock();
     threads.run([&] {
         parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
+            std::unique_ptr<TileRenderer> own = renderers.take();
             for (std::size_t i = begin; i < end; ++i) {
                 if (job.stop_requested()) return;
-                renderer->render_tile(job, tiles[i], result.film, counters[i]);
+                own->render(tiles[i], result.film, counters[i]);
                 // A tile that was abandoned keeps the pixels it has, but is not done.
                 if (job.stop_requested()) return;
                 report.tile_done();
             }
+            renderers.give_back(std::move(own));
         });
     });
     result.seconds = time.seconds();

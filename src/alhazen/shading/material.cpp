@@ -18,6 +18,18 @@ Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLook
         {transform.linear(lookup.footprint[set].a), transform.linear(lookup.footprint[set].b)});
 }
 
+bool reads_textures(const Material& m) {
+    const auto any = [](const auto&... input) { return ((input.texture != kNoTexture) || ...); };
+    if (any(m.emission, m.ambient, m.diffuse, m.specular, m.reflective, m.transmissive, m.shininess,
+            m.index, m.alpha, m.normal_map)) {
+        return true;
+    }
+    if (!m.metallic_roughness) return false;
+    const MetallicRoughness& p = *m.metallic_roughness;
+    return any(p.base_color, p.metallic, p.roughness, p.occlusion, p.specular, p.specular_color,
+               p.transmission, p.thickness);
+}
+
 double channel_of(const Rgba& texel, Channel channel) {
     switch (channel) {
         case Channel::Red:

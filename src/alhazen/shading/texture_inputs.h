@@ -13,6 +13,9 @@ namespace alhazen {
 [[nodiscard]] double value_at(const ScalarInput& input, std::span<const Texture> textures,
                               const SurfaceLookup& lookup);
 
+/// False: the material is the same everywhere, vertex colours apart.
+[[nodiscard]] bool reads_textures(const Material& material);
+
 /// The metallic-roughness parameters as terms of Whitted's equation; docs/materials.md derives
 /// them.
 [[nodiscard]] MaterialSample evaluate_metallic_roughness(const Material& material,

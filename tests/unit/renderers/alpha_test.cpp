@@ -83,7 +83,7 @@ TEST(Alpha, TheFirstVisibleHitKnowsItsDistanceFromTheEye) {
     VisibleHit found;
     ASSERT_TRUE(first_visible_hit(scene, ray, {}, false, nullptr, found));
     EXPECT_NEAR(found.t, 5, 1e-9);
-    EXPECT_EQ(found.point.material.coverage, 0.25);
+    EXPECT_EQ(found.point.material->coverage, 0.25);
 }
 
 TEST(Alpha, ManyInvisibleSurfacesEndSomewhere) {

@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "alhazen/renderers/material_cache.h"
+#include "alhazen/renderers/ray_casting.h"
+#include "alhazen/renderers/whitted.h"
+#include "alhazen/scene/eye_rays.h"
+#include "alhazen/shading/texture_inputs.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+/// Mirrors, glass, what is partly there and what is seen from one side only, over a floor: tiles
+/// that leave every kind of thing behind for the next one.
+Scene mixed_scene() {
+    SceneMaker maker;
+    Material floor, mirror, glass, thin, single;
+    floor.diffuse.color = {0.8, 0.7, 0.6};
+    mirror.reflective.color = {0.7, 0.8, 0.9};
+    glass.transmissive.color = {0.9, 0.8, 0.7};
+    glass.index.value = 1.5;
+    thin.diffuse.color = {1, 0, 0};
+    thin.alpha_mode = AlphaMode::Blend;
+    thin.alpha.value = 0.4;
+    single.diffuse.color = {0, 1, 0};
+    single.double_sided = false;
+    maker.add(Plane{.point = {0, -1, 0}, .normal = {0, 1, 0}}, maker.material(floor));
+    maker.add(Sphere{.center = {-1.2, 0, 0}}, maker.material(mirror));
+    maker.add(Sphere{.center = {1.2, 0, 0}}, maker.material(glass));
+    maker.add(Sphere{.center = {0, 1, 0.5}, .radius = 0.6}, maker.material(thin));
+    TriangleMesh mesh;
+    mesh.positions = {{-2, 1, -1}, {2, 1, -1}, {0, 3, -1}, {0, 1.5, -1.5}};
+    mesh.triangles = {{0, 1, 2}, {2, 1, 3}};
+    mesh.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 0.5f}};
+    maker.add(maker.mesh(mesh), maker.material(single));
+    maker.light(PointLight{.position = {3, 4, 5}});
+    return maker.compile();
+}
+
+void expect_same_pixels(const Film& a, const Film& b) {
+    const PixelBox& box = a.crop();
+    for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) ASSERT_EQ(a.at(x, y), b.at(x, y)) << x << ',' << y;
+    }
+}
+
+TEST(TileRenderer, TilesDoNotDependOnThoseBefore) {
+    const Scene scene = mixed_scene();
+    const PixelBox all{0, 0, 44, 30};
+    for (const int samples : {1, 3}) {
+        const RenderJob job{scene, scene.cameras[0].camera, samples, 11, true};
+        for (const RendererEntry& entry : renderers()) {
+            const auto renderer = entry.make();
+            const auto kept = renderer->begin(job);
+            Film alone(44, 30, all), in_a_row(44, 30, all);
+            RayCounters alone_sum, row_sum;
+            std::vector<PixelBox> tiles = tiles_of(all, 9);
+            std::reverse(tiles.begin(), tiles.end());
+            for (const PixelBox& tile : tiles) {
+                renderer->render_tile(job, tile, alone, alone_sum);
+                kept->render(tile, in_a_row, row_sum);
+                ASSERT_EQ(alone_sum.total_cast(), row_sum.total_cast()) << entry.name;
+                ASSERT_EQ(alone_sum.tests.node_visits, row_sum.tests.node_visits);
+                ASSERT_EQ(alone_sum.tests.primitive_tests, row_sum.tests.primitive_tests);
+            }
+            expect_same_pixels(alone, in_a_row);
+        }
+    }
+}
+
+TEST(TileRenderer, APixelIsWhatItIsAloneInItsPicture) {
+    const Scene scene = mixed_scene();
+    const RenderJob job{scene, scene.cameras[0].camera};
+    for (const RendererEntry& entry : renderers()) {
+        const auto renderer = entry.make();
+        Film film(33, 21, {0, 0, 33, 21}), single(33, 21, {0, 0, 33, 21});
+        RayCounters counters;
+        renderer->render_tile(job, film.crop(), film, counters);
+        for (int y = 0; y < 21; ++y) {
+            for (int x = 0; x < 33; ++x) {
+                renderer->render_tile(job, {x, y, x + 1, y + 1}, single, counters);
+            }
+        }
+        expect_same_pixels(film, single);
+    }
+}
+
+TEST(EyeRays, AreThoseOfTheFormulaOfTheirCamera) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-2.0, 2.0);
+    const auto vec = [&] { return Vec3{number(random), number(random), number(random)}; };
+    for (int i = 0; i < 200; ++i) {
+        const PerspectiveCamera p{vec(), vec(), vec(), vec()};
+        const OrthographicCamera o{vec(), vec(), vec(), vec()};
+        const double x = number(random), y = number(random);
+        const EyeRays a{Camera(p)}, b{Camera(o)};
+        const Ray ray = a.ray(a.column(x), a.row(y));
+        EXPECT_EQ(ray.origin, p.eye);
+        EXPECT_EQ(ray.direction, normalize(p.look + (x - 0.5) * p.right + (y - 0.5) * p.up));
+        const Ray parallel = b.ray(b.column(x), b.row(y));
+        EXPECT_EQ(parallel.origin, o.origin + (x - 0.5) * o.right + (y - 0.5) * o.up);
+        EXPECT_EQ(parallel.direction, normalize(o.direction));
+    }
+}
+
+TEST(MaterialCache, GivesTheSampleOfEachMaterialThatIsTheSameEverywhere) {
+    Scene scene;
+    for (int i = 0; i < 100; ++i) {
+        Material m;
+        m.diffuse.color = {0.01 * i, 0.5, 0.5};
+        if (i % 7 == 3) m.specular.texture = TextureId{0};
+        scene.materials.push_back(m);
+    }
+    MaterialCache cache(scene);
+    std::mt19937 random(5);
+    for (int n = 0; n < 2000; ++n) {
+        const auto i = static_cast<std::uint32_t>(random() % 100);
+        const MaterialSample* sample = cache.find(MaterialId{i});
+        ASSERT_EQ(sample == nullptr, i % 7 == 3) << i;
+        if (sample == nullptr) continue;
+        ASSERT_EQ(sample->diffuse, scene.materials[i].diffuse.color) << i;
+    }
+}
+
+TEST(MaterialCache, EveryInputThatReadsATextureCounts) {
+    EXPECT_FALSE(reads_textures(Material{}));
+    const auto expect_read = [](auto... inputs) {
+        const auto check = [](auto input) {
+            Material m;
+            m.*input = {};
+            (m.*input).texture = TextureId{0};
+            EXPECT_TRUE(reads_textures(m));
+        };
+        (check(inputs), ...);
+    };
+    using M = Material;
+    expect_read(&M::emission, &M::ambient, &M::diffuse, &M::specular, &M::reflective,
+                &M::transmissive, &M::shininess, &M::index, &M::alpha, &M::normal_map);
+    const auto expect_read_of_metal = [](auto... inputs) {
+        const auto check = [](auto input) {
+            Material m;
+            m.metallic_roughness.emplace();
+            EXPECT_FALSE(reads_textures(m));
+            ((*m.metallic_roughness).*input).texture = TextureId{0};
+            EXPECT_TRUE(reads_textures(m));
+        };
+        (check(inputs), ...);
+    };
+    using R = MetallicRoughness;
+    expect_read_of_metal(&R::base_color, &R::metallic, &R::roughness, &R::occlusion, &R::specular,
+                         &R::specular_color, &R::transmission, &R::thickness);
+}
+
+}  // namespace
+}  // namespace alhazen
