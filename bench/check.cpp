@@ -113,7 +113,10 @@ void judge_samples(const Judge& judge, const RaySet& set, const std::vector<doub
         plant(judge, set, i, ours[i], hit ? HUGE_VAL : 0.5 * (length(set.rays[i].origin) + 1),
               result);
         ++result.samples;
-        if (hit && !set.any_hit) plant(judge, set, i, ours[i], 1.01 * ours[i], result);
+        if (!hit || set.any_hit) continue;
+        // Farther by more than the noise, which near the origin is more than a hundredth of t.
+        const double farther = 1.01 * ours[i] + 2 * judge.float_noise(set.rays[i], ours[i]);
+        plant(judge, set, i, ours[i], farther, result);
     }
 }
 

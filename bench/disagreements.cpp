@@ -195,7 +195,11 @@ double Judge::noise_unit(const Ray& ray, double t) const {
 bool Judge::disagree(const Ray& ray, bool any_hit, double ours, double peer) const {
     if (std::isfinite(ours) != std::isfinite(peer)) return true;
     if (any_hit || !std::isfinite(ours)) return false;
-    return std::abs(ours - peer) > kFloatTolerance * noise_unit(ray, ours);
+    return std::abs(ours - peer) > float_noise(ray, ours);
+}
+
+double Judge::float_noise(const Ray& ray, double t) const {
+    return kFloatTolerance * noise_unit(ray, t);
 }
 
 Verdict Judge::decide(const Ray& ray, bool any_hit, double ours, double peer) const {

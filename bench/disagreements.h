@@ -31,6 +31,8 @@ class Judge {
     [[nodiscard]] Verdict decide(const Ray& ray, bool any_hit, double ours, double peer) const;
     /// True when two answers differ by more than the noise of float.
     [[nodiscard]] bool disagree(const Ray& ray, bool any_hit, double ours, double peer) const;
+    /// By how much an answer of float may be off near t.
+    [[nodiscard]] double float_noise(const Ray& ray, double t) const;
 
   private:
     /// The distances in play on the way to t, in units of t: what tolerances refer to.
