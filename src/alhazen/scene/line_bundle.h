@@ -1,6 +1,5 @@
 #pragma once
-/// Parallel lines through a solid, several independent scramblings of one net of them, and what
-/// they sum to.
+/// Parallel lines through a solid over a net of cells, and what they sum to.
 ///
 /// Source, Differs, Conventions: see solid_measures.h, of which this is the inside.
 
@@ -13,8 +12,9 @@
 
 namespace alhazen {
 
-/// Independent scramblings of every estimate.
+/// Half samples of every estimate; a power of two.
 inline constexpr std::size_t kReplicates = 16;
+/// An estimate by each of the half samples, or by independent sets of lines.
 using Replicates = std::array<double, kReplicates>;
 
 /// Sums over spans of moments up to the second.
@@ -23,10 +23,9 @@ struct Moments {
     Vec3 first;
     std::array<double, 6> second{};  ///< xx, yy, zz, xy, yz, zx
     double cosines = 0;
-    std::uint64_t inconsistent = 0;
-    std::uint64_t misses = 0;  ///< lines that do not meet the solid
 
     Moments& operator+=(const Moments& other);
+    [[nodiscard]] Moments operator*(double factor) const;
 };
 
 /// A right-handed frame: lines run along `d`, and stand on the plane of the other two.
@@ -34,37 +33,71 @@ struct BundleFrame {
     Vec3 d, right, up;
 };
 
-/// The lines of one direction. Grows by whole factors of two.
+/// The lines of one direction. Where they stand is cut into cells, finer where what they measure
+/// varies; in every cell there are two pairs of lines, each pair opposite of each other about the
+/// middle. A half sample takes one pair of each cell, twice.
 class LineBundle {
   public:
+    enum class Measured { Volume, Area };
+
     /// `center`: moments are about it.
     LineBundle(const Measurable& solid, const BundleFrame& frame, const Vec3& center,
-               std::uint64_t key);
+               std::uint64_t key, Measured measured = Measured::Volume);
 
     [[nodiscard]] const Vec3& direction() const { return frame_.d; }
-    /// Lines of each scrambling so far.
-    [[nodiscard]] std::uint32_t lines() const { return lines_; }
-    void grow_to(std::uint32_t lines, bool want_cosines);
+    /// That the estimates are made of.
+    [[nodiscard]] std::uint64_t lines() const { return casts_ * kLinesPerCell * cells_.size(); }
+    /// As many as there would be if they lay everywhere as where they are sparsest.
+    [[nodiscard]] double sparsest() const;
+    /// Cuts the cells until there are about so many lines, and casts all lines anew: which cells
+    /// are cut follows from lines that are no part of the estimate. Where there are as many cells
+    /// already, casts other lines and keeps the earlier ones. Returns the number of lines cast.
+    std::uint64_t grow_to(std::uint64_t lines);
 
-    /// Estimates of each scrambling. Cosines sum to this direction's share of the area.
+    /// By a half sample. Cosines sum to this direction's share of the area; they are those of a
+    /// bundle that measures the area only.
     [[nodiscard]] Moments moments(std::size_t replicate) const;
     [[nodiscard]] Replicates volumes() const;
     [[nodiscard]] Replicates areas() const;
-    [[nodiscard]] std::uint64_t inconsistent() const;
-    /// Lines of all scramblings that missed the solid.
-    [[nodiscard]] std::uint64_t misses() const;
+    /// Lines whose crossings did not come in pairs.
+    [[nodiscard]] std::uint64_t inconsistent() const { return sums_.inconsistent; }
+    /// Lines that missed the solid.
+    [[nodiscard]] std::uint64_t misses() const { return sums_.misses; }
 
   private:
-    [[nodiscard]] Moments sum_of(std::size_t replicate, std::uint32_t begin, std::uint32_t end,
-                                 bool want_cosines) const;
+    /// A part of the unit square.
+    struct Cell {
+        double x, y, width, height;
+        double scatter = 0;  ///< of what was measured in it
+
+        [[nodiscard]] double area() const { return width * height; }
+    };
+    static constexpr std::uint64_t kLinesPerCell = 4;
+    struct Sums {
+        Moments all;
+        /// First pair less the second one, of the cells of each row of the Hadamard matrix.
+        std::array<Moments, kReplicates> differences;
+        std::uint64_t inconsistent = 0, misses = 0;
+
+        Sums& operator+=(const Sums& other);
+    };
+
+    void cut(std::size_t cells);
+    void cast();
+    void cast_in(Cell& cell, std::uint64_t number, LineSpans& found, Sums& sums) const;
+    void cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found, Moments& pair,
+                   Sums& sums) const;
+    [[nodiscard]] double share() const;
 
     const Measurable& solid_;
     BundleFrame frame_;
     Vec3 center_;
     std::uint64_t key_;
+    Measured measured_;
     Interval right_, up_;  ///< of what the lines stand on, from the centre
-    std::uint32_t lines_ = 0;
-    std::array<Moments, kReplicates> sums_;
+    std::vector<Cell> cells_;
+    std::uint64_t rounds_ = 0, casts_ = 0;  ///< in all, and since the cells were cut
+    Sums sums_;
 };
 
 /// The work on numbers that grow until their interval is narrow or time is over.
@@ -72,7 +105,11 @@ class Deadline {
   public:
     Deadline(double seconds, const StopFlag* stop);
     /// Whether `lines` more fit in, to judge from the `lines_done` so far.
-    [[nodiscard]] bool allows(double lines, double lines_done) const;
+    [[nodiscard]] bool allows(double lines, double lines_done) const {
+        return lines <= room(lines_done);
+    }
+    /// How many more fit in.
+    [[nodiscard]] double room(double lines_done) const;
 
   private:
     double seconds_;
@@ -84,11 +121,12 @@ class Deadline {
 [[nodiscard]] Estimate with_rounding(Estimate estimate, double magnitude);
 
 /// Widens the interval of a volume where the solid fills its shadow's rectangle so well that hardly
-/// one of `lines` missed it, yet not all lines are alike: what the corners lack is too rare to show
-/// in the scatter, and only bounded by how often it was not seen.
+/// one of the lines missed it, yet not all lines are alike: what the corners lack is too rare to
+/// show in the scatter, and only bounded by how often it was not seen. `lines`: as many as
+/// LineBundle has where they are sparsest.
 [[nodiscard]] Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines);
 
-/// Mean of the replicates with its interval.
-[[nodiscard]] Estimate estimate_of(const Replicates& replicates);
+/// The estimate whose half samples these are, with its interval.
+[[nodiscard]] Estimate half_sample_estimate(const Replicates& half_samples);
 
 }  // namespace alhazen

@@ -33,7 +33,7 @@ class LineRow {
     void grow_to(std::uint32_t lines) {
         const std::uint32_t fresh = lines - lines_;
         const std::size_t tasks = (fresh + kLinesPerTask - 1) / kLinesPerTask;
-        std::vector<Moments> parts(kReplicates * tasks);
+        std::vector<Sum> parts(kReplicates * tasks);
         parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t task = begin; task < end; ++task) {
                 const auto first = static_cast<std::uint32_t>(task % tasks) * kLinesPerTask;
@@ -41,33 +41,40 @@ class LineRow {
                                      lines_ + std::min(fresh, first + kLinesPerTask));
             }
         });
-        for (std::size_t task = 0; task < parts.size(); ++task) sums_[task / tasks] += parts[task];
+        for (std::size_t task = 0; task < parts.size(); ++task) {
+            sums_[task / tasks].lengths += parts[task].lengths;
+            sums_[task / tasks].inconsistent += parts[task].inconsistent;
+        }
         lines_ = lines;
     }
     [[nodiscard]] std::uint32_t lines() const { return lines_; }
     [[nodiscard]] Estimate area() const {
         Replicates area{};
         for (std::size_t r = 0; r < kReplicates; ++r) {
-            area[r] = range_.width() * sums_[r].volume / lines_;
+            area[r] = range_.width() * sums_[r].lengths / lines_;
         }
-        return estimate_of(area);
+        return mean_of(area);
     }
     [[nodiscard]] std::uint64_t inconsistent() const {
         std::uint64_t sum = 0;
-        for (const Moments& m : sums_) sum += m.inconsistent;
+        for (const Sum& s : sums_) sum += s.inconsistent;
         return sum;
     }
 
   private:
-    [[nodiscard]] Moments sum_of(std::size_t replicate, std::uint32_t begin,
-                                 std::uint32_t end) const {
-        Moments sum;
+    struct Sum {
+        double lengths = 0;
+        std::uint64_t inconsistent = 0;
+    };
+
+    [[nodiscard]] Sum sum_of(std::size_t replicate, std::uint32_t begin, std::uint32_t end) const {
+        Sum sum;
         LineSpans found;
         for (std::uint32_t i = begin; i < end; ++i) {
             const double s = range_.lo + range_.width() * scrambled_sobol(key_ + replicate, i, 0);
             solid_.cross({origin_ + s * aside_, along_}, false, found);
             sum.inconsistent += found.consistent ? 0 : 1;
-            for (const Interval& span : found.spans) sum.volume += span.hi - span.lo;
+            for (const Interval& span : found.spans) sum.lengths += span.hi - span.lo;
         }
         return sum;
     }
@@ -77,7 +84,7 @@ class LineRow {
     std::uint64_t key_;
     Interval range_;
     std::uint32_t lines_ = 0;
-    std::array<Moments, kReplicates> sums_;
+    std::array<Sum, kReplicates> sums_;
 };
 
 }  // namespace

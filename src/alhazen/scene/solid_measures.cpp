@@ -15,13 +15,22 @@ namespace alhazen {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::uint32_t kPilotLines = 128;  ///< of each scrambling and direction
-constexpr std::uint32_t kFirstLines = 512;
-constexpr std::uint32_t kMostLines = std::uint32_t{1} << 27;
-/// Lines of each scrambling for Crofton's formula: a check, which converges slowly.
+constexpr std::uint64_t kPilotLines = 2048;  ///< of each direction
+constexpr std::uint64_t kFirstLines = 8192;
+/// With so many no finer cells are made, but more lines cast: a cell takes 10 bytes for each.
+constexpr std::uint64_t kMostLines = std::uint64_t{1} << 23;
+/// With so few more than before nothing is gained.
+constexpr double kLeastGrowth = 1.25;
+/// Independent sets of lines for Crofton's formula, and the lines of each: a check, which converges
+/// slowly.
+constexpr std::size_t kCroftonSets = 16;
 constexpr std::uint32_t kCroftonLines = 2048;
+/// Of the time, when also the area is measured.
+constexpr double kShareOfVolume = 0.8;
 /// How much wider than both intervals a difference may be.
 constexpr double kAgreement = 2.5;
+
+constexpr LineBundle::Measured kArea = LineBundle::Measured::Area;
 
 /// Beyond these moments of inertia overflow or lose their digits.
 constexpr double kLeastMoment = 1e-290, kMostMoment = 1e300;
@@ -40,7 +49,7 @@ std::array<std::array<BundleFrame, 3>, 2> frames() {
 }
 
 double spread(const Replicates& r) {
-    return estimate_of(r).half_width;
+    return half_sample_estimate(r).half_width;
 }
 
 bool agree(const Estimate& a, const Estimate& b) {
@@ -50,7 +59,10 @@ bool agree(const Estimate& a, const Estimate& b) {
 class Measurer {
   public:
     Measurer(const Measurable& solid, const MeasureOptions& options)
-        : solid_(solid), options_(options), deadline_(options.seconds, options.stop) {
+        : solid_(solid),
+          options_(options),
+          deadline_(options.seconds, options.stop),
+          volume_deadline_(options.seconds * (options.area ? kShareOfVolume : 1.0), options.stop) {
         box_ = solid.box();
     }
 
@@ -82,15 +94,18 @@ class Measurer {
             std::size_t best = 0;
             double best_spread = 0, area_spread = 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                LineBundle pilot(solid_, all[f][k], center_, mix64(options_.seed) + 16 * f + k);
-                pilot.grow_to(kPilotLines, options_.area);
-                lines_ += kReplicates * kPilotLines;
+                const std::uint64_t key = mix64(options_.seed) + 16 * f + k;
+                LineBundle pilot(solid_, all[f][k], center_, key);
+                grow_bundle(pilot, kPilotLines);
                 const double s = spread(pilot.volumes());
                 if (k == 0 || s < best_spread) {
                     best = k;
                     best_spread = s;
                 }
-                area_spread += spread(pilot.areas());
+                if (!options_.area) continue;
+                LineBundle area_pilot(solid_, all[f][k], center_, key + 1000, kArea);
+                grow_bundle(area_pilot, kPilotLines);
+                area_spread += spread(area_pilot.areas());
             }
             const bool better =
                 best_spread < least || (best_spread == least && area_spread < least_area);
@@ -101,15 +116,31 @@ class Measurer {
             best_ = best;
         }
         for (std::size_t k = 0; k < 3; ++k) {
-            bundles_.emplace_back(solid_, all[frame_][k], center_,
-                                  mix64(options_.seed) + 100 + 16 * frame_ + k);
-            grow_bundle(k, kFirstLines);
+            const std::uint64_t key = mix64(options_.seed) + 100 + 16 * frame_ + k;
+            bundles_.emplace_back(solid_, all[frame_][k], center_, key);
+            grow_bundle(bundles_.back(), kFirstLines);
+            if (!options_.area) continue;
+            area_bundles_.emplace_back(solid_, all[frame_][k], center_, key + 1000, kArea);
+            grow_bundle(area_bundles_.back(), kFirstLines);
         }
     }
 
-    void grow_bundle(std::size_t k, std::uint32_t lines) {
-        lines_ += static_cast<double>(kReplicates) * (lines - bundles_[k].lines());
-        bundles_[k].grow_to(lines, options_.area);
+    void grow_bundle(LineBundle& bundle, std::uint64_t lines) {
+        lines_ += static_cast<double>(bundle.grow_to(lines));
+    }
+    /// To twice the lines, or what there is time for; false when that is no more than before.
+    bool enlarge(LineBundle& bundle, const Deadline& deadline) {
+        const double room = deadline.room(lines_);
+        const auto lines = static_cast<double>(bundle.lines());
+        if (bundle.lines() >= kMostLines) {
+            if (room < static_cast<double>(kMostLines)) return false;
+            grow_bundle(bundle, 0);
+            return true;
+        }
+        const double wanted = std::min({2 * lines, room, static_cast<double>(kMostLines)});
+        if (wanted < kLeastGrowth * lines) return false;
+        grow_bundle(bundle, static_cast<std::uint64_t>(wanted));
+        return true;
     }
 
     [[nodiscard]] static bool is_within(const Estimate& e, double relative) {
@@ -117,42 +148,42 @@ class Measurer {
     }
 
     void grow() {
-        for (;;) {
-            const bool volume_done = is_within(volume(), options_.relative_error);
-            const bool area_done = !options_.area || is_within(area(), options_.relative_error);
-            reached_ = volume_done && area_done;
-            if (reached_) return;
-            const std::size_t k = volume_done ? widest_area() : best_;
-            const std::uint32_t lines = bundles_[k].lines();
-            if (lines >= kMostLines ||
-                !deadline_.allows(static_cast<double>(kReplicates) * lines, lines_))
-                return;
-            grow_bundle(k, 2 * lines);
+        const auto volume_done = [&] { return is_within(volume(), options_.relative_error); };
+        const auto area_done = [&] {
+            return !options_.area || is_within(area(), options_.relative_error);
+        };
+        while (!volume_done() && enlarge(bundles_[best_], volume_deadline_)) {
         }
+        while (!area_done() && enlarge(area_bundles_[widest_area()], deadline_)) {
+        }
+        while (!volume_done() && enlarge(bundles_[best_], deadline_)) {
+        }
+        reached_ = volume_done() && area_done();
     }
 
     [[nodiscard]] std::size_t widest_area() const {
         std::size_t widest = 0;
         for (std::size_t k = 1; k < 3; ++k) {
-            if (spread(bundles_[k].areas()) > spread(bundles_[widest].areas())) widest = k;
+            if (spread(area_bundles_[k].areas()) > spread(area_bundles_[widest].areas()))
+                widest = k;
         }
         return widest;
     }
 
     [[nodiscard]] Estimate volume_along(std::size_t k) const {
-        const double lines = static_cast<double>(kReplicates) * bundles_[k].lines();
-        const Estimate e =
-            with_rare_misses(estimate_of(bundles_[k].volumes()), bundles_[k].misses(), lines);
+        const LineBundle& bundle = bundles_[k];
+        const Estimate e = with_rare_misses(half_sample_estimate(bundle.volumes()), bundle.misses(),
+                                            bundle.sparsest());
         return with_rounding(e, reach_ * std::abs(e.value));
     }
     [[nodiscard]] Estimate volume() const { return volume_along(best_); }
     [[nodiscard]] Estimate area() const {
         Replicates sum{};
-        for (const LineBundle& bundle : bundles_) {
+        for (const LineBundle& bundle : area_bundles_) {
             const Replicates share = bundle.areas();
             for (std::size_t r = 0; r < kReplicates; ++r) sum[r] += share[r];
         }
-        const Estimate e = estimate_of(sum);
+        const Estimate e = half_sample_estimate(sum);
         return with_rounding(e, reach_ * std::abs(e.value));
     }
 
@@ -160,14 +191,14 @@ class Measurer {
     /// times the surface of the ball is twice the area.
     [[nodiscard]] Estimate crofton() {
         const double radius = 0.5 * length(box_.size());
-        Replicates area{};
-        parallel_for(kReplicates, 1, [&](std::size_t begin, std::size_t end) {
+        std::array<double, kCroftonSets> area{};
+        parallel_for(kCroftonSets, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t r = begin; r < end; ++r) {
                 area[r] = 2 * kPi * radius * radius * mean_crossings(r, radius);
             }
         });
-        lines_ += kReplicates * kCroftonLines;
-        return estimate_of(area);
+        lines_ += kCroftonSets * kCroftonLines;
+        return mean_of(area);
     }
 
     [[nodiscard]] double mean_crossings(std::size_t replicate, double radius) const {
@@ -210,7 +241,7 @@ class Measurer {
         found.reached = reached_;
     }
 
-    /// Centroid and inertia are ratios: of each scrambling by itself, and then their mean.
+    /// Centroid and inertia are ratios: of each half sample by itself, and then their mean.
     void fill_moments(SolidMeasures& found) const {
         std::array<Replicates, 3> centroid{};
         std::array<Replicates, 6> inertia{};
@@ -234,23 +265,23 @@ class Measurer {
         const double size = length(box_.size());
         found.has_moments = true;
         for (std::size_t k = 0; k < 3; ++k) {
-            found.centroid[k] = with_rounding(estimate_of(centroid[k]), reach_ * size);
+            found.centroid[k] = with_rounding(half_sample_estimate(centroid[k]), reach_ * size);
         }
         const double moment = found.volume.value * size * size;
         for (std::size_t k = 0; k < 6; ++k) {
-            found.inertia[k] = with_rounding(estimate_of(inertia[k]), reach_ * moment);
+            found.inertia[k] = with_rounding(half_sample_estimate(inertia[k]), reach_ * moment);
         }
         found.in_range = found.in_range && kLeastMoment <= moment && moment <= kMostMoment;
     }
 
     const Measurable& solid_;
     const MeasureOptions& options_;
-    Deadline deadline_;
+    Deadline deadline_, volume_deadline_;
     Box3 box_;
     Vec3 center_;
     double reach_ = 1;
     std::size_t frame_ = 0, best_ = 0;
-    std::vector<LineBundle> bundles_;
+    std::vector<LineBundle> bundles_, area_bundles_;
     double lines_ = 0;
     bool reached_ = false;
 };

@@ -2,23 +2,27 @@
 /// Volume, area, centroid and moments of a solid from lines through it, with intervals that hold
 /// the truth in 95 of 100 cases.
 ///
-/// Source: Owen, "Scrambled Net Variance for Integrals of Smooth Functions", Ann. Stat. 25(4), 1997
-/// (randomised nets); Crofton's formula as in Santaló, "Integral Geometry and Geometric
-/// Probability", 1976, section 14.3; Roth, "Ray Casting for Modeling Solids", 1982 (volumes and
-/// moments of spans).
+/// Source: Press and Farrar, "Recursive Stratified Sampling for Multidimensional Monte Carlo
+/// Integration", Computers in Physics 4, 1990 (cells where the integrand varies are cut);
+/// Hammersley and Morton, "A New Monte Carlo Technique: Antithetic Variates", 1956; Crofton's
+/// formula as in Santaló, "Integral Geometry and Geometric Probability", 1976, section 14.3; Roth,
+/// "Ray Casting for Modeling Solids", 1982 (volumes and moments of spans).
 /// Differs: (1) of six directions (the axes, and a frame aslant to all) a pilot run, whose numbers
 /// are then thrown away, chooses the one along which the volume scatters least; an end face seen
-/// along the axis of a cylinder would scatter most. (2) Area is the sum over the three directions
-/// of a frame of |cosine| per crossing, which is exact, since the squares of the three cosines sum
-/// to one, and stays bounded where a line grazes. Crofton's count of isotropic lines is made
-/// besides. (3) The lines of every estimate are sixteen independent scramblings of a net; Student's
-/// interval of their mean is given. The rounding of the spans is added to it. (4) Where hardly a
-/// line misses the solid within its shadow's rectangle, what the corners lack is too rare to show
+/// along the axis of a cylinder would scatter most. (2) Cells are cut by the lines of the round
+/// before, which are thrown away too: so the estimate has no bias, and nothing that was not seen
+/// yet is given up. (3) Area is the sum over the three directions of a frame of |cosine| per
+/// crossing, which is exact, since the squares of the three cosines sum to one, and stays bounded
+/// where a line grazes. Crofton's count of isotropic lines is made besides. (4) Intervals are those
+/// of sixteen balanced half samples (McCarthy, "Pseudo-Replication: Half Samples", Review of the
+/// International Statistical Institute 37, 1969; rows of a Hadamard matrix are shared by cells at
+/// random), by Student's distribution. The rounding of the spans is added to them. (5) Where hardly
+/// a line misses the solid within its shadow's rectangle, what the corners lack is too rare to show
 /// in the scatter: three lines' share is added (Hanley and Lippman-Hand, "If Nothing Goes Wrong, Is
 /// Everything All Right?", JAMA 249, 1983). Conventions: world units. Moments are those of
-/// density 1. Complexity and threads: errors fall as about N^-1.25 in the best direction (N^-0.75
-/// where faces lie along all of them). Over all threads; the result does not depend on their
-/// number, as long as time does not end the work.
+/// density 1. Complexity and threads: errors fall as about N^-1.5, N the lines, as long as cells
+/// are cut. Over all threads; the result does not depend on their number, as long as time does not
+/// end the work.
 
 #include <array>
 #include <cstdint>

@@ -58,9 +58,11 @@ double coverage(const Measurable& solid, const BundleFrame& frame, double truth,
     constexpr int kRuns = 400;
     int held = 0;
     for (int run = 0; run < kRuns; ++run) {
-        LineBundle bundle(solid, frame, solid.box().center(), 1000 + static_cast<unsigned>(run));
-        bundle.grow_to(64, area);
-        held += estimate_of(area ? bundle.areas() : bundle.volumes()).holds(truth);
+        LineBundle bundle(solid, frame, solid.box().center(), 1000 + static_cast<unsigned>(run),
+                          area ? LineBundle::Measured::Area : LineBundle::Measured::Volume);
+        bundle.grow_to(512);
+        bundle.grow_to(1024);
+        held += half_sample_estimate(area ? bundle.areas() : bundle.volumes()).holds(truth);
     }
     return held / double{kRuns};
 }
