@@ -26,7 +26,7 @@ TABLE = {
     "sampling": ["math"],
     "imaging": ["math"],
     "shading": ["sampling", "imaging", "geometry"],
-    "shapes": ["geometry"],
+    "shapes": ["geometry", "simd"],
     "accel": ["geometry", "simd", "parallel"],
     "scene": ["shading", "shapes", "accel"],
     "tracer": ["scene"],
@@ -40,7 +40,7 @@ TABLE = {
 
 # Start of an include -> the folders that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
-    "hwy/": {"simd", "accel", "scene"},
+    "hwy/": {"simd", "shapes", "accel", "scene"},
     "tbb/": {"parallel"},
     "oneapi/": {"parallel"},
     "Imf": {"imaging"},

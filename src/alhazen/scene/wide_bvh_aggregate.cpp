@@ -17,6 +17,7 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& opt
     const BoundedPrimitives bounded(table_);
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
+    side_by_side_ = SideBySideShapes(table_, unbounded_);
     layout_ = build_wide_bvh(table_, bounded, options);
     built_cost_ = layout_.sah_cost();
     prepare_meshes();
@@ -27,6 +28,7 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::
     StoredWideBvh stored = load_wide_bvh(file, table_);
     box_ = stored.box;
     unbounded_ = std::move(stored.unbounded);
+    side_by_side_ = SideBySideShapes(table_, unbounded_);
     layout_ = std::move(stored.layout);
     kernels_ = &wide_bvh_kernels(layout_.tree.width);
     built_cost_ = layout_.sah_cost();
@@ -180,6 +182,7 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
         });
     }
     if (layout_.tree.empty) return;
+    if (!side_by_side_.empty()) return side_by_side_.closest(table_, rays, hits, query);
     const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
     if (!coherent && coherence == Coherence::Coherent && is_next_to_core(layout_)) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -202,6 +205,7 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         });
     }
     if (layout_.tree.empty) return;
+    if (!side_by_side_.empty()) return side_by_side_.occluded(table_, rays, occluded, query);
     const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
     (coherent ? kernels_->occluded_coherent : kernels_->occluded_batch)(scene(query.mask), rays,
                                                                         occluded, query.stats);

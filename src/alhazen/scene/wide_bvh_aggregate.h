@@ -19,6 +19,7 @@
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/scene/primitive_table.h"
 #include "alhazen/scene/refit.h"
+#include "alhazen/scene/side_by_side.h"
 #include "alhazen/scene/wide_bvh_kernels.h"
 
 namespace alhazen {
@@ -70,6 +71,7 @@ class WideBvhAggregate final : public Aggregate {
     PrimitiveTable table_;
     Box3 box_;
     std::vector<PrimitiveId> unbounded_;
+    SideBySideShapes side_by_side_;  ///< all that is in the tree, or nothing
     WideBvhLayout layout_;
     double built_cost_ = 0;  ///< of the tree before any refit
     const WideBvhKernels* kernels_ = nullptr;

@@ -4,8 +4,9 @@
 #include "alhazen/base/instruction_sets.h"
 #include "alhazen/shapes/clipped_quadric.h"
 #include "alhazen/shapes/first_hit.h"
+#include "alhazen/shapes/first_hits.h"
 #include "alhazen/shapes/plain_surface.h"
-#include "alhazen/shapes/polynomial_solid.h"
+#include "alhazen/shapes/polynomial_lanes.h"
 
 namespace alhazen {
 
@@ -123,6 +124,32 @@ int Algebraic::intersect(const Ray& ray, ShapeHit* hits) const {
 
 bool first_hit(const Algebraic& shape, const Ray& ray, ShapeHit& hit) {
     return one_hit(shape, ray, hit);
+}
+
+namespace {
+
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+double improved(const Algebraic& shape, const Ray& ray, std::size_t lane,
+                const PolynomialLanes& lanes) {
+    return with_polynomial(shape, [&](const auto& f) {
+        return improved_root_of_lane(f, SolidFrame(), ray, lane, lanes);
+    });
+}
+
+}  // namespace
+
+std::uint32_t first_hits(const Algebraic& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
+    return with_polynomial(shape, [&](const auto& f) {
+        return first_hits_in_lanes<std::remove_cvref_t<decltype(f)>::kDegree>(
+            rays, shape.capped, hits,
+            [&](const PolynomialKernels& kernels, const RayLanes& in, PolynomialLanes& lanes) {
+                kernels.algebraic(shape, in, lanes);
+            },
+            [&](const Ray& ray, std::size_t lane, const PolynomialLanes& lanes) {
+                return improved(shape, ray, lane, lanes);
+            },
+            [&](const Ray& ray, ShapeHit& hit) { return one_hit(shape, ray, hit); });
+    });
 }
 
 namespace {

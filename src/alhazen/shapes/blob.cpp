@@ -1,197 +1,27 @@
 #include "alhazen/shapes/blob.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <optional>
+#include <span>
 
 #include "alhazen/base/instruction_sets.h"
-#include "alhazen/math/bernstein_roots.h"
-#include "alhazen/shapes/plain_surface.h"
-#include "alhazen/shapes/shape_numerics.h"
+#include "alhazen/shapes/blob_lanes.h"
+#include "alhazen/shapes/blob_pieces.h"
+#include "alhazen/shapes/first_hits.h"
 
 namespace alhazen {
 
 namespace {
 
-template <class Real>
-constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
+using namespace blob;
 
-/// Where a quadratic 1 - (distance / radius)^2 of a component holds along the ray.
-enum class Region : std::uint8_t { Base, Middle, Top };
-/// Where it does, and what it is there in double: peak - bend (t - middle)^2. Without bend that is
-/// not known.
-struct Bump {
-    Interval t;
-    double middle = 0, peak = 1, bend = 0;
-
-    [[nodiscard]] bool known() const { return bend > 0.0; }
-    [[nodiscard]] double largest(double t0, double t1) const {
-        const double off = std::clamp(middle, t0, t1) - middle;
-        return peak - bend * off * off;
-    }
-};
-struct Piece {
-    std::uint32_t component;
-    Region region;
-    double in, out;  ///< from the local origin
-    Bump bump;
-};
 struct Event {
     double t;
     std::uint32_t piece;
     bool begins;
 };
-
-template <class Real>
-struct Vec3Of {
-    Real x, y, z;
-};
-template <class Real>
-Vec3Of<Real> cross_of(const Vec3Of<Real>& a, const Vec3Of<Real>& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class Real>
-Real dot_of(const Vec3Of<Real>& a, const Vec3Of<Real>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-double quotient(double a, double b) {
-    return a / b;
-}
-/// The ray from a point near the blob, and the polynomials along it.
-struct LocalRay {
-    const Blob& blob;
-    const Ray& given;
-    double shift = 0;
-    Vec3 o;
-    double far;  ///< size of the numbers that made o
-
-    LocalRay(const Blob& b, const Ray& ray) : blob(b), given(ray), o(ray.origin) {
-        const Vec3 from_center = ray.origin - b.bounds.center();
-        // Close by, the shift would only round away digits of a small t.
-        if (length_squared(from_center) > 4.0 * length_squared(b.bounds.size())) {
-            shift = -dot(from_center, ray.direction) / length_squared(ray.direction);
-            o = ray.origin + shift * ray.direction;
-        }
-        far = max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(ray.direction));
-    }
-
-    /// The point at t (from the local origin) relative to `center`.
-    template <class Real>
-    [[nodiscard]] Vec3Of<Real> from(const Vec3& center, double t) const {
-        const auto along = [&](int k) {
-            const Real start = Real(given.origin[k]) + Real(shift) * Real(given.direction[k]);
-            return (start - Real(center[k])) + Real(t) * Real(given.direction[k]);
-        };
-        return {along(0), along(1), along(2)};
-    }
-
-    /// Adds strength * q^2 of the piece, q its quadratic, in Bernstein form on [t0, t1].
-    template <class Real>
-    void add(const Piece& piece, double t0, double t1, BernsteinPolynomial<Real, 4>& sum) const {
-        const BlobComponent& c = blob.components[piece.component];
-        if constexpr (std::is_same_v<Real, double>) {
-            if (piece.bump.known()) {
-                const Bump& bump = piece.bump;
-                const double a = t0 - bump.middle, b = t1 - bump.middle;
-                return add_squared(piece, bump.peak - bump.bend * (a * a),
-                                   bump.peak - bump.bend * (a * b), bump.peak - bump.bend * (b * b),
-                                   sum);
-            }
-        }
-        const Vec3& center = piece.region == Region::Top ? c.top : c.base;
-        Vec3Of<Real> a = from<Real>(center, t0), b = from<Real>(center, t1);
-        Real scale = Real(c.radius) * Real(c.radius);
-        if (piece.region == Region::Middle) {
-            const Vec3Of<Real> e{Real(c.top.x) - Real(c.base.x), Real(c.top.y) - Real(c.base.y),
-                                 Real(c.top.z) - Real(c.base.z)};
-            a = cross_of(a, e);
-            b = cross_of(b, e);
-            scale = scale * dot_of(e, e);
-        }
-        // The blossom of the quadratic.
-        const Real q0 = Real(1.0) - quotient(dot_of(a, a), scale);
-        const Real q1 = Real(1.0) - quotient(dot_of(a, b), scale);
-        const Real q2 = Real(1.0) - quotient(dot_of(b, b), scale);
-        add_squared(piece, q0, q1, q2, sum);
-    }
-
-  private:
-    /// The square of a quadratic with these Bernstein coefficients.
-    template <class Real>
-    void add_squared(const Piece& piece, const Real& q0, const Real& q1, const Real& q2,
-                     BernsteinPolynomial<Real, 4>& sum) const {
-        const BlobComponent& c = blob.components[piece.component];
-        const Real s = c.strength;
-        sum.b[0] -= s * (q0 * q0);
-        sum.b[1] -= s * (q0 * q1);
-        sum.b[2] -= s * quotient(q0 * q2 + Real(2.0) * (q1 * q1), Real(3.0));
-        sum.b[3] -= s * (q1 * q2);
-        sum.b[4] -= s * (q2 * q2);
-        // Rounding of the points over the radius, of the quadratics, of the products.
-        const double span = piece.region == Region::Middle ? length(c.top - c.base) : 0.0;
-        const double point = 48.0 * (far + blob.reach + max_component(abs(o)) + span) / c.radius;
-        sum.error += kRounding<Real> * std::abs(c.strength) * (4.0 * point + 128.0);
-    }
-};
-
-/// Where the line, given by its least distance (at t = middle) from an axis or a centre and its
-/// speed across, is closer than the radius.
-Bump within(double middle, double distance, double radius, double speed) {
-    if (!(distance < radius)) return {};
-    const double room = (radius - distance) * (radius + distance);
-    const double half = std::sqrt(room) / speed, squared = radius * radius;
-    return {{middle - half, middle + half}, middle, room / squared, speed * speed / squared};
-}
-
-Bump within_ball(const LocalRay& ray, const Vec3& center, double radius) {
-    const Vec3 f = ray.o - center;
-    const Vec3& d = ray.given.direction;
-    const double dd = length_squared(d), middle = -dot(f, d) / dd;
-    return within(middle, length(f + middle * d), radius, std::sqrt(dd));
-}
-
-Bump within_rod(const LocalRay& ray, const BlobComponent& c) {
-    const Vec3 axis = unit_or(c.top - c.base, {0, 0, 1});
-    const Vec3 f = cross(ray.o - c.base, axis), d = cross(ray.given.direction, axis);
-    const double dd = length_squared(d);
-    if (dd <= 1e-24 * length_squared(ray.given.direction)) {
-        return {length(f) < c.radius ? Interval{-kInfinity, kInfinity} : Interval{}};
-    }
-    const double middle = -dot(f, d) / dd;
-    return within(middle, length(f + middle * d), c.radius, std::sqrt(dd));
-}
-
-/// What is common to both.
-Interval meeting(const Interval& a, const Interval& b) {
-    return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
-}
-
-void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
-    const BlobComponent& c = ray.blob.components[number];
-    constexpr Interval kWholeLine{-kInfinity, kInfinity};
-    const auto add = [&](Region region, const Interval& part, const Bump& bump) {
-        const Interval t = meeting(part, bump.t);
-        if (t.lo < t.hi && std::isfinite(t.lo) && std::isfinite(t.hi)) {
-            pieces.push_back({number, region, t.lo, t.hi, bump});
-        }
-    };
-    if (!c.rod) return add(Region::Base, kWholeLine, within_ball(ray, c.base, c.radius));
-    const Vec3 e = c.top - c.base;
-    const double start = dot(ray.o - c.base, e), speed = dot(ray.given.direction, e);
-    Interval before = kWholeLine, between = before, behind = before;
-    if (speed == 0.0) {
-        if (start >= 0.0) before = {};
-        if (start < 0.0 || start > length_squared(e)) between = {};
-        if (start <= length_squared(e)) behind = {};
-    } else {
-        const double at_base = -start / speed, at_top = (length_squared(e) - start) / speed;
-        between = {std::min(at_base, at_top), std::max(at_base, at_top)};
-        before = {-kInfinity, between.lo};
-        behind = {between.hi, kInfinity};
-        if (speed < 0.0) std::swap(before, behind);
-    }
-    add(Region::Base, before, within_ball(ray, c.base, c.radius));
-    add(Region::Middle, between, within_rod(ray, c));
-    add(Region::Top, behind, within_ball(ray, c.top, c.radius));
-}
 
 /// What one ray needs; kept from ray to ray so that nothing is allocated.
 struct Workspace {
@@ -278,31 +108,6 @@ class SpanWalk {
     bool skipped_ = false;  ///< whether it is inside here is not known
 };
 
-struct Density {
-    double value = 0;
-    Vec3 gradient{};
-    double rounding = 0;
-};
-
-Density density_at(const Blob& blob, const Vec3& p) {
-    Density sum;
-    blob.tree->for_point(p, [&](std::uint32_t i) {
-        const BlobComponent& c = blob.components[i];
-        Vec3 nearest = c.base;
-        if (c.rod) {
-            const Vec3 e = c.top - c.base;
-            nearest += std::clamp(dot(p - c.base, e) / length_squared(e), 0.0, 1.0) * e;
-        }
-        const Vec3 r = p - nearest;
-        const double q = 1.0 - length_squared(r) / (c.radius * c.radius);
-        if (q <= 0.0) return;
-        sum.value += c.strength * q * q;
-        sum.gradient -= (4.0 * c.strength * q / (c.radius * c.radius)) * r;
-        sum.rounding += std::abs(c.strength) * (8.0 + 4.0 * max_component(abs(p)) / c.radius);
-    });
-    return sum;
-}
-
 }  // namespace
 
 void Blob::prepare() {
@@ -371,13 +176,11 @@ void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     }
 }
 
+/// The crossings that follow from the pieces in `work`.
 ALHAZEN_FOR_EACH_INSTRUCTION_SET
-void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits& hits) {
-    work.pieces.clear();
+void walk_pieces(const LocalRay& local, Workspace& work, ShapeHits& hits) {
+    const Ray& ray = local.given;
     work.active.clear();
-    const LocalRay local(blob, ray);
-    if (!is_finite(local.o)) return;
-    collect_pieces(local, work.pieces);
     work.events.resize(2 * work.pieces.size());
     Event* events = work.events.data();
     for (std::uint32_t i = 0; i < work.pieces.size(); ++i) {
@@ -409,6 +212,14 @@ void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits
     walk.gap(kInfinity);
 }
 
+void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits& hits) {
+    work.pieces.clear();
+    const LocalRay local(blob, ray);
+    if (!is_finite(local.o)) return;
+    collect_pieces(local, work.pieces);
+    walk_pieces(local, work, hits);
+}
+
 }  // namespace
 
 void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
@@ -416,37 +227,70 @@ void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
     intersect_blob(*this, ray, work, hits);
 }
 
-ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hit) {
-    ShapeSurface surface;
-    surface.point = ray.at(hit.t);
-    Density there = density_at(shape, surface.point);
-    double steepness = length(there.gradient);
-    if (steepness > 0.0) {
-        // One step to the surface; no farther than what the ray rounds.
-        const double off = (shape.threshold - there.value) / steepness;
-        const double room = 0x1p-48 * (max_component(abs(ray.origin)) + shape.reach);
-        surface.point += (std::clamp(off, -room, room) / steepness) * there.gradient;
-        there = density_at(shape, surface.point);
-        steepness = length(there.gradient);
+namespace {
+
+/// A ray of several, with what it needs.
+struct RayWork {
+    std::optional<LocalRay> local;
+    Workspace work;
+};
+
+/// The pieces of all components, few, along all rays, side by side.
+void collect_side_by_side(const Blob& blob, std::span<RayWork> rays) {
+    BlobRayLanes lanes;
+    for (std::size_t i = 0; i < BlobRayLanes::kWidth; ++i) {
+        const LocalRay& ray = *rays[i < rays.size() ? i : 0].local;
+        for (int k = 0; k < 3; ++k) {
+            lanes.origin[k][i] = ray.o[k];
+            lanes.direction[k][i] = ray.given.direction[k];
+        }
+        lanes.pad[i] = 0x1p-48 * (ray.far + blob.reach);
     }
-    surface.normal = unit_or(-there.gradient, -unit_or(ray.direction, {0, 0, 1}));
-    // Whether the ray enters here (v = -1) or leaves is known from all its crossings.
-    if (dot(surface.normal, ray.direction) * hit.v < 0.0) surface.normal = -surface.normal;
-    surface.shading_normal = surface.normal;
-    // What the density rounds, over its steepness; where that hardly tells, the last digits of all.
-    const double most = gamma_bound(48) * shape.reach;
-    const double off = 0x1p-53 * there.rounding / steepness + gamma_bound(4) * shape.reach;
-    const double error = off < most ? off : most;
-    surface.error = {error, error, error};
-    return surface;
+    const std::uint32_t used = (1u << rays.size()) - 1;
+    const WithinBallKernel within_ball = within_ball_kernel();
+    BallLanes ball;
+    for (std::uint32_t c = 0; c < blob.components.size(); ++c) {
+        const BlobComponent& component = blob.components[c];
+        if (component.rod) {
+            for (RayWork& ray : rays) add_pieces(*ray.local, c, ray.work.pieces);
+            continue;
+        }
+        for (std::uint32_t rest = used & within_ball(lanes, component.base, component.radius, ball);
+             rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            const Bump bump{{ball.lo[i], ball.hi[i]}, ball.middle[i], ball.peak[i], ball.bend[i]};
+            rays[i].work.pieces.push_back({c, Region::Base, bump.t.lo, bump.t.hi, bump});
+        }
+    }
 }
 
-ShapeSurface Blob::surface(const Ray& ray, const ShapeHit& hit) const {
-    ShapeSurface surface = plain_surface(*this, ray, hit);
-    const Vec3 from_center = unit_or(surface.point - bounds.center(), {1, 0, 0});
-    surface.uv = {turn_fraction(from_center.x, from_center.y),
-                  0.5 + std::atan2(from_center.z, std::hypot(from_center.x, from_center.y)) / kPi};
-    return surface;
+}  // namespace
+
+std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
+    static thread_local std::array<RayWork, kMostRaysSideBySide> all;
+    const std::span<RayWork> used = std::span(all).first(rays.size());
+    bool finite = true;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        used[i].work.pieces.clear();
+        used[i].local.emplace(shape, *rays[i]);
+        finite = finite && is_finite(used[i].local->o);
+    }
+    if (finite && shape.components.size() <= kFewComponents) {
+        collect_side_by_side(shape, used);
+    } else {
+        for (RayWork& ray : used) {
+            if (is_finite(ray.local->o)) collect_pieces(*ray.local, ray.work.pieces);
+        }
+    }
+    std::uint32_t hit = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ShapeHits found(1);
+        walk_pieces(*used[i].local, used[i].work, found);
+        if (found.empty()) continue;
+        hits[i] = found.front();
+        hit |= 1u << i;
+    }
+    return hit;
 }
 
 }  // namespace alhazen

@@ -1,11 +1,11 @@
 #include "alhazen/shapes/polynomial_expression.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 
 #include "alhazen/base/instruction_sets.h"
+#include "alhazen/math/bernstein_roots.h"
 #include "alhazen/shapes/polynomial_parser.h"
 
 namespace alhazen {
@@ -15,73 +15,12 @@ namespace {
 using Op = PolynomialExpression::Op;
 using Node = PolynomialExpression::Node;
 
-constexpr std::size_t kRows = PolynomialExpression::kMaxDegree + 1;
-
-/// [n][k] n over k.
-constexpr std::array<std::array<double, kRows>, kRows> kBinomials = [] {
-    std::array<std::array<double, kRows>, kRows> table{};
-    for (std::size_t n = 0; n < kRows; ++n) {
-        table[n][0] = 1.0;
-        for (std::size_t k = 1; k <= n; ++k) {
-            table[n][k] = table[n - 1][k - 1] + (k < n ? table[n - 1][k] : 0.0);
-        }
-    }
-    return table;
-}();
-
 template <class Real>
 Real constant_as(const DoubleDouble& c) {
     if constexpr (std::is_same_v<Real, double>) {
         return c.high;
     } else {
         return c;
-    }
-}
-
-/// out = u v, of degrees m and n.
-template <class Real>
-void multiply(const Real* u, int m, const Real* v, int n, Real* out) {
-    if (m == 1 && n == 1) {
-        out[0] = u[0] * v[0];
-        out[1] = u[0] * v[1] + u[1] * v[0];
-        out[2] = u[1] * v[1];
-        return;
-    }
-    if (m == 2 && n == 2) {
-        out[0] = u[0] * v[0];
-        out[1] = u[0] * v[1] + u[1] * v[0];
-        out[2] = u[0] * v[2] + u[1] * v[1] + u[2] * v[0];
-        out[3] = u[1] * v[2] + u[2] * v[1];
-        out[4] = u[2] * v[2];
-        return;
-    }
-    for (int k = 0; k <= n; ++k) out[k] = u[0] * v[k];
-    for (int i = 1; i <= m; ++i) {
-        for (int k = 0; k < n; ++k) out[i + k] += u[i] * v[k];
-        out[i + n] = u[i] * v[n];
-    }
-}
-
-/// out += sign * a, raised from degree m to n: times ((1 - u) + u)^(n - m).
-template <class Real>
-void add_raised(const Real* a, int m, int n, double sign, Real* out) {
-    const double* row = kBinomials[static_cast<std::size_t>(n - m)].data();
-    for (int i = 0; i <= m; ++i) {
-        for (int k = 0; k <= n - m; ++k) out[i + k] += Real(sign * row[k]) * a[i];
-    }
-}
-
-/// out = u + sign v, of degrees m and n.
-template <class Real>
-void add(const Real* u, int m, const Real* v, int n, double sign, Real* out) {
-    if (m == n) {
-        for (int i = 0; i <= n; ++i) out[i] = sign > 0.0 ? u[i] + v[i] : u[i] - v[i];
-    } else if (m > n) {
-        std::copy_n(u, m + 1, out);
-        add_raised(v, n, m, sign, out);
-    } else {
-        for (int i = 0; i <= n; ++i) out[i] = sign > 0.0 ? v[i] : -v[i];
-        add_raised(u, m, n, 1.0, out);
     }
 }
 
@@ -93,6 +32,8 @@ Real divided(const Real& a, double by) {
         return quotient(a, Real(by));
     }
 }
+
+#include "alhazen/shapes/restricted_polynomial-inl.h"
 
 }  // namespace
 
@@ -228,44 +169,8 @@ Vec3 gradient_of(std::span<const Node> nodes, const Vec3& p) {
 template <class Real>
 void restrict_to(std::span<const Node> nodes, const Point3<Real>& p, const Point3<Real>& q,
                  Real* b) {
-    // Of every node the coefficients times binomials.
     Values<Real> all;
-    for (const Node& n : nodes) {
-        Real* out = all.data() + n.first;
-        const auto ends = [&](const Real& at_p, const Real& at_q) {
-            out[0] = at_p;
-            out[1] = at_q;
-        };
-        switch (n.op) {
-            case Op::Constant:
-                out[0] = constant_as<Real>(n.constant);
-                continue;
-            case Op::X:
-                ends(p.x, q.x);
-                continue;
-            case Op::Y:
-                ends(p.y, q.y);
-                continue;
-            case Op::Z:
-                ends(p.z, q.z);
-                continue;
-            default:
-                break;
-        }
-        const Node &left = nodes[n.a], &right = nodes[n.b];
-        const Real *u = all.data() + left.first, *v = all.data() + right.first;
-        if (n.op == Op::Multiply) {
-            multiply(u, left.degree, v, right.degree, out);
-        } else {
-            add(u, left.degree, v, right.degree, n.op == Op::Add ? 1.0 : -1.0, out);
-        }
-    }
-    const Node& root = nodes.back();
-    for (int i = 0; i <= root.degree; ++i) {
-        b[i] =
-            divided(all[static_cast<std::size_t>(root.first + i)],
-                    kBinomials[static_cast<std::size_t>(root.degree)][static_cast<std::size_t>(i)]);
-    }
+    restrict_nodes(nodes, p, q, all.data(), b);
 }
 
 ALHAZEN_FOR_EACH_INSTRUCTION_SET

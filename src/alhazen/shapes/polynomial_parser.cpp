@@ -1,6 +1,9 @@
 #include "alhazen/shapes/polynomial_parser.h"
 
+#include <algorithm>
+#include <bit>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 #include "alhazen/base/error.h"
@@ -47,10 +50,20 @@ class Parser {
         return true;
     }
 
+    /// What is there already, as the squares of coordinates often are, is computed once.
     std::uint16_t add(const Node& node) {
+        const auto known = std::find_if(nodes_.begin(), nodes_.end(),
+                                        [&](const Node& n) { return is_same(n, node); });
+        if (known != nodes_.end()) return static_cast<std::uint16_t>(known - nodes_.begin());
         if (nodes_.size() >= kMaxNodes) fail("the expression is too long");
         nodes_.push_back(node);
         return static_cast<std::uint16_t>(nodes_.size() - 1);
+    }
+    static bool is_same(const Node& a, const Node& b) {
+        const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+        return a.op == b.op && a.a == b.a && a.b == b.b &&
+               bits(a.constant.high) == bits(b.constant.high) &&
+               bits(a.constant.low) == bits(b.constant.low);
     }
     std::uint16_t constant(const DoubleDouble& value) {
         if (!std::isfinite(value.high)) fail("a constant is not finite");

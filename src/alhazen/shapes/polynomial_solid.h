@@ -223,14 +223,13 @@ bool begins_negative(const BernsteinPolynomial<double, N>& p) {
     return std::isfinite(total);
 }
 
-/// The first of the crossings that `intersect_segment` writes. Those behind it are only counted,
-/// for whether double is certain of all decides how the first is computed.
-template <class Polynomial>
-bool first_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
-                      const ClipSegment& s, bool capped, ShapeHit& hit) {
-    constexpr int N = Polynomial::kDegree;
-    BernsteinPolynomial<double, N> p;
-    restrict_to_segment(f, frame, ray, s, p);
+/// The first of the crossings that `intersect_segment` writes, of the polynomial in double. Those
+/// behind it are only counted, for whether double is certain of all decides how the first is
+/// computed.
+template <class Polynomial, int N>
+bool first_of_polynomial(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                         const ClipSegment& s, const BernsteinPolynomial<double, N>& p, bool capped,
+                         ShapeHit& hit) {
     if (capped && begins_negative(p) &&
         report_crossing(ray, {s.range.entry, 0, 0, s.range.entry_part}, &hit) > 0) {
         return true;
@@ -254,6 +253,14 @@ bool first_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& r
     return ends_inside && capped && report(s.range.exit, s.range.exit_part);
 }
 
+template <class Polynomial>
+bool first_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                      const ClipSegment& s, bool capped, ShapeHit& hit) {
+    BernsteinPolynomial<double, Polynomial::kDegree> p;
+    restrict_to_segment(f, frame, ray, s, p);
+    return first_of_polynomial(f, frame, ray, s, p, capped, hit);
+}
+
 /// A point of the frame moved onto f = 0, and how far it may still be from there.
 struct ProjectedPoint {
     Vec3 point;
@@ -274,6 +281,8 @@ ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
         const Vec3 step = (value / squared) * gradient;
         // Near a singular point Newton's step may lead anywhere: the point then stays.
         if (!(length(step) <= 1e-5 * size)) break;
+        // Shorter than what the point rounds anyway.
+        if (length(step) <= 0x1p-53 * max_component(abs(p))) break;
         const Vec3 next = p - step;
         if (next == p) break;
         p = next;

@@ -2,24 +2,14 @@
 
 #include "alhazen/base/instruction_sets.h"
 #include "alhazen/shapes/first_hit.h"
+#include "alhazen/shapes/first_hits.h"
 #include "alhazen/shapes/plain_surface.h"
-#include "alhazen/shapes/polynomial_solid.h"
+#include "alhazen/shapes/polynomial_lanes.h"
+#include "alhazen/shapes/torus_polynomial.h"
 
 namespace alhazen {
 
 namespace {
-
-/// The clip is this much larger than the torus, so that the line is outside at its ends for sure.
-constexpr double kRoom = 1.0 + 1.0 / 64;
-
-template <class Real>
-Real third() {
-    if constexpr (std::is_same_v<Real, double>) {
-        return 1.0 / 3.0;
-    } else {
-        return DoubleDouble(1.0 / 3.0, 0x1.5555555555555p-56);
-    }
-}
 
 /// Cuts the line to a cylinder's box around the torus. Where it is cut counts for nothing else, so
 /// that products with reciprocals will do.
@@ -37,58 +27,6 @@ bool cut_around(const Vec3& o, const Vec3& d, double reach, double height, ClipR
     // Nearer to the middle than the torus reaches.
     return length_squared(cross(o, d)) <= reach * reach * length_squared(d);
 }
-
-/// (x^2 + y^2 + z^2 + k)^2 - 4 (x^2 + y^2), k = 1 - r^2.
-struct TorusPolynomial {
-    static constexpr int kDegree = 4;
-    double r;
-
-    template <class Real>
-    [[nodiscard]] Real k() const {
-        return (Real(1.0) - Real(r)) * (Real(1.0) + Real(r));
-    }
-    template <class Real>
-    int coefficients(const Point3<Real>& p, const Point3<Real>& q, Real* b) const {
-        const Real b0 = p.x * p.x + p.y * p.y;
-        const Real b1 = p.x * q.x + p.y * q.y;
-        const Real b2 = q.x * q.x + q.y * q.y;
-        const Real a0 = b0 + p.z * p.z + k<Real>();
-        const Real a1 = b1 + p.z * q.z + k<Real>();
-        const Real a2 = b2 + q.z * q.z + k<Real>();
-        const Real two(2.0), four(4.0);
-        b[0] = a0 * a0 - four * b0;
-        b[1] = a0 * a1 - two * (b0 + b1);
-        b[2] = (a0 * a2 + two * (a1 * a1) - two * (b0 + four * b1 + b2)) * third<Real>();
-        b[3] = a1 * a2 - two * (b1 + b2);
-        b[4] = a2 * a2 - four * b2;
-        return 4;
-    }
-    template <class Real>
-    [[nodiscard]] Real value(const Point3<Real>& p) const {
-        const Real across = p.x * p.x + p.y * p.y;
-        const Real a = across + p.z * p.z + k<Real>();
-        return a * a - Real(4.0) * across;
-    }
-    [[nodiscard]] Vec3 gradient(const Vec3& p) const {
-        // Of the square of the distance to the circle, times what makes it that of the quartic.
-        const double across = std::hypot(p.x, p.y);
-        if (!(across > 0.0)) return {0.0, 0.0, 4.0 * p.z * (p.z * p.z + k<double>())};
-        const double radial = (across - 1.0) / across;
-        const double other = (across + 1.0) * (across + 1.0) + p.z * p.z - r * r;
-        const double own = (across - 1.0) * (across - 1.0) + p.z * p.z - r * r;
-        // f = own * other.
-        const Vec3 own_gradient{2.0 * p.x * radial, 2.0 * p.y * radial, 2.0 * p.z};
-        const double outer = (across + 1.0) / across;
-        const Vec3 other_gradient{2.0 * p.x * outer, 2.0 * p.y * outer, 2.0 * p.z};
-        return other * own_gradient + own * other_gradient;
-    }
-    [[nodiscard]] double magnitude() const {
-        const double reach = kRoom * (1.0 + r);
-        const double a = 3.0 * reach * reach + 1.0;
-        return a * a + 8.0 * reach * reach;
-    }
-    [[nodiscard]] double roundings() const { return 16.0; }
-};
 
 }  // namespace
 
@@ -129,7 +67,7 @@ namespace {
 
 /// Cuts the line to the surroundings of the torus.
 bool segment_of(const Torus& torus, const Ray& ray, ClipSegment& s) {
-    const double reach = kRoom * (1.0 + torus.tube), height = kRoom * torus.tube;
+    const double reach = kTorusRoom * (1.0 + torus.tube), height = kTorusRoom * torus.tube;
     const auto cut = [&](const Vec3& o, const Vec3& d, ClipRange& range) {
         return cut_around(o, d, reach, height, range);
     };
@@ -162,14 +100,37 @@ bool first_hit(const Torus& shape, const Ray& ray, ShapeHit& hit) {
 
 namespace {
 
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+double improved(const Torus& torus, const Ray& ray, std::size_t lane,
+                const PolynomialLanes& lanes) {
+    return improved_root_of_lane(TorusPolynomial{torus.tube}, torus.frame, ray, lane, lanes);
+}
+
+}  // namespace
+
+std::uint32_t first_hits(const Torus& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
+    return first_hits_in_lanes<TorusPolynomial::kDegree>(
+        rays, true, hits,
+        [&](const PolynomialKernels& kernels, const RayLanes& in, PolynomialLanes& lanes) {
+            kernels.torus(shape, in, lanes);
+        },
+        [&](const Ray& ray, std::size_t lane, const PolynomialLanes& lanes) {
+            return improved(shape, ray, lane, lanes);
+        },
+        [&](const Ray& ray, ShapeHit& hit) { return one_hit(shape, ray, hit); });
+}
+
+namespace {
+
 /// The nearest point of the tube: along the way to the circle. Right to some roundings of the
 /// coordinates, which `Torus::surface` counts.
-ProjectedPoint nearest_on_tube(const Vec3& p, double tube, const Vec3& back) {
+ProjectedPoint nearest_on_tube(const Vec3& p, double tube, const Vec3& direction) {
     const double across = std::sqrt(p.x * p.x + p.y * p.y);
     const double out = across - 1.0;
     const double distance = std::sqrt(out * out + p.z * p.z);
     // On the axis or on the circle there is no such way.
     if (!(across > 0.0 && distance > 0.0)) {
+        const Vec3 back = -1e-6 * tube * unit_or(direction, {0, 0, 1});
         return project_to_zero(TorusPolynomial{tube}, p, back);
     }
     const double scale = tube / distance;
@@ -180,8 +141,8 @@ ProjectedPoint nearest_on_tube(const Vec3& p, double tube, const Vec3& back) {
 
 ProjectedPoint point_on(const Torus& torus, const Ray& ray, const ShapeHit& hit) {
     const SolidFrame& frame = torus.frame;
-    const Vec3 d = unit_or(frame.local_from_object * ray.direction, {0, 0, 1});
-    return nearest_on_tube(frame.to_local(ray.at(hit.t)), torus.tube, -1e-6 * torus.tube * d);
+    return nearest_on_tube(frame.to_local(ray.at(hit.t)), torus.tube,
+                           frame.local_from_object * ray.direction);
 }
 
 ShapeSurface surface_at(const Torus& torus, const ProjectedPoint& at) {

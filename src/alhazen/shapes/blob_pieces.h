@@ -1,0 +1,194 @@
+#pragma once
+/// The pieces of a blob along a ray: where which component holds, and what it adds there.
+///
+/// Source: see blob.h. Differs: nothing. Conventions: internal to this folder. The parameter of a
+/// piece runs from a point of the ray near the blob.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "alhazen/math/bernstein_roots.h"
+#include "alhazen/math/interval.h"
+#include "alhazen/shapes/blob.h"
+#include "alhazen/shapes/shape_numerics.h"
+
+namespace alhazen::blob {
+
+template <class Real>
+inline constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
+
+/// Where a quadratic 1 - (distance / radius)^2 of a component holds along the ray.
+enum class Region : std::uint8_t { Base, Middle, Top };
+/// Where it does, and what it is there in double: peak - bend (t - middle)^2. Without bend that is
+/// not known.
+struct Bump {
+    Interval t;
+    double middle = 0, peak = 1, bend = 0;
+
+    [[nodiscard]] bool known() const { return bend > 0.0; }
+    [[nodiscard]] double largest(double t0, double t1) const {
+        const double off = std::clamp(middle, t0, t1) - middle;
+        return peak - bend * off * off;
+    }
+};
+struct Piece {
+    std::uint32_t component;
+    Region region;
+    double in, out;  ///< from the local origin
+    Bump bump;
+};
+template <class Real>
+struct Vec3Of {
+    Real x, y, z;
+};
+template <class Real>
+Vec3Of<Real> cross_of(const Vec3Of<Real>& a, const Vec3Of<Real>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class Real>
+Real dot_of(const Vec3Of<Real>& a, const Vec3Of<Real>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline double quotient(double a, double b) {
+    return a / b;
+}
+/// The ray from a point near the blob, and the polynomials along it.
+struct LocalRay {
+    const Blob& blob;
+    const Ray& given;
+    double shift = 0;
+    Vec3 o;
+    double far;  ///< size of the numbers that made o
+
+    LocalRay(const Blob& b, const Ray& ray) : blob(b), given(ray), o(ray.origin) {
+        const Vec3 from_center = ray.origin - b.bounds.center();
+        // Close by, the shift would only round away digits of a small t.
+        if (length_squared(from_center) > 4.0 * length_squared(b.bounds.size())) {
+            shift = -dot(from_center, ray.direction) / length_squared(ray.direction);
+            o = ray.origin + shift * ray.direction;
+        }
+        far = max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(ray.direction));
+    }
+
+    /// The point at t (from the local origin) relative to `center`.
+    template <class Real>
+    [[nodiscard]] Vec3Of<Real> from(const Vec3& center, double t) const {
+        const auto along = [&](int k) {
+            const Real start = Real(given.origin[k]) + Real(shift) * Real(given.direction[k]);
+            return (start - Real(center[k])) + Real(t) * Real(given.direction[k]);
+        };
+        return {along(0), along(1), along(2)};
+    }
+
+    /// Adds strength * q^2 of the piece, q its quadratic, in Bernstein form on [t0, t1].
+    template <class Real>
+    void add(const Piece& piece, double t0, double t1, BernsteinPolynomial<Real, 4>& sum) const {
+        const BlobComponent& c = blob.components[piece.component];
+        if constexpr (std::is_same_v<Real, double>) {
+            if (piece.bump.known()) {
+                const Bump& bump = piece.bump;
+                const double a = t0 - bump.middle, b = t1 - bump.middle;
+                return add_squared(piece, bump.peak - bump.bend * (a * a),
+                                   bump.peak - bump.bend * (a * b), bump.peak - bump.bend * (b * b),
+                                   sum);
+            }
+        }
+        const Vec3& center = piece.region == Region::Top ? c.top : c.base;
+        Vec3Of<Real> a = from<Real>(center, t0), b = from<Real>(center, t1);
+        Real scale = Real(c.radius) * Real(c.radius);
+        if (piece.region == Region::Middle) {
+            const Vec3Of<Real> e{Real(c.top.x) - Real(c.base.x), Real(c.top.y) - Real(c.base.y),
+                                 Real(c.top.z) - Real(c.base.z)};
+            a = cross_of(a, e);
+            b = cross_of(b, e);
+            scale = scale * dot_of(e, e);
+        }
+        // The blossom of the quadratic.
+        const Real q0 = Real(1.0) - quotient(dot_of(a, a), scale);
+        const Real q1 = Real(1.0) - quotient(dot_of(a, b), scale);
+        const Real q2 = Real(1.0) - quotient(dot_of(b, b), scale);
+        add_squared(piece, q0, q1, q2, sum);
+    }
+
+  private:
+    /// The square of a quadratic with these Bernstein coefficients.
+    template <class Real>
+    void add_squared(const Piece& piece, const Real& q0, const Real& q1, const Real& q2,
+                     BernsteinPolynomial<Real, 4>& sum) const {
+        const BlobComponent& c = blob.components[piece.component];
+        const Real s = c.strength;
+        sum.b[0] -= s * (q0 * q0);
+        sum.b[1] -= s * (q0 * q1);
+        sum.b[2] -= s * quotient(q0 * q2 + Real(2.0) * (q1 * q1), Real(3.0));
+        sum.b[3] -= s * (q1 * q2);
+        sum.b[4] -= s * (q2 * q2);
+        // Rounding of the points over the radius, of the quadratics, of the products.
+        const double span = piece.region == Region::Middle ? length(c.top - c.base) : 0.0;
+        const double point = 48.0 * (far + blob.reach + max_component(abs(o)) + span) / c.radius;
+        sum.error += kRounding<Real> * std::abs(c.strength) * (4.0 * point + 128.0);
+    }
+};
+
+/// Where the line, given by its least distance (at t = middle) from an axis or a centre and its
+/// speed across, is closer than the radius.
+inline Bump within(double middle, double distance, double radius, double speed) {
+    if (!(distance < radius)) return {};
+    const double room = (radius - distance) * (radius + distance);
+    const double half = std::sqrt(room) / speed, squared = radius * radius;
+    return {{middle - half, middle + half}, middle, room / squared, speed * speed / squared};
+}
+
+inline Bump within_ball(const LocalRay& ray, const Vec3& center, double radius) {
+    const Vec3 f = ray.o - center;
+    const Vec3& d = ray.given.direction;
+    const double dd = length_squared(d), middle = -dot(f, d) / dd;
+    return within(middle, length(f + middle * d), radius, std::sqrt(dd));
+}
+
+inline Bump within_rod(const LocalRay& ray, const BlobComponent& c) {
+    const Vec3 axis = unit_or(c.top - c.base, {0, 0, 1});
+    const Vec3 f = cross(ray.o - c.base, axis), d = cross(ray.given.direction, axis);
+    const double dd = length_squared(d);
+    if (dd <= 1e-24 * length_squared(ray.given.direction)) {
+        return {length(f) < c.radius ? Interval{-kInfinity, kInfinity} : Interval{}};
+    }
+    const double middle = -dot(f, d) / dd;
+    return within(middle, length(f + middle * d), c.radius, std::sqrt(dd));
+}
+
+/// What is common to both.
+inline Interval meeting(const Interval& a, const Interval& b) {
+    return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+
+inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
+    const BlobComponent& c = ray.blob.components[number];
+    constexpr Interval kWholeLine{-kInfinity, kInfinity};
+    const auto add = [&](Region region, const Interval& part, const Bump& bump) {
+        const Interval t = meeting(part, bump.t);
+        if (t.lo < t.hi && std::isfinite(t.lo) && std::isfinite(t.hi)) {
+            pieces.push_back({number, region, t.lo, t.hi, bump});
+        }
+    };
+    if (!c.rod) return add(Region::Base, kWholeLine, within_ball(ray, c.base, c.radius));
+    const Vec3 e = c.top - c.base;
+    const double start = dot(ray.o - c.base, e), speed = dot(ray.given.direction, e);
+    Interval before = kWholeLine, between = before, behind = before;
+    if (speed == 0.0) {
+        if (start >= 0.0) before = {};
+        if (start < 0.0 || start > length_squared(e)) between = {};
+        if (start <= length_squared(e)) behind = {};
+    } else {
+        const double at_base = -start / speed, at_top = (length_squared(e) - start) / speed;
+        between = {std::min(at_base, at_top), std::max(at_base, at_top)};
+        before = {-kInfinity, between.lo};
+        behind = {between.hi, kInfinity};
+        if (speed < 0.0) std::swap(before, behind);
+    }
+    add(Region::Base, before, within_ball(ray, c.base, c.radius));
+    add(Region::Middle, between, within_rod(ray, c));
+    add(Region::Top, behind, within_ball(ray, c.top, c.radius));
+}
+
+}  // namespace alhazen::blob

@@ -1,0 +1,205 @@
+#pragma once
+/// The first crossings of eight rays with one polynomial solid, side by side in lanes.
+///
+/// Source: polynomial_solid.h, the same operations in the same order. Differs: a kernel computes
+/// the segments and the coefficients of eight rays, says which of them miss, begin inside, or have
+/// a bracket around their first root from the signs of the coefficients alone, and refines the
+/// brackets; what is rarer is left to the scalar text. Conventions: internal to this folder. Bit i
+/// of a set of lanes stands for lane i. Every target gives the bits of the scalar text.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "alhazen/shapes/polynomial_solid.h"
+
+namespace alhazen {
+
+struct Algebraic;
+struct Torus;
+
+inline constexpr std::size_t kRayLanes = 8;
+inline constexpr std::uint32_t kAllRayLanes = (1u << kRayLanes) - 1;
+
+/// Eight rays in the frame of a shape's object; what is not used repeats the first.
+struct alignas(64) RayLanes {
+    double origin[3][kRayLanes], direction[3][kRayLanes];  ///< [axis][lane]
+    double t_min[kRayLanes], t_max[kRayLanes];
+
+    void set(std::size_t lane, const Ray& ray) {
+        for (int k = 0; k < 3; ++k) {
+            origin[k][lane] = ray.origin[k];
+            direction[k][lane] = ray.direction[k];
+        }
+        t_min[lane] = ray.t_min;
+        t_max[lane] = ray.t_max;
+    }
+};
+
+/// What the kernels know of the rays, lane by lane.
+struct alignas(64) PolynomialLanes {
+    static constexpr std::size_t kCoefficients = 13;
+
+    // Every row is a block that kernels load: nothing smaller between them.
+    // ---- the segments, as ClipSegment
+    double o[3][kRayLanes], d[3][kRayLanes];  ///< [axis][lane]
+    double entry[kRayLanes], exit[kRayLanes], shift[kRayLanes], relative_error[kRayLanes];
+    double entry_part[kRayLanes], exit_part[kRayLanes];  ///< whole numbers
+    // ---- the polynomials on them
+    double b[kCoefficients][kRayLanes], error[kRayLanes];
+    // ---- of the bracketed lanes
+    double lo[kRayLanes], hi[kRayLanes];
+    double sign_lo[kRayLanes];          ///< of the polynomial at lo: 1 or -1
+    double u[kRayLanes], t[kRayLanes];  ///< the root, once refined
+    int degree;
+    // ---- what is known of the first crossing; what is in no set is to be searched
+    std::uint32_t unsure;     ///< not even the segment is known
+    std::uint32_t missed;     ///< there is none
+    std::uint32_t at_entry;   ///< it is where the segment begins
+    std::uint32_t bracketed;  ///< it is the one sign change between lo and hi, if the ray covers it
+    std::uint32_t steep;      ///< t is right to about its rounding, and covered by the ray
+
+    [[nodiscard]] ClipSegment segment(std::size_t lane) const {
+        ClipSegment s;
+        s.o = {o[0][lane], o[1][lane], o[2][lane]};
+        s.d = {d[0][lane], d[1][lane], d[2][lane]};
+        s.range = {entry[lane], exit[lane], static_cast<std::uint32_t>(entry_part[lane]),
+                   static_cast<std::uint32_t>(exit_part[lane])};
+        s.shift = shift[lane];
+        s.relative_error = relative_error[lane];
+        return s;
+    }
+    template <int N>
+    void polynomial(std::size_t lane, BernsteinPolynomial<double, N>& p) const {
+        p.degree = degree;
+        p.error = error[lane];
+        for (int i = 0; i <= degree; ++i) {
+            p.b[static_cast<std::size_t>(i)] = b[i][lane];
+        }
+    }
+};
+
+/// Those of one instruction set.
+struct PolynomialKernels {
+    /// Segments, coefficients and what follows from their signs.
+    void (*torus)(const Torus&, const RayLanes&, PolynomialLanes&);
+    void (*algebraic)(const Algebraic&, const RayLanes&, PolynomialLanes&);
+    /// Refines the roots of the bracketed lanes.
+    void (*refine)(const RayLanes&, PolynomialLanes&);
+};
+
+/// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
+[[nodiscard]] const PolynomialKernels& polynomial_kernels();
+
+/// The first wanted sign change is left unrefined where the ray covers all before it: its bracket
+/// is remembered.
+class FirstBracket {
+  public:
+    explicit FirstBracket(const CoveredSignChanges& covered) : inner_(covered) {}
+
+    void begin() {
+        inner_.begin();
+        known_ = false;
+    }
+    [[nodiscard]] bool wants(double lo, double hi) {
+        const bool wanted = inner_.wants(lo, hi);
+        if (!wanted || known_ || !inner_.found() || inner_.asked() != 1) return wanted;
+        known_ = true;
+        lo_ = lo;
+        hi_ = hi;
+        return false;
+    }
+    [[nodiscard]] bool known() const { return known_; }
+    [[nodiscard]] double lo() const { return lo_; }
+    [[nodiscard]] double hi() const { return hi_; }
+
+  private:
+    UpToFirstCovered inner_;
+    bool known_ = false;
+    double lo_ = 0, hi_ = 1;
+};
+
+/// The search of a lane whose signs leave open where the first crossing is. True when the lane is
+/// bracketed now.
+template <int N>
+bool search_lane(const Ray& ray, bool capped, std::size_t lane, PolynomialLanes& lanes) {
+    const ClipSegment s = lanes.segment(lane);
+    BernsteinPolynomial<double, N> p;
+    lanes.polynomial(lane, p);
+    SignChanges<N> changes;
+    const CoveredSignChanges covered{ray, s.range};
+    FirstBracket wanted(covered);
+    const bool certain = find_sign_changes(p, changes, wanted);
+    if (!certain || !wanted.known() || (capped && changes.negative_at_start)) return false;
+    lanes.lo[lane] = wanted.lo();
+    lanes.hi[lane] = wanted.hi();
+    lanes.sign_lo[lane] = changes.negative_at_start ? -1.0 : 1.0;
+    lanes.bracketed |= 1u << lane;
+    return true;
+}
+
+/// The root of a lane that was refined but is not steep enough: see `improved_root`.
+template <class Polynomial>
+double improved_root_of_lane(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                             std::size_t lane, const PolynomialLanes& lanes) {
+    constexpr int N = Polynomial::kDegree;
+    const ClipSegment s = lanes.segment(lane);
+    const CoveredSignChanges covered{ray, s.range};
+    BernsteinPolynomial<double, N> p;
+    lanes.polynomial(lane, p);
+    SignChanges<N> changes;
+    changes.u[0] = lanes.u[lane];
+    changes.lo[0] = lanes.lo[lane];
+    changes.hi[0] = lanes.hi[lane];
+    return improved_root(f, frame, ray, covered, p, changes, 0);
+}
+
+/// Calls f(lane) for each of a set.
+template <class F>
+void for_each_lane(std::uint32_t set, F&& f) {
+    for (; set != 0; set &= set - 1) f(static_cast<std::size_t>(std::countr_zero(set)));
+}
+
+/// The first crossings of up to eight rays with a solid of a degree up to N: the set of those that
+/// hit. `begin(kernels, in, lanes)` calls the kernel of the shape, `improve(ray, lane, lanes)` is
+/// `improved_root_of_lane`, and `alone(ray, hit)` the scalar text.
+template <int N, class Begin, class Improve, class Alone>
+std::uint32_t first_hits_in_lanes(std::span<const Ray* const> rays, bool capped, ShapeHit* hits,
+                                  Begin&& begin, Improve&& improve, Alone&& alone) {
+    const PolynomialKernels& kernels = polynomial_kernels();
+    RayLanes in;
+    PolynomialLanes lanes;
+    for (std::size_t i = 0; i < kRayLanes; ++i) in.set(i, *rays[i < rays.size() ? i : 0]);
+    const std::uint32_t used = kAllRayLanes >> (kRayLanes - rays.size());
+    begin(kernels, in, lanes);
+    std::uint32_t hit = used & lanes.at_entry;
+    const auto ask_alone = [&](std::size_t i) {
+        if (alone(*rays[i], hits[i])) hit |= 1u << i;
+    };
+    for_each_lane(hit, [&](std::size_t i) {
+        hits[i] = {lanes.entry[i], 0, 0, static_cast<std::uint32_t>(lanes.entry_part[i])};
+    });
+    for_each_lane(used & lanes.unsure, ask_alone);
+    for_each_lane(used & ~(lanes.unsure | lanes.missed | lanes.at_entry | lanes.bracketed),
+                  [&](std::size_t i) {
+                      if (!search_lane<N>(*rays[i], capped, i, lanes)) ask_alone(i);
+                  });
+    lanes.bracketed &= used;
+    if (lanes.bracketed == 0) return hit;
+    kernels.refine(in, lanes);
+    hit |= lanes.bracketed & lanes.steep;
+    for_each_lane(lanes.bracketed & lanes.steep, [&](std::size_t i) {
+        hits[i] = {lanes.t[i], 0, 0, 0};
+    });
+    for_each_lane(lanes.bracketed & ~lanes.steep, [&](std::size_t i) {
+        if (report_crossing(*rays[i], {improve(*rays[i], i, lanes), 0, 0, 0}, hits + i) > 0) {
+            hit |= 1u << i;
+        } else {
+            ask_alone(i);  // what comes behind it
+        }
+    });
+    return hit;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,432 @@
+/// The first sign changes of eight polynomials in Bernstein form, side by side in lanes.
+///
+/// Source: math/bernstein_roots.h and shapes/polynomial_solid.h, the same operations in the same
+/// order. Differs: only what is certain from the signs is found here; see polynomial_lanes.h.
+/// Conventions: included once per target (see simd/lanes-inl.h); internal to this folder.
+
+#if defined(ALHAZEN_SHAPES_POLYNOMIAL_ROOTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SHAPES_POLYNOMIAL_ROOTS_INL_H_
+#undef ALHAZEN_SHAPES_POLYNOMIAL_ROOTS_INL_H_
+#else
+#define ALHAZEN_SHAPES_POLYNOMIAL_ROOTS_INL_H_
+#endif
+
+#include <algorithm>
+#include <limits>
+
+#include "alhazen/shapes/polynomial_lanes.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+static_assert(kRayLanes == kLaneCount);
+
+using Mask = LaneMask<double>;
+
+HWY_INLINE Doubles select(const Mask& mask, const Doubles& yes, const Doubles& no) {
+    Doubles r;
+    ALHAZEN_UNROLL
+    for (std::size_t i = 0; i < kParts<double>; ++i) {
+        r.part[i] = hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]);
+    }
+    return r;
+}
+HWY_INLINE Mask operator!(const Mask& mask) {
+    Mask r;
+    ALHAZEN_UNROLL
+    for (std::size_t i = 0; i < kParts<double>; ++i) r.part[i] = hn::Not(mask.part[i]);
+    return r;
+}
+HWY_INLINE bool none(const Mask& mask) {
+    bool r = true;
+    for (std::size_t i = 0; i < kParts<double>; ++i) {
+        r = r && hn::AllFalse(LaneTag<double>(), mask.part[i]);
+    }
+    return r;
+}
+HWY_INLINE Mask is_finite(const Doubles& a) {
+    return abs(a) < Doubles(std::numeric_limits<double>::infinity());
+}
+
+HWY_INLINE Mask mask_of(std::uint32_t lanes) {
+    const LaneTag<double> d;
+    Mask r;
+    for (std::size_t i = 0; i < kParts<double>; ++i) {
+        const std::uint8_t bits[8] = {static_cast<std::uint8_t>(lanes >> (i * hn::Lanes(d)))};
+        r.part[i] = hn::LoadMaskBits(d, bits);
+    }
+    return r;
+}
+
+/// The degree: a constant where it is N <= 6.
+template <int N>
+HWY_INLINE int degree_of(const PolynomialLanes& lanes) {
+    return N <= 6 ? N : lanes.degree;
+}
+
+/// Polynomials with coefficients times binomials: see ScaledPolynomial.
+template <int N>
+struct ScaledLanes {
+    Doubles s[N + 1];
+    int n;
+
+    HWY_INLINE explicit ScaledLanes(const PolynomialLanes& lanes) : n(degree_of<N>(lanes)) {
+        const double* row = bernstein::kBinomials<N>[static_cast<std::size_t>(n)].data();
+        for (int i = 0; i <= n; ++i) s[i] = Doubles(row[i]) * load_lanes(lanes.b[i]);
+    }
+    HWY_INLINE void mirror(const Mask& mirrored) {
+        for (int i = 0; i <= (n - 1) / 2; ++i) {
+            const Doubles a = s[i], b = s[n - i];
+            s[i] = select(mirrored, b, a);
+            s[n - i] = select(mirrored, a, b);
+        }
+    }
+    HWY_INLINE void operator()(const Doubles& w, Doubles& value, Doubles& slope) const {
+        value = s[n];
+        slope = Doubles(0.0);
+        for (int i = n - 1; i >= 0; --i) {
+            slope = slope * w + value;
+            value = value * w + s[i];
+        }
+    }
+};
+
+/// A polynomial on a part of each segment, with the signs at its ends.
+template <int N>
+struct LanePart {
+    Doubles b[N + 1], error;
+    Doubles lo, hi, first;  ///< the part, and the sign at lo: 1 or -1
+};
+
+/// Lanes in which the signs change at least once and at least twice; `known`, those in which no
+/// sign is in doubt.
+struct LaneSigns {
+    std::uint32_t one = 0, two = 0, known = kAllLanes;
+};
+template <int N>
+HWY_INLINE LaneSigns signs_of(const Doubles* b, int n, const Doubles& error) {
+    LaneSigns signs;
+    std::uint32_t before = bits_of(b[0] < Doubles(0.0));
+    Mask known = abs(b[0]) > error;
+    for (int i = 1; i <= n; ++i) {
+        known = known & (abs(b[i]) > error);
+        const std::uint32_t now = bits_of(b[i] < Doubles(0.0)), change = now ^ before;
+        signs.two |= signs.one & change;
+        signs.one |= change;
+        before = now;
+    }
+    signs.known = bits_of(known);
+    return signs;
+}
+
+/// Where the coefficients are most unlike the first one, and the largest magnitude: see `extremes`.
+template <int N>
+HWY_INLINE Doubles most_unlike(const Doubles* b, int n, const Doubles& first, Doubles& largest) {
+    Doubles lowest(0.0), middle(0.5);
+    largest = max_lanes(abs(b[0]), abs(b[n]));
+    for (int i = 1; i < n; ++i) {
+        largest = max_lanes(largest, abs(b[i]));
+        const Doubles value = first * b[i];
+        const Mask lower = value < lowest;
+        lowest = select(lower, value, lowest);
+        const double place = std::clamp(static_cast<int>(8.0 * i / n + 0.5), 1, 7) / 8.0;
+        middle = select(lower, Doubles(place), middle);
+    }
+    return middle;
+}
+
+/// Of lanes whose coefficients change their sign twice: those where a place between the changes is
+/// found, as by `found_between`; it becomes `hi`.
+template <int N>
+HWY_INLINE std::uint32_t find_between(const PolynomialLanes& lanes, const Doubles& first,
+                                      Doubles& hi) {
+    const int n = degree_of<N>(lanes);
+    Doubles b[N + 1], largest;
+    for (int i = 0; i <= n; ++i) b[i] = load_lanes(lanes.b[i]);
+    const Doubles middle = most_unlike<N>(b, n, first, largest);
+    const Mask mirrored = middle > Doubles(0.5);
+    const Doubles rest = Doubles(1.0) - middle;
+    const Doubles far = select(mirrored, middle, rest), near = select(mirrored, rest, middle);
+    Doubles value, slope;
+    ScaledLanes<N> q(lanes);
+    q.mirror(mirrored);
+    q(near / far, value, slope);
+    Doubles scale(1.0);
+    for (int i = 1; i <= n; ++i) scale = scale * far;
+    const Doubles error = load_lanes(lanes.error) + Doubles(4.0 * n * 0x1p-52) * largest;
+    hi = middle;
+    return bits_of(-first * value * scale > error);
+}
+
+/// As `split`.
+template <int N>
+HWY_INLINE void split(const LanePart<N>& part, int n, const Doubles& r, Doubles* left,
+                      Doubles* right) {
+    const Doubles rest = Doubles(1.0) - r;
+    for (int i = 0; i <= n; ++i) right[i] = part.b[i];
+    left[0] = right[0];
+    for (int k = 1; k <= n; ++k) {
+        for (int i = 0; i <= n - k; ++i) right[i] = rest * right[i] + r * right[i + 1];
+        left[k] = right[0];
+    }
+}
+
+/// The parameters at u: see CoveredSignChanges.
+HWY_INLINE Doubles parameter_at(const PolynomialLanes& lanes, const Doubles& u) {
+    const Doubles entry = load_lanes(lanes.entry), exit = load_lanes(lanes.exit);
+    const Doubles along = entry + u * (exit - entry);
+    return select(exit < along, exit, along);
+}
+
+/// The brackets that a search finds.
+struct LaneBrackets {
+    Doubles lo, hi, sign;
+    std::uint32_t known = 0;
+
+    HWY_INLINE void set(std::uint32_t lanes, const Doubles& l, const Doubles& h, const Doubles& s) {
+        const Mask mask = mask_of(lanes);
+        lo = select(mask, l, lo);
+        hi = select(mask, h, hi);
+        sign = select(mask, s, sign);
+        known |= lanes;
+    }
+};
+
+/// As `search` where no sign is in doubt and of both sides of a split one has no more than one
+/// change: of `wanted` the lanes in which it is done. The first brackets that do not end before the
+/// rays begin are in `found`; lanes without one have no change of sign there.
+template <int N>
+HWY_NOINLINE std::uint32_t search(std::uint32_t wanted, const RayLanes& rays,
+                                  const PolynomialLanes& lanes, LanePart<N>& part,
+                                  LaneBrackets& found) {
+    const int n = degree_of<N>(lanes);
+    const auto reached = [&](const Doubles& u) HWY_ATTR {
+        return bits_of(parameter_at(lanes, u) >= load_lanes(rays.t_min));
+    };
+    constexpr int kMostSplits = 12;
+    const Doubles least_part(0x1p-52), unit(1.0);
+    LaneBrackets later;  // the lowest of those to the right of a part that is still searched
+    later.lo = later.hi = later.sign = found.lo = found.hi = found.sign = unit;
+    std::uint32_t active = wanted, done = 0;
+    for (int i = 0; i < kMostSplits && active != 0; ++i) {
+        Doubles largest, left[N + 1], right[N + 1];
+        const Doubles r = most_unlike<N>(part.b, n, part.first, largest);
+        const Doubles size = part.hi - part.lo;
+        const Mask divisible = (size > least_part) & !(largest <= Doubles(8.0) * part.error);
+        split(part, n, r, left, right);
+        part.error = part.error + Doubles(n * 0x1p-52) * largest;
+        const LaneSigns l = signs_of<N>(left, n, part.error), g = signs_of<N>(right, n, part.error);
+        active &= l.known & g.known & ~(l.two & g.two) & bits_of(divisible);
+        const Doubles middle = part.lo + r * size;
+        const Doubles sign = select(right[0] < Doubles(0.0), -unit, unit);
+        const std::uint32_t to_right = active & ~l.two & g.two, to_left = active & l.two;
+        const std::uint32_t open = active & ~found.known, to_end = reached(part.hi);
+        const std::uint32_t in_left = open & l.one & ~l.two & reached(middle);
+        found.set(in_left, part.lo, middle, part.first);
+        found.set(open & ~in_left & ~l.two & g.one & ~g.two & to_end, middle, part.hi, sign);
+        later.set(open & to_left & g.one & to_end, middle, part.hi, sign);
+        done |= active & ~(to_left | to_right);
+        active = to_left | to_right;
+        const Mask leftward = mask_of(to_left), rightward = mask_of(to_right);
+        for (int k = 0; k <= n; ++k) {
+            part.b[k] = select(leftward, left[k], select(rightward, right[k], part.b[k]));
+        }
+        part.hi = select(leftward, middle, part.hi);
+        part.lo = select(rightward, middle, part.lo);
+        part.first = select(rightward, sign, part.first);
+    }
+    found.set(done & later.known & ~found.known, later.lo, later.hi, later.sign);
+    return done;
+}
+
+/// What the signs of the coefficients tell of the first crossing.
+template <int N>
+HWY_INLINE void classify(const RayLanes& rays, bool capped, PolynomialLanes& lanes) {
+    const int n = degree_of<N>(lanes);
+    const Doubles error = load_lanes(lanes.error), entry = load_lanes(lanes.entry);
+    Doubles total = error;
+    Mask known = error >= Doubles(0.0);
+    std::uint32_t negative = 0, starts_negative = 0;
+    std::uint32_t one = 0, two = 0, three = 0;  // so many changes of sign and more
+    for (int i = 0; i <= n; ++i) {
+        const Doubles b = load_lanes(lanes.b[i]), size = abs(b);
+        total = total + size;
+        known = known & (size > error);
+        const std::uint32_t now = bits_of(b < Doubles(0.0)), change = now ^ negative;
+        negative = now;
+        if (i == 0) {
+            starts_negative = now;
+            continue;
+        }
+        three |= two & change;
+        two |= one & change;
+        one |= change;
+    }
+    const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
+    const Mask finite = is_finite(total);
+    // The parameter at the start of the search is the entry: +0 where that is -0, which is as good.
+    const std::uint32_t covered = bits_of((t_min <= entry) & (entry <= t_max) & is_finite(entry));
+    lanes.at_entry = 0;
+    if (capped) {
+        const Mask negative_start = load_lanes(lanes.b[0]) < Doubles(-2.0) * error;
+        lanes.at_entry =
+            ~(lanes.missed | lanes.unsure) & covered & bits_of(negative_start & finite);
+    }
+    const std::uint32_t plain =
+        ~(lanes.missed | lanes.unsure | lanes.at_entry) & bits_of(known & finite);
+    lanes.missed |= plain & ~one & ~starts_negative;
+    // A cap at the start comes before what follows.
+    const std::uint32_t behind_cap = capped ? starts_negative & covered : 0;
+    lanes.bracketed = plain & one & ~two & ~behind_cap;
+    const Doubles first =
+        select(load_lanes(lanes.b[0]) < Doubles(0.0), Doubles(-1.0), Doubles(1.0));
+    // What follows the last change: nothing, unless a cap does.
+    const std::uint32_t ends = ~(capped ? negative : 0);
+    lanes.last = lanes.bracketed & ends;
+    LaneBrackets found;
+    found.lo = Doubles(0.0);
+    found.hi = Doubles(1.0);
+    found.sign = first;
+    std::uint32_t several = plain & two & ~behind_cap;
+    if (const std::uint32_t twice = several & ~three; twice != 0) {
+        Doubles middle;
+        const std::uint32_t between = twice & find_between<N>(lanes, first, middle);
+        const std::uint32_t before = between & bits_of(parameter_at(lanes, middle) < t_min);
+        found.set(between & ~before, found.lo, middle, first);
+        found.set(before, middle, found.hi, -first);
+        lanes.bracketed |= between;
+        lanes.last |= before & ends;
+        several &= ~between;
+    }
+    if (several != 0) {
+        LanePart<N> whole;
+        for (int i = 0; i <= n; ++i) whole.b[i] = load_lanes(lanes.b[i]);
+        whole.error = error;
+        whole.lo = Doubles(0.0);
+        whole.hi = Doubles(1.0);
+        whole.first = first;
+        LaneBrackets searched;
+        const std::uint32_t done = search<N>(several, rays, lanes, whole, searched);
+        found.set(done & searched.known, searched.lo, searched.hi, searched.sign);
+        lanes.bracketed |= done & searched.known;
+        lanes.missed |= done & ~searched.known & ends;
+    }
+    store_lanes(found.lo, lanes.lo);
+    store_lanes(found.hi, lanes.hi);
+    store_lanes(found.sign, lanes.sign_lo);
+}
+
+/// As `bracketed_newton`; what comes out of lanes that are not `wanted` is nothing.
+template <int N>
+HWY_INLINE Doubles newton(const ScaledLanes<N>& f, Doubles lo, Doubles hi, const Doubles& sign_lo,
+                          const Doubles& guess, const Mask& wanted) {
+    Doubles x = guess, result = guess;
+    Doubles last_step = hi - lo;
+    Mask running = wanted;
+    Mask finishing = !(running | !running);
+    for (int i = 0; i < 200; ++i) {
+        Doubles value, slope;
+        f(x, value, slope);
+        Doubles next = x - value / slope;
+        Mask within = (next >= lo) & (next <= hi);
+        // The one more step of those that have come near.
+        result = select(finishing, select(within, next, x), result);
+        running = running & !finishing;
+        const Mask positive = value > Doubles(0.0), differs = positive | (value < Doubles(0.0));
+        const Mask nan = !(value >= value);
+        const Mask at_root = running & !(differs | nan);
+        result = select(at_root, x, result);
+        running = running & !at_root;
+        if (none(running)) return result;
+        const Mask below = value * sign_lo > Doubles(0.0);
+        lo = select(below, x, lo);
+        hi = select(below, hi, x);
+        const Doubles half = Doubles(0.5) * (lo + hi);
+        within = (next >= lo) & (next <= hi);
+        next = select(within, next, half);
+        const Doubles step = abs(next - x);
+        if (i > 2) next = select(step > Doubles(0.5) * last_step, half, next);
+        const Mask fast = (step <= Doubles(1e-9) * abs(x)) & (step <= Doubles(1e-4) * last_step);
+        last_step = abs(next - x);
+        x = next;
+        const Doubles size = abs(x);
+        const Mask near = running & (fast | (last_step <= Doubles(0x1p-52) * size));
+        const Mask done = (near & (last_step <= Doubles(0x1p-51) * size)) |
+                          (running & !near & !(hi - lo > Doubles(0x1p-53) * hi));
+        result = select(done, x, result);
+        running = running & !done;
+        finishing = near & running;
+        if (none(running)) return result;
+    }
+    return select(running, x, result);
+}
+
+/// As `polish`.
+template <int N>
+HWY_INLINE Doubles polished(const PolynomialLanes& lanes, const Mask& wanted) {
+    const Doubles half(0.5), unit(1.0);
+    Doubles lo = load_lanes(lanes.lo), hi = load_lanes(lanes.hi);
+    const Doubles sign_lo = load_lanes(lanes.sign_lo);
+    const Mask across = (lo < half) & (hi > half);
+    ScaledLanes<N> q(lanes);
+    Doubles value, slope;
+    if (!none(across & wanted)) {
+        q(unit, value, slope);
+        const Mask below = value * sign_lo > Doubles(0.0);
+        lo = select(across & below, half, lo);
+        hi = select(across & !below, half, hi);
+    }
+    const Mask mirrored = !(hi <= half);
+    q.mirror(mirrored);
+    const Doubles near = select(mirrored, unit - hi, lo), near_by = select(mirrored, hi, unit - lo);
+    const Doubles far = select(mirrored, unit - lo, hi), far_by = select(mirrored, lo, unit - hi);
+    const Doubles w_lo = near / near_by, w_hi = far / far_by;
+    const Doubles sign = select(mirrored, -sign_lo, sign_lo);
+    Doubles f_lo, f_hi;
+    q(w_lo, f_lo, slope);
+    f_lo = select(w_lo > Doubles(0.0), f_lo, q.s[0]);
+    q(w_hi, f_hi, slope);
+    Doubles guess = w_lo + (w_hi - w_lo) * (f_lo / (f_lo - f_hi));
+    guess = select((guess >= w_lo) & (guess <= w_hi), guess, half * (w_lo + w_hi));
+    const Doubles w = newton(q, w_lo, w_hi, sign, guess, wanted);
+    return select(mirrored, unit, w) / (unit + w);
+}
+
+/// The slope at u, as `evaluate` has it.
+template <int N>
+HWY_INLINE Doubles slope_at(const PolynomialLanes& lanes, const Doubles& u) {
+    const int n = degree_of<N>(lanes);
+    const Doubles rest = Doubles(1.0) - u;
+    Doubles row[N + 1];
+    for (int i = 0; i <= n; ++i) row[i] = load_lanes(lanes.b[i]);
+    for (int k = n; k > 1; --k) {
+        for (int i = 0; i < k; ++i) row[i] = rest * row[i] + u * row[i + 1];
+    }
+    return Doubles(static_cast<double>(n)) * (row[1] - row[0]);
+}
+
+template <int N>
+void refine_degree(const RayLanes& rays, PolynomialLanes& lanes) {
+    const Doubles lo = load_lanes(lanes.lo), hi = load_lanes(lanes.hi);
+    Doubles u = polished<N>(lanes, mask_of(lanes.bracketed));
+    u = select(u < lo, lo, select(hi < u, hi, u));
+    const Doubles t = parameter_at(lanes, u);
+    Doubles largest(0.0);
+    for (int i = 0; i <= degree_of<N>(lanes); ++i) {
+        largest = max_lanes(largest, abs(load_lanes(lanes.b[i])));
+    }
+    const Mask steep = abs(slope_at<N>(lanes, u)) >= Doubles(kSteepEnough) * largest;
+    const Mask covered = (load_lanes(rays.t_min) <= t) & (t <= load_lanes(rays.t_max));
+    store_lanes(u, lanes.u);
+    store_lanes(t, lanes.t);
+    lanes.steep = bits_of(steep);
+    lanes.covered = bits_of(covered & is_finite(t));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

@@ -1,0 +1,188 @@
+// The first crossings of rays side by side are those of each ray alone, bit for bit.
+
+#include "alhazen/shapes/first_hits.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <sstream>
+
+#include "alhazen/shapes/first_hit.h"
+#include "alhazen/simd/targets.h"
+#include "support/random_shapes.h"
+
+namespace alhazen {
+namespace {
+
+using testing::Random;
+
+std::string to_text(const Ray& ray) {
+    std::ostringstream out;
+    out << std::hexfloat << "origin " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
+        << " direction " << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z
+        << " t " << ray.t_min << " " << ray.t_max;
+    return out.str();
+}
+
+bool same_bits(const ShapeHit& a, const ShapeHit& b) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    return bits(a.t) == bits(b.t) && bits(a.u) == bits(b.u) && bits(a.v) == bits(b.v) &&
+           a.part == b.part;
+}
+
+/// A ray of one of many kinds: from outside, inside, far off, grazing, along an axis with zeros of
+/// either sign, of a range that begins or ends anywhere, of any length.
+Ray any_ray(const Box3& box, Random& random) {
+    Vec3 target;
+    for (int k = 0; k < 3; ++k) target[k] = random.uniform(box.lo[k], box.hi[k]);
+    const double size = length(box.size());
+    Vec3 direction = random.log_uniform(1e-3, 1e3) * random.unit_vector();
+    const int kind = random.below(6);
+    if (kind == 0) {  // along an axis or in a plane of two, the rest zeros of either sign
+        const int axis = random.below(3);
+        for (int k = 0; k < 3; ++k) {
+            if (k != axis && random.below(3) != 0) direction[k] = random.coin() ? 0.0 : -0.0;
+        }
+    }
+    if (kind == 1) {  // along a face of the box or through its middle
+        const int axis = random.below(3);
+        target[axis] = random.coin() ? box.lo[axis] : 0.5 * (box.lo[axis] + box.hi[axis]);
+        if (random.coin()) direction[axis] = 0.0;
+        if (!(length(direction) > 0.0)) direction[(axis + 1) % 3] = 1.0;
+    }
+    const double distance[] = {0.0, 0.5, 3.0, 100.0, 1e5, 1e9};
+    const double away = distance[random.below(6)] * size / length(direction);
+    Ray ray{target - away * direction, direction};
+    if (random.below(4) == 0) ray.t_min = -std::numeric_limits<double>::infinity();
+    if (random.below(5) == 0) ray.t_min = random.uniform(-0.1, 1.1) * away;
+    if (random.below(5) == 0) ray.t_max = ray.t_min + random.uniform(0, 2) * (away + 0.1);
+    return ray;
+}
+
+/// Checks eight rays, the first `count` of them side by side; how many of these hit.
+template <class S>
+int check_block(const S& shape, const std::array<Ray, 8>& rays, std::size_t count) {
+    std::array<const Ray*, 8> pointers;
+    for (std::size_t i = 0; i < 8; ++i) pointers[i] = &rays[i];
+    std::array<ShapeHit, 8> hits;
+    const std::uint32_t found = first_hits(shape, std::span(pointers).first(count), hits.data());
+    EXPECT_EQ(found >> count, 0u);
+    for (std::size_t i = 0; i < count; ++i) {
+        ShapeHit alone;
+        const bool hit = find_first_hit(shape, rays[i], alone);
+        EXPECT_EQ(hit, (found >> i & 1) != 0) << S::kName << " " << to_text(rays[i]);
+        if (!hit || (found >> i & 1) == 0) continue;
+        EXPECT_TRUE(same_bits(alone, hits[i]))
+            << S::kName << " " << to_text(rays[i]) << " t " << hits[i].t << " expected " << alone.t;
+    }
+    return std::popcount(found);
+}
+
+/// Blocks of rays of all kinds, and of rays that go nearly the same way.
+template <class S>
+int check_shape(const S& shape, Random& random, int blocks) {
+    int hit_count = 0;
+    for (int block = 0; block < blocks && !::testing::Test::HasFailure(); ++block) {
+        std::array<Ray, 8> rays;
+        const Ray first = any_ray(shape.box(), random);
+        const bool alike = random.coin();
+        const double spread = alike ? random.log_uniform(1e-9, 0.3) : 0.0;
+        for (Ray& ray : rays) {
+            ray = alike ? first : any_ray(shape.box(), random);
+            if (alike) {
+                ray.direction += spread * length(ray.direction) * random.unit_vector();
+            }
+        }
+        hit_count += check_block(shape, rays, 1 + static_cast<std::size_t>(block) % 8);
+    }
+    return hit_count;
+}
+
+template <class S>
+void check_random_shapes(std::uint64_t seed) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        Random random(seed);
+        int hit_count = 0;
+        for (int i = 0; i < 100 && !::testing::Test::HasFailure(); ++i) {
+            SCOPED_TRACE(target + ", seed " + std::to_string(seed) + ", shape " +
+                         std::to_string(i));
+            hit_count += check_shape(testing::random_shape<S>({random, i % 2 == 1}), random, 40);
+        }
+        EXPECT_GT(hit_count, 3000) << S::kName;
+    }
+}
+
+TEST(FirstHits, OfToriAreThoseOfEachRayAlone) {
+    check_random_shapes<Torus>(1);
+}
+
+TEST(FirstHits, OfBlobsAreThoseOfEachRayAlone) {
+    check_random_shapes<Blob>(5);
+}
+
+TEST(FirstHits, OfAlgebraicSurfacesAreThoseOfEachRayAlone) {
+    check_random_shapes<Algebraic>(2);
+}
+
+Algebraic surface(const char* expression, double side, bool capped) {
+    Algebraic shape;
+    shape.expression = expression;
+    shape.clip_box = {{-side, -side, -side}, {side, side, side}};
+    shape.capped = capped;
+    shape.prepare();
+    return shape;
+}
+
+TEST(FirstHits, OfSurfacesOfEveryDegreeAreThoseOfEachRayAlone) {
+    const char* barth =
+        "4*(2.618033988749895*x^2 - y^2)*(2.618033988749895*y^2 - z^2)"
+        "*(2.618033988749895*z^2 - x^2) - 4.23606797749979*(x^2 + y^2 + z^2 - 1)^2";
+    const char* expressions[] = {"x + 2*y - z",
+                                 "x^2 + y^2 - z^2 - 0.1",
+                                 "x^2 + y^2 - x^2*z + y^2*z + z^2 - 1",
+                                 "x^4 + y^4 + z^4 - 1.5*(x^2 + y^2 + z^2) + 0.3*x*y*z + 0.9",
+                                 "x^5 - y^2 + z^3 - 0.2*x",
+                                 barth,
+                                 "x^8 + y^8 + z^8 - x^2*y^2*z^3 - 0.5",
+                                 "(x^4 + y^4 + z^4 - 1)^3 - (x*y*z)^4"};
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        SCOPED_TRACE(target);
+        Random random(3);
+        for (const char* expression : expressions) {
+            for (const bool capped : {true, false}) {
+                SCOPED_TRACE(expression);
+                EXPECT_GT(check_shape(surface(expression, 1.5, capped), random, 600), 300);
+            }
+        }
+    }
+}
+
+TEST(FirstHits, OfRaysThatGrazeATorusAreThoseOfEachRayAlone) {
+    Torus torus;
+    torus.prepare();
+    Random random(4);
+    int hit_count = 0;
+    for (int block = 0; block < 2000 && !::testing::Test::HasFailure(); ++block) {
+        std::array<Ray, 8> rays;
+        for (Ray& ray : rays) {
+            // Tangent to the tube, up to some roundings.
+            const double turn = random.uniform(0, 2 * kPi), around = random.uniform(0, 2 * kPi);
+            const Vec3 out{std::cos(turn), std::sin(turn), 0};
+            const Vec3 normal = std::cos(around) * out + Vec3{0, 0, std::sin(around)};
+            const Vec3 point = out + 0.25 * (1.0 + random.uniform(-1, 1) * 1e-15) * normal;
+            const Vec3 along{-out.y, out.x, 0};
+            const Vec3 across = cross(normal, along);
+            const double mix = random.uniform(0, 2 * kPi);
+            const Vec3 direction = std::cos(mix) * along + std::sin(mix) * across;
+            ray = {point - 5.0 * direction, direction};
+        }
+        hit_count += check_block(torus, rays, 8);
+    }
+    EXPECT_GT(hit_count, 5000);
+}
+
+}  // namespace
+}  // namespace alhazen
