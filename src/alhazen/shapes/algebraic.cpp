@@ -139,17 +139,15 @@ double improved(const Algebraic& shape, const Ray& ray, std::size_t lane,
 }  // namespace
 
 std::uint32_t first_hits(const Algebraic& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
-    return with_polynomial(shape, [&](const auto& f) {
-        return first_hits_in_lanes<std::remove_cvref_t<decltype(f)>::kDegree>(
-            rays, shape.capped, hits,
-            [&](const PolynomialKernels& kernels, const RayLanes& in, PolynomialLanes& lanes) {
-                kernels.algebraic(shape, in, lanes);
-            },
-            [&](const Ray& ray, std::size_t lane, const PolynomialLanes& lanes) {
-                return improved(shape, ray, lane, lanes);
-            },
-            [&](const Ray& ray, ShapeHit& hit) { return one_hit(shape, ray, hit); });
-    });
+    return first_hits_in_lanes(
+        rays, hits,
+        [&](const PolynomialKernels& kernels, const RayLanes& in, PolynomialLanes& lanes) {
+            kernels.algebraic(shape, in, lanes);
+        },
+        [&](const Ray& ray, std::size_t lane, const PolynomialLanes& lanes) {
+            return improved(shape, ray, lane, lanes);
+        },
+        [&](const Ray& ray, ShapeHit& hit) { return one_hit(shape, ray, hit); });
 }
 
 namespace {

@@ -40,25 +40,13 @@ class SpanWalk {
     void span(double t0, double t1) {
         gap(t0);
         last_ = t1;
-        double most = 0.0, here = 0.0;
-        for (const std::uint32_t i : work_.active) {
-            const Piece& piece = work_.pieces[i];
-            const BlobComponent& c = ray_.blob.components[piece.component];
-            const double s = std::max(0.0, c.strength);
-            most += s;
-            if (piece.bump.known()) {
-                // With more room than its numbers round.
-                const double room = 0x1p-46 * (ray_.far + ray_.blob.reach) / c.radius;
-                const double q = std::fmax(0.0, piece.bump.largest(t0, t1)) + room;
-                here += s * q * q;
-            } else {
-                here += s;
-            }
-        }
-        // Too weak together.
-        if (here < 0.999 * ray_.blob.threshold) {
+        if (is_weak(t0, t1)) {
             if (skipped_) inside_ = skipped_ = false;
             return leave(t0);
+        }
+        double most = 0.0;
+        for (const std::uint32_t i : work_.active) {
+            most += std::max(0.0, ray_.blob.components[work_.pieces[i].component].strength);
         }
         SignChanges<4> changes;
         find_certified_sign_changes<4>(
@@ -94,6 +82,23 @@ class SpanWalk {
     }
 
   private:
+    /// Whether the components in work.active are too weak together on all of [t0, t1].
+    [[nodiscard]] bool is_weak(double t0, double t1) const {
+        double here = 0.0;
+        for (const std::uint32_t i : work_.active) {
+            const Piece& piece = work_.pieces[i];
+            const double s = std::max(0.0, ray_.blob.components[piece.component].strength);
+            if (piece.bump.known()) {
+                const double q = std::max(0.0, piece.bump.largest(t0, t1)) + piece.room;
+                here += s * q * q;
+            } else {
+                here += s;
+            }
+            // Written so that a NaN is not passed over.
+            if (!(here < 0.999 * ray_.blob.threshold)) return false;
+        }
+        return true;
+    }
     void turn(double t) {
         const double at = ray_.shift + t;
         inside_ = !inside_;
@@ -259,7 +264,8 @@ void collect_side_by_side(const Blob& blob, std::span<RayWork> rays) {
              rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const Bump bump{{ball.lo[i], ball.hi[i]}, ball.middle[i], ball.peak[i], ball.bend[i]};
-            rays[i].work.pieces.push_back({c, Region::Base, bump.t.lo, bump.t.hi, bump});
+            rays[i].work.pieces.push_back(
+                {c, Region::Base, bump.t.lo, bump.t.hi, bump, rays[i].local->room(component)});
         }
     }
 }

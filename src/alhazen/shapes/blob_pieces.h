@@ -37,6 +37,7 @@ struct Piece {
     Region region;
     double in, out;  ///< from the local origin
     Bump bump;
+    double room;  ///< more than the numbers of the bump round
 };
 template <class Real>
 struct Vec3Of {
@@ -69,6 +70,10 @@ struct LocalRay {
             o = ray.origin + shift * ray.direction;
         }
         far = max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(ray.direction));
+    }
+    /// The room of a piece of this component.
+    [[nodiscard]] double room(const BlobComponent& c) const {
+        return 0x1p-46 * (far + blob.reach) / c.radius;
     }
 
     /// The point at t (from the local origin) relative to `center`.
@@ -168,7 +173,7 @@ inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Pi
     const auto add = [&](Region region, const Interval& part, const Bump& bump) {
         const Interval t = meeting(part, bump.t);
         if (t.lo < t.hi && std::isfinite(t.lo) && std::isfinite(t.hi)) {
-            pieces.push_back({number, region, t.lo, t.hi, bump});
+            pieces.push_back({number, region, t.lo, t.hi, bump, ray.room(c)});
         }
     };
     if (!c.rod) return add(Region::Base, kWholeLine, within_ball(ray, c.base, c.radius));

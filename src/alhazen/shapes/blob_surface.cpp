@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "alhazen/shapes/blob.h"
 #include "alhazen/shapes/plain_surface.h"
@@ -15,9 +16,10 @@ struct Density {
     double rounding = 0;
 };
 
-Density density_at(const Blob& blob, const Vec3& p) {
+/// Of the components in `near`, which are all that hold at p.
+Density density_at(const Blob& blob, const std::vector<std::uint32_t>& near, const Vec3& p) {
     Density sum;
-    blob.tree->for_point(p, [&](std::uint32_t i) {
+    for (const std::uint32_t i : near) {
         const BlobComponent& c = blob.components[i];
         Vec3 nearest = c.base;
         if (c.rod) {
@@ -26,27 +28,32 @@ Density density_at(const Blob& blob, const Vec3& p) {
         }
         const Vec3 r = p - nearest;
         const double q = 1.0 - length_squared(r) / (c.radius * c.radius);
-        if (q <= 0.0) return;
+        if (q <= 0.0) continue;
         sum.value += c.strength * q * q;
         sum.gradient -= (4.0 * c.strength * q / (c.radius * c.radius)) * r;
         sum.rounding += std::abs(c.strength) * (8.0 + 4.0 * max_component(abs(p)) / c.radius);
-    });
+    }
     return sum;
 }
 
 }  // namespace
 
 ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hit) {
+    // Kept from ray to ray so that nothing is allocated.
+    static thread_local std::vector<std::uint32_t> near;
     ShapeSurface surface;
     surface.point = ray.at(hit.t);
-    Density there = density_at(shape, surface.point);
+    near.clear();
+    shape.tree->for_point(surface.point, [&](std::uint32_t i) { near.push_back(i); });
+    Density there = density_at(shape, near, surface.point);
     double steepness = length(there.gradient);
     if (steepness > 0.0) {
         // One step to the surface; no farther than what the ray rounds.
         const double off = (shape.threshold - there.value) / steepness;
         const double room = 0x1p-48 * (max_component(abs(ray.origin)) + shape.reach);
         surface.point += (std::clamp(off, -room, room) / steepness) * there.gradient;
-        there = density_at(shape, surface.point);
+        // What begins to hold on so short a way adds nothing yet.
+        there = density_at(shape, near, surface.point);
         steepness = length(there.gradient);
     }
     surface.normal = unit_or(-there.gradient, -unit_or(ray.direction, {0, 0, 1}));

@@ -1,6 +1,5 @@
 #include "alhazen/shapes/polynomial_lanes.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -14,41 +13,13 @@
 #define HWY_TARGET_INCLUDE "alhazen/shapes/polynomial_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
+#include "alhazen/shapes/polynomial_roots-inl.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
-
-static_assert(kRayLanes == kLaneCount);
-
-using Mask = LaneMask<double>;
-
-HWY_INLINE Doubles select(const Mask& mask, const Doubles& yes, const Doubles& no) {
-    Doubles r;
-    ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<double>; ++i) {
-        r.part[i] = hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]);
-    }
-    return r;
-}
-HWY_INLINE Mask operator!(const Mask& mask) {
-    Mask r;
-    ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<double>; ++i) r.part[i] = hn::Not(mask.part[i]);
-    return r;
-}
-HWY_INLINE bool none(const Mask& mask) {
-    bool r = true;
-    for (std::size_t i = 0; i < kParts<double>; ++i) {
-        r = r && hn::AllFalse(LaneTag<double>(), mask.part[i]);
-    }
-    return r;
-}
-HWY_INLINE Mask is_finite(const Doubles& a) {
-    return abs(a) < Doubles(std::numeric_limits<double>::infinity());
-}
 
 struct Point {
     Doubles x, y, z;
@@ -190,126 +161,6 @@ HWY_INLINE bool end_points(const SolidFrame& frame, const RayLanes& rays, double
     return true;
 }
 
-/// The degree: a constant where it is N <= 6.
-template <int N>
-HWY_INLINE int degree_of(const PolynomialLanes& lanes) {
-    return N <= 6 ? N : lanes.degree;
-}
-
-/// Polynomials with coefficients times binomials: see ScaledPolynomial.
-template <int N>
-struct ScaledLanes {
-    Doubles s[N + 1];
-    int n;
-
-    HWY_INLINE explicit ScaledLanes(const PolynomialLanes& lanes) : n(degree_of<N>(lanes)) {
-        const double* row = bernstein::kBinomials<N>[static_cast<std::size_t>(n)].data();
-        for (int i = 0; i <= n; ++i) s[i] = Doubles(row[i]) * load_lanes(lanes.b[i]);
-    }
-    HWY_INLINE void mirror(const Mask& mirrored) {
-        for (int i = 0; i <= (n - 1) / 2; ++i) {
-            const Doubles a = s[i], b = s[n - i];
-            s[i] = select(mirrored, b, a);
-            s[n - i] = select(mirrored, a, b);
-        }
-    }
-    HWY_INLINE void operator()(const Doubles& w, Doubles& value, Doubles& slope) const {
-        value = s[n];
-        slope = Doubles(0.0);
-        for (int i = n - 1; i >= 0; --i) {
-            slope = slope * w + value;
-            value = value * w + s[i];
-        }
-    }
-};
-
-/// Of lanes whose coefficients change their sign twice: those where a place between the changes is
-/// found, as by `found_between`; it becomes `hi`.
-template <int N>
-HWY_INLINE std::uint32_t find_between(const PolynomialLanes& lanes, const Doubles& first,
-                                      const Doubles& largest, Doubles& hi) {
-    const int n = degree_of<N>(lanes);
-    Doubles lowest(0.0), middle(0.5);
-    for (int i = 1; i < n; ++i) {
-        const Doubles value = first * load_lanes(lanes.b[i]);
-        const Mask lower = value < lowest;
-        lowest = select(lower, value, lowest);
-        const double place = std::clamp(static_cast<int>(8.0 * i / n + 0.5), 1, 7) / 8.0;
-        middle = select(lower, Doubles(place), middle);
-    }
-    const Mask mirrored = middle > Doubles(0.5);
-    const Doubles rest = Doubles(1.0) - middle;
-    const Doubles far = select(mirrored, middle, rest), near = select(mirrored, rest, middle);
-    Doubles value, slope;
-    ScaledLanes<N> q(lanes);
-    q.mirror(mirrored);
-    q(near / far, value, slope);
-    Doubles scale(1.0);
-    for (int i = 1; i <= n; ++i) scale = scale * far;
-    const Doubles error = load_lanes(lanes.error) + Doubles(4.0 * n * 0x1p-52) * largest;
-    hi = middle;
-    return bits_of(-first * value * scale > error);
-}
-
-/// What the signs of the coefficients tell of the first crossing.
-template <int N>
-HWY_INLINE void classify(const RayLanes& rays, bool capped, PolynomialLanes& lanes) {
-    const int n = degree_of<N>(lanes);
-    const Doubles error = load_lanes(lanes.error), entry = load_lanes(lanes.entry);
-    Doubles total = error, largest(0.0);
-    Mask known = error >= Doubles(0.0);
-    std::uint32_t negative = 0, starts_negative = 0;
-    std::uint32_t one = 0, two = 0, three = 0;  // so many changes of sign and more
-    for (int i = 0; i <= n; ++i) {
-        const Doubles b = load_lanes(lanes.b[i]), size = abs(b);
-        total = total + size;
-        largest = max_lanes(largest, size);
-        known = known & (size > error);
-        const std::uint32_t now = bits_of(b < Doubles(0.0)), change = now ^ negative;
-        negative = now;
-        if (i == 0) {
-            starts_negative = now;
-            continue;
-        }
-        three |= two & change;
-        two |= one & change;
-        one |= change;
-    }
-    const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
-    const Mask finite = is_finite(total);
-    // The parameter at the start of the search is the entry: +0 where that is -0, which is as good.
-    const std::uint32_t covered = bits_of((t_min <= entry) & (entry <= t_max) & is_finite(entry));
-    lanes.at_entry = 0;
-    if (capped) {
-        const Mask negative_start = load_lanes(lanes.b[0]) < Doubles(-2.0) * error;
-        lanes.at_entry =
-            ~(lanes.missed | lanes.unsure) & covered & bits_of(negative_start & finite);
-    }
-    const std::uint32_t plain =
-        ~(lanes.missed | lanes.unsure | lanes.at_entry) & bits_of(known & finite);
-    lanes.missed |= plain & ~one & ~starts_negative;
-    // A cap at the start comes before what follows; after two changes the first may be behind.
-    const std::uint32_t behind_cap = capped ? starts_negative & covered : 0;
-    lanes.bracketed = plain & one & ~two & ~behind_cap;
-    const Doubles first =
-        select(load_lanes(lanes.b[0]) < Doubles(0.0), Doubles(-1.0), Doubles(1.0));
-    Doubles hi(1.0);
-    const std::uint32_t twice = plain & covered & two & ~three & ~(capped ? starts_negative : 0);
-    if (twice != 0) {
-        Doubles middle;
-        const std::uint32_t found = twice & find_between<N>(lanes, first, largest, middle);
-        store_lanes(middle, lanes.hi);
-        for (std::uint32_t rest = ~found & kAllLanes; rest != 0; rest &= rest - 1) {
-            lanes.hi[std::countr_zero(rest)] = 1.0;
-        }
-        hi = load_lanes(lanes.hi);
-        lanes.bracketed |= found;
-    }
-    store_lanes(Doubles(0.0), lanes.lo);
-    store_lanes(hi, lanes.hi);
-    store_lanes(first, lanes.sign_lo);
-}
-
 /// As `restrict_to_segment`, with b already there.
 HWY_INLINE void set_error(double magnitude, double roundings, PolynomialLanes& lanes) {
     store_lanes(
@@ -336,7 +187,7 @@ HWY_INLINE Doubles divided(const Doubles& a, double by) {
 
 void torus(const Torus& shape, const RayLanes& rays, PolynomialLanes& lanes) {
     const double reach = kTorusRoom * (1.0 + shape.tube), height = kTorusRoom * shape.tube;
-    lanes.unsure = lanes.at_entry = lanes.bracketed = 0;
+    lanes.unsure = lanes.at_entry = lanes.bracketed = lanes.last = 0;
     Lines lines = to_frame(shape.frame, rays);
     Point p, q;
     const std::uint32_t left = cut_around(reach, height, lines);
@@ -351,7 +202,7 @@ void torus(const Torus& shape, const RayLanes& rays, PolynomialLanes& lanes) {
 }
 
 void algebraic(const Algebraic& shape, const RayLanes& rays, PolynomialLanes& lanes) {
-    lanes.at_entry = lanes.bracketed = 0;
+    lanes.at_entry = lanes.bracketed = lanes.last = 0;
     const SolidFrame frame;
     Lines lines = to_frame(frame, rays);
     Point p, q;
@@ -379,118 +230,6 @@ void algebraic(const Algebraic& shape, const RayLanes& rays, PolynomialLanes& la
         default:
             return classify<PolynomialExpression::kMaxDegree>(rays, shape.capped, lanes);
     }
-}
-
-/// As `bracketed_newton`; what comes out of lanes that are not `wanted` is nothing.
-template <int N>
-HWY_INLINE Doubles newton(const ScaledLanes<N>& f, Doubles lo, Doubles hi, const Doubles& sign_lo,
-                          const Doubles& guess, const Mask& wanted) {
-    Doubles x = guess, result = guess;
-    Doubles last_step = hi - lo;
-    Mask running = wanted;
-    Mask finishing = !(running | !running);
-    for (int i = 0; i < 200; ++i) {
-        Doubles value, slope;
-        f(x, value, slope);
-        Doubles next = x - value / slope;
-        Mask within = (next >= lo) & (next <= hi);
-        // The one more step of those that have come near.
-        result = select(finishing, select(within, next, x), result);
-        running = running & !finishing;
-        const Mask positive = value > Doubles(0.0), differs = positive | (value < Doubles(0.0));
-        const Mask nan = !(value >= value);
-        const Mask at_root = running & !(differs | nan);
-        result = select(at_root, x, result);
-        running = running & !at_root;
-        if (none(running)) return result;
-        const Mask below = value * sign_lo > Doubles(0.0);
-        lo = select(below, x, lo);
-        hi = select(below, hi, x);
-        const Doubles half = Doubles(0.5) * (lo + hi);
-        within = (next >= lo) & (next <= hi);
-        next = select(within, next, half);
-        const Doubles step = abs(next - x);
-        if (i > 2) next = select(step > Doubles(0.5) * last_step, half, next);
-        const Mask fast = (step <= Doubles(1e-9) * abs(x)) & (step <= Doubles(1e-4) * last_step);
-        last_step = abs(next - x);
-        x = next;
-        const Doubles size = abs(x);
-        const Mask near = running & (fast | (last_step <= Doubles(0x1p-52) * size));
-        const Mask done = (near & (last_step <= Doubles(0x1p-51) * size)) |
-                          (running & !near & !(hi - lo > Doubles(0x1p-53) * hi));
-        result = select(done, x, result);
-        running = running & !done;
-        finishing = near & running;
-        if (none(running)) return result;
-    }
-    return select(running, x, result);
-}
-
-/// As `polish`.
-template <int N>
-HWY_INLINE Doubles polished(const PolynomialLanes& lanes, const Mask& wanted) {
-    const Doubles half(0.5), unit(1.0);
-    Doubles lo = load_lanes(lanes.lo), hi = load_lanes(lanes.hi);
-    const Doubles sign_lo = load_lanes(lanes.sign_lo);
-    const Mask across = (lo < half) & (hi > half);
-    ScaledLanes<N> q(lanes);
-    Doubles value, slope;
-    if (!none(across & wanted)) {
-        q(unit, value, slope);
-        const Mask below = value * sign_lo > Doubles(0.0);
-        lo = select(across & below, half, lo);
-        hi = select(across & !below, half, hi);
-    }
-    const Mask mirrored = !(hi <= half);
-    q.mirror(mirrored);
-    const Doubles near = select(mirrored, unit - hi, lo), near_by = select(mirrored, hi, unit - lo);
-    const Doubles far = select(mirrored, unit - lo, hi), far_by = select(mirrored, lo, unit - hi);
-    const Doubles w_lo = near / near_by, w_hi = far / far_by;
-    const Doubles sign = select(mirrored, -sign_lo, sign_lo);
-    Doubles f_lo, f_hi;
-    q(w_lo, f_lo, slope);
-    f_lo = select(w_lo > Doubles(0.0), f_lo, q.s[0]);
-    q(w_hi, f_hi, slope);
-    Doubles guess = w_lo + (w_hi - w_lo) * (f_lo / (f_lo - f_hi));
-    guess = select((guess >= w_lo) & (guess <= w_hi), guess, half * (w_lo + w_hi));
-    const Doubles w = newton(q, w_lo, w_hi, sign, guess, wanted);
-    return select(mirrored, unit, w) / (unit + w);
-}
-
-/// The slope at u, as `evaluate` has it.
-template <int N>
-HWY_INLINE Doubles slope_at(const PolynomialLanes& lanes, const Doubles& u) {
-    const int n = degree_of<N>(lanes);
-    const Doubles rest = Doubles(1.0) - u;
-    Doubles row[N + 1];
-    for (int i = 0; i <= n; ++i) row[i] = load_lanes(lanes.b[i]);
-    for (int k = n; k > 1; --k) {
-        for (int i = 0; i < k; ++i) row[i] = rest * row[i] + u * row[i + 1];
-    }
-    return Doubles(static_cast<double>(n)) * (row[1] - row[0]);
-}
-
-template <int N>
-void refine_degree(const RayLanes& rays, PolynomialLanes& lanes) {
-    const Doubles lo = load_lanes(lanes.lo), hi = load_lanes(lanes.hi);
-    alignas(64) double flags[kRayLanes];
-    for (std::size_t i = 0; i < kRayLanes; ++i) {
-        flags[i] = static_cast<double>(lanes.bracketed >> i & 1);
-    }
-    Doubles u = polished<N>(lanes, load_lanes(flags) > Doubles(0.0));
-    u = select(u < lo, lo, select(hi < u, hi, u));
-    const Doubles entry = load_lanes(lanes.entry), exit = load_lanes(lanes.exit);
-    const Doubles along = entry + u * (exit - entry);
-    const Doubles t = select(exit < along, exit, along);
-    Doubles largest(0.0);
-    for (int i = 0; i <= degree_of<N>(lanes); ++i) {
-        largest = max_lanes(largest, abs(load_lanes(lanes.b[i])));
-    }
-    const Mask steep = abs(slope_at<N>(lanes, u)) >= Doubles(kSteepEnough) * largest;
-    const Mask covered = (load_lanes(rays.t_min) <= t) & (t <= load_lanes(rays.t_max));
-    store_lanes(u, lanes.u);
-    store_lanes(t, lanes.t);
-    lanes.steep = bits_of(steep & covered & is_finite(t));
 }
 
 void refine(const RayLanes& rays, PolynomialLanes& lanes) {

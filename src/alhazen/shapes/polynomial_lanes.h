@@ -53,12 +53,14 @@ struct alignas(64) PolynomialLanes {
     double sign_lo[kRayLanes];          ///< of the polynomial at lo: 1 or -1
     double u[kRayLanes], t[kRayLanes];  ///< the root, once refined
     int degree;
-    // ---- what is known of the first crossing; what is in no set is to be searched
+    // ---- what is known of the first crossing; of what is in no set nothing is
     std::uint32_t unsure;     ///< not even the segment is known
     std::uint32_t missed;     ///< there is none
     std::uint32_t at_entry;   ///< it is where the segment begins
-    std::uint32_t bracketed;  ///< it is the one sign change between lo and hi, if the ray covers it
-    std::uint32_t steep;      ///< t is right to about its rounding, and covered by the ray
+    std::uint32_t bracketed;  ///< if the ray covers it, it is the one sign change between lo and hi
+    std::uint32_t last;       ///< it is the last one, behind which no cap follows
+    std::uint32_t steep;      ///< t is right to about its rounding
+    std::uint32_t covered;    ///< t lies in the range of the ray
 
     [[nodiscard]] ClipSegment segment(std::size_t lane) const {
         ClipSegment s;
@@ -92,53 +94,6 @@ struct PolynomialKernels {
 /// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
 [[nodiscard]] const PolynomialKernels& polynomial_kernels();
 
-/// The first wanted sign change is left unrefined where the ray covers all before it: its bracket
-/// is remembered.
-class FirstBracket {
-  public:
-    explicit FirstBracket(const CoveredSignChanges& covered) : inner_(covered) {}
-
-    void begin() {
-        inner_.begin();
-        known_ = false;
-    }
-    [[nodiscard]] bool wants(double lo, double hi) {
-        const bool wanted = inner_.wants(lo, hi);
-        if (!wanted || known_ || !inner_.found() || inner_.asked() != 1) return wanted;
-        known_ = true;
-        lo_ = lo;
-        hi_ = hi;
-        return false;
-    }
-    [[nodiscard]] bool known() const { return known_; }
-    [[nodiscard]] double lo() const { return lo_; }
-    [[nodiscard]] double hi() const { return hi_; }
-
-  private:
-    UpToFirstCovered inner_;
-    bool known_ = false;
-    double lo_ = 0, hi_ = 1;
-};
-
-/// The search of a lane whose signs leave open where the first crossing is. True when the lane is
-/// bracketed now.
-template <int N>
-bool search_lane(const Ray& ray, bool capped, std::size_t lane, PolynomialLanes& lanes) {
-    const ClipSegment s = lanes.segment(lane);
-    BernsteinPolynomial<double, N> p;
-    lanes.polynomial(lane, p);
-    SignChanges<N> changes;
-    const CoveredSignChanges covered{ray, s.range};
-    FirstBracket wanted(covered);
-    const bool certain = find_sign_changes(p, changes, wanted);
-    if (!certain || !wanted.known() || (capped && changes.negative_at_start)) return false;
-    lanes.lo[lane] = wanted.lo();
-    lanes.hi[lane] = wanted.hi();
-    lanes.sign_lo[lane] = changes.negative_at_start ? -1.0 : 1.0;
-    lanes.bracketed |= 1u << lane;
-    return true;
-}
-
 /// The root of a lane that was refined but is not steep enough: see `improved_root`.
 template <class Polynomial>
 double improved_root_of_lane(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
@@ -161,12 +116,12 @@ void for_each_lane(std::uint32_t set, F&& f) {
     for (; set != 0; set &= set - 1) f(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-/// The first crossings of up to eight rays with a solid of a degree up to N: the set of those that
-/// hit. `begin(kernels, in, lanes)` calls the kernel of the shape, `improve(ray, lane, lanes)` is
-/// `improved_root_of_lane`, and `alone(ray, hit)` the scalar text.
-template <int N, class Begin, class Improve, class Alone>
-std::uint32_t first_hits_in_lanes(std::span<const Ray* const> rays, bool capped, ShapeHit* hits,
-                                  Begin&& begin, Improve&& improve, Alone&& alone) {
+/// The first crossings of up to eight rays: the set of those that hit. `begin(kernels, in, lanes)`
+/// calls the kernel of the shape, `improve(ray, lane, lanes)` is `improved_root_of_lane`, and
+/// `alone(ray, hit)` the scalar text.
+template <class Begin, class Improve, class Alone>
+std::uint32_t first_hits_in_lanes(std::span<const Ray* const> rays, ShapeHit* hits, Begin&& begin,
+                                  Improve&& improve, Alone&& alone) {
     const PolynomialKernels& kernels = polynomial_kernels();
     RayLanes in;
     PolynomialLanes lanes;
@@ -180,22 +135,18 @@ std::uint32_t first_hits_in_lanes(std::span<const Ray* const> rays, bool capped,
     for_each_lane(hit, [&](std::size_t i) {
         hits[i] = {lanes.entry[i], 0, 0, static_cast<std::uint32_t>(lanes.entry_part[i])};
     });
-    for_each_lane(used & lanes.unsure, ask_alone);
-    for_each_lane(used & ~(lanes.unsure | lanes.missed | lanes.at_entry | lanes.bracketed),
-                  [&](std::size_t i) {
-                      if (!search_lane<N>(*rays[i], capped, i, lanes)) ask_alone(i);
-                  });
+    for_each_lane(used & ~(lanes.missed | lanes.at_entry | lanes.bracketed), ask_alone);
     lanes.bracketed &= used;
     if (lanes.bracketed == 0) return hit;
     kernels.refine(in, lanes);
-    hit |= lanes.bracketed & lanes.steep;
-    for_each_lane(lanes.bracketed & lanes.steep, [&](std::size_t i) {
-        hits[i] = {lanes.t[i], 0, 0, 0};
-    });
+    const std::uint32_t right = lanes.bracketed & lanes.steep;
+    hit |= right & lanes.covered;
+    for_each_lane(right & lanes.covered, [&](std::size_t i) { hits[i] = {lanes.t[i], 0, 0, 0}; });
+    for_each_lane(right & ~lanes.covered & ~lanes.last, ask_alone);
     for_each_lane(lanes.bracketed & ~lanes.steep, [&](std::size_t i) {
         if (report_crossing(*rays[i], {improve(*rays[i], i, lanes), 0, 0, 0}, hits + i) > 0) {
             hit |= 1u << i;
-        } else {
+        } else if ((lanes.last >> i & 1) == 0) {
             ask_alone(i);  // what comes behind it
         }
     });

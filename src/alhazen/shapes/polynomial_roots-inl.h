@@ -165,8 +165,8 @@ template <int N>
 HWY_INLINE void split(const LanePart<N>& part, int n, const Doubles& r, Doubles* left,
                       Doubles* right) {
     const Doubles rest = Doubles(1.0) - r;
-    for (int i = 0; i <= n; ++i) right[i] = part.b[i];
-    left[0] = right[0];
+    left[0] = right[0] = part.b[0];
+    for (int i = 1; i <= n; ++i) right[i] = part.b[i];
     for (int k = 1; k <= n; ++k) {
         for (int i = 0; i <= n - k; ++i) right[i] = rest * right[i] + r * right[i + 1];
         left[k] = right[0];

@@ -281,8 +281,8 @@ ProjectedPoint project_to_zero(const Polynomial& f, Vec3 p, const Vec3& back) {
         const Vec3 step = (value / squared) * gradient;
         // Near a singular point Newton's step may lead anywhere: the point then stays.
         if (!(length(step) <= 1e-5 * size)) break;
-        // Shorter than what the point rounds anyway.
-        if (length(step) <= 0x1p-53 * max_component(abs(p))) break;
+        // Hardly more than what the ray and the point round.
+        if (length(step) <= 0x1p-51 * max_component(abs(p))) break;
         const Vec3 next = p - step;
         if (next == p) break;
         p = next;

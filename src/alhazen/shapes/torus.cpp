@@ -53,8 +53,13 @@ void Torus::validate(const FileLocation& where, Diagnostics& diagnostics) const 
 }
 
 Box3 Torus::box() const {
-    return outward_box(center, circle_half_box(unit_axis, major_radius) +
-                                   Vec3{minor_radius, minor_radius, minor_radius});
+    // As circle_half_box, which counts where a half is next to nothing: here the tube is added.
+    // Asked for with every surface.
+    const Vec3& n = unit_axis;
+    const double xx = n.x * n.x, yy = n.y * n.y, zz = n.z * n.z;
+    const Vec3 ring{std::sqrt(yy + zz), std::sqrt(zz + xx), std::sqrt(xx + yy)};
+    return outward_box(center,
+                       major_radius * ring + Vec3{minor_radius, minor_radius, minor_radius});
 }
 
 Interval Torus::extent(const Vec3& direction) const {
@@ -109,8 +114,8 @@ double improved(const Torus& torus, const Ray& ray, std::size_t lane,
 }  // namespace
 
 std::uint32_t first_hits(const Torus& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
-    return first_hits_in_lanes<TorusPolynomial::kDegree>(
-        rays, true, hits,
+    return first_hits_in_lanes(
+        rays, hits,
         [&](const PolynomialKernels& kernels, const RayLanes& in, PolynomialLanes& lanes) {
             kernels.torus(shape, in, lanes);
         },
