@@ -181,23 +181,59 @@ void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     }
 }
 
-/// The crossings that follow from the pieces in `work`.
-ALHAZEN_FOR_EACH_INSTRUCTION_SET
-void walk_pieces(const LocalRay& local, Workspace& work, ShapeHits& hits) {
-    const Ray& ray = local.given;
-    work.active.clear();
-    work.events.resize(2 * work.pieces.size());
-    Event* events = work.events.data();
-    for (std::uint32_t i = 0; i < work.pieces.size(); ++i) {
-        *events++ = {work.pieces[i].in, i, true};
-        *events++ = {work.pieces[i].out, i, false};
+/// Whether all pieces together are too weak, wherever they meet.
+bool all_weak(const LocalRay& local, const std::vector<Piece>& pieces) {
+    double most = 0.0;
+    for (const Piece& piece : pieces) {
+        const double s = std::max(0.0, local.blob.components[piece.component].strength);
+        const double q = piece.bump.known() ? std::max(0.0, piece.bump.peak) + piece.room : 1.0;
+        most += s * q * q;
     }
-    std::sort(work.events.begin(), work.events.end(), [](const Event& a, const Event& b) {
+    return most < 0.999 * local.blob.threshold;
+}
+
+/// The events of the pieces in their order. Rays side by side mostly have the same one: those of
+/// the ray before are a start that needs little sorting.
+void order_events(const std::vector<Piece>& pieces, std::vector<Event>& events) {
+    const auto is_before = [](const Event& a, const Event& b) {
         return a.t != b.t ? a.t < b.t : a.piece < b.piece;
-    });
+    };
+    if (events.size() == 2 * pieces.size()) {
+        for (Event& event : events) {
+            const Piece& piece = pieces[event.piece];
+            event.t = event.begins ? piece.in : piece.out;
+        }
+    } else {
+        events.clear();
+        for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+            events.push_back({pieces[i].in, i, true});
+            events.push_back({pieces[i].out, i, false});
+        }
+        std::sort(events.begin(), events.end(), is_before);
+    }
+    constexpr std::size_t kFewMoves = 64;
+    std::size_t moves = 0;
+    for (std::size_t i = 1; i < events.size(); ++i) {
+        const Event event = events[i];
+        std::size_t to = i;
+        for (; to > 0 && is_before(event, events[to - 1]); --to) events[to] = events[to - 1];
+        events[to] = event;
+        moves += i - to;
+        if (moves > kFewMoves) return std::sort(events.begin(), events.end(), is_before);
+    }
+}
+
+/// The crossings that follow from the pieces in `work`; `events` are those of the ray before.
+ALHAZEN_FOR_EACH_INSTRUCTION_SET
+void walk_pieces(const LocalRay& local, Workspace& work, std::vector<Event>& events,
+                 ShapeHits& hits) {
+    const Ray& ray = local.given;
+    if (all_weak(local, work.pieces)) return;
+    work.active.clear();
+    order_events(work.pieces, events);
     SpanWalk walk(local, work, hits);
     double last = 0.0;
-    for (const Event& event : work.events) {
+    for (const Event& event : events) {
         if (!work.active.empty() && last < event.t) {
             if (event.t + local.shift < ray.t_min) {
                 walk.skip(event.t);
@@ -222,7 +258,7 @@ void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits
     const LocalRay local(blob, ray);
     if (!is_finite(local.o)) return;
     collect_pieces(local, work.pieces);
-    walk_pieces(local, work, hits);
+    walk_pieces(local, work, work.events, hits);
 }
 
 }  // namespace
@@ -291,7 +327,7 @@ std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays, Sh
     std::uint32_t hit = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ShapeHits found(1);
-        walk_pieces(*used[i].local, used[i].work, found);
+        walk_pieces(*used[i].local, used[i].work, all[0].work.events, found);
         if (found.empty()) continue;
         hits[i] = found.front();
         hit |= 1u << i;
