@@ -13,6 +13,7 @@
 #define HWY_TARGET_INCLUDE "alhazen/shapes/polynomial_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
+#include "alhazen/shapes/polynomial_refine-inl.h"
 #include "alhazen/shapes/polynomial_roots-inl.h"
 #include "alhazen/simd/lanes-inl.h"
 
