@@ -161,10 +161,10 @@ bool packets_pay(const WideBvhLayout& layout) {
 }
 
 /// Whether coherent rays are faster one by one than in the stream, which hides the way to memory:
-/// in trees that lie next to the core what neighbours do is predicted well.
-bool is_next_to_core(const WideBvhLayout& layout) {
-    constexpr std::size_t kNearBytes = std::size_t{256} << 10;
-    return layout.memory_bytes() <= kNearBytes;
+/// in trees that lie in the caches what neighbours do is predicted well.
+bool goes_one_by_one(const WideBvhLayout& layout, Coherence coherence) {
+    constexpr std::size_t kCachedBytes = std::size_t{64} << 20;
+    return coherence == Coherence::Coherent && layout.memory_bytes() <= kCachedBytes;
 }
 
 }  // namespace
@@ -183,15 +183,16 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
     }
     if (layout_.tree.empty) return;
     if (!side_by_side_.empty()) return side_by_side_.closest(table_, rays, hits, query);
-    const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
-    if (!coherent && coherence == Coherence::Coherent && is_next_to_core(layout_)) {
+    const WideBvhScene seen = scene(query.mask);
+    if (coherence == Coherence::Coherent && packets_pay(layout_)) {
+        kernels_->closest_coherent(seen, rays, hits, query.stats);
+    } else if (goes_one_by_one(layout_, coherence)) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            kernels_->closest(scene(query.mask), rays[i], hits[i], query.stats);
+            kernels_->closest(seen, rays[i], hits[i], query.stats);
         }
-        return;
+    } else {
+        kernels_->closest_batch(seen, rays, hits, query.stats);
     }
-    (coherent ? kernels_->closest_coherent : kernels_->closest_batch)(scene(query.mask), rays, hits,
-                                                                      query.stats);
 }
 
 void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
@@ -206,9 +207,14 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
     }
     if (layout_.tree.empty) return;
     if (!side_by_side_.empty()) return side_by_side_.occluded(table_, rays, occluded, query);
-    const bool coherent = coherence == Coherence::Coherent && packets_pay(layout_);
-    (coherent ? kernels_->occluded_coherent : kernels_->occluded_batch)(scene(query.mask), rays,
-                                                                        occluded, query.stats);
+    const WideBvhScene seen = scene(query.mask);
+    if (goes_one_by_one(layout_, coherence)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (!occluded[i]) occluded[i] = kernels_->occluded(seen, rays[i], query.stats);
+        }
+    } else {
+        kernels_->occluded_batch(seen, rays, occluded, query.stats);
+    }
 }
 
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id) {

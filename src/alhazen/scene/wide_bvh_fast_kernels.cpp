@@ -49,7 +49,6 @@ const WideBvhKernels& fast_kernels() {
         fast.occluded_batch = &fast_occluded_batch;
         // Packets decide in double: the hint must not change a hit.
         fast.closest_coherent = &fast_closest_batch;
-        fast.occluded_coherent = &fast_occluded_batch;
         return fast;
     }();
     return table;

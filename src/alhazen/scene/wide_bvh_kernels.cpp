@@ -28,20 +28,12 @@ void closest_coherent(const WideBvhScene& scene, std::span<const Ray> rays, std:
     });
 }
 
-void occluded_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
-                       std::span<bool> occluded, TraversalStats* stats) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!occluded[i]) occluded[i] = Kernels::occluded(scene, rays[i], stats);
-    }
-}
-
 }  // namespace
 
 const WideBvhKernels& kernels() {
     static constexpr WideBvhKernels kernels = [] {
         WideBvhKernels table = Kernels::table();
         table.closest_coherent = &closest_coherent;
-        table.occluded_coherent = &occluded_coherent;
         return table;
     }();
     return kernels;

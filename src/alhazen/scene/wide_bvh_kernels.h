@@ -42,11 +42,9 @@ struct WideBvhKernels {
     /// [ray] each; what is true already stays so.
     void (*occluded_batch)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
                            TraversalStats*);
-    /// The same, fast where neighbours go nearly the same way.
+    /// The nearest hits, fast where neighbours go nearly the same way.
     void (*closest_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
                              TraversalStats*);
-    void (*occluded_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
-                              TraversalStats*);
 };
 
 /// Out of line, so that no copy of std::vector's code is made for a wide instruction set.

@@ -47,7 +47,7 @@ struct WidthKernels {
     /// Coherent rays are traced like any others.
     static constexpr WideBvhKernels table() {
         return {&closest,       &occluded,       &collect<false>, &collect<true>,
-                &closest_batch, &occluded_batch, &closest_batch,  &occluded_batch};
+                &closest_batch, &occluded_batch, &closest_batch};
     }
 };
 

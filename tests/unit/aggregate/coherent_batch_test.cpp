@@ -24,12 +24,9 @@ void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
                      const std::vector<Hit>& expected, const std::string& name) {
     const WideBvhScene scene(tested.primitives(), tested.layout());
     std::vector<Hit> hits(rays.size());
-    const auto occluded = std::make_unique<bool[]>(rays.size());
     wide_bvh_kernels(8).closest_coherent(scene, rays, hits, nullptr);
-    wide_bvh_kernels(8).occluded_coherent(scene, rays, {occluded.get(), rays.size()}, nullptr);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_TRUE(same(hits[i], expected[i])) << name << ", packets, ray " << i;
-        ASSERT_EQ(occluded[i], expected[i].found()) << name << ", packets, ray " << i;
     }
 }
 

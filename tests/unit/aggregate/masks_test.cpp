@@ -115,10 +115,8 @@ void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
     const auto* tree = dynamic_cast<const WideBvhAggregate*>(&tested);
     if (tree == nullptr || !tree->box().bounded() || tree->layout().tree.empty) return;
     std::fill(hits.begin(), hits.end(), Hit{});
-    std::fill(occluded.begin(), occluded.end(), false);
     const WideBvhScene scene(tree->primitives(), tree->layout(), mask);
     wide_bvh_kernels(8).closest_coherent(scene, rays, hits, nullptr);
-    wide_bvh_kernels(8).occluded_coherent(scene, rays, occluded, nullptr);
     check("packets");
 }
 
