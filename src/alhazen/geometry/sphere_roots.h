@@ -8,10 +8,13 @@
 /// + - * / and square root, all correctly rounded and never fused, so a block of lanes gives the
 /// bits of the scalar.
 
+#include <cmath>
+
 #include "alhazen/math/vec.h"
 
 namespace alhazen {
 
+#include "alhazen/geometry/plain_double-inl.h"
 #include "alhazen/geometry/sphere_roots_formula-inl.h"
 
 }  // namespace alhazen

@@ -204,8 +204,14 @@ bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, 
     return false;
 }
 
-Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
-    const ShadingConventions& conventions = scene.conventions;
+std::vector<Rgb> ambient_terms(std::span<const Light> lights) {
+    std::vector<Rgb> terms;
+    for (const Light& light : lights) terms.push_back(ambient_of(light));
+    return terms;
+}
+
+Rgb unshadowed_terms(const ShadingConventions& conventions, std::span<const Rgb> ambient,
+                     const ShadingPoint& point) {
     const MaterialSample& m = *point.material;
     Rgb ambient_factor = conventions.ambient_factor == ShadingConventions::AmbientFactor::Diffuse
                              ? m.diffuse
@@ -214,7 +220,7 @@ Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point) {
         ambient_factor = ambient_factor * point.medium;
     }
     Rgb sum = m.emission;
-    for (const Light& light : scene.lights) sum += ambient_factor * ambient_of(light);
+    for (const Rgb& term : ambient) sum += ambient_factor * term;
     return sum;
 }
 

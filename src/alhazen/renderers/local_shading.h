@@ -6,6 +6,9 @@
 /// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977. Differs: what
 /// formats do otherwise is read from ShadingConventions.
 
+#include <span>
+#include <vector>
+
 #include "alhazen/renderers/material_cache.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/scene/surface.h"
@@ -89,8 +92,12 @@ inline constexpr int kMaxPassedSurfaces = 4096;
 /// Less of a ray than this is not followed any further through surfaces that are partly there.
 inline constexpr double kLeastTransmittance = 1.0 / 4096;
 
+/// [light] What `unshadowed_terms` asks of the lights: the same at every point.
+[[nodiscard]] std::vector<Rgb> ambient_terms(std::span<const Light> lights);
+
 /// Emission and the ambient terms of all lights.
-[[nodiscard]] Rgb unshadowed_terms(const Scene& scene, const ShadingPoint& point);
+[[nodiscard]] Rgb unshadowed_terms(const ShadingConventions& conventions,
+                                   std::span<const Rgb> ambient, const ShadingPoint& point);
 
 /// kd (N.L) + ks highlight for a light in unit direction `to_light` with N.L = `cosine` > 0.
 [[nodiscard]] Rgb reflected_fraction(const ShadingConventions& conventions,

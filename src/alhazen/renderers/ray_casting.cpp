@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kRaysAtOnce = 256;
 
-Rgb shade(const Scene& scene, const ShadingPoint& point) {
-    Rgb sum = unshadowed_terms(scene, point);
+Rgb shade(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& point) {
+    Rgb sum = unshadowed_terms(scene.conventions, ambient, point);
     for (const Light& light : scene.lights) {
         if (!illuminates(light)) continue;
         const LightSample l =
@@ -33,6 +33,7 @@ class Caster {
         : job_(job),
           count_(counters[RayKind::Eye]),
           eye_{0, 1.0, job.cone},
+          ambient_(ambient_terms(job.scene.lights)),
           visible_(job.scene, job.count_tests ? &counters.tests : nullptr) {}
 
     void trace(std::span<const Ray> eye_rays, std::span<Rgb> radiance) {
@@ -72,7 +73,7 @@ class Caster {
     void meet(const OnWay& o, const Ray& ray, const ShadingPoint& point, double t,
               std::span<Rgb> radiance) {
         const double coverage = point.material->coverage;
-        radiance[o.sample] += (o.left * coverage) * shade(job_.scene, point);
+        radiance[o.sample] += (o.left * coverage) * shade(job_.scene, ambient_, point);
         const double left = o.left * (1.0 - coverage);
         if (!(left >= kLeastTransmittance)) return;
         behind_.push_back({o.sample, left, o.cone.from(t)});
@@ -97,6 +98,7 @@ class Caster {
     const RenderJob& job_;
     RayCount& count_;
     const OnWay eye_;  ///< what every eye ray has behind it
+    const std::vector<Rgb> ambient_;
     VisibleBatch visible_;
     std::vector<OnWay> on_way_, behind_;
     std::vector<Ray> rays_, rays_behind_;

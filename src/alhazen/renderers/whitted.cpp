@@ -41,6 +41,7 @@ class Tracer {
           counters_(counters),
           rays_at_once_(rays_at_once),
           eye_shadows_(coherence_of_shadows(scene_.lights)),
+          ambient_(ambient_terms(scene_.lights)),
           visible_(scene_, job.count_tests ? &counters.tests : nullptr),
           shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr) {}
 
@@ -151,7 +152,7 @@ class Tracer {
             met.own = point.material->emission;
             return;
         }
-        met.own = unshadowed_terms(scene_, point);
+        met.own = unshadowed_terms(conventions_, ambient_, point);
         add_direct_light(seen, met.direct);
         if (seen.depth < conventions_.max_depth) {
             Path onward = seen.path;
@@ -240,6 +241,7 @@ class Tracer {
     RayCounters& counters_;
     std::size_t rays_at_once_;
     Coherence eye_shadows_;  ///< of the shadow rays from what the eye sees
+    const std::vector<Rgb> ambient_;
     VisibleBatch visible_;
     ShadowBatch shadows_;
     Generation eye_;

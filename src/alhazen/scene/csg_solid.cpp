@@ -16,12 +16,6 @@ constexpr double kOffsetShare = 0x1p-8;
 /// Only triangles look at it, and leaves are none.
 const RayShear kNoShear(Vec3{0, 0, 1});
 
-/// max_component of what is no NaN, without a call.
-double largest(const Vec3& v) {
-    const double xy = v.x > v.y ? v.x : v.y;
-    return xy > v.z ? xy : v.z;
-}
-
 }  // namespace
 
 CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
@@ -79,18 +73,6 @@ void CsgSolid::find_media() {
         only_medium_ = has_media_ ? kMixture : media_.back();
         any = true;
     }
-}
-
-CsgRay CsgSolid::prepare(const Ray& ray, RayMask mask) const {
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    const double distance = largest(abs(ray.origin - center_));
-    const double tolerance = kTolerance * (half_ + offset_ + distance);
-    return {.line = {ray.origin, ray.direction, -kInfinite, kInfinite},
-            .t_min = ray.t_min,
-            .t_max = ray.t_max,
-            .pad = kPadPerTolerance * tolerance,
-            .tau = tolerance / largest(abs(ray.direction)),
-            .mask = mask};
 }
 
 bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,

@@ -89,6 +89,11 @@ class CsgSolid {
     static constexpr double kPadPerTolerance = 4.0;
 
     void find_media();
+    /// max_component of what is no NaN, without a call.
+    [[nodiscard]] static double largest(const Vec3& v) {
+        const double xy = v.x > v.y ? v.x : v.y;
+        return xy > v.z ? xy : v.z;
+    }
 
     PrimitiveTable table_;
     CsgExpression expression_;
@@ -103,5 +108,17 @@ class CsgSolid {
     double half_ = 1.0;    ///< half the size of the solid
     double offset_ = 0.0;  ///< what the distance of its center from the origin adds
 };
+
+inline CsgRay CsgSolid::prepare(const Ray& ray, RayMask mask) const {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    const double distance = largest(abs(ray.origin - center_));
+    const double tolerance = kTolerance * (half_ + offset_ + distance);
+    return {.line = {ray.origin, ray.direction, -kInfinite, kInfinite},
+            .t_min = ray.t_min,
+            .t_max = ray.t_max,
+            .pad = kPadPerTolerance * tolerance,
+            .tau = tolerance / largest(abs(ray.direction)),
+            .mask = mask};
+}
 
 }  // namespace alhazen

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 
 #include "alhazen/scene/primitive_columns.h"
@@ -28,6 +29,8 @@ class CsgTruthTable::Events {
     }
     [[nodiscard]] bool at_end() const { return at_ == size_; }
     [[nodiscard]] const CsgCrossing& front() { return data()[at_]; }
+    /// Nothing follows the front one up to `t`.
+    [[nodiscard]] bool is_alone(double t) { return at_ + 1 == size_ || data()[at_ + 1].t > t; }
     /// Takes the next one.
     const CsgCrossing& pass() {
         const CsgCrossing& crossing = data()[at_++];
@@ -88,17 +91,20 @@ CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
                           [&](std::uint32_t leaf) { return (needed_ >> leaf & 1) != 0; });
 }
 
-/// All crossings of the line with a leaf, ascending; true when it begins inside.
-bool CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
-                          TraversalStats* stats) const {
+/// Ascending; there is room for kMaxShapeHits.
+CsgTruthTable::Crossings CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
+                                              TraversalStats* stats) const {
     const PrimitiveTable& table = solid_.table();
-    if (!table.is_seen(solid_.expression().leaves[leaf], ray.mask)) return false;
+    if (!table.is_seen(solid_.expression().leaves[leaf], ray.mask)) return {};
     const Place place = places_[leaf];
-    const bool inside = with_column(table.columns, place.kind, [&](const auto& column) {
+    const Crossings found = with_column(table.columns, place.kind, [&](const auto& column) {
         const auto& shape = column.shapes[place.index];
-        const auto cross_in_frame = [&](const Ray& line) {
-            append_hits(shape, line, crossings);
-            return inside_at_minus_infinity(shape, line);
+        const auto cross_in_frame = [&](const Ray& line) -> Crossings {
+            if constexpr (requires { int{shape.intersect(line, hits)}; }) {
+                return {shape.intersect(line, hits), inside_at_minus_infinity(shape, line)};
+            } else {
+                return {};  // does not fit
+            }
         };
         const std::uint32_t placement = column.placements[place.index];
         if (placement == kNoPlacement) return cross_in_frame(ray.line);
@@ -106,9 +112,9 @@ bool CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& ray, ShapeHits& cros
     });
     if (stats != nullptr) {
         ++stats->primitive_tests;
-        stats->primitive_hits += !crossings.empty();
+        stats->primitive_hits += found.count > 0;
     }
-    return inside;
+    return found;
 }
 
 /// The crossings within the ray's range; false when it cannot meet the solid.
@@ -116,10 +122,13 @@ bool CsgTruthTable::gather(const CsgRay& ray, Events& events, TraversalStats* st
     const double last = ray.t_max + ray.tau;
     for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
         const std::uint32_t leaf = order_[i];
-        ShapeHits crossings;
-        bool inside = cross(leaf, ray, crossings, stats);
+        // Bytes, not values: those would be set for every ray.
+        alignas(ShapeHit) std::byte bytes[kMaxShapeHits * sizeof(ShapeHit)];
+        ShapeHit* const hits = reinterpret_cast<ShapeHit*>(bytes);
+        const Crossings crossings = cross(leaf, ray, hits, stats);
+        bool inside = crossings.inside;
         bool any = false;
-        for (const ShapeHit& hit : crossings) {
+        for (const ShapeHit& hit : std::span(hits, static_cast<std::size_t>(crossings.count))) {
             if (hit.t < ray.t_min) {
                 inside = !inside;
             } else if (hit.t <= last) {
@@ -139,6 +148,13 @@ bool CsgTruthTable::next(const CsgRay& ray, Events& events, CsgCrossing& found) 
         const double t = events.front().t;
         if (t > ray.t_max) return false;
         const LeafSet before = events.inside;
+        if (events.is_alone(t + ray.tau)) {
+            // A change of one leaf that changes the solid changes all nodes in between.
+            const CsgCrossing& crossing = events.pass();
+            if (is_solid(events.inside) == is_solid(before)) continue;
+            found = crossing;
+            return true;
+        }
         // What is crossed at t alone begins the transition or is none.
         CsgCrossing cluster[kMaxLeaves * kMaxShapeHits];
         std::size_t count = 0;
@@ -181,11 +197,18 @@ std::uint32_t CsgTruthTable::filling_leaf(LeafSet inside) const {
     return CsgTree::kNone;
 }
 
-bool CsgTruthTable::first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const {
+void CsgTruthTable::fill(const CsgCrossing& crossing, Hit& hit) const {
+    static_cast<ShapeHit&>(hit) = {crossing.t, crossing.u, crossing.v, crossing.part};
+    hit.primitive = solid_.expression().leaves[crossing.leaf];
+    hit.path.clear();
+}
+
+[[gnu::flatten]] bool CsgTruthTable::first(const CsgRay& ray, Hit& hit,
+                                           TraversalStats* stats) const {
     Events events;
     CsgCrossing found{};
     if (!gather(ray, events, stats) || !next(ray, events, found)) return false;
-    solid_.fill(found, {}, hit);
+    fill(found, hit);
     return true;
 }
 
@@ -194,7 +217,7 @@ bool CsgTruthTable::all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStat
     if (!gather(ray, events, stats)) return false;
     const bool begins_inside = is_solid(events.inside);
     CsgCrossing found{};
-    while (next(ray, events, found)) solid_.fill(found, {}, hits.emplace_back());
+    while (next(ray, events, found)) fill(found, hits.emplace_back());
     return begins_inside;
 }
 

@@ -42,12 +42,19 @@ class CsgTruthTable final : public CsgEvaluator {
         std::uint32_t kind = 0, index = 0;
     };
 
-    bool cross(std::uint32_t leaf, const CsgRay& ray, ShapeHits& crossings,
-               TraversalStats* stats) const;
+    /// The crossings of the line with a leaf.
+    struct Crossings {
+        int count = 0;
+        bool inside = false;  ///< where the line begins
+    };
+
+    Crossings cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
+                    TraversalStats* stats) const;
     bool gather(const CsgRay& ray, Events& events, TraversalStats* stats) const;
     bool next(const CsgRay& ray, Events& events, CsgCrossing& found) const;
     [[nodiscard]] bool changes_all_the_way(std::uint32_t leaf, LeafSet before, LeafSet after) const;
     [[nodiscard]] std::uint32_t filling_leaf(LeafSet inside) const;
+    void fill(const CsgCrossing& crossing, Hit& hit) const;
 
     const CsgSolid& solid_;
     std::array<Place, kMaxLeaves> places_{};

@@ -24,6 +24,9 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
+/// Only triangles look at it, and blocks of shapes hold none.
+inline const RayShear kNoShear(Vec3{0, 0, 1});
+
 /// The part of a query on one ray that is the same for all. `Derived` offers
 /// `bool block(triangle_block, stats)`, `bool other(id, stats)` and `bool crossing(id, hit)`, for a
 /// primitive that is hit for certain, true to stop; `DistanceBound slab_slack(frame)`, the slack of
@@ -249,8 +252,10 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
     }
     template <class Stats>
     HWY_INLINE bool other(BlockId id, Stats stats) {
-        scene.table->closest(id.id(), ray, this->shear(), best, stats, scene.mask);
-        shrink();
+        const double last = ray.t_max;
+        scene.table->closest(id.id(), ray, kNoShear, best, stats, scene.mask);
+        // Most are missed, and the way from t to the float parameter is long.
+        if (ray.t_max != last) shrink();
         return false;
     }
     HWY_INLINE bool crossing(BlockId id, const ShapeHit& hit) {
@@ -322,7 +327,7 @@ struct OccludedQuery : RobustQuery<OccludedQuery> {
     HWY_INLINE bool crossing(BlockId, const ShapeHit&) { return occluded = true; }
     template <class Stats>
     HWY_INLINE bool other(BlockId id, Stats stats) {
-        return occluded = scene.table->occluded(id.id(), ray, this->shear(), stats, scene.mask);
+        return occluded = scene.table->occluded(id.id(), ray, kNoShear, stats, scene.mask);
     }
 };
 

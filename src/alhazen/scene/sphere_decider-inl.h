@@ -25,29 +25,8 @@ namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace sphere_numbers {
 
+#include "alhazen/geometry/plain_double-inl.h"
 #include "alhazen/geometry/sphere_roots_formula-inl.h"
-
-/// A double whose fmin and fmax are one instruction: of two zeros or a NaN among the operands they
-/// give either, so who reads a result that is one of these has to ask again.
-struct PlainDouble {
-    double x;
-
-    friend HWY_INLINE PlainDouble operator-(PlainDouble a) { return {-a.x}; }
-    friend HWY_INLINE PlainDouble operator+(PlainDouble a, PlainDouble b) { return {a.x + b.x}; }
-    friend HWY_INLINE PlainDouble operator-(PlainDouble a, PlainDouble b) { return {a.x - b.x}; }
-    friend HWY_INLINE PlainDouble operator*(PlainDouble a, PlainDouble b) { return {a.x * b.x}; }
-    friend HWY_INLINE PlainDouble operator/(PlainDouble a, PlainDouble b) { return {a.x / b.x}; }
-    friend HWY_INLINE PlainDouble sqrt(PlainDouble a) { return {std::sqrt(a.x)}; }
-    friend HWY_INLINE PlainDouble copysign(PlainDouble a, PlainDouble b) {
-        return {std::copysign(a.x, b.x)};
-    }
-    friend HWY_INLINE PlainDouble fmin(PlainDouble a, PlainDouble b) {
-        return {a.x < b.x ? a.x : b.x};
-    }
-    friend HWY_INLINE PlainDouble fmax(PlainDouble a, PlainDouble b) {
-        return {a.x > b.x ? a.x : b.x};
-    }
-};
 
 }  // namespace sphere_numbers
 
@@ -62,11 +41,7 @@ HWY_INLINE PlainVerdict intersect_plain(const Ray& ray, const Sphere& sphere, Sh
     if (!(line.discriminant.x >= 0.0)) return PlainVerdict::Missed;
     const auto roots = sphere_numbers::sphere_roots(line, a, fx, fy, fz, radius);
     const double entry = roots.t_near.x, exit = roots.t_far.x;
-    // Written so that what is not finite is not plain.
-    constexpr double kFar = 0x1p1000;
-    if (!(entry <= exit && entry > -kFar && exit < kFar && entry != 0.0 && exit != 0.0)) {
-        return PlainVerdict::Unsure;
-    }
+    if (!sphere_numbers::are_plain_roots(entry, exit)) return PlainVerdict::Unsure;
     if (ray.covers(entry)) {
         hit = {entry, 0, 0, 0};
     } else if (ray.covers(exit)) {

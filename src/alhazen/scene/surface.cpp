@@ -22,9 +22,13 @@ Vec3 times_abs(const Mat3& m, const Vec3& v) {
 
 void carry_normals_outward(const Affine& inner, Surface& surface) {
     const bool same = surface.shading_normal == surface.normal;
-    surface.normal = normalize(transpose_times(inner.linear, surface.normal));
-    surface.shading_normal =
-        same ? surface.normal : normalize(transpose_times(inner.linear, surface.shading_normal));
+    const Vec3 normal = normalize(transpose_times(inner.linear, surface.normal));
+    if (!same) {
+        surface.shading_normal = normalize(transpose_times(inner.linear, surface.shading_normal));
+    } else {
+        surface.shading_normal = normal;
+    }
+    surface.normal = normal;
 }
 
 /// Carries a surface out of an inner frame. The new error has the old one, the rounding of the

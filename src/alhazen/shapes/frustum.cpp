@@ -20,7 +20,8 @@ struct LocalLine {
 };
 
 LocalLine localise(const Frustum& f, const Ray& ray) {
-    LocalLine l{};
+    LocalLine l;
+    l.shift = 0.0;
     const Vec3& d = ray.direction;
     Vec3 origin = ray.origin - f.center;
     // Close by, the shift would only round away digits of a small t.
@@ -38,14 +39,17 @@ LocalLine localise(const Frustum& f, const Ray& ray) {
     l.growth = f.slope * l.dz;
     l.a = l.dx * l.dx + l.dy * l.dy - l.growth * l.growth;
     l.b = l.ox * l.dx + l.oy * l.dy - l.radius * l.growth;
-    const double across = std::sqrt(l.ox * l.ox + l.oy * l.oy);
-    l.c = (across - l.radius) * (across + l.radius);
     // b^2 - a c = |radius d - growth o|^2 - |o x d|^2, in the plane across the axis.
     const double wx = difference_of_products(l.radius, l.dx, l.growth, l.ox);
     const double wy = difference_of_products(l.radius, l.dy, l.growth, l.oy);
     const double w = std::sqrt(wx * wx + wy * wy);
     const double moment = std::abs(difference_of_products(l.ox, l.dy, l.oy, l.dx));
     l.discriminant = (w - moment) * (w + moment);
+    // A line that misses the side is asked no further.
+    l.c = 0.0;
+    if (l.a > 0.0 && !(l.discriminant >= 0.0)) return l;
+    const double across = std::sqrt(l.ox * l.ox + l.oy * l.oy);
+    l.c = (across - l.radius) * (across + l.radius);
     return l;
 }
 

@@ -20,13 +20,34 @@ Interval Sphere::extent(const Vec3& axis) const {
     return outward_extent(axis, center, radius * length(axis));
 }
 
+namespace {
+
+/// With the fmin and fmax of the library, for what is not plain.
+int intersect_with_care(const Sphere& sphere, const Ray& ray, ShapeHit* hits) {
+    const Vec3& d = ray.direction;
+    const Vec3 f = ray.origin - sphere.center;
+    const auto roots =
+        sphere_roots<double>(d.x, d.y, d.z, length_squared(d), f.x, f.y, f.z, sphere.radius);
+    if (!(roots.discriminant >= 0.0)) return 0;
+    return report_span(ray, roots.t_near, 0, roots.t_far, 0, hits);
+}
+
+}  // namespace
+
 int Sphere::intersect(const Ray& ray, ShapeHit* hits) const {
     const Vec3& d = ray.direction;
     const Vec3 f = ray.origin - center;
-    const auto roots =
-        sphere_roots<double>(d.x, d.y, d.z, length_squared(d), f.x, f.y, f.z, radius);
-    if (!(roots.discriminant >= 0.0)) return 0;
-    return report_span(ray, roots.t_near, 0, roots.t_far, 0, hits);
+    const PlainDouble dx{d.x}, dy{d.y}, dz{d.z}, fx{f.x}, fy{f.y}, fz{f.z};
+    const PlainDouble a{length_squared(d)}, r{radius};
+    const auto line = sphere_line(dx, dy, dz, a, fx, fy, fz, r);
+    if (!(line.discriminant.x >= 0.0)) return 0;
+    const auto roots = sphere_roots(line, a, fx, fy, fz, r);
+    const double entry = roots.t_near.x, exit = roots.t_far.x;
+    if (!are_plain_roots(entry, exit)) return intersect_with_care(*this, ray, hits);
+    int count = 0;
+    if (ray.covers(entry)) hits[count++] = {entry, 0, 0, 0};
+    if (ray.covers(exit)) hits[count++] = {exit, 0, 0, 0};
+    return count;
 }
 
 ShapeSurface plain_surface(const Sphere& shape, const Ray& ray, const ShapeHit& hit) {

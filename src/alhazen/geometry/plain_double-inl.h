@@ -1,0 +1,27 @@
+/// A double whose fmin and fmax are one instruction; a fragment without a guard, included as
+/// sphere_roots_formula-inl.h is.
+
+/// Of two zeros or a NaN among the operands fmin and fmax give either, so who reads a result that
+/// is one of these has to ask again (`are_plain_roots`).
+struct PlainDouble {
+    double x;
+
+    friend inline PlainDouble operator-(PlainDouble a) { return {-a.x}; }
+    friend inline PlainDouble operator+(PlainDouble a, PlainDouble b) { return {a.x + b.x}; }
+    friend inline PlainDouble operator-(PlainDouble a, PlainDouble b) { return {a.x - b.x}; }
+    friend inline PlainDouble operator*(PlainDouble a, PlainDouble b) { return {a.x * b.x}; }
+    friend inline PlainDouble operator/(PlainDouble a, PlainDouble b) { return {a.x / b.x}; }
+    friend inline PlainDouble sqrt(PlainDouble a) { return {std::sqrt(a.x)}; }
+    friend inline PlainDouble copysign(PlainDouble a, PlainDouble b) {
+        return {std::copysign(a.x, b.x)};
+    }
+    friend inline PlainDouble fmin(PlainDouble a, PlainDouble b) { return {a.x < b.x ? a.x : b.x}; }
+    friend inline PlainDouble fmax(PlainDouble a, PlainDouble b) { return {a.x > b.x ? a.x : b.x}; }
+};
+
+/// Whether both roots are what they would be by the fmin and fmax of the library. Written so that
+/// what is not finite is not plain.
+inline bool are_plain_roots(double t_near, double t_far) {
+    constexpr double kFar = 0x1p1000;
+    return t_near <= t_far && t_near > -kFar && t_far < kFar && t_near != 0.0 && t_far != 0.0;
+}
