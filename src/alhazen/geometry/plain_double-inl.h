@@ -19,9 +19,12 @@ struct PlainDouble {
     friend inline PlainDouble fmax(PlainDouble a, PlainDouble b) { return {a.x > b.x ? a.x : b.x}; }
 };
 
+/// Roots as far as this are left to those.
+inline constexpr double kFarRoot = 0x1p1000;
+
 /// Whether both roots are what they would be by the fmin and fmax of the library. Written so that
 /// what is not finite is not plain.
 inline bool are_plain_roots(double t_near, double t_far) {
-    constexpr double kFar = 0x1p1000;
-    return t_near <= t_far && t_near > -kFar && t_far < kFar && t_near != 0.0 && t_far != 0.0;
+    return t_near <= t_far && t_near > -kFarRoot && t_far < kFarRoot && t_near != 0.0 &&
+           t_far != 0.0;
 }

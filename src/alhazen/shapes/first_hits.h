@@ -1,15 +1,16 @@
 #pragma once
 /// The first crossings of several rays with one shape, side by side where it can.
 ///
-/// Source: polynomial_lanes.h, blob_lanes.h. Differs: nothing. Conventions: for each ray the bits
-/// of `find_first_hit`. A shape with an overload here has to join first_hits_test.cpp, which
-/// compares them.
+/// Source: polynomial_lanes.h, blob_lanes.h, sphere_lanes.h. Differs: nothing. Conventions: for
+/// each ray the bits of `find_first_hit`. A shape with an overload here has to join
+/// first_hits_test.cpp, which compares them.
 
 #include <cstdint>
 #include <span>
 
 #include "alhazen/shapes/algebraic.h"
 #include "alhazen/shapes/blob.h"
+#include "alhazen/shapes/sphere.h"
 #include "alhazen/shapes/torus.h"
 
 namespace alhazen {
@@ -21,6 +22,8 @@ inline constexpr std::size_t kMostRaysSideBySide = 8;
 [[nodiscard]] std::uint32_t first_hits(const Algebraic& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);
 [[nodiscard]] std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays,
+                                       ShapeHit* hits);
+[[nodiscard]] std::uint32_t first_hits(const Sphere& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);
 [[nodiscard]] std::uint32_t first_hits(const Torus& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);

@@ -1,8 +1,11 @@
 #include "alhazen/shapes/sphere.h"
 
 #include "alhazen/geometry/sphere_roots.h"
+#include "alhazen/shapes/first_hit.h"
+#include "alhazen/shapes/first_hits.h"
 #include "alhazen/shapes/plain_surface.h"
 #include "alhazen/shapes/shape_numerics.h"
+#include "alhazen/shapes/sphere_lanes.h"
 
 namespace alhazen {
 
@@ -48,6 +51,20 @@ int Sphere::intersect(const Ray& ray, ShapeHit* hits) const {
     if (ray.covers(entry)) hits[count++] = {entry, 0, 0, 0};
     if (ray.covers(exit)) hits[count++] = {exit, 0, 0, 0};
     return count;
+}
+
+std::uint32_t first_hits(const Sphere& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
+    RayLanes in;
+    SphereHitLanes lanes;
+    for (std::size_t i = 0; i < kRayLanes; ++i) in.set(i, *rays[i < rays.size() ? i : 0]);
+    const std::uint32_t used = kAllRayLanes >> (kRayLanes - rays.size());
+    sphere_hits_kernel()(in, shape, lanes);
+    std::uint32_t hit = used & lanes.hit;
+    for_each_lane(hit, [&](std::size_t i) { hits[i] = {lanes.t[i], 0, 0, 0}; });
+    for_each_lane(used & lanes.unsure, [&](std::size_t i) {
+        if (find_first_hit(shape, *rays[i], hits[i])) hit |= 1u << i;
+    });
+    return hit;
 }
 
 ShapeSurface plain_surface(const Sphere& shape, const Ray& ray, const ShapeHit& hit) {

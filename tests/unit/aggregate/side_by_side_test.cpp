@@ -45,11 +45,14 @@ PrimitiveTable few_shapes(Random& random, int count) {
         const std::uint32_t placement = random.below(3) == 0 ? 0 : kNoPlacement;
         const RayMask mask = masks[random.below(3)];
         const ShapeSource from{random, false};
-        switch (random.below(3)) {
+        switch (random.below(4)) {
             case 0:
                 add(table, random_shape<Torus>(from), placement, mask);
                 break;
             case 1:
+                add(table, random_shape<Sphere>(from), placement, mask);
+                break;
+            case 2:
                 add(table, random_shape<Algebraic>(from), placement, mask);
                 break;
             default:

@@ -118,6 +118,35 @@ TEST(FirstHits, OfToriAreThoseOfEachRayAlone) {
     check_random_shapes<Torus>(1);
 }
 
+TEST(FirstHits, OfSpheresAreThoseOfEachRayAlone) {
+    check_random_shapes<Sphere>(6);
+}
+
+TEST(FirstHits, OfRaysThatGrazeASphereOrStartOnItAreThoseOfEachRayAlone) {
+    const Sphere sphere{.center = {0.3, -2, 1e3}, .radius = 0.7};
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        SCOPED_TRACE(target);
+        Random random(7);
+        int hit_count = 0;
+        for (int block = 0; block < 2000 && !::testing::Test::HasFailure(); ++block) {
+            std::array<Ray, 8> rays;
+            for (Ray& ray : rays) {
+                const Vec3 normal = random.unit_vector();
+                const Vec3 along = normalize(cross(normal, random.unit_vector()));
+                const double off = 1.0 + random.uniform(-4, 4) * 0x1p-53;
+                const Vec3 point = sphere.center + (sphere.radius * off) * normal;
+                const bool from_it = random.coin();
+                const Vec3 direction = from_it ? random.unit_vector() : along;
+                ray = {from_it ? point : point - random.log_uniform(1, 1e6) * direction, direction};
+                if (random.below(50) == 0) ray.origin = sphere.center;
+            }
+            hit_count += check_block(sphere, rays, 8);
+        }
+        EXPECT_GT(hit_count, 4000);
+    }
+}
+
 TEST(FirstHits, OfBlobsAreThoseOfEachRayAlone) {
     check_random_shapes<Blob>(5);
 }
