@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/parallel/parallel.h"
@@ -115,7 +116,8 @@ void judge_samples(const Judge& judge, const RaySet& set, const std::vector<doub
         ++result.samples;
         if (!hit || set.any_hit) continue;
         // Farther by more than the noise, which near the origin is more than a hundredth of t.
-        const double farther = 1.01 * ours[i] + 2 * judge.float_noise(set.rays[i], ours[i]);
+        const double farther =
+            std::max(1.01 * ours[i], ours[i] + 2 * judge.float_noise(set.rays[i], ours[i]));
         plant(judge, set, i, ours[i], farther, result);
     }
 }

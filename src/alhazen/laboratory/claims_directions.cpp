@@ -59,8 +59,8 @@ void claim_b10(ClaimRun& run) {
     run.note(
         "The restricted tree of Kammaje and Mora, and that of Ize, Wald and Parker, whose planes "
         "besides those across the axes are those of flat polygons; it holds where one of them "
-        "does fewer tests. All with their default settings; more candidates for planes change the "
-        "counts by some 10 % either way. Of spheres only the first has anything to choose from.");
+        "does fewer tests. All with their default settings. Of spheres only the first has anything "
+        "to choose from.");
 }
 
 void claim_b11(ClaimRun& run) {

@@ -5,6 +5,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/scene/csg_aggregate.h"
+#include "alhazen/scene/no_shear.h"
 
 namespace alhazen {
 
@@ -12,9 +13,6 @@ namespace {
 
 /// Coordinates are rounded by an ulp of themselves: far from the origin that counts.
 constexpr double kOffsetShare = 0x1p-8;
-
-/// Only triangles look at it, and leaves are none.
-const RayShear kNoShear(Vec3{0, 0, 1});
 
 }  // namespace
 

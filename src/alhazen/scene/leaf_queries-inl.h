@@ -14,6 +14,7 @@
 #include <bit>
 #include <type_traits>
 
+#include "alhazen/scene/no_shear.h"
 #include "alhazen/scene/shape_filters-inl.h"
 #include "alhazen/scene/sphere_decider-inl.h"
 #include "alhazen/scene/triangle_decider-inl.h"
@@ -23,9 +24,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
-
-/// Only triangles look at it, and blocks of shapes hold none.
-inline const RayShear kNoShear(Vec3{0, 0, 1});
 
 /// The part of a query on one ray that is the same for all. `Derived` offers
 /// `bool block(triangle_block, stats)`, `bool other(id, stats)` and `bool crossing(id, hit)`, for a

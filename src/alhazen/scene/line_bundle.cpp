@@ -15,9 +15,11 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kCellsPerTask = 256;
-/// Of four cells that are cut one is the largest, whatever was seen in it: what is too small to be
-/// seen at once must not be overlooked for good.
-constexpr std::size_t kCutForSize = 4;
+/// Of the cells that are cut these are the largest, whatever was seen in them: what is too small to
+/// be seen at once must not be overlooked for good.
+constexpr double kCutForSize = 0.25;
+/// The same where hardly a line misses: what the corners may lack was not seen.
+constexpr double kCutForSizeIfFull = 0.75;
 /// So many lines that miss the solid show in the scatter.
 constexpr std::uint64_t kEnoughMisses = 10;
 /// Ends of spans are right to a few roundings of the numbers they are computed from.
@@ -101,7 +103,7 @@ std::uint64_t LineBundle::grow_to(std::uint64_t lines) {
         casts_ = 0;
     }
     cast();
-    return kLinesPerCell * cells_.size();
+    return lines_of_round();
 }
 
 /// Cuts the cells with the largest scatter, and some of the largest, into four each.
@@ -109,9 +111,8 @@ void LineBundle::cut(std::size_t cells) {
     const std::size_t wanted = std::min(cells_.size(), (cells - cells_.size() + 2) / 3);
     std::vector<std::uint32_t> order(cells_.size());
     std::iota(order.begin(), order.end(), 0u);
-    // Where the corners may lack something that was not seen, most are cut for their size.
-    const bool full = sums_.misses < kEnoughMisses;
-    const std::size_t for_size = (full ? kCutForSize - 1 : 1) * wanted / kCutForSize;
+    const double share = sums_.misses < kEnoughMisses ? kCutForSizeIfFull : kCutForSize;
+    const auto for_size = static_cast<std::size_t>(share * static_cast<double>(wanted));
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted - for_size);
     const auto last = order.begin() + static_cast<std::ptrdiff_t>(wanted);
     const auto by = [&](auto&& size) {
@@ -153,7 +154,10 @@ void LineBundle::cast() {
             for (std::size_t i = first; i < last; ++i) cast_in(cells_[i], i, found, parts[task]);
         }
     });
-    for (const Sums& part : parts) sums_ += part;
+    for (const Sums& part : parts) {
+        sums_ += part;
+        inconsistent_ += part.inconsistent;
+    }
     ++rounds_;
     ++casts_;
 }
@@ -171,8 +175,10 @@ void LineBundle::cast_in(Cell& cell, std::uint64_t number, LineSpans& found, Sum
     sums.all += pairs[1];
     sums.differences[row] += pairs[0];
     sums.differences[row] += pairs[1] * -1.0;
-    cell.scatter = measured_ == Measured::Area ? std::abs(pairs[0].cosines - pairs[1].cosines)
-                                               : std::abs(pairs[0].volume - pairs[1].volume);
+    const double scatter = measured_ == Measured::Area ? pairs[0].cosines - pairs[1].cosines
+                                                       : pairs[0].volume - pairs[1].volume;
+    // Cells are put in order by it, which a NaN would break.
+    cell.scatter = std::isfinite(scatter) ? std::abs(scatter) : 0;
 }
 
 /// Two lines opposite of each other about the middle of the cell.

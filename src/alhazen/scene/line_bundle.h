@@ -59,8 +59,10 @@ class LineBundle {
     [[nodiscard]] Moments moments(std::size_t replicate) const;
     [[nodiscard]] Replicates volumes() const;
     [[nodiscard]] Replicates areas() const;
-    /// Lines whose crossings did not come in pairs.
-    [[nodiscard]] std::uint64_t inconsistent() const { return sums_.inconsistent; }
+    /// Lines whose crossings did not come in pairs, of all that were ever cast.
+    [[nodiscard]] std::uint64_t inconsistent() const { return inconsistent_; }
+    /// Of one round.
+    [[nodiscard]] std::uint64_t lines_of_round() const { return kLinesPerCell * cells_.size(); }
     /// Lines that missed the solid.
     [[nodiscard]] std::uint64_t misses() const { return sums_.misses; }
 
@@ -97,6 +99,7 @@ class LineBundle {
     Interval right_, up_;  ///< of what the lines stand on, from the centre
     std::vector<Cell> cells_;
     std::uint64_t rounds_ = 0, casts_ = 0;  ///< in all, and since the cells were cut
+    std::uint64_t inconsistent_ = 0;
     Sums sums_;
 };
 

@@ -17,8 +17,6 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint64_t kPilotLines = 2048;  ///< of each direction
 constexpr std::uint64_t kFirstLines = 8192;
-/// With so many no finer cells are made, but more lines cast: a cell takes 10 bytes for each.
-constexpr std::uint64_t kMostLines = std::uint64_t{1} << 23;
 /// With so few more than before nothing is gained.
 constexpr double kLeastGrowth = 1.25;
 /// Independent sets of lines for Crofton's formula, and the lines of each: a check, which converges
@@ -131,14 +129,15 @@ class Measurer {
     /// To twice the lines, or what there is time for; false when that is no more than before.
     bool enlarge(LineBundle& bundle, const Deadline& deadline) {
         const double room = deadline.room(lines_);
-        const auto lines = static_cast<double>(bundle.lines());
-        if (bundle.lines() >= kMostLines) {
-            if (room < static_cast<double>(kMostLines)) return false;
+        const auto round = static_cast<double>(bundle.lines_of_round());
+        const auto most = static_cast<double>(options_.most_lines_of_round);
+        if (kLeastGrowth * round >= most) {  // other lines in the same cells
+            if (room < round) return false;
             grow_bundle(bundle, 0);
             return true;
         }
-        const double wanted = std::min({2 * lines, room, static_cast<double>(kMostLines)});
-        if (wanted < kLeastGrowth * lines) return false;
+        const double wanted = std::min({2 * round, room, most});
+        if (wanted < kLeastGrowth * round) return false;
         grow_bundle(bundle, static_cast<std::uint64_t>(wanted));
         return true;
     }
@@ -227,6 +226,7 @@ class Measurer {
             found.volume_by_direction[k] = volume_along(k);
             found.directions[k] = bundles_[k].direction();
             found.inconsistent_lines += bundles_[k].inconsistent();
+            if (options_.area) found.inconsistent_lines += area_bundles_[k].inconsistent();
             found.directions_agree =
                 found.directions_agree && agree(found.volume, found.volume_by_direction[k]);
         }

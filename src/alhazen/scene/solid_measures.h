@@ -16,13 +16,14 @@
 /// where a line grazes. Crofton's count of isotropic lines is made besides. (4) Intervals are those
 /// of sixteen balanced half samples (McCarthy, "Pseudo-Replication: Half Samples", Review of the
 /// International Statistical Institute 37, 1969; rows of a Hadamard matrix are shared by cells at
-/// random), by Student's distribution. The rounding of the spans is added to them. (5) Where hardly
-/// a line misses the solid within its shadow's rectangle, what the corners lack is too rare to show
-/// in the scatter: three lines' share is added (Hanley and Lippman-Hand, "If Nothing Goes Wrong, Is
-/// Everything All Right?", JAMA 249, 1983). Conventions: world units. Moments are those of
-/// density 1. Complexity and threads: errors fall as about N^-1.5, N the lines, as long as cells
-/// are cut. Over all threads; the result does not depend on their number, as long as time does not
-/// end the work.
+/// random), by Student's distribution. They hold as often as they say where many cells share the
+/// scatter; of a part smaller than a cell that no line has met nobody knows. The rounding of the
+/// spans is added to them. (5) Where hardly a line misses the solid within its shadow's rectangle,
+/// what the corners lack is too rare to show in the scatter: three lines' share is added (Hanley
+/// and Lippman-Hand, "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249, 1983).
+/// Conventions: world units. Moments are those of density 1. Complexity and threads: errors fall as
+/// about N^-1.5, N the lines, as long as cells are cut. Over all threads; the result does not
+/// depend on their number, as long as time does not end the work.
 
 #include <array>
 #include <cstdint>
@@ -39,6 +40,8 @@ struct MeasureOptions {
     double seconds = 2;  ///< or when more lines would take longer
     bool area = true;    ///< also the area, by both methods
     std::uint64_t seed = 1;
+    /// With so many no finer cells are made, but more lines cast: a cell takes 10 bytes for each.
+    std::uint64_t most_lines_of_round = std::uint64_t{1} << 23;
     const StopFlag* stop = nullptr;
 };
 
@@ -47,7 +50,7 @@ struct SolidMeasures {
     Estimate volume;
     Estimate area;
     Estimate area_by_crofton;
-    /// Centroid and inertia are known: not of nothing, nor where some scrambling of the lines met
+    /// Centroid and inertia are known: not of nothing, nor where some half of the lines met
     /// nothing.
     bool has_moments = false;
     std::array<Estimate, 3> centroid;

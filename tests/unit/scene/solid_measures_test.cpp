@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "alhazen/base/error.h"
 #include "alhazen/scene/line_bundle.h"
 #include "closed_forms.h"
@@ -53,7 +55,7 @@ TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
     EXPECT_NEAR(m.area.value, 22, 1e-12);
 }
 
-/// How often the interval of the mean over scramblings holds the truth.
+/// How often the interval from half samples holds the truth.
 double coverage(const Measurable& solid, const BundleFrame& frame, double truth, bool area) {
     constexpr int kRuns = 400;
     int held = 0;
@@ -183,6 +185,42 @@ TEST(SolidMeasures, WhatTheCornersOfAnAlmostFullShadowLackIsInTheInterval) {
         EXPECT_TRUE(m.volume.holds(truth))
             << seed << ": " << m.volume.value << " +- " << m.volume.half_width;
     }
+}
+
+TEST(SolidMeasures, LinesGoOnWhereThereAreAsManyCellsAsMayBe) {
+    const LoneScene sphere(known_solids()[0]);
+    const SolidMeasures m = measure(
+        sphere.solid,
+        {.relative_error = 5e-5, .seconds = 60, .area = false, .most_lines_of_round = 1 << 14});
+    EXPECT_TRUE(m.reached);
+    EXPECT_GT(m.lines, 100'000u);
+    EXPECT_NEAR(m.volume.value, 32 * kPi / 3, 2 * m.volume.half_width);
+}
+
+/// Every other line is said to have crossings that come in no pairs.
+class OddSolid final : public Measurable {
+  public:
+    [[nodiscard]] Box3 box() const override { return {{0, 0, 0}, {1, 1, 1}}; }
+    [[nodiscard]] Interval extent(const Vec3& axis) const override {
+        return alhazen::extent(box(), axis);
+    }
+    void cross(const Ray&, bool, LineSpans& found) const override {
+        found.spans.clear();
+        found.cosines = 0;
+        found.consistent = asked_.fetch_add(1) % 2 == 0;
+    }
+    [[nodiscard]] std::uint64_t asked() const { return asked_; }
+
+  private:
+    mutable std::atomic<std::uint64_t> asked_{0};
+};
+
+TEST(SolidMeasures, LinesWhoseCrossingsComeInNoPairsAreCountedInEveryRound) {
+    const OddSolid odd;
+    LineBundle bundle(odd, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {0.5, 0.5, 0.5}, 1);
+    for (const std::uint64_t lines : {1024u, 2048u, 0u}) bundle.grow_to(lines);
+    EXPECT_GT(odd.asked(), 4096u);
+    EXPECT_EQ(bundle.inconsistent(), odd.asked() / 2);
 }
 
 TEST(SolidMeasures, NothingHasNoMiddle) {

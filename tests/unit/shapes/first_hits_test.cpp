@@ -189,6 +189,31 @@ TEST(FirstHits, OfSurfacesOfEveryDegreeAreThoseOfEachRayAlone) {
     }
 }
 
+TEST(FirstHits, OfRaysOfExtremeLengthsAreThoseOfEachRayAlone) {
+    Torus torus;
+    torus.prepare();
+    const Algebraic quartic = surface("x^4 + y^4 + z^4 - 1.5*(x^2 + y^2 + z^2) + 0.9", 1.5, true);
+    const double lengths[] = {5e-324, 1e-310, 1e-300, 1e-160, 1e150, 1e200, 1e300, 1e308};
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        SCOPED_TRACE(target);
+        Random random(9);
+        for (int block = 0; block < 400 && !::testing::Test::HasFailure(); ++block) {
+            std::array<Ray, 8> rays;
+            for (Ray& ray : rays) {
+                ray = any_ray(torus.box(), random);
+                ray.direction = lengths[random.below(8)] * random.unit_vector();
+                ray.t_min = random.coin() ? 0 : -std::numeric_limits<double>::infinity();
+                ray.t_max = std::numeric_limits<double>::infinity();
+                if (ray.direction == Vec3{}) ray.direction.x = 5e-324;
+            }
+            check_block(torus, rays, 8);
+            check_block(quartic, rays, 8);
+            check_block(Sphere{{0, 0, 0}, 1}, rays, 8);
+        }
+    }
+}
+
 TEST(FirstHits, OfRaysThatGrazeATorusAreThoseOfEachRayAlone) {
     Torus torus;
     torus.prepare();
