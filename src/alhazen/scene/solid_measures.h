@@ -22,8 +22,8 @@
 /// what the corners lack is too rare to show in the scatter: three lines' share is added (Hanley
 /// and Lippman-Hand, "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249, 1983).
 /// Conventions: world units. Moments are those of density 1. Complexity and threads: errors fall as
-/// about N^-1.5, N the lines, as long as cells are cut. Over all threads; the result does not
-/// depend on their number, as long as time does not end the work.
+/// about N^-1 to N^-1.5, N the lines, as long as cells are cut, and then as N^-0.5. Over all
+/// threads; the result does not depend on their number, as long as time does not end the work.
 
 #include <array>
 #include <cstdint>
