@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "alhazen/renderers/flat_looks.h"
 #include "alhazen/renderers/local_shading.h"
 #include "alhazen/renderers/pixel_loop.h"
 #include "alhazen/renderers/visible_batch.h"
@@ -34,6 +35,7 @@ class Caster {
           count_(counters[RayKind::Eye]),
           eye_{0, 1.0, job.cone},
           ambient_(ambient_terms(job.scene.lights)),
+          flat_looks_(job.scene, ambient_),
           visible_(job.scene, job.count_tests ? &counters.tests : nullptr) {}
 
     void trace(std::span<const Ray> eye_rays, std::span<Rgb> radiance) {
@@ -47,6 +49,13 @@ class Caster {
                 if (point == nullptr) return end(k, 1.0, radiance);
                 ++count_.hit;
                 meet({k, 1.0, job_.cone}, eye_rays[k], *point, t, radiance);
+            },
+            [&](std::size_t k, const Hit& hit) {
+                const Rgb* look = flat_looks_.find(hit);
+                if (look == nullptr) return false;
+                ++count_.hit;
+                radiance[k] += *look;
+                return true;
             });
         for (int met = 1; met < kMaxPassedSurfaces && !behind_.empty(); ++met) {
             if (job_.stop_requested()) return;
@@ -99,6 +108,7 @@ class Caster {
     RayCount& count_;
     const OnWay eye_;  ///< what every eye ray has behind it
     const std::vector<Rgb> ambient_;
+    const FlatLooks flat_looks_;
     VisibleBatch visible_;
     std::vector<OnWay> on_way_, behind_;
     std::vector<Ray> rays_, rays_behind_;

@@ -23,11 +23,18 @@ class VisibleBatch {
     /// ray's origin. `tell` must not change rays or paths that have not been told yet.
     template <class PathOf, class Tell>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
+        find(rays, coherence, path, tell, [](std::size_t, const Hit&) { return false; });
+    }
+    /// The same, but that `take(k, hit)` may take the first hit of a ray, of whose surface nothing
+    /// is asked then: true where it does.
+    template <class PathOf, class Tell, class Take>
+    void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell,
+              Take&& take) {
         behind_.clear();
         const auto kind = [&](std::size_t k) { return path(k).kind; };
         for (std::size_t k = 0; const Hit& hit : closest(rays, coherence, kind)) {
             if (hit.found()) {
-                meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
+                if (!take(k, hit)) meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
             } else {
                 tell(k, static_cast<const ShadingPoint*>(nullptr), 0.0);
             }

@@ -14,6 +14,7 @@
 #include "alhazen/geometry/box.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/geometry/ray_mask.h"
 
 namespace alhazen {
@@ -36,6 +37,12 @@ struct RayQuery {
 
     TraversalStats* stats;  ///< what was done is added here; null: nothing is counted
     RayMask mask;           ///< what the rays see
+};
+
+/// The hits of eight rays, lane by lane, with primitives of the aggregate itself.
+struct LaneHits {
+    ShapeHit hits[kRayLanes];
+    PrimitiveId primitives[kRayLanes];
 };
 
 class Aggregate {
@@ -65,6 +72,14 @@ class Aggregate {
     /// the primitive: its own one, or the instance that the hit came through; `ray` in the frame of
     /// the aggregate. By default nothing.
     virtual void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const;
+    /// Whether `complete` may change the material.
+    [[nodiscard]] virtual bool changes_materials() const { return false; }
+
+    /// Whether `closest_of_lanes` may be asked, for it is faster than one ray after the other.
+    [[nodiscard]] virtual bool takes_lanes() const { return false; }
+    /// The nearest hits of eight valid rays: those of `wanted` that have one.
+    virtual std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
+                                           LaneHits& hits, RayQuery query) const;
 
     /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
     /// than ray by ray from about ten rays on, whatever their order.

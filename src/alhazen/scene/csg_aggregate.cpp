@@ -97,6 +97,11 @@ bool CsgAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuer
     return false;
 }
 
+std::uint32_t CsgAggregate::closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
+                                             LaneHits& hits, RayQuery query) const {
+    return evaluator_->first_of_lanes(rays, wanted, query.mask, hits, query.stats);
+}
+
 bool CsgAggregate::inside_at_minus_infinity(const Ray& ray) const {
     if (box().bounded()) return false;
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -137,8 +142,7 @@ Opacity CsgAggregate::opacity(const CsgRay& ray, const Hit& hit) const {
 
 void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
                             Surface& surface) const {
-    const bool may_differ = solid_.has_media() || !shows_minuend_.empty();
-    const Look seen = may_differ ? look(solid_.prepare(ray), t, primitive) : Look{};
+    const Look seen = changes_materials() ? look(solid_.prepare(ray), t, primitive) : Look{};
     if (seen.media.known) {
         surface.media = seen.media;
         surface.has_extras = true;

@@ -54,6 +54,11 @@ class CsgSolid {
         return table_.box(static_cast<std::size_t>(expression_.leaves[leaf]));
     }
     [[nodiscard]] CsgRay prepare(const Ray& ray, RayMask mask = kAllRays) const;
+    // ---- what `prepare` makes tau of: kTolerance (size + distance of the origin from the center)
+    /// What the tests of primitives may be wrong by, as a part of the distances in play.
+    static constexpr double kTolerance = 0x1p-38;
+    [[nodiscard]] const Vec3& center() const { return center_; }
+    [[nodiscard]] double size() const { return half_ + offset_; }
     /// Distance within which surfaces count as coincident, seen from as far as the solid is large.
     [[nodiscard]] double tolerance() const { return kTolerance * (2.0 * half_ + offset_); }
 
@@ -83,8 +88,6 @@ class CsgSolid {
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:
-    /// What the tests of primitives may be wrong by, as a part of the distances in play.
-    static constexpr double kTolerance = 0x1p-38;
     /// The pad is larger than tau: what lies within tau of a bound is seen from inside it.
     static constexpr double kPadPerTolerance = 4.0;
 

@@ -1,6 +1,7 @@
 #include "alhazen/scene/csg_truth_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -15,6 +16,12 @@ namespace {
 constexpr auto kMaxHitsOfKind = []<class... S>(std::type_identity<ShapeTypes<S...>>) {
     return std::array<int, sizeof...(S)>{S::kMaxHits...};
 }(std::type_identity<AnalyticShapes>{});
+
+void count_tests(TraversalStats* stats, std::uint32_t asked, std::uint32_t met) {
+    if (stats == nullptr) return;
+    stats->primitive_tests += static_cast<std::uint64_t>(std::popcount(asked));
+    stats->primitive_hits += static_cast<std::uint64_t>(std::popcount(asked & met));
+}
 
 }  // namespace
 
@@ -89,6 +96,32 @@ CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
     }
     std::stable_partition(order_.begin(), order_.begin() + leaf_count,
                           [&](std::uint32_t leaf) { return (needed_ >> leaf & 1) != 0; });
+    prepare_lanes();
+}
+
+void CsgTruthTable::prepare_lanes() {
+    static_assert(CsgLanesSolid::kMaxLeaves >= kMaxLeaves);
+    const PrimitiveTable& table = solid_.table();
+    const std::uint32_t count = solid_.leaf_count();
+    for (std::uint32_t leaf = 0; leaf < count; ++leaf) {
+        const Place place = places_[leaf];
+        const bool known = with_column(table.columns, place.kind, [&](const auto& column) {
+            if (column.placements[place.index] != kNoPlacement) return false;
+            return SpansSideBySide<typename ShapeOfColumn<decltype(column)>::Type> &&
+                   column.shapes[place.index].closed();
+        });
+        if (!known) return;
+        for (LeafSet inside = 0; inside < LeafSet{1} << count; ++inside) {
+            const LeafSet own = LeafSet{1} << leaf;
+            if ((inside & own) != 0 || is_solid(inside) == is_solid(inside | own)) continue;
+            lanes_.changes[leaf] |= std::uint64_t{1} << inside;
+        }
+    }
+    lanes_.center = solid_.center();
+    lanes_.size = solid_.size();
+    // More than tau, for the sums that lead to it round otherwise.
+    lanes_.apart = 4.0 * CsgSolid::kTolerance;
+    lanes_.leaf_count = count;
 }
 
 /// Ascending; there is room for kMaxShapeHits.
@@ -210,6 +243,48 @@ void CsgTruthTable::fill(const CsgCrossing& crossing, Hit& hit) const {
     if (!gather(ray, events, stats) || !next(ray, events, found)) return false;
     fill(found, hit);
     return true;
+}
+
+std::uint32_t CsgTruthTable::first_of_lanes(const RayLanes& rays, std::uint32_t wanted,
+                                            RayMask mask, LaneHits& hits,
+                                            TraversalStats* stats) const {
+    const PrimitiveTable& table = solid_.table();
+    const CsgLanesKernels& kernels = csg_lanes_kernels();
+    SpanLanes spans[kMaxLeaves];
+    CsgLanesHits found;
+    found.hit = 0;
+    found.unsure = wanted;
+    if (table.all_seen(mask)) {
+        for (std::uint32_t i = 0; i < lanes_.leaf_count && wanted != 0; ++i) {
+            const std::uint32_t leaf = order_[i];
+            with_column(table.columns, places_[leaf].kind, [&](const auto& column) {
+                if constexpr (SpansSideBySide<typename ShapeOfColumn<decltype(column)>::Type>) {
+                    find_spans(column.shapes[places_[leaf].index], rays, spans[leaf]);
+                }
+            });
+            count_tests(stats, wanted, spans[leaf].met);
+            if ((needed_ >> leaf & 1) == 0) continue;
+            wanted = kernels.in_range(lanes_, rays, spans[leaf], wanted);
+        }
+        if (wanted == 0) return 0;
+        kernels.first(lanes_, rays, spans, wanted, found);
+    }
+    for_each_lane(found.hit, [&](std::size_t lane) {
+        const auto event = static_cast<std::uint32_t>(found.event[lane]);
+        const std::uint32_t leaf = event / 2;
+        const double part = event % 2 == 0 ? spans[leaf].entry_part[lane] : spans[leaf].exit_part[lane];
+        hits.hits[lane] = {found.t[lane], 0, 0, static_cast<std::uint32_t>(part)};
+        hits.primitives[lane] = solid_.expression().leaves[leaf];
+    });
+    std::uint32_t hit = found.hit;
+    for_each_lane(found.unsure, [&](std::size_t lane) {
+        Hit alone;
+        if (!first(solid_.prepare(rays.ray(lane), mask), alone, stats)) return;
+        hits.hits[lane] = alone;
+        hits.primitives[lane] = alone.primitive;
+        hit |= 1u << lane;
+    });
+    return hit;
 }
 
 bool CsgTruthTable::all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const {

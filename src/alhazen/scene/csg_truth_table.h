@@ -14,6 +14,7 @@
 #include <array>
 
 #include "alhazen/scene/csg_evaluator.h"
+#include "alhazen/scene/csg_lanes.h"
 
 namespace alhazen {
 
@@ -28,6 +29,9 @@ class CsgTruthTable final : public CsgEvaluator {
 
     bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const override;
     bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
+    [[nodiscard]] bool takes_lanes() const override { return lanes_.leaf_count > 0; }
+    std::uint32_t first_of_lanes(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
+                                 LaneHits& hits, TraversalStats* stats) const override;
     [[nodiscard]] CsgSides sides(const CsgRay& ray, double t) const override;
     [[nodiscard]] std::size_t memory_bytes() const override { return sizeof(*this); }
 
@@ -48,6 +52,8 @@ class CsgTruthTable final : public CsgEvaluator {
         bool inside = false;  ///< where the line begins
     };
 
+    /// Where all leaves are convex shapes that lanes know, which stand in the frame of the solid.
+    void prepare_lanes();
     Crossings cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
                     TraversalStats* stats) const;
     bool gather(const CsgRay& ray, Events& events, TraversalStats* stats) const;
@@ -63,6 +69,7 @@ class CsgTruthTable final : public CsgEvaluator {
     /// Leaves without which the solid is empty first.
     std::array<std::uint32_t, kMaxLeaves> order_{};
     LeafSet needed_ = 0;  ///< these
+    CsgLanesSolid lanes_;
 };
 
 }  // namespace alhazen

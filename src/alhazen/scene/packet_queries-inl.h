@@ -28,9 +28,11 @@
 #include <new>
 
 #include "alhazen/accel/wide_bvh/packet-inl.h"
+#include "alhazen/scene/block_boxes-inl.h"
 #include "alhazen/scene/leaf_queries-inl.h"
 #include "alhazen/scene/packet_decider-inl.h"
 #include "alhazen/scene/pending_triangles-inl.h"
+#include "alhazen/scene/primitive_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -190,13 +192,13 @@ HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, Fi
     return (bits_of(out.candidates) & group.used) != 0;
 }
 
-/// What is asked of the leaves. `Derived` offers `found(group number, place, result, stats)`;
-/// `Query` is the query of a single ray, made for the rays that need it.
-template <class Derived, class Query, class Result>
+/// What is asked of the leaves. `Derived` offers `found(group number, place, result, stats)` for
+/// triangles. Shapes are met by eight rays at a time too, those of a group that may meet their box.
+template <class Derived>
 class PacketLeaves {
   public:
     HWY_INLINE PacketLeaves(const WideBvhScene& scene, std::span<const Ray> rays,
-                            std::span<Result> results, RayPacket& packet)
+                            std::span<Hit> results, RayPacket& packet)
         : scene_(scene),
           rays_(rays),
           results_(results),
@@ -207,8 +209,15 @@ class PacketLeaves {
     template <class Stats>
     HWY_INLINE bool visit(NodeRef ref, float nearest, Stats stats) {
         Derived& self = static_cast<Derived&>(*this);
-        if (static_cast<LeafType>(ref.kind()) != LeafType::Triangles) {
-            return visit_one_by_one(ref, nearest, stats);
+        switch (static_cast<LeafType>(ref.kind())) {
+            case LeafType::Triangles:
+                break;
+            case LeafType::Spheres:
+                return visit_shapes(&scene_.layout->spheres[ref.offset()], ref.count(), stats);
+            case LeafType::Frustums:
+                return visit_shapes(&scene_.layout->frustums[ref.offset()], ref.count(), stats);
+            case LeafType::Others:
+                return visit_shapes(&scene_.layout->others[ref.offset()], ref.count(), stats);
         }
         std::uint32_t changed = 0;
         for (std::uint32_t i = 0; i < ref.count(); ++i) {
@@ -236,45 +245,71 @@ class PacketLeaves {
     }
 
   protected:
-    /// The query of a ray on its own, made when it is needed first.
-    HWY_INLINE Query& query(std::size_t i) {
-        if ((made_ >> i & 1) == 0) {
-            new (&queries_[i].place) Query(scene_, rays_[i], results_[i]);
-            made_ |= std::uint64_t{1} << i;
-        }
-        return *std::launder(reinterpret_cast<Query*>(&queries_[i].place));
-    }
-
-    template <class Stats>
-    HWY_NOINLINE bool visit_one_by_one(NodeRef ref, float nearest, Stats stats) {
-        for (std::size_t g = 0; g < packet_.group_count; ++g) {
-            RayGroup& group = packet_.groups[g];
-            if (nearest > packet_.group_k_max[g]) continue;
-            for (std::uint32_t rest = group.used; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                Query& one = query(g * kGroupRays + lane);
-                one.s_max = std::min(one.s_max, group.s_max[lane]);
-                (void)one.visit(ref, stats);  // a query for the nearest hit never stops
-                group.s_max[lane] = one.s_max;
+    /// Shapes and instances one after the other, each by the groups of rays that may meet it.
+    template <class Block, class Stats>
+    HWY_NOINLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
+        for (const Block* end = blocks + count; blocks < end; ++blocks) {
+            const BlockBoxes boxes(*blocks);
+            for (std::size_t lane = 0; lane < kBlockWidth && blocks->ids[lane].used(); ++lane) {
+                const PrimitiveId id = blocks->ids[lane].id();
+                float lo[3], hi[3];
+                boxes.get(lane, lo, hi);
+                std::uint32_t changed = 0;
+                for (std::uint32_t rest = packet_.meet_groups(lo, hi); rest != 0;
+                     rest &= rest - 1) {
+                    const auto g = static_cast<std::size_t>(std::countr_zero(rest));
+                    if (visit_shape(id, g, stats)) changed |= 1u << g;
+                }
+                if (changed != 0) packet_.shrink(changed);
             }
-            packet_.shrink(1u << g);
         }
         return false;
     }
 
     const WideBvhScene& scene_;
     std::span<const Ray> rays_;
-    std::span<Result> results_;
+    std::span<Hit> results_;
     RayPacket& packet_;
     PendingTriangles pending_;
     PacketDecider decider_;
-    std::uint64_t made_ = 0;  ///< queries of rays on their own
 
   private:
-    struct Place {
-        alignas(64) std::byte place[sizeof(Query)];
-    };
-    Place queries_[kPacketRays];
+    /// Tests a group; whether a ray found something.
+    template <class Stats>
+    HWY_INLINE bool visit_shape(PrimitiveId id, std::size_t g, Stats stats) {
+        RayLanes& lanes = lanes_of(g);
+        const std::size_t first = g * kGroupRays;
+        std::uint32_t changed = closest_of_lanes(*scene_.table, id, lanes, packet_.groups[g].used,
+                                                 results_.subspan(first), {stats.sink(), scene_.mask});
+        const LocalParameter parameter{scene_.layout->frame.scale, 0.0};
+        const bool any = changed != 0;
+        for (; changed != 0; changed &= changed - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(changed));
+            packet_.limit(first + lane, parameter.above(lanes.t_max[lane]));
+        }
+        return any;
+    }
+    /// The rays of a group as the tests of shapes take them, made when they are needed first.
+    HWY_INLINE RayLanes& lanes_of(std::size_t g) {
+        RayLanes& lanes = lanes_[g];
+        if ((lanes_made_ >> g & 1) != 0) return lanes;
+        lanes_made_ |= 1u << g;
+        const std::size_t first = g * kGroupRays;
+        for (std::size_t k = 0; k < 3; ++k) {
+            store_lanes(load_lanes(&packet_.raw[k][first]), lanes.origin[k]);
+            store_lanes(load_lanes(&packet_.raw[3 + k][first]), lanes.direction[k]);
+        }
+        store_lanes(load_lanes(&packet_.raw[6][first]), lanes.t_min);
+        store_lanes(load_lanes(&packet_.raw[7][first]), lanes.t_max);
+        for (std::size_t i = first; i < std::min(first + kGroupRays, results_.size()); ++i) {
+            const Hit& found = results_[i];
+            if (found.found()) lanes.t_max[i - first] = found.t;
+        }
+        return lanes;
+    }
+
+    RayLanes lanes_[kPacketGroups];
+    std::uint32_t lanes_made_ = 0;
 };
 
 /// Takes what PacketDecider has found.
@@ -286,7 +321,7 @@ struct Offered {
     }
 };
 /// The nearest hits.
-class ClosestPacket : public PacketLeaves<ClosestPacket, ClosestQuery, Hit> {
+class ClosestPacket : public PacketLeaves<ClosestPacket> {
   public:
     HWY_INLINE ClosestPacket(const WideBvhScene& scene, std::span<const Ray> rays,
                              std::span<Hit> best, RayPacket& packet)
@@ -319,9 +354,6 @@ class ClosestPacket : public PacketLeaves<ClosestPacket, ClosestQuery, Hit> {
         pending_.take_all([&](std::size_t ray, TrianglePlace place)
                               HWY_ATTR { decide(ray, place, stats); });
         decider_.decide(Offered{results_}, stats);
-        for (std::uint64_t rest = made_; rest != 0; rest &= rest - 1) {
-            query(static_cast<std::size_t>(std::countr_zero(rest))).finish(stats);
-        }
     }
 
   private:

@@ -19,17 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-template <std::size_t N>
-HWY_INLINE Lanes<float, N> select_lanes(const LaneMask<float, N>& mask, const Lanes<float, N>& yes,
-                                        const Lanes<float, N>& no) {
-    Lanes<float, N> r;
-    ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<float, N>; ++i) {
-        r.part[i] = hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]);
-    }
-    return r;
-}
-
 /// Triangles that rays of a packet may hit, until the test in double decides. Most rays have one:
 /// that is kept in lanes, and others beside it in a list.
 class PendingTriangles {

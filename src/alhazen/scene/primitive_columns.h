@@ -2,11 +2,18 @@
 /// Access to the column of an analytic kind that is known at run time.
 
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "alhazen/scene/primitive_table.h"
 
 namespace alhazen {
+
+/// The shape of a column, given the type of a reference to it.
+template <class Column>
+struct ShapeOfColumn {
+    using Type = typename decltype(std::remove_cvref_t<Column>::shapes)::value_type;
+};
 
 /// Calls `f(column)` for the column of a kind below kTriangleKind, of table.columns.
 template <std::size_t I = 0, class Columns, class F>

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/scene/primitive_columns.h"
 #include "alhazen/shapes/first_hits.h"
 
@@ -13,13 +14,6 @@ namespace {
 
 constexpr std::size_t kFew = 4;
 constexpr std::size_t kBlock = kMostRaysSideBySide;
-
-template <class Column>
-struct ShapeOf;
-template <class S>
-struct ShapeOf<ShapeColumn<S>> {
-    using Type = S;
-};
 
 /// Some rays of a batch, where they are or, as far as they differ from that, as copies.
 class RayBlock {
@@ -60,7 +54,7 @@ std::uint32_t test_block(const PrimitiveTable& table, PrimitiveId id, RayBlock& 
     const std::uint32_t kind = table.kind(id);
     const std::uint32_t i = static_cast<std::uint32_t>(id) - table.first(kind);
     const std::uint32_t found = with_column(table.columns, kind, [&](const auto& c) {
-        using S = typename ShapeOf<std::remove_cvref_t<decltype(c)>>::Type;
+        using S = typename ShapeOfColumn<decltype(c)>::Type;
         if constexpr (HitSideBySide<S>) {
             const std::uint32_t placement = c.placements[i];
             const Affine* inner_from_outer = nullptr;
@@ -91,11 +85,6 @@ void for_each_block(std::span<const Ray> rays, Done&& done, F&& f) {
     }
 }
 
-template <class F>
-void for_each_lane(std::uint32_t lanes, F&& f) {
-    for (; lanes != 0; lanes &= lanes - 1) f(static_cast<std::size_t>(std::countr_zero(lanes)));
-}
-
 }  // namespace
 
 SideBySideShapes::SideBySideShapes(const PrimitiveTable& table,
@@ -106,7 +95,7 @@ SideBySideShapes::SideBySideShapes(const PrimitiveTable& table,
         if (std::find(outside.begin(), outside.end(), id) != outside.end()) continue;
         const std::uint32_t kind = table.kind(id);
         const bool fits = kind < kTriangleKind && with_column(table.columns, kind, [](auto& c) {
-                              using S = typename ShapeOf<std::remove_cvref_t<decltype(c)>>::Type;
+                              using S = typename ShapeOfColumn<decltype(c)>::Type;
                               return HitSideBySide<S>;
                           });
         if (!fits) {

@@ -230,6 +230,26 @@ void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, boo
     if (with_uv && !surface.is_of_mesh) share_coordinates(surface);
 }
 
+std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit) {
+    const Aggregate* innermost = &aggregate;
+    for (std::size_t i = hit.path.size(); i-- > 0;) {
+        if (innermost->changes_materials()) return std::nullopt;
+        const PrimitiveTable& table = innermost->primitives();
+        innermost = table.instances[table.index(hit.path[i])].aggregate.get();
+    }
+    if (innermost->changes_materials()) return std::nullopt;
+    const PrimitiveTable& table = innermost->primitives();
+    const std::uint32_t kind = table.kind(hit.primitive);
+    const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table.first(kind);
+    if (kind != kTriangleKind) {
+        return with_column(table.columns, kind,
+                           [&](const auto& column) { return column.materials[index]; });
+    }
+    const PlacedMesh& placed = table.mesh_of(index);
+    const bool varies = !placed.mesh->vertex_materials.empty() || !placed.mesh->colors.empty();
+    return varies ? std::nullopt : std::optional(placed.material);
+}
+
 Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {
     const double margin = 32.0 * dot(abs(surface.normal), surface.error);
     const Vec3 offset = dot(direction, surface.normal) >= 0.0 ? margin * surface.normal

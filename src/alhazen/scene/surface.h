@@ -51,6 +51,10 @@ struct Surface : ShapeSurface {
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
                  Surface& surface);
 
+/// The material of the surface at a hit, where the primitive alone tells: it has no colours of its
+/// vertices, and no solid around it shows another one.
+[[nodiscard]] std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit);
+
 /// The ray that leaves the surface along `direction`, as far as `t_max`. It starts outside the
 /// error bound of the point, on the side the direction points to, and excludes t = 0, so that it
 /// does not meet the surface again.

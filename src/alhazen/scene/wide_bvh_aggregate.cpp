@@ -6,6 +6,7 @@
 #include "alhazen/base/huge_pages.h"
 #include "alhazen/scene/aggregate_of.h"
 #include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/scene/primitive_lanes.h"
 #include "alhazen/scene/wide_bvh_file.h"
 
 namespace alhazen {
@@ -20,6 +21,7 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& opt
     side_by_side_ = SideBySideShapes(table_, unbounded_);
     layout_ = build_wide_bvh(table_, bounded, options);
     built_cost_ = layout_.sah_cost();
+    packets_pay_ = packets_pay();
     prepare_meshes();
 }
 
@@ -32,6 +34,7 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::
     layout_ = std::move(stored.layout);
     kernels_ = &wide_bvh_kernels(layout_.tree.width);
     built_cost_ = layout_.sah_cost();
+    packets_pay_ = packets_pay();
     prepare_meshes();
 }
 
@@ -57,6 +60,24 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
     report.cost = layout_.sah_cost();
     if (built_cost_ > 0) report.growth = report.cost / built_cost_;
     return report;
+}
+
+// Measured: in trees that lie near the core. Where primitives are finer than the rays lie apart a
+// packet gives up.
+bool WideBvhAggregate::packets_pay() const {
+    constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
+    if (layout_.memory_bytes() > kCachedBytes) return false;
+    std::size_t in_lanes = 0, alone = 0;
+    for (std::uint32_t i = 0; i < table_.size(); ++i) {
+        if (i == table_.first(kTriangleKind)) {
+            const std::uint32_t end = table_.first(kTriangleKind + 1);
+            in_lanes += end - i;
+            i = end;
+            if (i == table_.size()) break;
+        }
+        ++(alhazen::takes_lanes(table_, PrimitiveId{i}) ? in_lanes : alone);
+    }
+    return 64 * alone <= in_lanes;
 }
 
 void WideBvhAggregate::prepare_meshes() const {
@@ -150,16 +171,6 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, Ray
 
 namespace {
 
-/// Whether packets of coherent rays are faster than the stream: measured for trees of triangles
-/// that lie near the core; spheres and other shapes are tested ray by ray in a packet, and where
-/// triangles are finer than the rays lie apart it gives up.
-bool packets_pay(const WideBvhLayout& layout) {
-    constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
-    const std::size_t shapes = layout.frustums.size() + layout.others.size();
-    return layout.memory_bytes() <= kCachedBytes &&
-           8 * (layout.spheres.size() + kBlockWidth * shapes) <= layout.triangles.size();
-}
-
 /// Whether coherent rays are faster one by one than in the stream, which hides the way to memory:
 /// in trees that lie in the caches what neighbours do is predicted well.
 bool goes_one_by_one(const WideBvhLayout& layout, Coherence coherence) {
@@ -184,7 +195,7 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
     if (layout_.tree.empty) return;
     if (!side_by_side_.empty()) return side_by_side_.closest(table_, rays, hits, query);
     const WideBvhScene seen = scene(query.mask);
-    if (coherence == Coherence::Coherent && packets_pay(layout_)) {
+    if (coherence == Coherence::Coherent && packets_pay_) {
         kernels_->closest_coherent(seen, rays, hits, query.stats);
     } else if (goes_one_by_one(layout_, coherence)) {
         for (std::size_t i = 0; i < rays.size(); ++i) {

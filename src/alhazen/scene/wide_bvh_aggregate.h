@@ -59,6 +59,8 @@ class WideBvhAggregate final : public Aggregate {
   private:
     WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file);
 
+    /// Whether packets of coherent rays are faster than single rays.
+    [[nodiscard]] bool packets_pay() const;
     /// What nobody else prepares for rays that come from everywhere.
     void prepare_meshes() const;
     [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
@@ -74,6 +76,7 @@ class WideBvhAggregate final : public Aggregate {
     SideBySideShapes side_by_side_;  ///< all that is in the tree, or nothing
     WideBvhLayout layout_;
     double built_cost_ = 0;  ///< of the tree before any refit
+    bool packets_pay_ = false;
     const WideBvhKernels* kernels_ = nullptr;
 };
 

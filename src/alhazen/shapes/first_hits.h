@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/shapes/algebraic.h"
 #include "alhazen/shapes/blob.h"
 #include "alhazen/shapes/sphere.h"
@@ -16,7 +17,7 @@
 namespace alhazen {
 
 /// So many rays at most.
-inline constexpr std::size_t kMostRaysSideBySide = 8;
+inline constexpr std::size_t kMostRaysSideBySide = kRayLanes;
 
 /// The set of rays that hit, bit i for ray i; [ray] their first crossings. One to eight valid rays.
 [[nodiscard]] std::uint32_t first_hits(const Algebraic& shape, std::span<const Ray* const> rays,
@@ -28,7 +29,11 @@ inline constexpr std::size_t kMostRaysSideBySide = 8;
 [[nodiscard]] std::uint32_t first_hits(const Torus& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);
 
-/// Shapes that have one of these.
+/// The same for the rays of a set that lie in lanes already; hits lane by lane.
+[[nodiscard]] std::uint32_t first_hits(const Sphere& shape, const RayLanes& rays,
+                                       std::uint32_t wanted, ShapeHit* hits);
+
+/// Shapes that have one for rays where they are.
 template <class S>
 concept HitSideBySide = requires(const S& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
     first_hits(shape, rays, hits);

@@ -79,8 +79,8 @@ HWY_INLINE std::uint32_t cut_around(double reach, double height, Lines& l) {
         const Doubles inverse = Doubles(1.0) / d;
         const Doubles far = copysign(Doubles(half), d);
         const Doubles near = (-far - o) * inverse, beyond = (far - o) * inverse;
-        l.entry = select(near > l.entry, near, l.entry);
-        l.exit = select(beyond < l.exit, beyond, l.exit);
+        l.entry = select_lanes(near > l.entry, near, l.entry);
+        l.exit = select_lanes(beyond < l.exit, beyond, l.exit);
     };
     cut(l.o.x, l.d.x, reach);
     cut(l.o.y, l.d.y, reach);
@@ -98,13 +98,13 @@ HWY_INLINE std::uint32_t cut_by_box(const Box3& box, Lines& l, std::uint32_t& un
                          double low_part) HWY_ATTR {
         const Doubles lo(low), hi(high);
         const Mask up = d > Doubles(0.0), moves = up | (d < Doubles(0.0));
-        const Doubles near = (select(up, lo, hi) - o) / d, far = (select(up, hi, lo) - o) / d;
+        const Doubles near = (select_lanes(up, lo, hi) - o) / d, far = (select_lanes(up, hi, lo) - o) / d;
         const Mask later = moves & (near > l.entry), sooner = moves & (far < l.exit);
         const Doubles first(low_part), second(low_part + 1.0);
-        l.entry = select(later, near, l.entry);
-        l.entry_part = select(later, select(up, first, second), l.entry_part);
-        l.exit = select(sooner, far, l.exit);
-        l.exit_part = select(sooner, select(up, second, first), l.exit_part);
+        l.entry = select_lanes(later, near, l.entry);
+        l.entry_part = select_lanes(later, select_lanes(up, first, second), l.entry_part);
+        l.exit = select_lanes(sooner, far, l.exit);
+        l.exit_part = select_lanes(sooner, select_lanes(up, second, first), l.exit_part);
         const std::uint32_t moving = bits_of(moves);
         left &= moving | bits_of((lo < o) & (o < hi));
         unsure |= moving & ~bits_of(is_finite(near) & is_finite(far));

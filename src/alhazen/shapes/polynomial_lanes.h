@@ -7,35 +7,17 @@
 /// brackets; what is rarer is left to the scalar text. Conventions: internal to this folder. Bit i
 /// of a set of lanes stands for lane i. Every target gives the bits of the scalar text.
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/shapes/polynomial_solid.h"
 
 namespace alhazen {
 
 struct Algebraic;
 struct Torus;
-
-inline constexpr std::size_t kRayLanes = 8;
-inline constexpr std::uint32_t kAllRayLanes = (1u << kRayLanes) - 1;
-
-/// Eight rays in the frame of a shape's object; what is not used repeats the first.
-struct alignas(64) RayLanes {
-    double origin[3][kRayLanes], direction[3][kRayLanes];  ///< [axis][lane]
-    double t_min[kRayLanes], t_max[kRayLanes];
-
-    void set(std::size_t lane, const Ray& ray) {
-        for (int k = 0; k < 3; ++k) {
-            origin[k][lane] = ray.origin[k];
-            direction[k][lane] = ray.direction[k];
-        }
-        t_min[lane] = ray.t_min;
-        t_max[lane] = ray.t_max;
-    }
-};
 
 /// What the kernels know of the rays, lane by lane.
 struct alignas(64) PolynomialLanes {
@@ -108,12 +90,6 @@ double improved_root_of_lane(const Polynomial& f, const SolidFrame& frame, const
     changes.lo[0] = lanes.lo[lane];
     changes.hi[0] = lanes.hi[lane];
     return improved_root(f, frame, ray, covered, p, changes, 0);
-}
-
-/// Calls f(lane) for each of a set.
-template <class F>
-void for_each_lane(std::uint32_t set, F&& f) {
-    for (; set != 0; set &= set - 1) f(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
 /// The first crossings of up to eight rays: the set of those that hit. `begin(kernels, in, lanes)`

@@ -32,22 +32,22 @@ HWY_INLINE Doubles newton(const ScaledLanes<N>& f, Doubles lo, Doubles hi, const
         Doubles next = x - value / slope;
         Mask within = (next >= lo) & (next <= hi);
         // The one more step of those that have come near.
-        result = select(finishing, select(within, next, x), result);
+        result = select_lanes(finishing, select_lanes(within, next, x), result);
         running = running & !finishing;
         const Mask positive = value > Doubles(0.0), differs = positive | (value < Doubles(0.0));
         const Mask nan = !(value >= value);
         const Mask at_root = running & !(differs | nan);
-        result = select(at_root, x, result);
+        result = select_lanes(at_root, x, result);
         running = running & !at_root;
         if (none(running)) return result;
         const Mask below = value * sign_lo > Doubles(0.0);
-        lo = select(below, x, lo);
-        hi = select(below, hi, x);
+        lo = select_lanes(below, x, lo);
+        hi = select_lanes(below, hi, x);
         const Doubles half = Doubles(0.5) * (lo + hi);
         within = (next >= lo) & (next <= hi);
-        next = select(within, next, half);
+        next = select_lanes(within, next, half);
         const Doubles step = abs(next - x);
-        if (i > 2) next = select(step > Doubles(0.5) * last_step, half, next);
+        if (i > 2) next = select_lanes(step > Doubles(0.5) * last_step, half, next);
         const Mask fast = (step <= Doubles(1e-9) * abs(x)) & (step <= Doubles(1e-4) * last_step);
         last_step = abs(next - x);
         x = next;
@@ -55,12 +55,12 @@ HWY_INLINE Doubles newton(const ScaledLanes<N>& f, Doubles lo, Doubles hi, const
         const Mask near = running & (fast | (last_step <= Doubles(0x1p-52) * size));
         const Mask done = (near & (last_step <= Doubles(0x1p-51) * size)) |
                           (running & !near & !(hi - lo > Doubles(0x1p-53) * hi));
-        result = select(done, x, result);
+        result = select_lanes(done, x, result);
         running = running & !done;
         finishing = near & running;
         if (none(running)) return result;
     }
-    return select(running, x, result);
+    return select_lanes(running, x, result);
 }
 
 /// As `polish`.
@@ -75,23 +75,23 @@ HWY_INLINE Doubles polished(const PolynomialLanes& lanes, const Mask& wanted) {
     if (!none(across & wanted)) {
         q(unit, value, slope);
         const Mask below = value * sign_lo > Doubles(0.0);
-        lo = select(across & below, half, lo);
-        hi = select(across & !below, half, hi);
+        lo = select_lanes(across & below, half, lo);
+        hi = select_lanes(across & !below, half, hi);
     }
     const Mask mirrored = !(hi <= half);
     q.mirror(mirrored);
-    const Doubles near = select(mirrored, unit - hi, lo), near_by = select(mirrored, hi, unit - lo);
-    const Doubles far = select(mirrored, unit - lo, hi), far_by = select(mirrored, lo, unit - hi);
+    const Doubles near = select_lanes(mirrored, unit - hi, lo), near_by = select_lanes(mirrored, hi, unit - lo);
+    const Doubles far = select_lanes(mirrored, unit - lo, hi), far_by = select_lanes(mirrored, lo, unit - hi);
     const Doubles w_lo = near / near_by, w_hi = far / far_by;
-    const Doubles sign = select(mirrored, -sign_lo, sign_lo);
+    const Doubles sign = select_lanes(mirrored, -sign_lo, sign_lo);
     Doubles f_lo, f_hi;
     q(w_lo, f_lo, slope);
-    f_lo = select(w_lo > Doubles(0.0), f_lo, q.s[0]);
+    f_lo = select_lanes(w_lo > Doubles(0.0), f_lo, q.s[0]);
     q(w_hi, f_hi, slope);
     Doubles guess = w_lo + (w_hi - w_lo) * (f_lo / (f_lo - f_hi));
-    guess = select((guess >= w_lo) & (guess <= w_hi), guess, half * (w_lo + w_hi));
+    guess = select_lanes((guess >= w_lo) & (guess <= w_hi), guess, half * (w_lo + w_hi));
     const Doubles w = newton(q, w_lo, w_hi, sign, guess, wanted);
-    return select(mirrored, unit, w) / (unit + w);
+    return select_lanes(mirrored, unit, w) / (unit + w);
 }
 
 /// The slope at u, as `evaluate` has it.
@@ -111,7 +111,7 @@ template <int N>
 void refine_degree(const RayLanes& rays, PolynomialLanes& lanes) {
     const Doubles lo = load_lanes(lanes.lo), hi = load_lanes(lanes.hi);
     Doubles u = polished<N>(lanes, mask_of(lanes.bracketed));
-    u = select(u < lo, lo, select(hi < u, hi, u));
+    u = select_lanes(u < lo, lo, select_lanes(hi < u, hi, u));
     const Doubles t = parameter_at(lanes, u);
     Doubles largest(0.0);
     for (int i = 0; i <= degree_of<N>(lanes); ++i) {

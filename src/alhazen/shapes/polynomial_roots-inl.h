@@ -25,20 +25,6 @@ static_assert(kRayLanes == kLaneCount);
 
 using Mask = LaneMask<double>;
 
-HWY_INLINE Doubles select(const Mask& mask, const Doubles& yes, const Doubles& no) {
-    Doubles r;
-    ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<double>; ++i) {
-        r.part[i] = hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]);
-    }
-    return r;
-}
-HWY_INLINE Mask operator!(const Mask& mask) {
-    Mask r;
-    ALHAZEN_UNROLL
-    for (std::size_t i = 0; i < kParts<double>; ++i) r.part[i] = hn::Not(mask.part[i]);
-    return r;
-}
 HWY_INLINE bool none(const Mask& mask) {
     bool r = true;
     for (std::size_t i = 0; i < kParts<double>; ++i) {
@@ -82,8 +68,8 @@ struct ScaledLanes {
     HWY_INLINE void mirror(const Mask& mirrored) {
         for (int i = 0; i <= (n - 1) / 2; ++i) {
             const Doubles a = s[i], b = s[n - i];
-            s[i] = select(mirrored, b, a);
-            s[n - i] = select(mirrored, a, b);
+            s[i] = select_lanes(mirrored, b, a);
+            s[n - i] = select_lanes(mirrored, a, b);
         }
     }
     HWY_INLINE void operator()(const Doubles& w, Doubles& value, Doubles& slope) const {
@@ -133,9 +119,9 @@ HWY_INLINE Doubles most_unlike(const Doubles* b, int n, const Doubles& first, Do
         largest = max_lanes(largest, abs(b[i]));
         const Doubles value = first * b[i];
         const Mask lower = value < lowest;
-        lowest = select(lower, value, lowest);
+        lowest = select_lanes(lower, value, lowest);
         const double place = std::clamp(static_cast<int>(8.0 * i / n + 0.5), 1, 7) / 8.0;
-        middle = select(lower, Doubles(place), middle);
+        middle = select_lanes(lower, Doubles(place), middle);
     }
     return middle;
 }
@@ -151,7 +137,7 @@ HWY_INLINE std::uint32_t find_between(const PolynomialLanes& lanes, const Double
     const Doubles middle = most_unlike<N>(b, n, first, largest);
     const Mask mirrored = middle > Doubles(0.5);
     const Doubles rest = Doubles(1.0) - middle;
-    const Doubles far = select(mirrored, middle, rest), near = select(mirrored, rest, middle);
+    const Doubles far = select_lanes(mirrored, middle, rest), near = select_lanes(mirrored, rest, middle);
     Doubles value, slope;
     ScaledLanes<N> q(lanes);
     q.mirror(mirrored);
@@ -180,7 +166,7 @@ HWY_INLINE void split(const LanePart<N>& part, int n, const Doubles& r, Doubles*
 HWY_INLINE Doubles parameter_at(const PolynomialLanes& lanes, const Doubles& u) {
     const Doubles entry = load_lanes(lanes.entry), exit = load_lanes(lanes.exit);
     const Doubles along = entry + u * (exit - entry);
-    return select(exit < along, exit, along);
+    return select_lanes(exit < along, exit, along);
 }
 
 /// The brackets that a search finds.
@@ -190,9 +176,9 @@ struct LaneBrackets {
 
     HWY_INLINE void set(std::uint32_t lanes, const Doubles& l, const Doubles& h, const Doubles& s) {
         const Mask mask = mask_of(lanes);
-        lo = select(mask, l, lo);
-        hi = select(mask, h, hi);
-        sign = select(mask, s, sign);
+        lo = select_lanes(mask, l, lo);
+        hi = select_lanes(mask, h, hi);
+        sign = select_lanes(mask, s, sign);
         known |= lanes;
     }
 };
@@ -223,7 +209,7 @@ HWY_NOINLINE std::uint32_t search(std::uint32_t wanted, const RayLanes& rays,
         const LaneSigns l = signs_of<N>(left, n, part.error), g = signs_of<N>(right, n, part.error);
         active &= l.known & g.known & ~(l.two & g.two) & bits_of(divisible);
         const Doubles middle = part.lo + r * size;
-        const Doubles sign = select(right[0] < Doubles(0.0), -unit, unit);
+        const Doubles sign = select_lanes(right[0] < Doubles(0.0), -unit, unit);
         const std::uint32_t to_right = active & ~l.two & g.two, to_left = active & l.two;
         const std::uint32_t open = active & ~found.known, to_end = reached(part.hi);
         const std::uint32_t in_left = open & l.one & ~l.two & reached(middle);
@@ -234,11 +220,11 @@ HWY_NOINLINE std::uint32_t search(std::uint32_t wanted, const RayLanes& rays,
         active = to_left | to_right;
         const Mask leftward = mask_of(to_left), rightward = mask_of(to_right);
         for (int k = 0; k <= n; ++k) {
-            part.b[k] = select(leftward, left[k], select(rightward, right[k], part.b[k]));
+            part.b[k] = select_lanes(leftward, left[k], select_lanes(rightward, right[k], part.b[k]));
         }
-        part.hi = select(leftward, middle, part.hi);
-        part.lo = select(rightward, middle, part.lo);
-        part.first = select(rightward, sign, part.first);
+        part.hi = select_lanes(leftward, middle, part.hi);
+        part.lo = select_lanes(rightward, middle, part.lo);
+        part.first = select_lanes(rightward, sign, part.first);
     }
     found.set(done & later.known & ~found.known, later.lo, later.hi, later.sign);
     return done;
@@ -284,7 +270,7 @@ HWY_INLINE void classify(const RayLanes& rays, bool capped, PolynomialLanes& lan
     const std::uint32_t behind_cap = capped ? starts_negative & covered : 0;
     lanes.bracketed = plain & one & ~two & ~behind_cap;
     const Doubles first =
-        select(load_lanes(lanes.b[0]) < Doubles(0.0), Doubles(-1.0), Doubles(1.0));
+        select_lanes(load_lanes(lanes.b[0]) < Doubles(0.0), Doubles(-1.0), Doubles(1.0));
     // What follows the last change: nothing, unless a cap does.
     const std::uint32_t ends = ~(capped ? negative : 0);
     lanes.last = lanes.bracketed & ends;

@@ -55,14 +55,18 @@ int Sphere::intersect(const Ray& ray, ShapeHit* hits) const {
 
 std::uint32_t first_hits(const Sphere& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
     RayLanes in;
-    SphereHitLanes lanes;
     for (std::size_t i = 0; i < kRayLanes; ++i) in.set(i, *rays[i < rays.size() ? i : 0]);
-    const std::uint32_t used = kAllRayLanes >> (kRayLanes - rays.size());
-    sphere_hits_kernel()(in, shape, lanes);
-    std::uint32_t hit = used & lanes.hit;
+    return first_hits(shape, in, kAllRayLanes >> (kRayLanes - rays.size()), hits);
+}
+
+std::uint32_t first_hits(const Sphere& shape, const RayLanes& rays, std::uint32_t wanted,
+                         ShapeHit* hits) {
+    SphereHitLanes lanes;
+    sphere_hits_kernel()(rays, shape, lanes);
+    std::uint32_t hit = wanted & lanes.hit;
     for_each_lane(hit, [&](std::size_t i) { hits[i] = {lanes.t[i], 0, 0, 0}; });
-    for_each_lane(used & lanes.unsure, [&](std::size_t i) {
-        if (find_first_hit(shape, *rays[i], hits[i])) hit |= 1u << i;
+    for_each_lane(wanted & lanes.unsure, [&](std::size_t i) {
+        if (find_first_hit(shape, rays.ray(i), hits[i])) hit |= 1u << i;
     });
     return hit;
 }

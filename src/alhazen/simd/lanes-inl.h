@@ -244,6 +244,36 @@ ALHAZEN_LANES_FUSED(mul_sub, hn::MulSub)         ///< a b - c
 ALHAZEN_LANES_FUSED(neg_mul_add, hn::NegMulAdd)  ///< c - a b
 #undef ALHAZEN_LANES_FUSED
 
+/// Whether mul_add and its kind are fused: else what the scalar form does with std::fma has other
+/// bits in lanes.
+#if (HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2) || (HWY_ARCH_ARM_A64 && HWY_TARGET == HWY_NEON)
+inline constexpr bool kFusesExactly = true;
+#else
+inline constexpr bool kFusesExactly = false;
+#endif
+
+/// a b - c d as `difference_of_products` (math/quadratic.h) has it, where kFusesExactly.
+template <std::size_t N>
+HWY_INLINE Lanes<double, N> difference_of_products(const Lanes<double, N>& a,
+                                                   const Lanes<double, N>& b,
+                                                   const Lanes<double, N>& c,
+                                                   const Lanes<double, N>& d) {
+    const Lanes<double, N> cd = c * d;
+    return mul_sub(a, b, cd) + neg_mul_add(c, d, cd);
+}
+
+/// Lane by lane `yes` where the mask is set.
+template <class T, std::size_t N>
+HWY_INLINE Lanes<T, N> select_lanes(const LaneMask<T, N>& mask, const Lanes<T, N>& yes,
+                                    const Lanes<T, N>& no) {
+    Lanes<T, N> r;
+    ALHAZEN_UNROLL
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
+        r.part[i] = hn::IfThenElse(mask.part[i], yes.part[i], no.part[i]);
+    }
+    return r;
+}
+
 template <class T, std::size_t N>
 HWY_INLINE LaneMask<T, N> operator|(const LaneMask<T, N>& a, const LaneMask<T, N>& b) {
     LaneMask<T, N> r;
@@ -256,6 +286,14 @@ HWY_INLINE LaneMask<T, N> operator&(const LaneMask<T, N>& a, const LaneMask<T, N
     LaneMask<T, N> r;
     ALHAZEN_UNROLL
     for (std::size_t i = 0; i < kParts<T, N>; ++i) r.part[i] = hn::And(a.part[i], b.part[i]);
+    return r;
+}
+
+template <class T, std::size_t N>
+HWY_INLINE LaneMask<T, N> operator!(const LaneMask<T, N>& a) {
+    LaneMask<T, N> r;
+    ALHAZEN_UNROLL
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) r.part[i] = hn::Not(a.part[i]);
     return r;
 }
 
@@ -273,6 +311,22 @@ HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
         bits |= part << (i * hn::Lanes(d));
     }
     return bits;
+}
+
+/// Lane i where bit i is set.
+template <class T, std::size_t N = kLaneCount>
+HWY_INLINE LaneMask<T, N> lanes_of_bits(std::uint32_t bits) {
+    const LaneTag<T, N> d;
+    LaneMask<T, N> r;
+    ALHAZEN_UNROLL
+    for (std::size_t i = 0; i < kParts<T, N>; ++i) {
+        const std::uint32_t part = bits >> (i * hn::Lanes(d));
+        std::uint8_t bytes[8] = {};  // Highway may read a whole word
+        bytes[0] = static_cast<std::uint8_t>(part);
+        bytes[1] = static_cast<std::uint8_t>(part >> 8);
+        r.part[i] = hn::LoadMaskBits(d, bytes);
+    }
+    return r;
 }
 
 }  // namespace HWY_NAMESPACE

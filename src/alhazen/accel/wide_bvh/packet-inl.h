@@ -109,6 +109,32 @@ class RayPacket {
         return kAllLanes & ~bits_of(missed);
     }
 
+    /// The groups whose part of the pyramid meets a box [axis], with slack for its rounding.
+    HWY_INLINE std::uint32_t meet_groups(const float (&lo)[3], const float (&hi)[3]) const {
+        const float near = (sign_ > 0 ? lo[kz] : -hi[kz]) - depth_of_point_;
+        const float far = (sign_ > 0 ? hi[kz] : -lo[kz]) - depth_of_point_;
+        if (!(far >= k_min_)) return 0;
+        const Floats zero(0.0f);
+        const Floats h0(std::max(from_start_ ? near : -far, 0.0f));
+        const Floats h1(std::max(from_start_ ? far : -near, 0.0f));
+        LaneMask<float> missed = Floats(near) > load_lanes(group_k_max);
+        const std::uint32_t axes[2] = {kx, ky};
+        const bool up = (sign_ > 0) == from_start_;
+        HWY_UNROLL(2)
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Floats least = up ? load_lanes(slope_lo[i]) : -load_lanes(slope_hi[i]);
+            const Floats most = up ? load_lanes(slope_hi[i]) : -load_lanes(slope_lo[i]);
+            const Floats above = neg_mul_add(
+                max_lanes(most, zero), h1,
+                neg_mul_add(min_lanes(most, zero), h0, Floats(lo[axes[i]] - point_hi_[i])));
+            const Floats below = neg_mul_add(
+                max_lanes(least, zero), h0,
+                neg_mul_add(min_lanes(least, zero), h1, Floats(hi[axes[i]] - point_lo_[i])));
+            missed = missed | (above > zero) | (below < zero);
+        }
+        return ((1u << group_count) - 1) & ~bits_of(missed);
+    }
+
     /// Ray i need not go farther than that.
     HWY_INLINE void limit(std::size_t i, float s) {
         float& s_max = groups[i / kGroupRays].s_max[i % kGroupRays];

@@ -1,0 +1,90 @@
+/// Boxes along the axes around the eight shapes of a block, in float.
+///
+/// Source: none. Differs: nothing. Conventions: in the frame of the tree, with room for the
+/// rounding of all that makes them: coordinates are at most about 1 there. Included once per target
+/// (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_SCENE_BLOCK_BOXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SCENE_BLOCK_BOXES_INL_H_
+#undef ALHAZEN_SCENE_BLOCK_BOXES_INL_H_
+#else
+#define ALHAZEN_SCENE_BLOCK_BOXES_INL_H_
+#endif
+
+#include <limits>
+
+#include "alhazen/scene/leaf_blocks.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+class BlockBoxes {
+  public:
+    HWY_INLINE explicit BlockBoxes(const SphereBlock& block) {
+        const Floats radius = load_lanes(block.radius);
+        const Floats half[3] = {radius, radius, radius};
+        set(block.center, half);
+    }
+    /// Of each frustum the ball around it.
+    HWY_INLINE explicit BlockBoxes(const FrustumBlock& block) {
+        const Floats radius = load_lanes(block.half_height) + load_lanes(block.radius);
+        const Floats half[3] = {radius, radius, radius};
+        set(block.center, half);
+    }
+    /// Slabs that do not stand across each other (of what is sheared) are not bounded here.
+    HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {
+        constexpr float kAcross = 0x1p-16f;
+        Floats direction[3][3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                direction[k][axis] = load_lanes(block.direction[k][axis]);
+            }
+        }
+        const auto leaning = [&](std::size_t i, std::size_t j) HWY_ATTR {
+            return abs(direction[i][0] * direction[j][0] + direction[i][1] * direction[j][1] +
+                       direction[i][2] * direction[j][2]);
+        };
+        const LaneMask<float> across =
+            max_lanes(max_lanes(leaning(0, 1), leaning(1, 2)), leaning(2, 0)) < Floats(kAcross);
+        Floats half[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            half[axis] = Floats(0.0f);
+            for (std::size_t k = 0; k < 3; ++k) {
+                half[axis] = half[axis] + load_lanes(block.half[k]) * abs(direction[k][axis]);
+            }
+            // What leans a little reaches out by as much.
+            half[axis] = select_lanes(across, half[axis] * Floats(1.0f + 8.0f * kAcross),
+                                      Floats(std::numeric_limits<float>::infinity()));
+        }
+        set(block.center, half);
+    }
+
+    HWY_INLINE void get(std::size_t lane, float (&lo)[3], float (&hi)[3]) const {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            lo[axis] = lo_[axis][lane];
+            hi[axis] = hi_[axis][lane];
+        }
+    }
+
+  private:
+    HWY_INLINE void set(const float (&center)[3][kBlockWidth], const Floats (&half)[3]) {
+        // Some roundings of numbers up to 2.
+        const Floats room(0x1p-20f);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Floats c = load_lanes(center[axis]), h = half[axis] + room;
+            store_lanes(c - h, lo_[axis]);
+            store_lanes(c + h, hi_[axis]);
+        }
+    }
+
+    HWY_ALIGN float lo_[3][kBlockWidth];
+    HWY_ALIGN float hi_[3][kBlockWidth];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
