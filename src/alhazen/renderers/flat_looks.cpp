@@ -36,12 +36,14 @@ FlatLooks::FlatLooks(const Scene& scene, std::span<const Rgb> ambient) : scene_(
     if (!any) looks_.clear();
 }
 
-const Rgb* FlatLooks::find(const Hit& hit) const {
-    if (looks_.empty()) return nullptr;
+const Rgb* FlatLooks::look_up(const Hit& hit) {
+    last_ = hit;
+    last_look_ = nullptr;
     const std::optional<MaterialId> material = plain_material(*scene_.aggregate, hit);
     if (!material) return nullptr;
     const std::optional<Rgb>& look = looks_[static_cast<std::size_t>(*material)];
-    return look ? &*look : nullptr;
+    if (look) last_look_ = &*look;
+    return last_look_;
 }
 
 }  // namespace alhazen

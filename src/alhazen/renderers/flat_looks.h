@@ -4,8 +4,7 @@
 /// needs to be found.
 ///
 /// Source: none. Differs: nothing. Conventions: for rays that come through air; the colour is what
-/// shading the surface would give, bit for bit. Threads: const functions may be called from many
-/// threads.
+/// shading the surface would give, bit for bit. Threads: belongs to one.
 
 #include <optional>
 #include <span>
@@ -21,11 +20,26 @@ class FlatLooks {
     FlatLooks(const Scene& scene, std::span<const Rgb> ambient);
 
     /// Null where the surface tells more.
-    [[nodiscard]] const Rgb* find(const Hit& hit) const;
+    [[nodiscard]] const Rgb* find(const Hit& hit) {
+        if (looks_.empty()) return nullptr;
+        // Neighbours mostly hit the same.
+        return is_last(hit) ? last_look_ : look_up(hit);
+    }
 
   private:
+    [[nodiscard]] bool is_last(const Hit& hit) const {
+        if (hit.primitive != last_.primitive || hit.path.size() != last_.path.size()) return false;
+        for (std::size_t i = 0; i < hit.path.size(); ++i) {
+            if (hit.path[i] != last_.path[i]) return false;
+        }
+        return true;
+    }
+    const Rgb* look_up(const Hit& hit);
+
     const Scene& scene_;
     std::vector<std::optional<Rgb>> looks_;  ///< [material]; empty where none is flat
+    Hit last_;
+    const Rgb* last_look_ = nullptr;
 };
 
 }  // namespace alhazen

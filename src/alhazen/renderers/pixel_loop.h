@@ -39,7 +39,7 @@ class PixelLoop {
         for (const Pixel& pixel : pixels_) {
             if (job_.aovs != nullptr) aovs_.begin_pixel();
             for (int s = 0; s < job_.samples_per_pixel; ++s) {
-                rays_[gathered_++] = eye_ray_of(pixel, tile, s);
+                rays_[gathered_++] = eye_ray_of(pixel, s);
                 if (gathered_ == rays_.size() && !trace(film, radiance)) return;
             }
             if (alone && !trace(film, radiance)) return;
@@ -48,7 +48,7 @@ class PixelLoop {
     }
 
   private:
-    static constexpr int kBlock = 8;
+    /// Counted from the corner of the tile.
     struct Pixel {
         int i, j;
     };
@@ -59,16 +59,10 @@ class PixelLoop {
         gathered_ = done_ = 0;
         samples_ = finite_ = 0;
         sum_ = {};
-        pixels_.clear();
-        // Blocks of pixels: rays that follow each other stay near each other.
-        for (int y = tile.y0; y < tile.y1; y += kBlock) {
-            for (int x = tile.x0; x < tile.x1; x += kBlock) {
-                for (int j = y; j < std::min(y + kBlock, tile.y1); ++j) {
-                    for (int i = x; i < std::min(x + kBlock, tile.x1); ++i)
-                        pixels_.push_back({i, j});
-                }
-            }
+        if (pixels_.empty() || tile.width() != tile_.width() || tile.height() != tile_.height()) {
+            list_pixels(tile.width(), tile.height());
         }
+        tile_ = tile;
         if (job_.samples_per_pixel != 1) return;
         columns_.clear();
         rows_.clear();
@@ -79,12 +73,35 @@ class PixelLoop {
         for (int j = tile.y0; j < tile.y1; ++j) rows_.push_back(eye_.row(sample(0, j).y));
     }
 
-    [[nodiscard]] Ray eye_ray_of(const Pixel& pixel, const PixelBox& tile, int s) const {
+    /// Blocks of pixels, and in these cells of eight, whose rays are tested together: rays that
+    /// follow each other stay near each other.
+    void list_pixels(int width, int height) {
+        constexpr int kBlock = 8, kCellWidth = 4, kCellHeight = 2;
+        pixels_.clear();
+        const auto for_parts = [](int begin, int end, int step, auto&& f) {
+            for (int at = begin; at < end; at += step) f(at, std::min(at + step, end));
+        };
+        const auto add_cells = [&](int x0, int x1, int y0, int y1) {
+            for_parts(y0, y1, kCellHeight, [&](int cell_y0, int cell_y1) {
+                for_parts(x0, x1, kCellWidth, [&](int cell_x0, int cell_x1) {
+                    for (int j = cell_y0; j < cell_y1; ++j) {
+                        for (int i = cell_x0; i < cell_x1; ++i) pixels_.push_back({i, j});
+                    }
+                });
+            });
+        };
+        for_parts(0, height, kBlock, [&](int y0, int y1) {
+            for_parts(0, width, kBlock, [&](int x0, int x1) { add_cells(x0, x1, y0, y1); });
+        });
+    }
+
+    [[nodiscard]] Ray eye_ray_of(const Pixel& pixel, int s) const {
         if (job_.samples_per_pixel == 1) {
-            return eye_.ray(columns_[static_cast<std::size_t>(pixel.i - tile.x0)],
-                            rows_[static_cast<std::size_t>(pixel.j - tile.y0)]);
+            return eye_.ray(columns_[static_cast<std::size_t>(pixel.i)],
+                            rows_[static_cast<std::size_t>(pixel.j)]);
         }
-        const Vec2 p = jittered_sample(job_, pixel.i, pixel.j, width_, height_, s);
+        const Vec2 p =
+            jittered_sample(job_, tile_.x0 + pixel.i, tile_.y0 + pixel.j, width_, height_, s);
         return eye_.ray(eye_.column(p.x), eye_.row(p.y));
     }
 
@@ -112,7 +129,7 @@ class PixelLoop {
         for (const Rgb& c : found) {
             const bool finite = c.is_finite();
             counters_.non_finite += !finite;
-            film.set(pixel->i, pixel->j, finite ? Rgb{} + c : Rgb{});
+            film.set(tile_.x0 + pixel->i, tile_.y0 + pixel->j, finite ? Rgb{} + c : Rgb{});
             ++pixel;
         }
         done_ += found.size();
@@ -129,7 +146,8 @@ class PixelLoop {
     }
 
     void end_pixel(Film& film) {
-        const auto [i, j] = pixels_[done_++];
+        const Pixel& pixel = pixels_[done_++];
+        const int i = tile_.x0 + pixel.i, j = tile_.y0 + pixel.j;
         film.set(i, j, finite_ == 1 ? sum_ : finite_ > 1 ? (1.0 / finite_) * sum_ : Rgb{});
         if (job_.aovs != nullptr) aovs_.end_pixel(i, j, width_, height_);
         sum_ = {};
@@ -145,7 +163,8 @@ class PixelLoop {
     std::vector<Ray> rays_;
     std::size_t gathered_ = 0;  ///< of them
     std::vector<Rgb> radiance_;
-    std::vector<Pixel> pixels_;
+    PixelBox tile_;
+    std::vector<Pixel> pixels_;  ///< of the tile, in the order in which they are done
     std::size_t done_ = 0;  ///< pixels that have their light
     int samples_ = 0, finite_ = 0;
     Rgb sum_;

@@ -108,7 +108,7 @@ class Caster {
     RayCount& count_;
     const OnWay eye_;  ///< what every eye ray has behind it
     const std::vector<Rgb> ambient_;
-    const FlatLooks flat_looks_;
+    FlatLooks flat_looks_;
     VisibleBatch visible_;
     std::vector<OnWay> on_way_, behind_;
     std::vector<Ray> rays_, rays_behind_;

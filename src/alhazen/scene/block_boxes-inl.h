@@ -63,10 +63,13 @@ class BlockBoxes {
 
     HWY_INLINE void get(std::size_t lane, float (&lo)[3], float (&hi)[3]) const {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            lo[axis] = lo_[axis][lane];
-            hi[axis] = hi_[axis][lane];
+            lo[axis] = rows_[axis][lane];
+            hi[axis] = rows_[3 + axis][lane];
         }
     }
+    /// [lower x, y, z, upper x, y, z][lane], as the planes of a node.
+    using Rows = float[6][kBlockWidth];
+    [[nodiscard]] HWY_INLINE const Rows& rows() const { return rows_; }
 
   private:
     HWY_INLINE void set(const float (&center)[3][kBlockWidth], const Floats (&half)[3]) {
@@ -74,13 +77,12 @@ class BlockBoxes {
         const Floats room(0x1p-20f);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Floats c = load_lanes(center[axis]), h = half[axis] + room;
-            store_lanes(c - h, lo_[axis]);
-            store_lanes(c + h, hi_[axis]);
+            store_lanes(c - h, rows_[axis]);
+            store_lanes(c + h, rows_[3 + axis]);
         }
     }
 
-    HWY_ALIGN float lo_[3][kBlockWidth];
-    HWY_ALIGN float hi_[3][kBlockWidth];
+    HWY_ALIGN Rows rows_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,6 @@
 #include "alhazen/scene/csg_lanes.h"
 
+#include <bit>
 #include <limits>
 
 // Compiles the rest of this file once per target.
@@ -7,69 +8,15 @@
 #define HWY_TARGET_INCLUDE "alhazen/scene/csg_lanes.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/simd/lanes-inl.h"
+#include "alhazen/shapes/span_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 namespace {
 
-static_assert(kRayLanes == kLaneCount);
-
 constexpr std::uint32_t kMaxLeaves = CsgLanesSolid::kMaxLeaves;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-/// The spans of the leaves that some ray meets.
-struct Spans {
-    std::uint32_t count = 0;
-    std::uint32_t leaf[kMaxLeaves];
-    std::uint32_t met[kMaxLeaves];
-    Doubles entry[kMaxLeaves], exit[kMaxLeaves];  ///< an empty span where the ray misses
-
-    HWY_INLINE void add(std::uint32_t number, const SpanLanes& spans, std::uint32_t wanted) {
-        const std::uint32_t lanes = spans.met & wanted;
-        if (lanes == 0) return;
-        const LaneMask<double> mask = lanes_of_bits<double>(lanes);
-        leaf[count] = number;
-        met[count] = lanes;
-        entry[count] = select_lanes(mask, load_lanes(spans.entry), Doubles(kInfinite));
-        exit[count] = select_lanes(mask, load_lanes(spans.exit), Doubles(-kInfinite));
-        ++count;
-    }
-    /// The rays of which two crossings lie closer than `apart`.
-    [[nodiscard]] HWY_INLINE std::uint32_t close(const Doubles& apart) const {
-        const auto near = [&](const Doubles& a, const Doubles& b)
-                              HWY_ATTR { return abs(a - b) < apart; };
-        std::uint32_t lanes = 0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            LaneMask<double> found = near(entry[i], exit[i]);
-            for (std::uint32_t j = 0; j < i; ++j) {
-                found = found | near(entry[i], entry[j]) | near(entry[i], exit[j]) |
-                        near(exit[i], entry[j]) | near(exit[i], exit[j]);
-            }
-            lanes |= bits_of(found);
-        }
-        return lanes;
-    }
-    /// The rays that enter or leave the solid where they cross leaf i of the list at t.
-    [[nodiscard]] HWY_INLINE std::uint32_t changed(const CsgLanesSolid& solid, std::uint32_t i,
-                                                   const Doubles& t) const {
-        std::uint32_t inside[kMaxLeaves] = {};
-        for (std::uint32_t j = 0; j < count; ++j) {
-            if (j != i) inside[leaf[j]] = bits_of((entry[j] < t) & (t < exit[j]));
-        }
-        std::uint32_t lanes = 0;
-        for (std::uint64_t rest = solid.changes[leaf[i]]; rest != 0; rest &= rest - 1) {
-            const auto set = static_cast<std::uint32_t>(__builtin_ctzll(rest));
-            std::uint32_t there = met[i];
-            for (std::uint32_t k = 0; k < solid.leaf_count; ++k) {
-                there &= (set >> k & 1) != 0 ? inside[k] : ~inside[k];
-            }
-            lanes |= there;
-        }
-        return lanes;
-    }
-};
 
 HWY_INLINE Doubles largest(const Doubles& x, const Doubles& y, const Doubles& z) {
     return max_lanes(max_lanes(abs(x), abs(y)), abs(z));
@@ -85,50 +32,129 @@ HWY_INLINE Doubles apart_along(const CsgLanesSolid& solid, const RayLanes& rays)
     return Doubles(solid.apart) * (Doubles(solid.size) + away) / speed;
 }
 
-std::uint32_t in_range(const CsgLanesSolid& solid, const RayLanes& rays, const SpanLanes& spans,
-                       std::uint32_t wanted) {
-    const std::uint32_t met = spans.met & wanted;
-    if (met == 0) return spans.unsure & wanted;
-    // What lies a little behind the end may be one with a crossing in front of it.
-    const Doubles end = load_lanes(rays.t_max) + apart_along(solid, rays);
-    return (met & bits_of((load_lanes(spans.entry) <= end) &
-                          (load_lanes(spans.exit) >= load_lanes(rays.t_min)))) |
-           (spans.unsure & wanted);
+/// The spans of the leaves that some ray meets.
+struct Spans {
+    std::uint32_t count = 0;
+    std::uint32_t place[kMaxLeaves];  ///< among the leaves of the solid
+    LaneSpans of[kMaxLeaves];         ///< an empty span where the ray misses
+
+    /// Makes room for a leaf.
+    HWY_INLINE LaneSpans& begin() {
+        of[count].met = of[count].unsure = 0;  // the rest is written where it is met
+        return of[count];
+    }
+    /// Keeps what is in that room, for the rays that meet it.
+    HWY_INLINE void keep(std::uint32_t leaf) {
+        LaneSpans& spans = of[count];
+        const LaneMask<double> mask = lanes_of_bits<double>(spans.met);
+        spans.entry = select_lanes(mask, spans.entry, Doubles(kInfinite));
+        spans.exit = select_lanes(mask, spans.exit, Doubles(-kInfinite));
+        place[count++] = leaf;
+    }
+    /// The rays of which two crossings lie closer than `apart`.
+    [[nodiscard]] HWY_INLINE std::uint32_t close(const Doubles& apart) const {
+        const auto near = [&](const Doubles& a, const Doubles& b)
+                              HWY_ATTR { return abs(a - b) < apart; };
+        std::uint32_t lanes = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            LaneMask<double> found = near(of[i].entry, of[i].exit);
+            for (std::uint32_t j = 0; j < i; ++j) {
+                found = found | near(of[i].entry, of[j].entry) | near(of[i].entry, of[j].exit) |
+                        near(of[i].exit, of[j].entry) | near(of[i].exit, of[j].exit);
+            }
+            lanes |= bits_of(found);
+        }
+        return lanes;
+    }
+    /// The rays that enter or leave the solid where they cross leaf i of the list at t.
+    [[nodiscard]] HWY_INLINE std::uint32_t changed(const CsgLanesSolid& solid, std::uint32_t i,
+                                                   const Doubles& t) const {
+        std::uint32_t inside[kMaxLeaves] = {};
+        for (std::uint32_t j = 0; j < count; ++j) {
+            if (j != i) inside[place[j]] = bits_of((of[j].entry < t) & (t < of[j].exit));
+        }
+        std::uint32_t lanes = 0;
+        for (std::uint64_t rest = solid.leaves[place[i]].changes; rest != 0; rest &= rest - 1) {
+            const auto set = static_cast<std::uint32_t>(std::countr_zero(rest));
+            std::uint32_t there = of[i].met;
+            for (std::uint32_t k = 0; k < solid.leaf_count; ++k) {
+                there &= (set >> k & 1) != 0 ? inside[k] : ~inside[k];
+            }
+            lanes |= there;
+        }
+        return lanes;
+    }
+};
+
+HWY_INLINE void find_spans(const CsgLanesSolid::Leaf& leaf, const RayLanes& rays,
+                           LaneSpans& spans) {
+    switch (leaf.kind) {
+        case CsgLanesSolid::Kind::Sphere:
+            return find_spans(rays, *static_cast<const Sphere*>(leaf.shape), spans);
+        case CsgLanesSolid::Kind::Box:
+            return find_spans(rays, *static_cast<const BoxShape*>(leaf.shape), spans);
+        case CsgLanesSolid::Kind::Frustum:
+            return find_spans(rays, *static_cast<const Frustum*>(leaf.shape), spans);
+        case CsgLanesSolid::Kind::None:
+            spans.unsure = kAllLanes;
+    }
 }
 
-void first(const CsgLanesSolid& solid, const RayLanes& rays, const SpanLanes* all,
-           std::uint32_t wanted, CsgLanesHits& out) {
-    Spans spans;
-    out.unsure = 0;
-    for (std::uint32_t i = 0; i < solid.leaf_count; ++i) {
-        out.unsure |= all[i].unsure & wanted;
-        spans.add(i, all[i], wanted);
-    }
-    out.unsure |= spans.close(apart_along(solid, rays)) & wanted;
-    wanted &= ~out.unsure;
+HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::uint32_t wanted,
+           CsgLanesHits& out) {
+    out.hit = out.unsure = out.tests = out.tests_met = 0;
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
-    Doubles best(kInfinite), event(0.0);
+    Doubles apart(0.0);
+    Spans spans;
+    for (std::uint32_t i = 0; i < solid.leaf_count; ++i) {
+        const CsgLanesSolid::Leaf& leaf = solid.leaves[i];
+        LaneSpans& found = spans.begin();
+        find_spans(leaf, rays, found);
+        out.tests += static_cast<std::uint32_t>(std::popcount(wanted));
+        out.tests_met += static_cast<std::uint32_t>(std::popcount(wanted & found.met));
+        out.unsure |= found.unsure & wanted;
+        found.met &= wanted;
+        if (leaf.needed) {
+            if (found.met != 0) {
+                if (spans.count == 0) apart = apart_along(solid, rays);
+                // What lies a little behind the end may be one with a crossing in front of it.
+                found.met &= bits_of((found.entry <= t_max + apart) & (found.exit >= t_min));
+            }
+            wanted &= found.met | found.unsure;
+            if (wanted == 0) return;
+        }
+        if (found.met != 0) {
+            if (spans.count == 0 && !leaf.needed) apart = apart_along(solid, rays);
+            spans.keep(i);
+        }
+    }
+    out.unsure = (out.unsure | spans.close(apart)) & wanted;
+    wanted &= ~out.unsure;
+    Doubles best(kInfinite), best_leaf(0.0), best_part(0.0);
     for (std::uint32_t i = 0; i < spans.count; ++i) {
-        for (std::uint32_t side = 0; side < 2; ++side) {
-            const Doubles t = side == 0 ? spans.entry[i] : spans.exit[i];
+        const LaneSpans& of = spans.of[i];
+        for (int side = 0; side < 2; ++side) {
+            const Doubles& t = side == 0 ? of.entry : of.exit;
             const std::uint32_t lanes = spans.changed(solid, i, t) & wanted;
             if (lanes == 0) continue;
             const LaneMask<double> better =
                 lanes_of_bits<double>(lanes) & (t >= t_min) & (t <= t_max) & (t < best);
             best = select_lanes(better, t, best);
-            event = select_lanes(better, Doubles(double(2 * spans.leaf[i] + side)), event);
+            best_leaf =
+                select_lanes(better, Doubles(solid.leaves[spans.place[i]].number), best_leaf);
+            best_part = select_lanes(better, side == 0 ? of.entry_part : of.exit_part, best_part);
         }
     }
     out.hit = wanted & bits_of(best < Doubles(kInfinite));
     store_lanes(best, out.t);
-    store_lanes(event, out.event);
+    store_lanes(best_leaf, out.leaf);
+    store_lanes(best_part, out.part);
 }
 
 }  // namespace
 
-const CsgLanesKernels& csg_lanes_of_target() {
-    static constexpr CsgLanesKernels kKernels{&in_range, &first};
-    return kKernels;
+CsgLanesKernel csg_lanes_of_target() {
+    return &first;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -140,7 +166,7 @@ namespace alhazen {
 
 HWY_EXPORT(csg_lanes_of_target);
 
-const CsgLanesKernels& csg_lanes_kernels() {
+CsgLanesKernel csg_lanes_kernel() {
     // Asked for every eight rays: what the processor can do is not looked up again.
     return HWY_DYNAMIC_DISPATCH(csg_lanes_of_target)();
 }

@@ -9,18 +9,30 @@
 
 #include <cstdint>
 
-#include "alhazen/shapes/span_lanes.h"
+#include "alhazen/geometry/ray_lanes.h"
+#include "alhazen/math/vec.h"
 
 namespace alhazen {
+
+struct Frustum;
 
 /// What the kernel knows of a solid.
 struct CsgLanesSolid {
     static constexpr std::uint32_t kMaxLeaves = 6;
+    enum class Kind : std::uint32_t { None, Sphere, Box, Frustum };
 
+    struct Leaf {
+        std::uint32_t number = 0;
+        Kind kind = Kind::None;
+        const void* shape = nullptr;  ///< a Sphere, a BoxShape or a Frustum with its caps
+        bool needed = false;          ///< where it is not, nothing is
+        /// Bit s: where a ray is inside of the leaves (by their places here) whose bits are set in
+        /// s, this one among those that are not, it enters or leaves the solid where it enters the
+        /// leaf.
+        std::uint64_t changes = 0;
+    };
     std::uint32_t leaf_count = 0;
-    /// [leaf] bit s: where a ray is inside of the leaves whose bits are set in s, the leaf's own
-    /// among those that are not, it enters or leaves the solid where it enters the leaf.
-    std::uint64_t changes[kMaxLeaves] = {};
+    Leaf leaves[kMaxLeaves];  ///< those that are needed first
     // What crossings must lie apart: `apart` times the sum of `size` and the distance of the
     // origin from the center along the axis where it is largest.
     Vec3 center;
@@ -29,22 +41,17 @@ struct CsgLanesSolid {
 
 struct alignas(64) CsgLanesHits {
     double t[kRayLanes];
-    double event[kRayLanes];  ///< whole numbers: twice the leaf, and 1 where it is left
+    double leaf[kRayLanes], part[kRayLanes];  ///< whole numbers; of the leaf its number
     std::uint32_t hit;
     std::uint32_t unsure;  ///< ask the scalar text; not in `hit`
+    std::uint32_t tests, tests_met;  ///< of rays with leaves
 };
 
-/// Those of one instruction set.
-struct CsgLanesKernels {
-    /// Of `wanted`: the rays whose range meets the span of a leaf, or that are unsure of it.
-    std::uint32_t (*in_range)(const CsgLanesSolid&, const RayLanes&, const SpanLanes&,
-                              std::uint32_t wanted);
-    /// [leaf] the spans of all leaves, known for `wanted` rays but where they are unsure.
-    void (*first)(const CsgLanesSolid&, const RayLanes&, const SpanLanes*, std::uint32_t wanted,
-                  CsgLanesHits&);
-};
+/// Of `wanted` rays.
+using CsgLanesKernel = void (*)(const CsgLanesSolid&, const RayLanes&, std::uint32_t wanted,
+                                CsgLanesHits&);
 
 /// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
-[[nodiscard]] const CsgLanesKernels& csg_lanes_kernels();
+[[nodiscard]] CsgLanesKernel csg_lanes_kernel();
 
 }  // namespace alhazen

@@ -1,7 +1,6 @@
 #include "alhazen/scene/csg_truth_table.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -16,12 +15,6 @@ namespace {
 constexpr auto kMaxHitsOfKind = []<class... S>(std::type_identity<ShapeTypes<S...>>) {
     return std::array<int, sizeof...(S)>{S::kMaxHits...};
 }(std::type_identity<AnalyticShapes>{});
-
-void count_tests(TraversalStats* stats, std::uint32_t asked, std::uint32_t met) {
-    if (stats == nullptr) return;
-    stats->primitive_tests += static_cast<std::uint64_t>(std::popcount(asked));
-    stats->primitive_hits += static_cast<std::uint64_t>(std::popcount(asked & met));
-}
 
 }  // namespace
 
@@ -101,20 +94,26 @@ CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
 
 void CsgTruthTable::prepare_lanes() {
     static_assert(CsgLanesSolid::kMaxLeaves >= kMaxLeaves);
-    const PrimitiveTable& table = solid_.table();
     const std::uint32_t count = solid_.leaf_count();
-    for (std::uint32_t leaf = 0; leaf < count; ++leaf) {
-        const Place place = places_[leaf];
-        const bool known = with_column(table.columns, place.kind, [&](const auto& column) {
-            if (column.placements[place.index] != kNoPlacement) return false;
-            return SpansSideBySide<typename ShapeOfColumn<decltype(column)>::Type> &&
-                   column.shapes[place.index].closed();
-        });
-        if (!known) return;
-        for (LeafSet inside = 0; inside < LeafSet{1} << count; ++inside) {
-            const LeafSet own = LeafSet{1} << leaf;
+    LeafSet place_of[kMaxLeaves];
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t number = order_[i];
+        CsgLanesSolid::Leaf& leaf = lanes_.leaves[i];
+        leaf.number = number;
+        leaf.needed = (needed_ >> number & 1) != 0;
+        set_shape(places_[number], leaf);
+        if (leaf.kind == CsgLanesSolid::Kind::None) return;
+        place_of[number] = i;
+    }
+    for (LeafSet inside = 0; inside < LeafSet{1} << count; ++inside) {
+        LeafSet places = 0;
+        for (std::uint32_t number = 0; number < count; ++number) {
+            places |= (inside >> number & 1) << place_of[number];
+        }
+        for (std::uint32_t number = 0; number < count; ++number) {
+            const LeafSet own = LeafSet{1} << number;
             if ((inside & own) != 0 || is_solid(inside) == is_solid(inside | own)) continue;
-            lanes_.changes[leaf] |= std::uint64_t{1} << inside;
+            lanes_.leaves[place_of[number]].changes |= std::uint64_t{1} << places;
         }
     }
     lanes_.center = solid_.center();
@@ -122,6 +121,26 @@ void CsgTruthTable::prepare_lanes() {
     // More than tau, for the sums that lead to it round otherwise.
     lanes_.apart = 4.0 * CsgSolid::kTolerance;
     lanes_.leaf_count = count;
+}
+
+/// Only of shapes that stand in the frame of the solid.
+void CsgTruthTable::set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const {
+    with_column(solid_.table().columns, place.kind, [&](const auto& column) {
+        using S = typename ShapeOfColumn<decltype(column)>::Type;
+        const S& shape = column.shapes[place.index];
+        if (column.placements[place.index] != kNoPlacement) return;
+        if constexpr (std::is_same_v<S, Sphere>) {
+            leaf.kind = CsgLanesSolid::Kind::Sphere;
+            leaf.shape = &shape;
+        } else if constexpr (std::is_same_v<S, BoxShape>) {
+            leaf.kind = CsgLanesSolid::Kind::Box;
+            leaf.shape = &shape;
+        } else if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone>) {
+            if (!shape.capped) return;
+            leaf.kind = CsgLanesSolid::Kind::Frustum;
+            leaf.shape = &shape.frustum;
+        }
+    });
 }
 
 /// Ascending; there is room for kMaxShapeHits.
@@ -248,33 +267,21 @@ void CsgTruthTable::fill(const CsgCrossing& crossing, Hit& hit) const {
 std::uint32_t CsgTruthTable::first_of_lanes(const RayLanes& rays, std::uint32_t wanted,
                                             RayMask mask, LaneHits& hits,
                                             TraversalStats* stats) const {
-    const PrimitiveTable& table = solid_.table();
-    const CsgLanesKernels& kernels = csg_lanes_kernels();
-    SpanLanes spans[kMaxLeaves];
     CsgLanesHits found;
-    found.hit = 0;
-    found.unsure = wanted;
-    if (table.all_seen(mask)) {
-        for (std::uint32_t i = 0; i < lanes_.leaf_count && wanted != 0; ++i) {
-            const std::uint32_t leaf = order_[i];
-            with_column(table.columns, places_[leaf].kind, [&](const auto& column) {
-                if constexpr (SpansSideBySide<typename ShapeOfColumn<decltype(column)>::Type>) {
-                    find_spans(column.shapes[places_[leaf].index], rays, spans[leaf]);
-                }
-            });
-            count_tests(stats, wanted, spans[leaf].met);
-            if ((needed_ >> leaf & 1) == 0) continue;
-            wanted = kernels.in_range(lanes_, rays, spans[leaf], wanted);
+    if (solid_.table().all_seen(mask)) {
+        csg_lanes_kernel()(lanes_, rays, wanted, found);
+        if (stats != nullptr) {
+            stats->primitive_tests += found.tests;
+            stats->primitive_hits += found.tests_met;
         }
-        if (wanted == 0) return 0;
-        kernels.first(lanes_, rays, spans, wanted, found);
+    } else {
+        found.hit = 0;
+        found.unsure = wanted;
     }
     for_each_lane(found.hit, [&](std::size_t lane) {
-        const auto event = static_cast<std::uint32_t>(found.event[lane]);
-        const std::uint32_t leaf = event / 2;
-        const double part = event % 2 == 0 ? spans[leaf].entry_part[lane] : spans[leaf].exit_part[lane];
-        hits.hits[lane] = {found.t[lane], 0, 0, static_cast<std::uint32_t>(part)};
-        hits.primitives[lane] = solid_.expression().leaves[leaf];
+        hits.hits[lane] = {found.t[lane], 0, 0, static_cast<std::uint32_t>(found.part[lane])};
+        hits.primitives[lane] =
+            solid_.expression().leaves[static_cast<std::size_t>(found.leaf[lane])];
     });
     std::uint32_t hit = found.hit;
     for_each_lane(found.unsure, [&](std::size_t lane) {

@@ -54,6 +54,7 @@ class CsgTruthTable final : public CsgEvaluator {
 
     /// Where all leaves are convex shapes that lanes know, which stand in the frame of the solid.
     void prepare_lanes();
+    void set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const;
     Crossings cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
                     TraversalStats* stats) const;
     bool gather(const CsgRay& ray, Events& events, TraversalStats* stats) const;

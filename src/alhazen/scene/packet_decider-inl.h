@@ -67,14 +67,15 @@ class PacketDecider {
     HWY_INLINE std::uint32_t fill() {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
         for (std::size_t i = 0; i < kLaneCount; ++i) {
-            const std::size_t ray = ray_[i];
+            const RayLanes& rays = packet_.rays[ray_[i] / kGroupRays];
+            const std::size_t lane = ray_[i] % kGroupRays;
             HWY_UNROLL(3)
             for (std::size_t k = 0; k < 3; ++k) {
-                pairs_.origin[k][i] = packet_.raw[axes[k]][ray];
-                pairs_.direction[k][i] = packet_.raw[3 + axes[k]][ray];
+                pairs_.origin[k][i] = rays.origin[axes[k]][lane];
+                pairs_.direction[k][i] = rays.direction[axes[k]][lane];
             }
-            pairs_.t_min[i] = packet_.raw[6][ray];
-            pairs_.t_max[i] = packet_.raw[7][ray];
+            pairs_.t_min[i] = rays.t_min[lane];
+            pairs_.t_max[i] = rays.t_max[lane];
         }
         gather_corners();
         for (std::size_t i = 0; i < kLaneCount; ++i) {

@@ -207,7 +207,7 @@ class PacketLeaves {
           decider_(scene, packet, rays) {}
 
     template <class Stats>
-    HWY_INLINE bool visit(NodeRef ref, float nearest, Stats stats) {
+    HWY_INLINE bool visit(NodeRef ref, float /*nearest*/, Stats stats) {
         Derived& self = static_cast<Derived&>(*this);
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles:
@@ -245,22 +245,26 @@ class PacketLeaves {
     }
 
   protected:
-    /// Shapes and instances one after the other, each by the groups of rays that may meet it.
+    /// Shapes and instances, the nearest first, each by the groups of rays that may meet it.
     template <class Block, class Stats>
     HWY_NOINLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
             const BlockBoxes boxes(*blocks);
-            for (std::size_t lane = 0; lane < kBlockWidth && blocks->ids[lane].used(); ++lane) {
-                const PrimitiveId id = blocks->ids[lane].id();
+            Floats nearest;
+            std::uint32_t rest = packet_.meet_boxes(boxes.rows(), nearest);
+            HWY_ALIGN float depth[kBlockWidth];
+            store_lanes(nearest, depth);
+            while (rest != 0) {
+                auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                for (std::uint32_t others = rest & (rest - 1); others != 0; others &= others - 1) {
+                    const auto other = static_cast<std::size_t>(std::countr_zero(others));
+                    if (depth[other] < depth[lane]) lane = other;
+                }
+                rest &= ~(1u << lane);
+                if (!blocks->ids[lane].used()) continue;
                 float lo[3], hi[3];
                 boxes.get(lane, lo, hi);
-                std::uint32_t changed = 0;
-                for (std::uint32_t rest = packet_.meet_groups(lo, hi); rest != 0;
-                     rest &= rest - 1) {
-                    const auto g = static_cast<std::size_t>(std::countr_zero(rest));
-                    if (visit_shape(id, g, stats)) changed |= 1u << g;
-                }
-                if (changed != 0) packet_.shrink(changed);
+                visit_shape(blocks->ids[lane].id(), packet_.meet_groups(lo, hi), stats);
             }
         }
         return false;
@@ -274,42 +278,25 @@ class PacketLeaves {
     PacketDecider decider_;
 
   private:
-    /// Tests a group; whether a ray found something.
     template <class Stats>
-    HWY_INLINE bool visit_shape(PrimitiveId id, std::size_t g, Stats stats) {
-        RayLanes& lanes = lanes_of(g);
-        const std::size_t first = g * kGroupRays;
-        std::uint32_t changed = closest_of_lanes(*scene_.table, id, lanes, packet_.groups[g].used,
-                                                 results_.subspan(first), {stats.sink(), scene_.mask});
+    HWY_INLINE void visit_shape(PrimitiveId id, std::uint32_t groups, Stats stats) {
         const LocalParameter parameter{scene_.layout->frame.scale, 0.0};
-        const bool any = changed != 0;
-        for (; changed != 0; changed &= changed - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(changed));
-            packet_.limit(first + lane, parameter.above(lanes.t_max[lane]));
+        std::uint32_t shrunk = 0;
+        for (; groups != 0; groups &= groups - 1) {
+            const auto g = static_cast<std::size_t>(std::countr_zero(groups));
+            RayLanes& lanes = packet_.rays[g];
+            const std::size_t first = g * kGroupRays;
+            std::uint32_t changed =
+                closest_of_lanes(*scene_.table, id, lanes, packet_.groups[g].used,
+                                 results_.subspan(first), {stats.sink(), scene_.mask});
+            if (changed != 0) shrunk |= 1u << g;
+            for (; changed != 0; changed &= changed - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(changed));
+                packet_.limit(first + lane, parameter.above(lanes.t_max[lane]));
+            }
         }
-        return any;
+        if (shrunk != 0) packet_.shrink(shrunk);
     }
-    /// The rays of a group as the tests of shapes take them, made when they are needed first.
-    HWY_INLINE RayLanes& lanes_of(std::size_t g) {
-        RayLanes& lanes = lanes_[g];
-        if ((lanes_made_ >> g & 1) != 0) return lanes;
-        lanes_made_ |= 1u << g;
-        const std::size_t first = g * kGroupRays;
-        for (std::size_t k = 0; k < 3; ++k) {
-            store_lanes(load_lanes(&packet_.raw[k][first]), lanes.origin[k]);
-            store_lanes(load_lanes(&packet_.raw[3 + k][first]), lanes.direction[k]);
-        }
-        store_lanes(load_lanes(&packet_.raw[6][first]), lanes.t_min);
-        store_lanes(load_lanes(&packet_.raw[7][first]), lanes.t_max);
-        for (std::size_t i = first; i < std::min(first + kGroupRays, results_.size()); ++i) {
-            const Hit& found = results_[i];
-            if (found.found()) lanes.t_max[i - first] = found.t;
-        }
-        return lanes;
-    }
-
-    RayLanes lanes_[kPacketGroups];
-    std::uint32_t lanes_made_ = 0;
 };
 
 /// Takes what PacketDecider has found.
@@ -331,6 +318,7 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
         for (std::size_t i = 0; i < best.size(); ++i) {
             if (HWY_LIKELY(!best[i].found())) continue;
             packet.limit(i, parameter.above(best[i].t));
+            packet.rays[i / kGroupRays].t_max[i % kGroupRays] = best[i].t;
             any = true;
         }
         if (any) packet.shrink_all();

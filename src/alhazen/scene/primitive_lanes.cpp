@@ -45,15 +45,12 @@ std::uint32_t shape_hits(const S& shape, const RayLanes& rays, std::uint32_t wan
     }
 }
 
-/// Calls f(rays) with the rays in the inner frame.
-template <class F>
-decltype(auto) in_frame(const Affine& inner_from_outer, const RayLanes& rays, F&& f) {
-    if (inner_from_outer == Affine{}) return f(rays);
+RayLanes transformed(const Affine& to_from, const RayLanes& rays) {
     RayLanes inner;
     for (std::size_t lane = 0; lane < kRayLanes; ++lane) {
-        inner.set(lane, transformed(inner_from_outer, rays.ray(lane)));
+        inner.set(lane, transformed(to_from, rays.ray(lane)));
     }
-    return f(static_cast<const RayLanes&>(inner));
+    return inner;
 }
 
 std::uint32_t closest_of_shape(const PrimitiveTable& table, PrimitiveId id, RayLanes& rays,
@@ -67,7 +64,7 @@ std::uint32_t closest_of_shape(const PrimitiveTable& table, PrimitiveId id, RayL
         };
         const std::uint32_t placement = column.placements[i];
         if (placement == kNoPlacement) return test(rays);
-        return in_frame(table.placements[placement].inner_from_outer, rays, test);
+        return test(transformed(table.placements[placement].inner_from_outer, rays));
     });
     if (query.stats != nullptr) {
         query.stats->primitive_tests += static_cast<std::uint64_t>(std::popcount(wanted));
@@ -86,12 +83,15 @@ std::uint32_t closest_of_shape(const PrimitiveTable& table, PrimitiveId id, RayL
 
 std::uint32_t closest_of_instance(const PrimitiveTable& table, PrimitiveId id, RayLanes& rays,
                                   std::uint32_t wanted, std::span<Hit> best, RayQuery query) {
-    const Instance& instance = table.instances[table.index(id)];
+    const Instance& instance =
+        table.instances[static_cast<std::uint32_t>(id) - table.first(kInstanceKind)];
     LaneHits hits;
+    const Aggregate& inside = *instance.aggregate;
     const std::uint32_t hit =
-        in_frame(instance.placement.inner_from_outer, rays, [&](const RayLanes& inner) {
-            return instance.aggregate->closest_of_lanes(inner, wanted, hits, query);
-        });
+        instance.in_place
+            ? inside.closest_of_lanes(rays, wanted, hits, query)
+            : inside.closest_of_lanes(transformed(instance.placement.inner_from_outer, rays),
+                                      wanted, hits, query);
     std::uint32_t changed = 0;
     for_each_lane(hit, [&](std::size_t lane) {
         Hit& b = best[lane];
@@ -121,9 +121,12 @@ bool takes_lanes(const PrimitiveTable& table, PrimitiveId id) {
 std::uint32_t closest_of_lanes(const PrimitiveTable& table, PrimitiveId id, RayLanes& rays,
                                std::uint32_t wanted, std::span<Hit> best, RayQuery query) {
     if (!table.is_seen(id, query.mask)) return 0;
-    const std::uint32_t kind = table.kind(id);
-    if (kind < kTriangleKind) return closest_of_shape(table, id, rays, wanted, best, query);
-    if (kind == kInstanceKind && table.instances[table.index(id)].aggregate->takes_lanes()) {
+    const auto i = static_cast<std::uint32_t>(id);
+    if (i < table.first(kTriangleKind)) {
+        return closest_of_shape(table, id, rays, wanted, best, query);
+    }
+    const std::uint32_t first_instance = table.first(kInstanceKind);
+    if (i >= first_instance && table.instances[i - first_instance].aggregate->takes_lanes()) {
         return closest_of_instance(table, id, rays, wanted, best, query);
     }
     std::uint32_t changed = 0;

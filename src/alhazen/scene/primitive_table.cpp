@@ -63,6 +63,9 @@ void PrimitiveTable::finish() {
         triangles += mesh.mesh->triangles.size();
     }
     begin_kind(triangles);
+    for (Instance& instance : instances) {
+        instance.in_place = instance.placement.inner_from_outer == Affine{};
+    }
     begin_kind(instances.size());
     first_[kind] = static_cast<std::uint32_t>(next);
     collect_masks();

@@ -64,6 +64,8 @@ struct Instance {
     /// What is placed is one mesh that several parts share: `part` is the mesh's own part.
     bool of_shared_mesh = false;
     RayMask visible_to = kAllRays;
+    /// The placement moves nothing; set by PrimitiveTable::finish.
+    bool in_place = false;
 };
 
 /// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two

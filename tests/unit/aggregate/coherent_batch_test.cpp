@@ -7,7 +7,9 @@
 
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/wide_bvh_aggregate.h"
+#include "alhazen/math/random.h"
 #include "alhazen/simd/targets.h"
+#include "support/scene_maker.h"
 #include "unit/aggregate/compare_aggregates.h"
 
 namespace alhazen {
@@ -336,6 +338,52 @@ TEST(CoherentBatch, NestedAggregatesGiveTheHitsOfNestedLists) {
         compare_with(*list, *nest("wide_bvh"),
                      shadow_rays({-1.2, -1.1, -1.3}, 0.3, {1.5, 1.3, 1.4}, 24),
                      "instances in shadow on " + target);
+    }
+}
+
+/// Many small solids made of others, where they are made or placed by transforms, and other shapes.
+PrimitiveTable small_solids(std::uint64_t seed) {
+    RandomStream random(seed);
+    SceneMaker maker;
+    maker.material({});
+    const auto point = [&] {
+        return Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    };
+    const Combine kinds[] = {Combine::Difference, Combine::Union, Combine::Intersection};
+    for (int i = 0; i < 60; ++i) {
+        const ObjectIndex object = maker.object("solid");
+        maker.description().objects[static_cast<std::size_t>(object)].combine = kinds[i % 3];
+        const bool placed = i % 4 == 0;
+        const Vec3 at = placed ? Vec3{} : point();
+        const double size = random.uniform(0.05, 0.2);
+        maker.add(Sphere{at, size}, MaterialId{0}, {}, object);
+        maker.add(Cylinder{.base = at - size * Vec3{0.2, 0.1, 1.2},
+                           .top = at + size * Vec3{0.2, 0.1, 1.2},
+                           .radius = 0.4 * size},
+                  MaterialId{0}, {}, object);
+        if (i % 5 == 0) maker.add(BoxShape{at, at + size * Vec3{1, 1, 1}}, MaterialId{0}, {}, object);
+        const Affine placement = Affine::translate(point()) *
+                                 Affine::rotate({0.3, 1, 0.2}, random.uniform(0, 6)) *
+                                 Affine::scale({1.0, 0.7, 1.4});
+        maker.add(object, MaterialId{0}, placed ? placement : Affine{});
+    }
+    for (int i = 0; i < 10; ++i) {
+        maker.add(Sphere{point(), 0.1});
+        maker.add(Torus{.center = point(), .major_radius = 0.1, .minor_radius = 0.03});
+        maker.add(BoxShape{{0, 0, 0}, {0.1, 0.1, 0.1}}, MaterialId{0}, Affine::translate(point()));
+    }
+    return maker.compile().aggregate->primitives();
+}
+
+TEST(CoherentBatch, SmallSolidsAreHitAsByTheList) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const PrimitiveTable table = small_solids(seed);
+        const std::string name = "small solids " + std::to_string(seed);
+        compare(name, table, eye_rays({0.1, 0.2, 4}, {0, 0, -1}, 0.6, 48));
+        compare(name + " from inside", table, eye_rays({0.1, 0.2, 0.3}, {-1, 0.2, 0.3}, 0.4, 24));
+        compare(name + " in shadow", table,
+                shadow_rays({-1.2, -1.1, -1.3}, 0.3, {1.5, 1.3, 1.4}, 24));
+        compare(name + " along an axis", table, eye_rays({0, 0, 4}, {0, 0, -1}, 0.0, 16), false);
     }
 }
 

@@ -43,8 +43,7 @@ namespace HWY_NAMESPACE {
 class RayPacket {
   public:
     RayGroup groups[kPacketGroups];
-    /// [origin x, y, z, direction x, y, z, t_min, t_max] as given
-    HWY_ALIGN double raw[8][kPacketRays];
+    RayLanes rays[kPacketGroups];  ///< as given
     std::size_t group_count = 0;
     std::uint32_t kx = 0, ky = 0, kz = 0;
     float error = 0;    ///< of a sheared coordinate, as in triangle_filter.h, of any ray
@@ -62,9 +61,9 @@ class RayPacket {
     /// False when the rays are too different; then nothing else may be called. `used` has bits for
     /// the rays that are wanted; those are cleared that do not fit in, and remain to be traced in
     /// another way.
-    [[nodiscard]] bool make(const LocalFrame& frame, std::span<const Ray> rays,
+    [[nodiscard]] bool make(const LocalFrame& frame, std::span<const Ray> given,
                             std::uint64_t& used) {
-        used &= load(frame, rays);
+        used &= load(frame, given);
         if (used == 0 || !keep_one_way(used)) return false;
         for (std::size_t i = 0; i < 2; ++i) {
             store_lanes(Floats(std::numeric_limits<float>::infinity()), slope_lo[i]);
@@ -88,18 +87,23 @@ class RayPacket {
 
     /// Bits of the children that the pyramid meets; `nearest` orders them.
     HWY_INLINE std::uint32_t meet_children(const WideNode& node, Floats& nearest) const {
+        return meet_boxes(node.planes, nearest);
+    }
+    /// The same for eight boxes [lower x, y, z, upper x, y, z][box].
+    HWY_INLINE std::uint32_t meet_boxes(const float (&planes)[6][kLaneCount],
+                                        Floats& nearest) const {
         const Floats sign(sign_), minus_depth(-depth_of_point_);
         // Depths of the near and the far plane.
-        nearest = mul_add(load_lanes(node.planes[near_row_]), sign, minus_depth);
-        const Floats farthest = mul_add(load_lanes(node.planes[far_row_]), sign, minus_depth);
+        nearest = mul_add(load_lanes(planes[near_row_]), sign, minus_depth);
+        const Floats farthest = mul_add(load_lanes(planes[far_row_]), sign, minus_depth);
         const Floats zero(0.0f);
         const Floats h0 = max_lanes(from_start_ ? nearest : -farthest, zero);
         const Floats h1 = max_lanes(from_start_ ? farthest : -nearest, zero);
         LaneMask<float> missed = (nearest > Floats(k_max)) | (farthest < Floats(k_min_));
         HWY_UNROLL(2)
         for (std::size_t i = 0; i < 2; ++i) {
-            const Floats lo = load_lanes(node.planes[lateral_row_[i]]) - Floats(point_hi_[i]);
-            const Floats hi = load_lanes(node.planes[lateral_row_[i] + 3]) - Floats(point_lo_[i]);
+            const Floats lo = load_lanes(planes[lateral_row_[i]]) - Floats(point_hi_[i]);
+            const Floats hi = load_lanes(planes[lateral_row_[i] + 3]) - Floats(point_lo_[i]);
             const Floats above =
                 neg_mul_add(Floats(hi_up_[i]), h1, neg_mul_add(Floats(hi_down_[i]), h0, lo));
             const Floats below =
@@ -158,7 +162,7 @@ class RayPacket {
     static constexpr float kWidest = 0.5f;
     static constexpr float kFarthest = 0.25f;
 
-    std::uint64_t load(const LocalFrame& frame, std::span<const Ray> rays);
+    std::uint64_t load(const LocalFrame& frame, std::span<const Ray> given);
     bool keep_one_way(std::uint64_t& used);
     HWY_INLINE void make_slopes(std::size_t g);
     bool find_point();
@@ -172,24 +176,19 @@ class RayPacket {
     float hi_up_[2], hi_down_[2], lo_up_[2], lo_down_[2];
 };
 
-inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ray> rays) {
-    group_count = (rays.size() + kGroupRays - 1) / kGroupRays;
-    for (std::size_t i = 0; i < group_count * kGroupRays; ++i) {
-        const Ray& ray = rays[std::min(i, rays.size() - 1)];
-        raw[0][i] = ray.origin.x;
-        raw[1][i] = ray.origin.y;
-        raw[2][i] = ray.origin.z;
-        raw[3][i] = ray.direction.x;
-        raw[4][i] = ray.direction.y;
-        raw[5][i] = ray.direction.z;
-        raw[6][i] = ray.t_min;
-        raw[7][i] = ray.t_max;
+inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ray> given) {
+    group_count = (given.size() + kGroupRays - 1) / kGroupRays;
+    for (std::size_t g = 0; g < group_count; ++g) {
+        const std::span<const Ray> group = given.subspan(g * kGroupRays);
+        for (std::size_t i = 0; i < kGroupRays; ++i) {
+            rays[g].set(i, group[std::min(i, group.size() - 1)]);
+        }
     }
     std::uint64_t used = 0;
-    for (std::size_t i = 0; i < group_count * kGroupRays; i += kLaneCount) {
-        used |= std::uint64_t{load_rays(frame, raw, i, groups[i / kGroupRays])} << i;
+    for (std::size_t g = 0; g < group_count; ++g) {
+        used |= std::uint64_t{load_rays(frame, rays[g], groups[g])} << (g * kGroupRays);
     }
-    const std::uint64_t given = ~std::uint64_t{0} >> (kPacketRays - rays.size());
+    const std::uint64_t all = ~std::uint64_t{0} >> (kPacketRays - given.size());
     float distance = 0;
     for (std::size_t g = 0; g < group_count; ++g) {
         GroupFloats most(0.0f);
@@ -199,11 +198,11 @@ inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ra
         distance = std::max(distance, RayGroup::most_of(most));
     }
     // Unless a ray cannot be used: it may be NaN, and hide another.
-    if ((used & given) != given) distance = 8.0f;
+    if ((used & all) != all) distance = 8.0f;
     reach_ = frame.slack.reach.at(distance);
     delta_ = frame.slack.delta.at(distance);
     error = 13.2f * kUnit * reach_ + 4.0f * delta_;
-    return used & given;
+    return used & all;
 }
 
 /// Keeps the rays that go the way of the first one.

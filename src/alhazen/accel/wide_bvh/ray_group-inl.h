@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "alhazen/accel/wide_bvh/local_frame.h"
+#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,7 +22,7 @@ namespace HWY_NAMESPACE {
 
 /// Rays of a packet, and of a group of it whose rays are in the lanes together.
 inline constexpr std::size_t kPacketRays = 64;
-inline constexpr std::size_t kGroupRays = 8;
+inline constexpr std::size_t kGroupRays = kRayLanes;
 inline constexpr std::size_t kPacketGroups = kPacketRays / kGroupRays;
 using GroupFloats = Lanes<float, kGroupRays>;
 using GroupRow = float[kGroupRays];
@@ -56,33 +57,32 @@ struct alignas(64) RayGroup {
 };
 
 /// Brings eight rays into the local frame, as `local_ray_nearby`; bits of those it could.
-HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const double (&raw)[8][kPacketRays],
-                                   std::size_t first, RayGroup& group) {
+HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const RayLanes& rays,
+                                   RayGroup& group) {
     using D = Doubles;
     using F = Floats;
-    const std::size_t at = first % kGroupRays;
     const D scale(frame.scale);
     const double center[3] = {frame.center.x, frame.center.y, frame.center.z};
     F away(0.0f), across(0.0f);
     HWY_UNROLL(3)
     for (std::size_t k = 0; k < 3; ++k) {
-        const F o = as_floats((load_lanes(&raw[k][first]) - D(center[k])) * scale);
-        const F d = as_floats(load_lanes(&raw[3 + k][first]));
+        const F o = as_floats((load_lanes(rays.origin[k]) - D(center[k])) * scale);
+        const F d = as_floats(load_lanes(rays.direction[k]));
         // In this order a NaN comes through on every target.
         away = away + abs(o);
         across = across + abs(d);
-        store_lanes(o, &group.origin[k][at]);
-        store_lanes(d, &group.direction[k][at]);
+        store_lanes(o, group.origin[k]);
+        store_lanes(d, group.direction[k]);
     }
-    const D t_min = load_lanes(&raw[6][first]), t_max = load_lanes(&raw[7][first]);
+    const D t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
     const D begin = min_lanes(max_lanes(t_min * scale, D(-1e37)), D(1e37));
     const D end = min_lanes(max_lanes(t_max * scale, D(-1e37)), D(1e37));
     const D begin_step = abs(begin) * D(0x1p-23) + D(0x1p-100);
     const D end_step = abs(end) * D(0x1p-23) + D(0x1p-100);
-    store_lanes(as_floats(begin - begin_step), &group.s_min[at]);
-    store_lanes(as_floats(begin + begin_step), &group.sure_min[at]);
-    store_lanes(as_floats(end - end_step), &group.sure_max[at]);
-    store_lanes(as_floats(end + end_step), &group.s_max[at]);
+    store_lanes(as_floats(begin - begin_step), group.s_min);
+    store_lanes(as_floats(begin + begin_step), group.sure_min);
+    store_lanes(as_floats(end - end_step), group.sure_max);
+    store_lanes(as_floats(end + end_step), group.s_max);
     // A sum of three is at most three times the largest.
     return bits_of((away <= F(8.0f)) & (across <= F(0x1p40f)) &
                    (across >= F(3.0f * frame.slack.least_length))) &

@@ -1,22 +1,35 @@
-#include "alhazen/shapes/span_lanes.h"
+/// Where eight lines enter and leave a closed convex shape, side by side in lanes.
+///
+/// Source: sphere_roots.h, frustum.cpp, box_shape.cpp, the same operations in the same order.
+/// Differs: what is rare (a cone steeper than the line, a line along an axis, numbers out of range)
+/// is left to the scalar text. Conventions: included once per target (see simd/lanes-inl.h), the
+/// limits of the rays are not looked at, frustums have their caps. `unsure` lanes are to be asked
+/// alone; of the others entry and exit are the bits of the two crossings that `intersect` writes
+/// for the whole line, or there are none.
 
+#if defined(ALHAZEN_SHAPES_SPAN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_SHAPES_SPAN_LANES_INL_H_
+#undef ALHAZEN_SHAPES_SPAN_LANES_INL_H_
+#else
+#define ALHAZEN_SHAPES_SPAN_LANES_INL_H_
+#endif
+
+#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/geometry/sphere_roots.h"
-
-// Compiles the rest of this file once per target.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/shapes/span_lanes.cpp"
-#include <hwy/foreach_target.h>  // IWYU pragma: keep
-// After foreach_target.h.
+#include "alhazen/shapes/box_shape.h"
+#include "alhazen/shapes/frustum.h"
+#include "alhazen/shapes/sphere.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
-namespace {
 
 static_assert(kRayLanes == kLaneCount);
 
+namespace span_lanes {
 #include "alhazen/geometry/sphere_roots_formula-inl.h"
+}  // namespace span_lanes
 
 struct Vec3Lanes {
     Doubles x, y, z;
@@ -38,39 +51,44 @@ HWY_INLINE Doubles dot(const Vec3& a, const Vec3Lanes& b) {
 /// squared either.
 constexpr double kFarNumber = 0x1p500;
 
-/// Tells the lanes apart that are asked alone: those whose crossings are not finite.
-HWY_INLINE void set_spans(const Doubles& entry, const Doubles& exit, std::uint32_t maybe,
-                          SpanLanes& out) {
-    const Doubles far(kFarNumber);
-    const std::uint32_t finite = bits_of((abs(entry) < far) & (abs(exit) < far));
-    out.unsure |= maybe & ~finite;
-    out.met = maybe & finite & bits_of(entry <= exit);
-    store_lanes(entry, out.entry);
-    store_lanes(exit, out.exit);
-}
+/// Where lines enter and leave a shape.
+struct LaneSpans {
+    Doubles entry, exit;            ///< of the lanes that meet it, entry <= exit
+    Doubles entry_part, exit_part;  ///< whole numbers
+    std::uint32_t met = 0;          ///< the line crosses the shape
+    std::uint32_t unsure = 0;       ///< nothing is known; not in `met`
 
-void sphere_spans(const RayLanes& rays, const Sphere& sphere, SpanLanes& out) {
+    /// Of the lines in `maybe`: those whose crossings are not finite are asked alone.
+    HWY_INLINE void set(const Doubles& in, const Doubles& out, std::uint32_t maybe) {
+        const Doubles far(kFarNumber);
+        const std::uint32_t finite = bits_of((abs(in) < far) & (abs(out) < far));
+        unsure |= maybe & ~finite;
+        met = maybe & finite & bits_of(in <= out);
+        entry = in;
+        exit = out;
+    }
+};
+
+HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, LaneSpans& spans) {
     const Vec3Lanes d = load_vectors(rays.direction);
     const Vec3Lanes f = load_vectors(rays.origin) - sphere.center;
     const Doubles a = dot(d, d), radius(sphere.radius), zero(0.0);
-    const SphereLine<Doubles> line = sphere_line(d.x, d.y, d.z, a, f.x, f.y, f.z, radius);
+    const auto line = span_lanes::sphere_line(d.x, d.y, d.z, a, f.x, f.y, f.z, radius);
     const std::uint32_t met = bits_of(line.discriminant >= zero);
-    out.met = out.unsure = 0;
     if (met == 0) return;
-    const SphereRoots<Doubles> roots = sphere_roots(line, a, f.x, f.y, f.z, radius);
+    const auto roots = span_lanes::sphere_roots(line, a, f.x, f.y, f.z, radius);
     const Doubles &entry = roots.t_near, &exit = roots.t_far;
     // As `are_plain_roots`, but for the largest numbers.
     const std::uint32_t plain =
         bits_of(entry <= exit) & bits_of((entry < zero) | (entry > zero)) &
         bits_of((exit < zero) | (exit > zero));
-    out.unsure = met & ~plain;
-    set_spans(entry, exit, met & plain, out);
-    store_lanes(zero, out.entry_part);
-    store_lanes(zero, out.exit_part);
+    spans.unsure = met & ~plain;
+    spans.set(entry, exit, met & plain);
+    spans.entry_part = spans.exit_part = zero;
 }
 
 /// As BoxShape::intersect. What lies in the plane of a face, or along it, is asked alone.
-void box_spans(const RayLanes& rays, const BoxShape& box, SpanLanes& out) {
+HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, LaneSpans& spans) {
     Doubles entry(-kFarNumber), exit(kFarNumber), entry_part(0.0), exit_part(0.0);
     const Doubles zero(0.0);
     std::uint32_t level = 0;
@@ -89,16 +107,15 @@ void box_spans(const RayLanes& rays, const BoxShape& box, SpanLanes& out) {
         entry_part = select_lanes(later, select_lanes(up, low_face, high_face), entry_part);
         exit_part = select_lanes(sooner, select_lanes(up, high_face, low_face), exit_part);
     }
-    out.unsure = level;
-    set_spans(entry, exit, kAllLanes & ~level, out);
-    store_lanes(entry_part, out.entry_part);
-    store_lanes(exit_part, out.exit_part);
+    spans.unsure = level;
+    spans.set(entry, exit, kAllLanes & ~level);
+    spans.entry_part = entry_part;
+    spans.exit_part = exit_part;
 }
 
 /// As frustum.cpp: `localise`, `inside_side` for lines flatter than the cone, `intersect_solid`.
-void frustum_spans(const RayLanes& rays, const Frustum& f, SpanLanes& out) {
-    out.met = 0;
-    out.unsure = kAllLanes;
+HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, LaneSpans& spans) {
+    spans.unsure = kAllLanes;
     if (!kFusesExactly) return;
     const Vec3Lanes d = load_vectors(rays.direction);
     Vec3Lanes o = load_vectors(rays.origin) - f.center;
@@ -120,7 +137,7 @@ void frustum_spans(const RayLanes& rays, const Frustum& f, SpanLanes& out) {
     const Doubles moment = abs(difference_of_products(ox, dy, oy, dx));
     const Doubles discriminant = (w - moment) * (w + moment);
     const std::uint32_t flat = bits_of(a > zero);
-    out.unsure = kAllLanes & ~flat;
+    spans.unsure = kAllLanes & ~flat;
     std::uint32_t maybe = flat & bits_of(discriminant >= zero);
     if (maybe == 0) return;
     const Doubles b = ox * dx + oy * dy - radius * growth;
@@ -149,31 +166,13 @@ void frustum_spans(const RayLanes& rays, const Frustum& f, SpanLanes& out) {
     maybe &= bits_of(entry <= exit);
     if (maybe == 0) return;
     const Doubles base(1.0), top(2.0);
-    set_spans(shift + entry, shift + exit, maybe, out);
-    store_lanes(select_lanes(by_cap, select_lanes(up, base, top), zero), out.entry_part);
-    store_lanes(select_lanes(to_cap, select_lanes(up, top, base), zero), out.exit_part);
-}
-
-}  // namespace
-
-const SpanKernels& span_kernels_of_target() {
-    static constexpr SpanKernels kKernels{&sphere_spans, &box_spans, &frustum_spans};
-    return kKernels;
+    spans.set(shift + entry, shift + exit, maybe);
+    spans.entry_part = select_lanes(by_cap, select_lanes(up, base, top), zero);
+    spans.exit_part = select_lanes(to_cap, select_lanes(up, top, base), zero);
 }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace alhazen
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-namespace alhazen {
-
-HWY_EXPORT(span_kernels_of_target);
-
-const SpanKernels& span_kernels() {
-    // Asked for every eight rays: what the processor can do is not looked up again.
-    return HWY_DYNAMIC_DISPATCH(span_kernels_of_target)();
-}
-
-}  // namespace alhazen
-#endif
+#endif  // include guard that opens again for every target

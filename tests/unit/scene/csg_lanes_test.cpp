@@ -1,0 +1,210 @@
+// Eight rays side by side find what each finds alone in a solid of a few leaves, bit for bit.
+
+#include "alhazen/scene/csg_lanes.h"
+
+#include <bit>
+
+#include "alhazen/scene/csg_aggregate.h"
+#include "alhazen/simd/targets.h"
+#include "csg_random_trees.h"
+#include "support/random_shapes.h"
+
+namespace alhazen {
+namespace {
+
+using testing::Random;
+using testing::RandomSolids;
+using testing::SceneMaker;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+bool same_bits(const ShapeHit& a, const ShapeHit& b) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    return bits(a.t) == bits(b.t) && bits(a.u) == bits(b.u) && bits(a.v) == bits(b.v) &&
+           a.part == b.part;
+}
+
+// ---- one leaf: where a line enters and leaves a shape
+
+/// Towards the shape from anywhere, at times along axes with zeros of either sign, at times from
+/// far away, at times with a range of its own.
+Ray any_ray(const Box3& box, Random& random) {
+    Vec3 target;
+    for (int k = 0; k < 3; ++k) target[k] = random.uniform(box.lo[k], box.hi[k]);
+    const double size = length(box.size());
+    Vec3 direction = random.log_uniform(1e-3, 1e3) * random.unit_vector();
+    if (random.below(4) == 0) {
+        const int axis = random.below(3);
+        for (int k = 0; k < 3; ++k) {
+            if (k != axis && random.coin()) direction[k] = random.coin() ? 0.0 : -0.0;
+        }
+        if (random.coin()) target[(axis + 1) % 3] = box.lo[(axis + 1) % 3];
+    }
+    const double distance[] = {0.0, 0.5, 3.0, 100.0, 1e5, 1e9};
+    const double away = distance[random.below(6)] * size / length(direction);
+    Ray ray{target - away * direction, direction};
+    if (random.below(4) == 0) ray.t_min = -kInf;
+    if (random.below(5) == 0) ray.t_min = random.uniform(-0.1, 1.1) * away;
+    if (random.below(5) == 0) ray.t_max = ray.t_min + random.uniform(0, 2) * (away + 0.1);
+    return ray;
+}
+
+/// How many of the rays the kernel was sure of.
+template <class S>
+int check_spans(const S& shape, CsgLanesSolid::Kind kind, const void* kernels_shape,
+                Random& random) {
+    CsgLanesSolid solid;
+    solid.leaf_count = 1;
+    solid.leaves[0] = {0, kind, kernels_shape, true, 1};
+    RayLanes rays;
+    for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, any_ray(shape.box(), random));
+    CsgLanesHits found;
+    csg_lanes_kernel()(solid, rays, kAllRayLanes, found);
+    EXPECT_EQ(found.hit & found.unsure, 0u);
+    int sure = 0;
+    for (std::size_t i = 0; i < kRayLanes; ++i) {
+        if ((found.unsure >> i & 1) != 0) continue;
+        ++sure;
+        const Ray ray = rays.ray(i);
+        Ray line = ray;
+        line.t_min = -kInf;
+        line.t_max = kInf;
+        ShapeHit hits[2];
+        const int count = shape.intersect(line, hits);
+        const ShapeHit* first = std::find_if(hits, hits + count,
+                                             [&](const ShapeHit& h) { return ray.covers(h.t); });
+        const bool hit = first != hits + count;
+        EXPECT_EQ(hit, (found.hit >> i & 1) != 0) << S::kName;
+        if (!hit || (found.hit >> i & 1) == 0) continue;
+        const ShapeHit in_lane{found.t[i], 0, 0, static_cast<std::uint32_t>(found.part[i])};
+        EXPECT_TRUE(same_bits(*first, in_lane)) << S::kName << " t " << first->t << " became "
+                                                << found.t[i];
+    }
+    return sure;
+}
+
+template <class S, class KernelsShape>
+void check_spans_of(CsgLanesSolid::Kind kind, KernelsShape&& kernels_shape) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        Random random(5);
+        int sure = 0;
+        for (int i = 0; i < 300 && !::testing::Test::HasFailure(); ++i) {
+            SCOPED_TRACE(target + ", shape " + std::to_string(i));
+            S shape = testing::random_shape<S>({random, i % 2 == 1});
+            if (!shape.closed()) continue;
+            for (int block = 0; block < 20; ++block) {
+                sure += check_spans(shape, kind, kernels_shape(shape), random);
+            }
+        }
+        // Without fused operations cylinders and cones are all left to the scalar text.
+        const bool fuses = target.starts_with("AVX") || target == "NEON";
+        const bool expected = kind != CsgLanesSolid::Kind::Frustum || fuses;
+        EXPECT_EQ(sure > 15000, expected) << target << " " << sure;
+    }
+}
+
+TEST(CsgLanes, LinesEnterAndLeaveSpheresWhereEachDoesAlone) {
+    check_spans_of<Sphere>(CsgLanesSolid::Kind::Sphere, [](const Sphere& s) { return &s; });
+}
+TEST(CsgLanes, LinesEnterAndLeaveBoxesWhereEachDoesAlone) {
+    check_spans_of<BoxShape>(CsgLanesSolid::Kind::Box, [](const BoxShape& s) { return &s; });
+}
+TEST(CsgLanes, LinesEnterAndLeaveCylindersWhereEachDoesAlone) {
+    check_spans_of<Cylinder>(CsgLanesSolid::Kind::Frustum,
+                             [](const Cylinder& s) { return &s.frustum; });
+}
+TEST(CsgLanes, LinesEnterAndLeaveConesWhereEachDoesAlone) {
+    check_spans_of<Cone>(CsgLanesSolid::Kind::Frustum, [](const Cone& s) { return &s.frustum; });
+}
+
+// ---- solids
+
+/// The CSG object that the scene is one instance of.
+const CsgAggregate* solid_of(const Scene& scene) {
+    const auto& instances = scene.aggregate->primitives().instances;
+    if (instances.size() != 1) return nullptr;
+    return dynamic_cast<const CsgAggregate*>(instances.front().aggregate.get());
+}
+
+/// How many of `wanted` rays hit.
+int compare(const CsgAggregate& solid, const RayLanes& rays, std::uint32_t wanted,
+            const std::string& at) {
+    LaneHits hits;
+    const std::uint32_t hit = solid.closest_of_lanes(rays, wanted, hits, nullptr);
+    EXPECT_EQ(hit & ~wanted, 0u) << at;
+    for_each_lane(wanted, [&](std::size_t i) {
+        Hit alone;
+        const bool found = solid.closest(rays.ray(i), alone, nullptr);
+        EXPECT_EQ(found, (hit >> i & 1) != 0) << at << " ray " << i;
+        if (!found || (hit >> i & 1) == 0) return;
+        EXPECT_TRUE(same_bits(alone, hits.hits[i]) && alone.primitive == hits.primitives[i])
+            << at << " ray " << i << " t " << alone.t << " became " << hits.hits[i].t;
+    });
+    return std::popcount(hit);
+}
+
+TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        int small = 0, hit_count = 0;
+        for (std::uint64_t seed = 1; seed <= 300 && !::testing::Test::HasFailure(); ++seed) {
+            RandomStream random(seed);
+            SceneMaker maker;
+            maker.material({});
+            RandomSolids solids(maker, random, seed % 2 == 1);
+            maker.add(solids.tree(1 + static_cast<int>(seed % 6)));
+            const Scene scene = testing::compiled(maker, "event_heap");
+            const CsgAggregate* solid = solid_of(scene);
+            if (solid == nullptr || !solid->takes_lanes()) continue;
+            ++small;
+            for (int block = 0; block < 40; ++block) {
+                RayLanes rays;
+                const Ray first = solids.ray();
+                for (std::size_t i = 0; i < kRayLanes; ++i) {
+                    Ray ray = block % 2 == 0 ? first : solids.ray();
+                    if (block % 4 == 0) {
+                        ray.direction += 0.02 * Vec3{random.uniform(-1, 1), random.uniform(-1, 1),
+                                                     random.uniform(-1, 1)};
+                    }
+                    if (block % 3 == 0) ray.t_min = random.uniform(-2, 2);
+                    if (block % 5 == 0) ray.t_max = ray.t_min + random.uniform(0, 3);
+                    rays.set(i, ray);
+                }
+                const std::uint32_t wanted =
+                    block % 7 == 0 ? 0x5Bu : kAllRayLanes;
+                hit_count += compare(*solid, rays, wanted,
+                                     target + " seed " + std::to_string(seed) + " block " +
+                                         std::to_string(block));
+            }
+        }
+        EXPECT_GT(small, 40);
+        EXPECT_GT(hit_count, 2000);
+    }
+}
+
+TEST(CsgLanes, LeavesThatARayDoesNotSeeAreEmptyForIt) {
+    SceneMaker maker;
+    maker.material({});
+    const ObjectIndex object = maker.object("ball with a hole");
+    maker.description().objects[static_cast<std::size_t>(object)].combine = Combine::Difference;
+    maker.add(Sphere{{0, 0, 0}, 1}, MaterialId{0}, {}, object);
+    maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.4}, MaterialId{0}, {},
+              object);
+    auto& parts = maker.description().objects[static_cast<std::size_t>(object)].parts;
+    parts[1].visible_to = mask_of(RayKind::Shadow);
+    maker.add(object);
+    const Scene scene = testing::compiled(maker, "event_heap");
+    const CsgAggregate* solid = solid_of(scene);
+    ASSERT_NE(solid, nullptr);
+    ASSERT_TRUE(solid->takes_lanes());
+    RayLanes rays;
+    for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, {{0, 0, 5}, {0, 0, -1}, 0, kInf});
+    LaneHits hits;
+    EXPECT_EQ(solid->closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Shadow)}), 0u);
+    EXPECT_EQ(solid->closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Eye)}), 1u);
+    EXPECT_EQ(hits.hits[0].t, 4.0);
+}
+
+}  // namespace
+}  // namespace alhazen
