@@ -1,15 +1,10 @@
 #include "alhazen/shapes/blob.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <optional>
-#include <span>
 
 #include "alhazen/base/instruction_sets.h"
-#include "alhazen/shapes/blob_lanes.h"
 #include "alhazen/shapes/blob_pieces.h"
-#include "alhazen/shapes/first_hits.h"
 
 namespace alhazen {
 
@@ -113,17 +108,33 @@ class SpanWalk {
     bool skipped_ = false;  ///< whether it is inside here is not known
 };
 
+/// A sphere about the component, with room for what it rounds.
+void add_sphere(const BlobComponent& c, std::vector<BlobSpheres>& spheres) {
+    if (spheres.empty() || spheres.back().used == BlobSpheres::kAll) spheres.emplace_back();
+    BlobSpheres& last = spheres.back();
+    const auto i = static_cast<std::size_t>(std::popcount(last.used));
+    const Vec3 center = c.rod ? 0.5 * c.base + 0.5 * c.top : c.base;
+    const double radius = c.radius + (c.rod ? 0.5 * length(c.top - c.base) : 0.0);
+    last.x[i] = center.x;
+    last.y[i] = center.y;
+    last.z[i] = center.z;
+    last.radius[i] = (1.0 + 0x1p-40) * radius + 0x1p-40 * max_component(abs(center));
+    last.used |= 1u << i;
+}
+
 }  // namespace
 
 void Blob::prepare() {
     std::vector<Box3> boxes;
     bounds = {};
+    spheres.clear();
     for (const BlobComponent& c : components) {
         const Vec3 half{c.radius, c.radius, c.radius};
         Box3 box = outward_box(c.base, half);
         if (c.rod) box.include(outward_box(c.top, half));
         bounds.include(box);
         boxes.push_back(box);
+        if (components.size() <= kFewComponents) add_sphere(c, spheres);
     }
     reach = std::max(max_component(abs(bounds.lo)), max_component(abs(bounds.hi)));
     tree = std::make_shared<const BlobTree>(boxes);
@@ -159,26 +170,15 @@ Interval Blob::extent(const Vec3& axis) const {
 
 namespace {
 
-/// So many components are looked at one after the other; beyond that the tree is faster.
-constexpr std::size_t kFewComponents = 64;
-
 /// The pieces of all components that the line may meet.
 void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     const Blob& blob = local.blob;
-    const Vec3& d = local.given.direction;
-    const double pad = 0x1p-48 * (local.far + blob.reach);
-    if (blob.components.size() > kFewComponents) {
-        blob.tree->for_line(local.o, d, pad,
-                            [&](std::uint32_t i) { add_pieces(local, i, pieces); });
-        return;
+    const auto add = [&](std::uint32_t i) { add_pieces(local, i, pieces); };
+    if (blob.components.size() > Blob::kFewComponents) {
+        const double pad = 0x1p-48 * (local.far + blob.reach);
+        return blob.tree->for_line(local.o, local.given.direction, pad, add);
     }
-    const double dd = length_squared(d);
-    for (std::uint32_t i = 0; i < blob.components.size(); ++i) {
-        const BlobComponent& c = blob.components[i];
-        const double near = c.radius + pad;
-        if (!c.rod && length_squared(cross(local.o - c.base, d)) > near * near * dd) continue;
-        add_pieces(local, i, pieces);
-    }
+    for (std::uint32_t i = 0; i < blob.components.size(); ++i) add(i);
 }
 
 /// Whether all pieces together are too weak, wherever they meet.
@@ -244,10 +244,12 @@ void walk_pieces(const LocalRay& local, Workspace& work, std::vector<Event>& eve
             }
         }
         last = event.t;
+        // In the order of the pieces, so that sums do not depend on where they begin.
+        const auto at = std::lower_bound(work.active.begin(), work.active.end(), event.piece);
         if (event.begins) {
-            work.active.push_back(event.piece);
+            work.active.insert(at, event.piece);
         } else {
-            work.active.erase(std::find(work.active.begin(), work.active.end(), event.piece));
+            work.active.erase(at);
         }
     }
     walk.gap(kInfinity);
@@ -266,73 +268,6 @@ void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits
 void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
     static thread_local Workspace work;
     intersect_blob(*this, ray, work, hits);
-}
-
-namespace {
-
-/// A ray of several, with what it needs.
-struct RayWork {
-    std::optional<LocalRay> local;
-    Workspace work;
-};
-
-/// The pieces of all components, few, along all rays, side by side.
-void collect_side_by_side(const Blob& blob, std::span<RayWork> rays) {
-    BlobRayLanes lanes;
-    for (std::size_t i = 0; i < BlobRayLanes::kWidth; ++i) {
-        const LocalRay& ray = *rays[i < rays.size() ? i : 0].local;
-        for (int k = 0; k < 3; ++k) {
-            lanes.origin[k][i] = ray.o[k];
-            lanes.direction[k][i] = ray.given.direction[k];
-        }
-        lanes.pad[i] = 0x1p-48 * (ray.far + blob.reach);
-    }
-    const std::uint32_t used = (1u << rays.size()) - 1;
-    const WithinBallKernel within_ball = within_ball_kernel();
-    BallLanes ball;
-    for (std::uint32_t c = 0; c < blob.components.size(); ++c) {
-        const BlobComponent& component = blob.components[c];
-        if (component.rod) {
-            for (RayWork& ray : rays) add_pieces(*ray.local, c, ray.work.pieces);
-            continue;
-        }
-        for (std::uint32_t rest = used & within_ball(lanes, component.base, component.radius, ball);
-             rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            const Bump bump{{ball.lo[i], ball.hi[i]}, ball.middle[i], ball.peak[i], ball.bend[i]};
-            rays[i].work.pieces.push_back(
-                {c, Region::Base, bump.t.lo, bump.t.hi, bump, rays[i].local->room(component)});
-        }
-    }
-}
-
-}  // namespace
-
-std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
-    static thread_local std::array<RayWork, kMostRaysSideBySide> all;
-    const std::span<RayWork> used = std::span(all).first(rays.size());
-    bool finite = true;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        used[i].work.pieces.clear();
-        used[i].local.emplace(shape, *rays[i]);
-        finite = finite && is_finite(used[i].local->o);
-    }
-    if (finite && shape.components.size() <= kFewComponents) {
-        collect_side_by_side(shape, used);
-    } else {
-        for (RayWork& ray : used) {
-            if (is_finite(ray.local->o)) collect_pieces(*ray.local, ray.work.pieces);
-        }
-    }
-    std::uint32_t hit = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        ShapeHits found(1);
-        walk_pieces(*used[i].local, used[i].work, all[0].work.events, found);
-        if (found.empty()) continue;
-        hits[i] = found.front();
-        hit |= 1u << i;
-    }
-    return hit;
 }
 
 }  // namespace alhazen
