@@ -98,8 +98,10 @@ std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays, Sh
     for (std::size_t i = 0; i < kRayLanes; ++i) in.set(i, *rays[i < rays.size() ? i : 0]);
     const std::uint32_t used = kAllRayLanes >> (kRayLanes - rays.size());
     kernels.begin(shape, in, lanes);
+    const std::span<const BlobRow> rows = near_rows(shape, rays, kernels, lanes, work);
+    if (rows.empty() && lanes.finite == kAllRayLanes) return 0;
     BlobHitLanes found;
-    kernels.search(shape, lanes, near_rows(shape, rays, kernels, lanes, work), found);
+    kernels.search(shape, lanes, rows, found);
     std::uint32_t hit = used & found.hit;
     for_each_lane(hit, [&](std::size_t i) { hits[i] = {found.t[i], 0, -1.0, 0}; });
     for_each_lane(used & found.unsure, [&](std::size_t i) {

@@ -88,6 +88,20 @@ HWY_INLINE void span_polynomial(const Blob& blob, std::span<const BlobRow> rows,
                   third, b);
     }
 }
+/// No place on [t0, t1] is stronger.
+HWY_INLINE Doubles most_within(std::span<const BlobRow> rows, const Doubles& t0,
+                               const Doubles& t1) {
+    const Doubles nothing(0.0);
+    Doubles most(0.0);
+    for (const BlobRow& row : rows) {
+        const Doubles middle = load_lanes(row.middle);
+        const Doubles off = min_lanes(max_lanes(middle, t0), t1) - middle;
+        const Doubles q =
+            max_lanes(load_lanes(row.peak) - load_lanes(row.bend) * (off * off), nothing);
+        most = most + Doubles(std::max(0.0, row.strength)) * (q * q);
+    }
+    return most;
+}
 /// The last place at or before t where a piece begins or ends.
 HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t) {
     Doubles event(-std::numeric_limits<double>::infinity());
@@ -102,7 +116,7 @@ HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t)
 /// What the signs of the coefficients of a span tell.
 struct SpanSigns {
     std::uint32_t outside = 0;  ///< all of it
-    std::uint32_t once = 0, twice = 0;  ///< it begins outside and the signs change so often
+    std::uint32_t once = 0, twice = 0, oftener = 0;  ///< it begins outside, the signs change so
 };
 HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
     Doubles total = abs(b[0]);
@@ -121,48 +135,76 @@ HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
         two |= one & change;
         one |= change;
     }
-    return {begins & ~one, begins & one & ~two, begins & two & ~three};
+    return {begins & ~one, begins & one & ~two, begins & two & ~three, begins & three};
 }
 
 /// The spans in which rays enter, with their polynomials.
 struct EnteredSpans {
     PolynomialLanes lanes;
-    Doubles t0, t1;
-    std::uint32_t once = 0, twice = 0;
+    Doubles t0, t1;  ///< the span
+    Doubles lo, hi;  ///< where in it the first change of sign is, alone
+    std::uint32_t set = 0;
 
-    HWY_INLINE void set(const SpanSigns& signs, const Doubles* b, const Doubles& from,
-                        const Doubles& to) {
-        const std::uint32_t entered = signs.once | signs.twice;
-        const Mask mask = mask_of(entered);
-        const bool first = (once | twice) == 0;
+    HWY_INLINE void add(std::uint32_t more, const Doubles* b, const Doubles& from,
+                        const Doubles& to, const Doubles& low, const Doubles& high) {
+        const Mask mask = mask_of(more);
+        const bool first = set == 0;
         for (int k = 0; k <= 4; ++k) {
             store_lanes(first ? b[k] : select(mask, b[k], load_lanes(lanes.b[k])), lanes.b[k]);
         }
         t0 = first ? from : select(mask, from, t0);
         t1 = first ? to : select(mask, to, t1);
-        once |= signs.once;
-        twice |= signs.twice;
+        lo = first ? low : select(mask, low, lo);
+        hi = first ? high : select(mask, high, hi);
+        set |= more;
     }
 };
 
-/// Refines where the rays enter: t of these lanes; `unsure`, those in which it is not found.
-HWY_INLINE Doubles entries(EnteredSpans& spans, const Doubles& error, std::uint32_t& unsure) {
-    const Doubles unit(1.0), start(0.0);
-    Doubles hi = unit;
+/// What becomes of lanes in which the signs change more than once: those that enter, between lo and
+/// hi, and those that stay outside. In the rest that is not certain.
+struct SearchedSpans {
+    std::uint32_t enter, outside;
+    Doubles lo, hi;
+};
+HWY_NOINLINE SearchedSpans search_spans(const SpanSigns& signs, std::uint32_t wanted,
+                                        const Doubles* b, const Doubles& error) {
+    const Doubles start(0.0), unit(1.0);
+    PolynomialLanes lanes;
+    LanePart<4> whole;
+    lanes.degree = 4;
+    for (int k = 0; k <= 4; ++k) store_lanes(whole.b[k] = b[k], lanes.b[k]);
+    store_lanes(error, lanes.error);
+    SearchedSpans result;
+    result.enter = wanted & signs.twice & find_between<4>(lanes, unit, result.hi);
+    result.lo = start;
+    result.outside = 0;
+    const std::uint32_t rest = wanted & ~result.enter;
+    if (rest == 0) return result;
+    RayLanes everywhere;
+    store_lanes(Doubles(-std::numeric_limits<double>::infinity()), everywhere.t_min);
+    store_lanes(start, lanes.entry);
+    store_lanes(unit, lanes.exit);
+    whole.error = error;
+    whole.lo = start;
+    whole.hi = whole.first = unit;
+    LaneBrackets found;
+    const std::uint32_t done = search<4>(rest, everywhere, lanes, whole, found);
+    const Mask bracketed = mask_of(done & found.known);
+    result.lo = select(bracketed, found.lo, result.lo);
+    result.hi = select(bracketed, found.hi, result.hi);
+    result.enter |= done & found.known;
+    result.outside = done & ~found.known;
+    return result;
+}
+
+/// Refines where the rays enter: t.
+HWY_INLINE Doubles entries(EnteredSpans& spans) {
     spans.lanes.degree = 4;
-    store_lanes(error, spans.lanes.error);
-    if (spans.twice != 0) {
-        Doubles middle;
-        const std::uint32_t found = spans.twice & find_between<4>(spans.lanes, unit, middle);
-        hi = select(mask_of(found), middle, hi);
-        unsure |= spans.twice & ~found;
-        spans.once |= found;
-    }
-    store_lanes(start, spans.lanes.lo);
-    store_lanes(hi, spans.lanes.hi);
-    store_lanes(unit, spans.lanes.sign_lo);
-    Doubles u = polished<4>(spans.lanes, mask_of(spans.once));
-    u = select(u < start, start, select(hi < u, hi, u));
+    store_lanes(spans.lo, spans.lanes.lo);
+    store_lanes(spans.hi, spans.lanes.hi);
+    store_lanes(Doubles(1.0), spans.lanes.sign_lo);
+    Doubles u = polished<4>(spans.lanes, mask_of(spans.set));
+    u = select(u < spans.lo, spans.lo, select(spans.hi < u, spans.hi, u));
     return spans.t0 + u * (spans.t1 - spans.t0);
 }
 
@@ -175,9 +217,8 @@ inline void search(const Blob& blob, const BlobRayLanes& rays, std::span<const B
     const Doubles begin = (t_min - shift) - Doubles(0x1p-48) * (abs(t_min) + abs(shift));
     out.hit = 0;
     out.unsure = kAllLanes & ~(rays.finite & ~totals.unknown & bits_of(begin <= begin));
-    const std::uint32_t strong =
-        kAllLanes & ~bits_of(totals.most < Doubles(0.9985 * blob.threshold));
-    std::uint32_t left = strong & ~out.unsure;
+    const Doubles limit(0.9985 * blob.threshold);
+    std::uint32_t left = kAllLanes & ~(out.unsure | bits_of(totals.most < limit));
     if (left == 0) return;
     Doubles t0 = totals.first_in;
     if (const std::uint32_t late = left & bits_of(begin > t0); late != 0) {
@@ -185,24 +226,39 @@ inline void search(const Blob& blob, const BlobRayLanes& rays, std::span<const B
     }
     EnteredSpans entered;
     for (;;) {
-        left &= bits_of((t0 < totals.last_out) & (shift + t0 <= t_max));
+        // Every lane to its next span that is not weak.
+        Doubles t1 = t0;
+        for (std::uint32_t weak = kAllLanes; weak != 0;) {
+            t0 = select(mask_of(weak), t1, t0);
+            left &= bits_of((t0 < totals.last_out) & (shift + t0 <= t_max));
+            t1 = span_end(rows, t0);
+            weak &= left & bits_of(most_within(rows, t0, t1) < limit);
+        }
         if (left == 0) break;
-        const Doubles t1 = span_end(rows, t0);
         Doubles b[5];
         span_polynomial(blob, rows, t0, t1, b);
         SpanSigns signs = span_signs(b, totals.error);
-        signs.once &= left;
-        signs.twice &= left;
-        out.unsure |= left & ~(signs.outside | signs.once | signs.twice);
-        if ((signs.once | signs.twice) != 0) entered.set(signs, b, t0, t1);
+        if (const std::uint32_t once = left & signs.once; once != 0) {
+            entered.add(once, b, t0, t1, Doubles(0.0), Doubles(1.0));
+            left &= ~once;
+        }
+        if (const std::uint32_t several = left & (signs.twice | signs.oftener); several != 0) {
+            const SearchedSpans searched = search_spans(signs, several, b, totals.error);
+            if (searched.enter != 0) {
+                entered.add(searched.enter, b, t0, t1, searched.lo, searched.hi);
+            }
+            left &= ~searched.enter;
+            signs.outside |= searched.outside;
+        }
+        out.unsure |= left & ~signs.outside;
         left &= signs.outside;
         t0 = t1;
     }
-    if ((entered.once | entered.twice) == 0) return;
-    const Doubles at = shift + entries(entered, totals.error, out.unsure);
+    if (entered.set == 0) return;
+    const Doubles at = shift + entries(entered);
     store_lanes(at, out.t);
-    out.hit = entered.once & bits_of((t_min <= at) & (at <= t_max));
-    out.unsure |= entered.once & ~(out.hit | bits_of(at > t_max));
+    out.hit = entered.set & bits_of((t_min <= at) & (at <= t_max));
+    out.unsure |= entered.set & ~(out.hit | bits_of(at > t_max));
 }
 
 }  // namespace HWY_NAMESPACE
