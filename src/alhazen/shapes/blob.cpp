@@ -127,6 +127,7 @@ void add_sphere(const BlobComponent& c, std::vector<BlobSpheres>& spheres) {
 void Blob::prepare() {
     std::vector<Box3> boxes;
     bounds = {};
+    mean_radius = 0.0;
     spheres.clear();
     for (const BlobComponent& c : components) {
         const Vec3 half{c.radius, c.radius, c.radius};
@@ -134,6 +135,7 @@ void Blob::prepare() {
         if (c.rod) box.include(outward_box(c.top, half));
         bounds.include(box);
         boxes.push_back(box);
+        mean_radius += c.radius / static_cast<double>(components.size());
         if (components.size() <= kFewComponents) add_sphere(c, spheres);
     }
     reach = std::max(max_component(abs(bounds.lo)), max_component(abs(bounds.hi)));
@@ -178,7 +180,9 @@ void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
         const double pad = 0x1p-48 * (local.far + blob.reach);
         return blob.tree->for_line(local.o, local.given.direction, pad, add);
     }
-    for (std::uint32_t i = 0; i < blob.components.size(); ++i) add(i);
+    for (std::uint32_t i = 0; i < blob.components.size(); ++i) {
+        if (!misses_ball(local, blob.components[i])) add(i);
+    }
 }
 
 /// Whether all pieces together are too weak, wherever they meet.

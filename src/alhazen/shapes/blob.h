@@ -48,6 +48,7 @@ struct Blob {
     std::shared_ptr<const BlobTree> tree{};  ///< derived
     Box3 bounds{};                           ///< derived: of the components
     double reach = 0;                        ///< derived: largest coordinate of the bounds
+    double mean_radius = 0;                  ///< derived: of the components
     std::vector<BlobSpheres> spheres{};      ///< derived: of few components
 
     void prepare();

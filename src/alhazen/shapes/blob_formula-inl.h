@@ -38,8 +38,8 @@ template <class Real>
 
 /// Takes s q^2 from a polynomial of degree four, q with these coefficients; all in Bernstein form.
 template <class Real>
-[[gnu::always_inline]] inline void take_square(const Real& q0, const Real& q1, const Real& q2, const Real& s,
-                        const Real& third_of_s, Real* b) {
+[[gnu::always_inline]] inline void take_square(const Real& q0, const Real& q1, const Real& q2,
+                                               const Real& s, const Real& third_of_s, Real* b) {
     const Real middle = q1 * q1;
     b[0] = b[0] - s * (q0 * q0);
     b[1] = b[1] - s * (q0 * q1);
@@ -49,8 +49,9 @@ template <class Real>
 }
 /// The same of q = peak - bend (t - middle)^2 on [t0, t1].
 template <class Real>
-[[gnu::always_inline]] inline void take_bump(const Real& middle, const Real& peak, const Real& bend, const Real& t0,
-                      const Real& t1, const Real& s, const Real& third_of_s, Real* b) {
+[[gnu::always_inline]] inline void take_bump(const Real& middle, const Real& peak, const Real& bend,
+                                             const Real& t0, const Real& t1, const Real& s,
+                                             const Real& third_of_s, Real* b) {
     const Real from = t0 - middle, to = t1 - middle;
     take_square<Real>(peak - bend * (from * from), peak - bend * (from * to),
                       peak - bend * (to * to), s, third_of_s, b);

@@ -60,10 +60,9 @@ HWY_INLINE void make_beam(const Blob& blob, const Doubles& square, BlobRayLanes&
     const Point from_center = minus(from, blob.bounds.center());
     // So far from its origin a ray may be near the blob.
     const Doubles far = sqrt(dot(from_center, from_center)) + Doubles(length(blob.bounds.size()));
-    const Doubles aside = sqrt(square_across(minus(from, o), d)) +
-                          far * sqrt(square_across(along, d) / square);
-    const Doubles rounding =
-        Doubles(0x1p-40) * (load_lanes(out.far) + Doubles(blob.reach) + far);
+    const Doubles aside =
+        sqrt(square_across(minus(from, o), d)) + far * sqrt(square_across(along, d) / square);
+    const Doubles rounding = Doubles(0x1p-40) * (load_lanes(out.far) + Doubles(blob.reach) + far);
     HWY_ALIGN double width[kRayLanes];
     store_lanes(aside * Doubles(1.001 / length(d)) + rounding, width);
     out.width = *std::max_element(width, width + kRayLanes);
@@ -133,9 +132,7 @@ std::size_t balls(const Blob& blob, const BlobRayLanes& rays,
         store_lanes(select(holds, middle, nothing), row.middle);
         store_lanes(select(holds, room * inverse_squared, Doubles(-1.0)), row.peak);
         store_lanes(select(holds, square * inverse_squared, nothing), row.bend);
-        row.strength = c.strength;
-        row.inverse_radius = 1.0 / c.radius;
-        row.span = 0.0;
+        row.set(c, 0.0);
     }
     return count;
 }

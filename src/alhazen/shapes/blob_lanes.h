@@ -3,10 +3,10 @@
 ///
 /// Source: blob.cpp and blob_pieces.h, the same formulas. Differs: components are left out that a
 /// beam around the eight rays does not meet; nothing is sorted, each ray goes from the end of a
-/// span to the next by looking at all components; a span is passed over only where the signs of its
-/// coefficients are certain. What is rarer than a ray that comes from outside and enters where
-/// the signs change once or twice is left to the scalar text. Conventions: internal to this folder.
-/// Bit i of a set stands for lane i. Every target gives the bits of the scalar text.
+/// span to the next by looking at all components; a span is passed over only where it is weak or
+/// the signs of its coefficients are certain. What is rarer, and rays that go far inside, is left
+/// to the scalar text. Conventions: internal to this folder. Bit i of a set stands for lane i.
+/// Every target gives the bits of the scalar text.
 
 #include <cstdint>
 #include <span>
@@ -31,13 +31,24 @@ struct alignas(64) BlobRayLanes {
 struct alignas(64) BlobRow {
     double in[kRayLanes], out[kRayLanes];
     double middle[kRayLanes], peak[kRayLanes], bend[kRayLanes];
-    double strength, inverse_radius;
-    double span;  ///< of a rod
+    double strength, third;  ///< and a third of it
+    double weight;           ///< the strength if positive, else 0
+    double inverse_radius;
+    double span;  ///< of the rod, in its middle
+
+    void set(const BlobComponent& c, double span_of_rod) {
+        strength = c.strength;
+        third = c.strength * (1.0 / 3.0);
+        weight = c.strength > 0.0 ? c.strength : 0.0;
+        inverse_radius = 1.0 / c.radius;
+        span = span_of_rod;
+    }
 };
 
 struct alignas(64) BlobHitLanes {
-    double t[kRayLanes];  ///< of the lanes that hit; all enter
-    std::uint32_t hit;
+    double t[kRayLanes], t_left[kRayLanes];
+    std::uint32_t hit;     ///< the lanes that enter, at t
+    std::uint32_t leave;   ///< the lanes that leave, at t_left
     std::uint32_t unsure;  ///< ask the scalar text
 };
 

@@ -137,7 +137,8 @@ struct LocalRay {
 };
 
 /// Where a line from f, relative to an axis or a centre, is closer than the radius.
-inline Bump within(const BlobLine<double>& line, const Vec3& f, double radius) {
+[[gnu::always_inline]] inline Bump within(const BlobLine<double>& line, const Vec3& f,
+                                          double radius) {
     const double squared = radius * radius;
     const auto [middle, room] = nearest_place(line, f.x, f.y, f.z, squared);
     if (!(room > 0.0)) return {};
@@ -146,6 +147,12 @@ inline Bump within(const BlobLine<double>& line, const Vec3& f, double radius) {
             middle,
             room * inverse_squared,
             line.square * inverse_squared};
+}
+
+/// Whether it is a ball and the line does not meet it.
+inline bool misses_ball(const LocalRay& ray, const BlobComponent& c) {
+    const Vec3 f = ray.o - c.base;
+    return !c.rod && !(nearest_place(ray.line, f.x, f.y, f.z, c.radius * c.radius).room > 0.0);
 }
 
 inline Bump within_rod(const LocalRay& ray, const BlobComponent& c) {
@@ -163,7 +170,7 @@ inline Interval meeting(const Interval& a, const Interval& b) {
     return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
 
-inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
+inline void add_rod(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
     const BlobComponent& c = ray.blob.components[number];
     constexpr Interval kWholeLine{-kInfinity, kInfinity};
     const auto add = [&](Region region, const Interval& part, const Bump& bump) {
@@ -172,11 +179,6 @@ inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Pi
             pieces.push_back({number, region, t.lo, t.hi, bump, ray.room(c)});
         }
     };
-    if (!c.rod) {
-        const Bump bump = within(ray.line, ray.o - c.base, c.radius);
-        if (bump.t.lo < bump.t.hi) add(Region::Base, kWholeLine, bump);
-        return;
-    }
     const Vec3 e = c.top - c.base;
     const double start = dot(ray.o - c.base, e), speed = dot(ray.given.direction, e);
     Interval before = kWholeLine, between = before, behind = before;
@@ -194,6 +196,15 @@ inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Pi
     add(Region::Base, before, within(ray.line, ray.o - c.base, c.radius));
     add(Region::Middle, between, within_rod(ray, c));
     add(Region::Top, behind, within(ray.line, ray.o - c.top, c.radius));
+}
+
+inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
+    const BlobComponent& c = ray.blob.components[number];
+    if (c.rod) return add_rod(ray, number, pieces);
+    const Bump bump = within(ray.line, ray.o - c.base, c.radius);
+    if (bump.t.lo < bump.t.hi && std::isfinite(bump.t.lo) && std::isfinite(bump.t.hi)) {
+        pieces.push_back({number, Region::Base, bump.t.lo, bump.t.hi, bump, ray.room(c)});
+    }
 }
 
 }  // namespace alhazen::blob

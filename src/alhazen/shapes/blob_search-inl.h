@@ -38,11 +38,11 @@ HWY_INLINE RowTotals totals_of(const Blob& blob, const BlobRayLanes& rays,
     double strengths = 0.0, by_distance = 0.0, fixed = 0.0, least_radius = 0.0;
     for (const BlobRow& row : rows) {
         const Doubles in = load_lanes(row.in), peak = load_lanes(row.peak);
-        const Doubles strength(std::max(0.0, row.strength));
+        const Doubles weight(row.weight);
         totals.first_in = min_lanes(totals.first_in, in);
         totals.last_out = max_lanes(totals.last_out, load_lanes(row.out));
         const Doubles q = max_lanes(peak, none_yet);
-        totals.most = totals.most + strength * (q * q);
+        totals.most = totals.most + weight * (q * q);
         known = known & ((load_lanes(row.bend) > none_yet) | (peak < none_yet));
         const double size = std::abs(row.strength);
         strengths += size;
@@ -83,12 +83,12 @@ HWY_INLINE void span_polynomial(const Blob& blob, std::span<const BlobRow> rows,
         const Mask holds = (load_lanes(row.in) <= t0) & (load_lanes(row.out) > t0);
         if (none(holds)) continue;
         const Doubles s = select(holds, Doubles(row.strength), nothing);
-        const Doubles third = select(holds, Doubles(row.strength * (1.0 / 3.0)), nothing);
+        const Doubles third = select(holds, Doubles(row.third), nothing);
         take_bump(load_lanes(row.middle), load_lanes(row.peak), load_lanes(row.bend), t0, t1, s,
                   third, b);
     }
 }
-/// No place on [t0, t1] is stronger.
+/// No place on [t0, t1] is stronger, but for what is rounded.
 HWY_INLINE Doubles most_within(std::span<const BlobRow> rows, const Doubles& t0,
                                const Doubles& t1) {
     const Doubles nothing(0.0);
@@ -96,9 +96,9 @@ HWY_INLINE Doubles most_within(std::span<const BlobRow> rows, const Doubles& t0,
     for (const BlobRow& row : rows) {
         const Doubles middle = load_lanes(row.middle);
         const Doubles off = min_lanes(max_lanes(middle, t0), t1) - middle;
-        const Doubles q =
-            max_lanes(load_lanes(row.peak) - load_lanes(row.bend) * (off * off), nothing);
-        most = most + Doubles(std::max(0.0, row.strength)) * (q * q);
+        const Doubles bump = neg_mul_add(load_lanes(row.bend), off * off, load_lanes(row.peak));
+        const Doubles q = max_lanes(bump, nothing);
+        most = mul_add(Doubles(row.weight), q * q, most);
     }
     return most;
 }
@@ -115,8 +115,9 @@ HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t)
 
 /// What the signs of the coefficients of a span tell.
 struct SpanSigns {
-    std::uint32_t outside = 0;  ///< all of it
+    std::uint32_t outside = 0;                       ///< all of it
     std::uint32_t once = 0, twice = 0, oftener = 0;  ///< it begins outside, the signs change so
+    std::uint32_t leaves = 0;                        ///< it begins inside, the signs change once
 };
 HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
     Doubles total = abs(b[0]);
@@ -127,7 +128,7 @@ HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
         known = known & (abs(b[k]) > error);
         negative[k] = bits_of(b[k] < Doubles(0.0));
     }
-    const std::uint32_t begins = bits_of(known) & ~negative[0];
+    const std::uint32_t certain = bits_of(known), begins = certain & ~negative[0];
     std::uint32_t one = 0, two = 0, three = 0;  // so many changes and more
     for (int k = 1; k <= 4; ++k) {
         const std::uint32_t change = negative[k] ^ negative[k - 1];
@@ -135,11 +136,12 @@ HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
         two |= one & change;
         one |= change;
     }
-    return {begins & ~one, begins & one & ~two, begins & two & ~three, begins & three};
+    return {begins & ~one, begins & one & ~two, begins & two & ~three, begins & three,
+            certain & negative[0] & one & ~two};
 }
 
-/// The spans in which rays enter, with their polynomials.
-struct EnteredSpans {
+/// The spans in which rays enter, or leave, with their polynomials.
+struct CrossedSpans {
     PolynomialLanes lanes;
     Doubles t0, t1;  ///< the span
     Doubles lo, hi;  ///< where in it the first change of sign is, alone
@@ -197,12 +199,12 @@ HWY_NOINLINE SearchedSpans search_spans(const SpanSigns& signs, std::uint32_t wa
     return result;
 }
 
-/// Refines where the rays enter: t.
-HWY_INLINE Doubles entries(EnteredSpans& spans) {
+/// Refines where the rays cross the surface: t. `sign_lo`: 1 where they enter, -1 where they leave.
+HWY_NOINLINE Doubles crossings(CrossedSpans& spans, double sign_lo) {
     spans.lanes.degree = 4;
     store_lanes(spans.lo, spans.lanes.lo);
     store_lanes(spans.hi, spans.lanes.hi);
-    store_lanes(Doubles(1.0), spans.lanes.sign_lo);
+    store_lanes(Doubles(sign_lo), spans.lanes.sign_lo);
     Doubles u = polished<4>(spans.lanes, mask_of(spans.set));
     u = select(u < spans.lo, spans.lo, select(spans.hi < u, spans.hi, u));
     return spans.t0 + u * (spans.t1 - spans.t0);
@@ -215,16 +217,15 @@ inline void search(const Blob& blob, const BlobRayLanes& rays, std::span<const B
                   t_max = load_lanes(rays.t_max);
     // Where the rays begin, or earlier by more than what is rounded.
     const Doubles begin = (t_min - shift) - Doubles(0x1p-48) * (abs(t_min) + abs(shift));
-    out.hit = 0;
+    out.hit = out.leave = 0;
     out.unsure = kAllLanes & ~(rays.finite & ~totals.unknown & bits_of(begin <= begin));
     const Doubles limit(0.9985 * blob.threshold);
     std::uint32_t left = kAllLanes & ~(out.unsure | bits_of(totals.most < limit));
     if (left == 0) return;
     Doubles t0 = totals.first_in;
-    if (const std::uint32_t late = left & bits_of(begin > t0); late != 0) {
-        t0 = select(mask_of(late), event_before(rows, begin), t0);
-    }
-    EnteredSpans entered;
+    const std::uint32_t late = left & bits_of(begin > t0);
+    if (late != 0) t0 = select(mask_of(late), event_before(rows, begin), t0);
+    CrossedSpans entered;
     for (;;) {
         // Every lane to its next span that is not weak.
         Doubles t1 = t0;
@@ -250,12 +251,23 @@ inline void search(const Blob& blob, const BlobRayLanes& rays, std::span<const B
             left &= ~searched.enter;
             signs.outside |= searched.outside;
         }
+        if (const std::uint32_t leaving = left & signs.leaves & bits_of(t0 <= begin);
+            leaving != 0) {
+            // Rays from within, or from a surface behind which they leave.
+            CrossedSpans left_spans;
+            left_spans.add(leaving, b, t0, t1, Doubles(0.0), Doubles(1.0));
+            const Doubles at = shift + crossings(left_spans, -1.0);
+            store_lanes(at, out.t_left);
+            out.leave |= leaving & bits_of((t_min <= at) & (at <= t_max));
+            left &= ~(leaving & bits_of((t_min <= at) | (at > t_max)));
+            signs.outside |= leaving & bits_of(at < t_min);
+        }
         out.unsure |= left & ~signs.outside;
         left &= signs.outside;
         t0 = t1;
     }
     if (entered.set == 0) return;
-    const Doubles at = shift + entries(entered);
+    const Doubles at = shift + crossings(entered, 1.0);
     store_lanes(at, out.t);
     out.hit = entered.set & bits_of((t_min <= at) & (at <= t_max));
     out.unsure |= entered.set & ~(out.hit | bits_of(at > t_max));
