@@ -133,9 +133,8 @@ std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays, Sh
         kernels.search(shape, lanes, rows, found);
     }
     std::uint32_t hit = used & (found.hit | found.leave);
-    for_each_lane(used & found.hit, [&](std::size_t i) { hits[i] = {found.t[i], 0, -1.0, 0}; });
-    for_each_lane(used & found.leave, [&](std::size_t i) {
-        hits[i] = {found.t_left[i], 0, 1.0, 0};
+    for_each_lane(hit, [&](std::size_t i) {
+        hits[i] = {found.t[i], 0, (found.leave >> i & 1) != 0 ? 1.0 : -1.0, 0};
     });
     for_each_lane(used & found.unsure, [&](std::size_t i) {
         if (find_first_hit(shape, *rays[i], hits[i])) hit |= 1u << i;

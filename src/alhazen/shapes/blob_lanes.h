@@ -4,9 +4,9 @@
 /// Source: blob.cpp and blob_pieces.h, the same formulas. Differs: components are left out that a
 /// beam around the eight rays does not meet; nothing is sorted, each ray goes from the end of a
 /// span to the next by looking at all components; a span is passed over only where it is weak or
-/// the signs of its coefficients are certain. What is rarer, and rays that go far inside, is left
-/// to the scalar text. Conventions: internal to this folder. Bit i of a set stands for lane i.
-/// Every target gives the bits of the scalar text.
+/// the signs of its coefficients are certain. What is rarer is left to the scalar text.
+/// Conventions: internal to this folder. Bit i of a set stands for lane i. Every target gives the
+/// bits of the scalar text.
 
 #include <cstdint>
 #include <span>
@@ -46,9 +46,9 @@ struct alignas(64) BlobRow {
 };
 
 struct alignas(64) BlobHitLanes {
-    double t[kRayLanes], t_left[kRayLanes];
-    std::uint32_t hit;     ///< the lanes that enter, at t
-    std::uint32_t leave;   ///< the lanes that leave, at t_left
+    double t[kRayLanes];   ///< of the lanes that hit
+    std::uint32_t hit;     ///< the lanes that enter
+    std::uint32_t leave;   ///< the lanes that leave
     std::uint32_t unsure;  ///< ask the scalar text
 };
 

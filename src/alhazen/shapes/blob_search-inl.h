@@ -117,6 +117,7 @@ HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t)
 struct SpanSigns {
     std::uint32_t outside = 0;                       ///< all of it
     std::uint32_t once = 0, twice = 0, oftener = 0;  ///< it begins outside, the signs change so
+    std::uint32_t inside = 0;                        ///< all of it
     std::uint32_t leaves = 0;                        ///< it begins inside, the signs change once
 };
 HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
@@ -136,8 +137,9 @@ HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
         two |= one & change;
         one |= change;
     }
-    return {begins & ~one, begins & one & ~two, begins & two & ~three, begins & three,
-            certain & negative[0] & one & ~two};
+    const std::uint32_t negative_start = certain & negative[0];
+    return {begins & ~one,  begins & one & ~two,   begins & two & ~three,
+            begins & three, negative_start & ~one, negative_start & one & ~two};
 }
 
 /// The spans in which rays enter, or leave, with their polynomials.
@@ -210,67 +212,132 @@ HWY_NOINLINE Doubles crossings(CrossedSpans& spans, double sign_lo) {
     return spans.t0 + u * (spans.t1 - spans.t0);
 }
 
+/// The walk of eight rays along their spans.
+class BlobWalk {
+  public:
+    HWY_INLINE BlobWalk(const Blob& blob, const BlobRayLanes& rays, std::span<const BlobRow> rows,
+                        BlobHitLanes& out)
+        : blob_(blob),
+          rows_(rows),
+          out_(out),
+          totals_(totals_of(blob, rays, rows)),
+          shift_(load_lanes(rays.shift)),
+          t_min_(load_lanes(rays.t_min)),
+          t_max_(load_lanes(rays.t_max)),
+          // Where the rays begin, or earlier by more than what is rounded.
+          begin_((t_min_ - shift_) - Doubles(0x1p-48) * (abs(t_min_) + abs(shift_))),
+          limit_(0.9985 * blob.threshold),
+          t0_(totals_.first_in) {
+        out_.hit = out_.leave = 0;
+        out_.unsure = kAllLanes & ~(rays.finite & ~totals_.unknown & bits_of(begin_ <= begin_));
+        left_ = kAllLanes & ~(out_.unsure | bits_of(totals_.most < limit_));
+    }
+
+    HWY_INLINE void run() {
+        if (left_ == 0) return;
+        const std::uint32_t late = left_ & bits_of(begin_ > t0_);
+        if (late != 0) t0_ = select(mask_of(late), event_before(rows_, begin_), t0_);
+        for (;;) {
+            pass_weak_spans();
+            if (left_ == 0) break;
+            Doubles b[5];
+            span_polynomial(blob_, rows_, t0_, t1_, b);
+            const SpanSigns signs = span_signs(b, totals_.error);
+            // What has been inside must still be.
+            give_up(inside_ & ~(signs.inside | signs.leaves));
+            // Of rays that begin within this span what lies before is passed over.
+            const std::uint32_t begin_here = left_ & bits_of(t0_ <= begin_);
+            const std::uint32_t may_leave = begin_here | inside_;
+            const std::uint32_t entered = cross(begin_here & signs.once, b, 1.0, out_.hit);
+            const std::uint32_t behind = cross(may_leave & signs.leaves, b, -1.0, out_.leave);
+            inside_ = entered | (may_leave & signs.inside);
+            const std::uint32_t outside = behind | (left_ & signs.outside);
+            give_up(~(inside_ | outside | enter(signs, ~begin_here, b)));
+            t0_ = t1_;
+        }
+        finish();
+    }
+
+  private:
+    /// These lanes are left to the scalar text.
+    HWY_INLINE void give_up(std::uint32_t lanes) {
+        out_.unsure |= left_ & lanes;
+        left_ &= ~lanes;
+    }
+
+    /// Every lane to its next span that is not weak.
+    HWY_INLINE void pass_weak_spans() {
+        t1_ = t0_;
+        for (std::uint32_t weak = kAllLanes; weak != 0;) {
+            t0_ = select(mask_of(weak), t1_, t0_);
+            const std::uint32_t more = bits_of((t0_ < totals_.last_out) & (shift_ + t0_ <= t_max_));
+            give_up(inside_ & ~more);
+            left_ &= more;
+            t1_ = span_end(rows_, t0_);
+            weak &= left_ & ~inside_ & bits_of(most_within(rows_, t0_, t1_) < limit_);
+        }
+    }
+
+    /// Notes those of these lanes that enter in this span; returns the ones that do not, looked at
+    /// closely.
+    HWY_INLINE std::uint32_t enter(const SpanSigns& signs, std::uint32_t lanes, const Doubles* b) {
+        if (const std::uint32_t once = left_ & lanes & signs.once; once != 0) {
+            entered_.add(once, b, t0_, t1_, Doubles(0.0), Doubles(1.0));
+            left_ &= ~once;
+        }
+        const std::uint32_t several = left_ & (signs.twice | signs.oftener);
+        if (several == 0) return 0;
+        const SearchedSpans searched = search_spans(signs, several, b, totals_.error);
+        if (searched.enter != 0) {
+            entered_.add(searched.enter, b, t0_, t1_, searched.lo, searched.hi);
+        }
+        left_ &= ~searched.enter;
+        return searched.outside;
+    }
+
+    /// Finds where these lanes cross the surface, and adds those to `hit` that do so in their
+    /// range; returns those that do before.
+    HWY_INLINE std::uint32_t cross(std::uint32_t lanes, const Doubles* b, double sign_lo,
+                                   std::uint32_t& hit) {
+        if (lanes == 0) return 0;
+        CrossedSpans spans;
+        spans.add(lanes, b, t0_, t1_, Doubles(0.0), Doubles(1.0));
+        const Doubles at = shift_ + crossings(spans, sign_lo);
+        report(lanes, at, hit);
+        return lanes & bits_of(at < t_min_);
+    }
+    /// Adds those of these lanes to `hit` whose range covers `at`; they and those that end before
+    /// it are done.
+    HWY_INLINE void report(std::uint32_t lanes, const Doubles& at, std::uint32_t& hit) {
+        const std::uint32_t covered = lanes & bits_of((t_min_ <= at) & (at <= t_max_));
+        const bool first = (out_.hit | out_.leave) == 0;
+        store_lanes(first ? at : select(mask_of(covered), at, load_lanes(out_.t)), out_.t);
+        hit |= covered;
+        left_ &= ~(covered | (lanes & bits_of(at > t_max_)));
+    }
+
+    /// Those that enter before they begin are left to the scalar text.
+    HWY_INLINE void finish() {
+        if (entered_.set == 0) return;
+        const Doubles at = shift_ + crossings(entered_, 1.0);
+        report(entered_.set, at, out_.hit);
+        out_.unsure |= entered_.set & ~(out_.hit | bits_of(at > t_max_));
+    }
+
+    const Blob& blob_;
+    const std::span<const BlobRow> rows_;
+    BlobHitLanes& out_;
+    const RowTotals totals_;
+    const Doubles shift_, t_min_, t_max_, begin_, limit_;
+    Doubles t0_, t1_;  ///< the span of each lane
+    CrossedSpans entered_;
+    std::uint32_t left_;        ///< the lanes that are still on their way
+    std::uint32_t inside_ = 0;  ///< those of them that have been inside since they began
+};
+
 inline void search(const Blob& blob, const BlobRayLanes& rays, std::span<const BlobRow> rows,
                    BlobHitLanes& out) {
-    const RowTotals totals = totals_of(blob, rays, rows);
-    const Doubles shift = load_lanes(rays.shift), t_min = load_lanes(rays.t_min),
-                  t_max = load_lanes(rays.t_max);
-    // Where the rays begin, or earlier by more than what is rounded.
-    const Doubles begin = (t_min - shift) - Doubles(0x1p-48) * (abs(t_min) + abs(shift));
-    out.hit = out.leave = 0;
-    out.unsure = kAllLanes & ~(rays.finite & ~totals.unknown & bits_of(begin <= begin));
-    const Doubles limit(0.9985 * blob.threshold);
-    std::uint32_t left = kAllLanes & ~(out.unsure | bits_of(totals.most < limit));
-    if (left == 0) return;
-    Doubles t0 = totals.first_in;
-    const std::uint32_t late = left & bits_of(begin > t0);
-    if (late != 0) t0 = select(mask_of(late), event_before(rows, begin), t0);
-    CrossedSpans entered;
-    for (;;) {
-        // Every lane to its next span that is not weak.
-        Doubles t1 = t0;
-        for (std::uint32_t weak = kAllLanes; weak != 0;) {
-            t0 = select(mask_of(weak), t1, t0);
-            left &= bits_of((t0 < totals.last_out) & (shift + t0 <= t_max));
-            t1 = span_end(rows, t0);
-            weak &= left & bits_of(most_within(rows, t0, t1) < limit);
-        }
-        if (left == 0) break;
-        Doubles b[5];
-        span_polynomial(blob, rows, t0, t1, b);
-        SpanSigns signs = span_signs(b, totals.error);
-        if (const std::uint32_t once = left & signs.once; once != 0) {
-            entered.add(once, b, t0, t1, Doubles(0.0), Doubles(1.0));
-            left &= ~once;
-        }
-        if (const std::uint32_t several = left & (signs.twice | signs.oftener); several != 0) {
-            const SearchedSpans searched = search_spans(signs, several, b, totals.error);
-            if (searched.enter != 0) {
-                entered.add(searched.enter, b, t0, t1, searched.lo, searched.hi);
-            }
-            left &= ~searched.enter;
-            signs.outside |= searched.outside;
-        }
-        if (const std::uint32_t leaving = left & signs.leaves & bits_of(t0 <= begin);
-            leaving != 0) {
-            // Rays from within, or from a surface behind which they leave.
-            CrossedSpans left_spans;
-            left_spans.add(leaving, b, t0, t1, Doubles(0.0), Doubles(1.0));
-            const Doubles at = shift + crossings(left_spans, -1.0);
-            store_lanes(at, out.t_left);
-            out.leave |= leaving & bits_of((t_min <= at) & (at <= t_max));
-            left &= ~(leaving & bits_of((t_min <= at) | (at > t_max)));
-            signs.outside |= leaving & bits_of(at < t_min);
-        }
-        out.unsure |= left & ~signs.outside;
-        left &= signs.outside;
-        t0 = t1;
-    }
-    if (entered.set == 0) return;
-    const Doubles at = shift + crossings(entered, 1.0);
-    store_lanes(at, out.t);
-    out.hit = entered.set & bits_of((t_min <= at) & (at <= t_max));
-    out.unsure |= entered.set & ~(out.hit | bits_of(at > t_max));
+    BlobWalk(blob, rays, rows, out).run();
 }
 
 }  // namespace HWY_NAMESPACE
