@@ -1,7 +1,7 @@
 #include "alhazen/shapes/blob.h"
 
 #include <algorithm>
-#include <bit>
+#include <utility>
 
 #include "alhazen/base/instruction_sets.h"
 #include "alhazen/shapes/blob_pieces.h"
@@ -108,38 +108,27 @@ class SpanWalk {
     bool skipped_ = false;  ///< whether it is inside here is not known
 };
 
-/// A sphere about the component, with room for what it rounds.
-void add_sphere(const BlobComponent& c, std::vector<BlobSpheres>& spheres) {
-    if (spheres.empty() || spheres.back().used == BlobSpheres::kAll) spheres.emplace_back();
-    BlobSpheres& last = spheres.back();
-    const auto i = static_cast<std::size_t>(std::popcount(last.used));
-    const Vec3 center = c.rod ? 0.5 * c.base + 0.5 * c.top : c.base;
-    const double radius = c.radius + (c.rod ? 0.5 * length(c.top - c.base) : 0.0);
-    last.x[i] = center.x;
-    last.y[i] = center.y;
-    last.z[i] = center.z;
-    last.radius[i] = (1.0 + 0x1p-40) * radius + 0x1p-40 * max_component(abs(center));
-    last.used |= 1u << i;
-}
-
 }  // namespace
 
 void Blob::prepare() {
     std::vector<Box3> boxes;
     bounds = {};
-    mean_radius = 0.0;
-    spheres.clear();
     for (const BlobComponent& c : components) {
         const Vec3 half{c.radius, c.radius, c.radius};
         Box3 box = outward_box(c.base, half);
         if (c.rod) box.include(outward_box(c.top, half));
         bounds.include(box);
         boxes.push_back(box);
-        mean_radius += c.radius / static_cast<double>(components.size());
-        if (components.size() <= kFewComponents) add_sphere(c, spheres);
     }
     reach = std::max(max_component(abs(bounds.lo)), max_component(abs(bounds.hi)));
-    tree = std::make_shared<const BlobTree>(boxes);
+    auto made = std::make_shared<BlobTree>(boxes);
+    if (components.size() <= BlobTree::kFew) {
+        for (const BlobComponent& c : components) {
+            const Vec3 along = c.rod ? 0.5 * (c.top - c.base) : Vec3{};
+            made->add_sphere(c.base + along, c.radius + length(along));
+        }
+    }
+    tree = std::move(made);
 }
 
 void Blob::validate(const FileLocation& where, Diagnostics& diagnostics) const {
@@ -176,7 +165,7 @@ namespace {
 void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     const Blob& blob = local.blob;
     const auto add = [&](std::uint32_t i) { add_pieces(local, i, pieces); };
-    if (blob.components.size() > Blob::kFewComponents) {
+    if (blob.components.size() > BlobTree::kFew) {
         const double pad = 0x1p-48 * (local.far + blob.reach);
         return blob.tree->for_line(local.o, local.given.direction, pad, add);
     }

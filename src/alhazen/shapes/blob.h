@@ -27,20 +27,10 @@ struct BlobComponent {
     bool rod = false;
 };
 
-/// Spheres around eight components, side by side.
-struct BlobSpheres {
-    static constexpr std::uint32_t kCount = 8, kAll = (1u << kCount) - 1;
-
-    double x[kCount] = {}, y[kCount] = {}, z[kCount] = {}, radius[kCount] = {};
-    std::uint32_t used = 0;  ///< bit i for the i-th
-};
-
 struct Blob {
     static constexpr const char* kName = "blob";
     static constexpr int kMaxHits = kManyHits;
     static constexpr bool kClosed = true;
-    /// So many components are looked at one after the other; beyond that the tree is faster.
-    static constexpr std::size_t kFewComponents = 64;
 
     std::vector<BlobComponent> components{};
     double threshold = 0.5;
@@ -48,8 +38,6 @@ struct Blob {
     std::shared_ptr<const BlobTree> tree{};  ///< derived
     Box3 bounds{};                           ///< derived: of the components
     double reach = 0;                        ///< derived: largest coordinate of the bounds
-    double mean_radius = 0;                  ///< derived: of the components
-    std::vector<BlobSpheres> spheres{};      ///< derived: of few components
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

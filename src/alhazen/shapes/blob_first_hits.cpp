@@ -28,7 +28,7 @@ constexpr std::size_t kRegions = 3;
 /// The numbers of the components that the beam may meet.
 std::span<const std::uint32_t> near_components(const Blob& blob, const BlobKernels& kernels,
                                                const BlobRayLanes& rays, Workspace& work) {
-    if (blob.components.size() <= Blob::kFewComponents) {
+    if (blob.components.size() <= BlobTree::kFew) {
         work.numbers.resize(blob.components.size());
         return std::span(work.numbers).first(kernels.near(blob, rays, work.numbers.data()));
     }
@@ -40,8 +40,8 @@ std::span<const std::uint32_t> near_components(const Blob& blob, const BlobKerne
 
 /// Many components of which eight rays that go their own ways meet many: one by one is faster.
 bool better_alone(const Blob& blob, const BlobRayLanes& rays) {
-    constexpr std::size_t kMany = 256;
-    return blob.components.size() > kMany && !(rays.width <= blob.mean_radius);
+    constexpr std::size_t kMany = 400;
+    return blob.components.size() > kMany && !(rays.width <= blob.tree->mean_radius());
 }
 
 /// The rows of the components that are near eight rays.

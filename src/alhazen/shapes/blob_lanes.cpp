@@ -95,7 +95,7 @@ std::size_t near(const Blob& blob, const BlobRayLanes& rays, std::uint32_t* numb
     const Doubles square(length_squared(d)), width(rays.width);
     std::size_t count = 0;
     std::uint32_t first = 0;
-    for (const BlobSpheres& spheres : blob.spheres) {
+    for (const BlobSpheres& spheres : blob.tree->spheres()) {
         const Point from{load_unaligned(spheres.x) - Doubles(o.x),
                          load_unaligned(spheres.y) - Doubles(o.y),
                          load_unaligned(spheres.z) - Doubles(o.z)};
