@@ -44,6 +44,9 @@ bool better_alone(const Blob& blob, const BlobRayLanes& rays) {
     return blob.components.size() > kMany && !(rays.width <= blob.tree->mean_radius());
 }
 
+/// The search looks at all rows for every span.
+constexpr std::size_t kMostRows = 512;
+
 /// The rows of the components that are near eight rays.
 class RowMaker {
   public:
@@ -130,7 +133,7 @@ std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays, Sh
     if (!better_alone(shape, lanes)) {
         const auto rows = RowMaker(shape, rays, kernels, lanes, work).rows();
         if (rows.empty() && lanes.finite == kAllRayLanes) return 0;
-        kernels.search(shape, lanes, rows, found);
+        if (rows.size() <= kMostRows) kernels.search(shape, lanes, rows, found);
     }
     std::uint32_t hit = used & (found.hit | found.leave);
     for_each_lane(hit, [&](std::size_t i) {
