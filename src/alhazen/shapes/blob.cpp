@@ -1,15 +1,10 @@
 #include "alhazen/shapes/blob.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <optional>
-#include <span>
+#include <utility>
 
 #include "alhazen/base/instruction_sets.h"
-#include "alhazen/shapes/blob_lanes.h"
 #include "alhazen/shapes/blob_pieces.h"
-#include "alhazen/shapes/first_hits.h"
 
 namespace alhazen {
 
@@ -126,7 +121,14 @@ void Blob::prepare() {
         boxes.push_back(box);
     }
     reach = std::max(max_component(abs(bounds.lo)), max_component(abs(bounds.hi)));
-    tree = std::make_shared<const BlobTree>(boxes);
+    auto made = std::make_shared<BlobTree>(boxes);
+    if (components.size() <= BlobTree::kFew) {
+        for (const BlobComponent& c : components) {
+            const Vec3 along = c.rod ? 0.5 * (c.top - c.base) : Vec3{};
+            made->add_sphere(c.base + along, c.radius + length(along));
+        }
+    }
+    tree = std::move(made);
 }
 
 void Blob::validate(const FileLocation& where, Diagnostics& diagnostics) const {
@@ -159,25 +161,16 @@ Interval Blob::extent(const Vec3& axis) const {
 
 namespace {
 
-/// So many components are looked at one after the other; beyond that the tree is faster.
-constexpr std::size_t kFewComponents = 64;
-
 /// The pieces of all components that the line may meet.
 void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     const Blob& blob = local.blob;
-    const Vec3& d = local.given.direction;
-    const double pad = 0x1p-48 * (local.far + blob.reach);
-    if (blob.components.size() > kFewComponents) {
-        blob.tree->for_line(local.o, d, pad,
-                            [&](std::uint32_t i) { add_pieces(local, i, pieces); });
-        return;
+    const auto add = [&](std::uint32_t i) { add_pieces(local, i, pieces); };
+    if (blob.components.size() > BlobTree::kFew) {
+        const double pad = 0x1p-48 * (local.far + blob.reach);
+        return blob.tree->for_line(local.o, local.given.direction, pad, add);
     }
-    const double dd = length_squared(d);
     for (std::uint32_t i = 0; i < blob.components.size(); ++i) {
-        const BlobComponent& c = blob.components[i];
-        const double near = c.radius + pad;
-        if (!c.rod && length_squared(cross(local.o - c.base, d)) > near * near * dd) continue;
-        add_pieces(local, i, pieces);
+        if (!misses_ball(local, blob.components[i])) add(i);
     }
 }
 
@@ -244,10 +237,12 @@ void walk_pieces(const LocalRay& local, Workspace& work, std::vector<Event>& eve
             }
         }
         last = event.t;
+        // In the order of the pieces, so that sums do not depend on where they begin.
+        const auto at = std::lower_bound(work.active.begin(), work.active.end(), event.piece);
         if (event.begins) {
-            work.active.push_back(event.piece);
+            work.active.insert(at, event.piece);
         } else {
-            work.active.erase(std::find(work.active.begin(), work.active.end(), event.piece));
+            work.active.erase(at);
         }
     }
     walk.gap(kInfinity);
@@ -266,73 +261,6 @@ void intersect_blob(const Blob& blob, const Ray& ray, Workspace& work, ShapeHits
 void Blob::intersect(const Ray& ray, ShapeHits& hits) const {
     static thread_local Workspace work;
     intersect_blob(*this, ray, work, hits);
-}
-
-namespace {
-
-/// A ray of several, with what it needs.
-struct RayWork {
-    std::optional<LocalRay> local;
-    Workspace work;
-};
-
-/// The pieces of all components, few, along all rays, side by side.
-void collect_side_by_side(const Blob& blob, std::span<RayWork> rays) {
-    BlobRayLanes lanes;
-    for (std::size_t i = 0; i < BlobRayLanes::kWidth; ++i) {
-        const LocalRay& ray = *rays[i < rays.size() ? i : 0].local;
-        for (int k = 0; k < 3; ++k) {
-            lanes.origin[k][i] = ray.o[k];
-            lanes.direction[k][i] = ray.given.direction[k];
-        }
-        lanes.pad[i] = 0x1p-48 * (ray.far + blob.reach);
-    }
-    const std::uint32_t used = (1u << rays.size()) - 1;
-    const WithinBallKernel within_ball = within_ball_kernel();
-    BallLanes ball;
-    for (std::uint32_t c = 0; c < blob.components.size(); ++c) {
-        const BlobComponent& component = blob.components[c];
-        if (component.rod) {
-            for (RayWork& ray : rays) add_pieces(*ray.local, c, ray.work.pieces);
-            continue;
-        }
-        for (std::uint32_t rest = used & within_ball(lanes, component.base, component.radius, ball);
-             rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            const Bump bump{{ball.lo[i], ball.hi[i]}, ball.middle[i], ball.peak[i], ball.bend[i]};
-            rays[i].work.pieces.push_back(
-                {c, Region::Base, bump.t.lo, bump.t.hi, bump, rays[i].local->room(component)});
-        }
-    }
-}
-
-}  // namespace
-
-std::uint32_t first_hits(const Blob& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
-    static thread_local std::array<RayWork, kMostRaysSideBySide> all;
-    const std::span<RayWork> used = std::span(all).first(rays.size());
-    bool finite = true;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        used[i].work.pieces.clear();
-        used[i].local.emplace(shape, *rays[i]);
-        finite = finite && is_finite(used[i].local->o);
-    }
-    if (finite && shape.components.size() <= kFewComponents) {
-        collect_side_by_side(shape, used);
-    } else {
-        for (RayWork& ray : used) {
-            if (is_finite(ray.local->o)) collect_pieces(*ray.local, ray.work.pieces);
-        }
-    }
-    std::uint32_t hit = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        ShapeHits found(1);
-        walk_pieces(*used[i].local, used[i].work, all[0].work.events, found);
-        if (found.empty()) continue;
-        hits[i] = found.front();
-        hit |= 1u << i;
-    }
-    return hit;
 }
 
 }  // namespace alhazen

@@ -1,37 +1,69 @@
 #pragma once
-/// Where the balls of a blob hold along eight rays, side by side in lanes.
+/// The first crossings of eight rays with a blob, side by side in lanes.
 ///
-/// Source: blob.cpp, the same operations in the same order. Differs: nothing. Conventions: internal
-/// to this folder. Every target gives the bits of the scalar text.
+/// Source: blob.cpp and blob_pieces.h, the same formulas. Differs: components are left out that a
+/// beam around the eight rays does not meet; nothing is sorted, each ray goes from the end of a
+/// span to the next by looking at all components; a span is passed over only where it is weak or
+/// the signs of its coefficients are certain. What is rarer is left to the scalar text.
+/// Conventions: internal to this folder. Bit i of a set stands for lane i. Every target gives the
+/// bits of the scalar text.
 
-#include <cstddef>
 #include <cstdint>
+#include <span>
 
-#include "alhazen/math/vec.h"
+#include "alhazen/shapes/blob.h"
+#include "alhazen/shapes/polynomial_lanes.h"
 
 namespace alhazen {
 
-/// Eight rays from points near a blob; what is not used repeats the first.
+/// Eight rays from points near a blob, as LocalRay; and a beam that holds them near the blob.
 struct alignas(64) BlobRayLanes {
-    static constexpr std::size_t kWidth = 8;
-
-    double origin[3][kWidth], direction[3][kWidth];  ///< [axis][lane]
-    double pad[kWidth];                              ///< room for what the origin rounds
+    double origin[3][kRayLanes], direction[3][kRayLanes];  ///< [axis][lane]
+    double shift[kRayLanes], far[kRayLanes];
+    double t_min[kRayLanes], t_max[kRayLanes];
+    Vec3 axis_origin, axis_direction;
+    double width;  ///< no point of the rays near the blob is farther from the axis
+    std::uint32_t finite;
 };
 
-/// Along each of them the range within a ball, and 1 - (distance / radius)^2 there, which is
-/// peak - bend (t - middle)^2.
-struct alignas(64) BallLanes {
-    static constexpr std::size_t kWidth = BlobRayLanes::kWidth;
+/// A piece of a blob along eight rays: see Piece and Bump. A ray without it has it from infinity to
+/// -infinity with a peak of -1.
+struct alignas(64) BlobRow {
+    double in[kRayLanes], out[kRayLanes];
+    double middle[kRayLanes], peak[kRayLanes], bend[kRayLanes];
+    double strength, third;  ///< and a third of it
+    double weight;           ///< the strength if positive, else 0
+    double inverse_radius;
+    double span;  ///< of the rod, in its middle
 
-    double lo[kWidth], hi[kWidth], middle[kWidth], peak[kWidth], bend[kWidth];
+    void set(const BlobComponent& c, double span_of_rod) {
+        strength = c.strength;
+        third = c.strength * (1.0 / 3.0);
+        weight = c.strength > 0.0 ? c.strength : 0.0;
+        inverse_radius = 1.0 / c.radius;
+        span = span_of_rod;
+    }
 };
 
-/// The set of rays that the ball may hold on, bit i for ray i; only of these something is written.
-using WithinBallKernel = std::uint32_t (*)(const BlobRayLanes&, const Vec3& center, double radius,
-                                           BallLanes&);
+struct alignas(64) BlobHitLanes {
+    double t[kRayLanes];   ///< of the lanes that hit
+    std::uint32_t hit;     ///< the lanes that enter
+    std::uint32_t leave;   ///< the lanes that leave
+    std::uint32_t unsure;  ///< ask the scalar text
+};
+
+/// Those of one instruction set.
+struct BlobKernels {
+    void (*begin)(const Blob&, const RayLanes&, BlobRayLanes&);
+    /// Writes the numbers of the components that the beam may meet, of all or more; how many.
+    std::size_t (*near)(const Blob&, const BlobRayLanes&, std::uint32_t* numbers);
+    /// Writes a row for each of these balls that a ray meets; how many.
+    std::size_t (*balls)(const Blob&, const BlobRayLanes&, std::span<const std::uint32_t> numbers,
+                         BlobRow* rows);
+    void (*search)(const Blob&, const BlobRayLanes&, std::span<const BlobRow>, BlobHitLanes&);
+};
 
 /// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
-[[nodiscard]] WithinBallKernel within_ball_kernel();
+[[nodiscard]] const BlobKernels& blob_kernels();
 
 }  // namespace alhazen

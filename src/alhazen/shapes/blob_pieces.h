@@ -15,6 +15,8 @@
 
 namespace alhazen::blob {
 
+#include "alhazen/shapes/blob_formula-inl.h"
+
 template <class Real>
 inline constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
 
@@ -54,6 +56,10 @@ Real dot_of(const Vec3Of<Real>& a, const Vec3Of<Real>& b) {
 inline double quotient(double a, double b) {
     return a / b;
 }
+inline BlobLine<double> line_along(const Vec3& d) {
+    const double square = length_squared(d);
+    return {d.x, d.y, d.z, square, 1.0 / square};
+}
 /// The ray from a point near the blob, and the polynomials along it.
 struct LocalRay {
     const Blob& blob;
@@ -61,12 +67,14 @@ struct LocalRay {
     double shift = 0;
     Vec3 o;
     double far;  ///< size of the numbers that made o
+    BlobLine<double> line;
 
-    LocalRay(const Blob& b, const Ray& ray) : blob(b), given(ray), o(ray.origin) {
+    LocalRay(const Blob& b, const Ray& ray)
+        : blob(b), given(ray), o(ray.origin), line(line_along(ray.direction)) {
         const Vec3 from_center = ray.origin - b.bounds.center();
         // Close by, the shift would only round away digits of a small t.
         if (length_squared(from_center) > 4.0 * length_squared(b.bounds.size())) {
-            shift = -dot(from_center, ray.direction) / length_squared(ray.direction);
+            shift = -dot(from_center, ray.direction) / line.square;
             o = ray.origin + shift * ray.direction;
         }
         far = max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(ray.direction));
@@ -93,10 +101,9 @@ struct LocalRay {
         if constexpr (std::is_same_v<Real, double>) {
             if (piece.bump.known()) {
                 const Bump& bump = piece.bump;
-                const double a = t0 - bump.middle, b = t1 - bump.middle;
-                return add_squared(piece, bump.peak - bump.bend * (a * a),
-                                   bump.peak - bump.bend * (a * b), bump.peak - bump.bend * (b * b),
-                                   sum);
+                take_bump(bump.middle, bump.peak, bump.bend, t0, t1, c.strength,
+                          c.strength * (1.0 / 3.0), sum.b.data());
+                return add_error(piece, sum);
             }
         }
         const Vec3& center = piece.region == Region::Top ? c.top : c.base;
@@ -113,53 +120,49 @@ struct LocalRay {
         const Real q0 = Real(1.0) - quotient(dot_of(a, a), scale);
         const Real q1 = Real(1.0) - quotient(dot_of(a, b), scale);
         const Real q2 = Real(1.0) - quotient(dot_of(b, b), scale);
-        add_squared(piece, q0, q1, q2, sum);
+        take_square<Real>(q0, q1, q2, c.strength, quotient(Real(c.strength), Real(3.0)),
+                          sum.b.data());
+        add_error(piece, sum);
     }
 
   private:
-    /// The square of a quadratic with these Bernstein coefficients.
+    /// Rounding of the points over the radius, of the quadratics, of the products.
     template <class Real>
-    void add_squared(const Piece& piece, const Real& q0, const Real& q1, const Real& q2,
-                     BernsteinPolynomial<Real, 4>& sum) const {
+    void add_error(const Piece& piece, BernsteinPolynomial<Real, 4>& sum) const {
         const BlobComponent& c = blob.components[piece.component];
-        const Real s = c.strength;
-        sum.b[0] -= s * (q0 * q0);
-        sum.b[1] -= s * (q0 * q1);
-        sum.b[2] -= s * quotient(q0 * q2 + Real(2.0) * (q1 * q1), Real(3.0));
-        sum.b[3] -= s * (q1 * q2);
-        sum.b[4] -= s * (q2 * q2);
-        // Rounding of the points over the radius, of the quadratics, of the products.
         const double span = piece.region == Region::Middle ? length(c.top - c.base) : 0.0;
         const double point = 48.0 * (far + blob.reach + max_component(abs(o)) + span) / c.radius;
         sum.error += kRounding<Real> * std::abs(c.strength) * (4.0 * point + 128.0);
     }
 };
 
-/// Where the line, given by its least distance (at t = middle) from an axis or a centre and its
-/// speed across, is closer than the radius.
-inline Bump within(double middle, double distance, double radius, double speed) {
-    if (!(distance < radius)) return {};
-    const double room = (radius - distance) * (radius + distance);
-    const double half = std::sqrt(room) / speed, squared = radius * radius;
-    return {{middle - half, middle + half}, middle, room / squared, speed * speed / squared};
+/// Where a line from f, relative to an axis or a centre, is closer than the radius.
+[[gnu::always_inline]] inline Bump within(const BlobLine<double>& line, const Vec3& f,
+                                          double radius) {
+    const double squared = radius * radius;
+    const auto [middle, room] = nearest_place(line, f.x, f.y, f.z, squared);
+    if (!(room > 0.0)) return {};
+    const double half = half_chord(line, room), inverse_squared = 1.0 / squared;
+    return {{middle - half, middle + half},
+            middle,
+            room * inverse_squared,
+            line.square * inverse_squared};
 }
 
-inline Bump within_ball(const LocalRay& ray, const Vec3& center, double radius) {
-    const Vec3 f = ray.o - center;
-    const Vec3& d = ray.given.direction;
-    const double dd = length_squared(d), middle = -dot(f, d) / dd;
-    return within(middle, length(f + middle * d), radius, std::sqrt(dd));
+/// Whether it is a ball and the line does not meet it.
+inline bool misses_ball(const LocalRay& ray, const BlobComponent& c) {
+    const Vec3 f = ray.o - c.base;
+    return !c.rod && !(nearest_place(ray.line, f.x, f.y, f.z, c.radius * c.radius).room > 0.0);
 }
 
 inline Bump within_rod(const LocalRay& ray, const BlobComponent& c) {
     const Vec3 axis = unit_or(c.top - c.base, {0, 0, 1});
     const Vec3 f = cross(ray.o - c.base, axis), d = cross(ray.given.direction, axis);
-    const double dd = length_squared(d);
-    if (dd <= 1e-24 * length_squared(ray.given.direction)) {
+    const BlobLine<double> line = line_along(d);
+    if (line.square <= 1e-24 * length_squared(ray.given.direction)) {
         return {length(f) < c.radius ? Interval{-kInfinity, kInfinity} : Interval{}};
     }
-    const double middle = -dot(f, d) / dd;
-    return within(middle, length(f + middle * d), c.radius, std::sqrt(dd));
+    return within(line, f, c.radius);
 }
 
 /// What is common to both.
@@ -167,7 +170,7 @@ inline Interval meeting(const Interval& a, const Interval& b) {
     return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
 
-inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
+inline void add_rod(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
     const BlobComponent& c = ray.blob.components[number];
     constexpr Interval kWholeLine{-kInfinity, kInfinity};
     const auto add = [&](Region region, const Interval& part, const Bump& bump) {
@@ -176,7 +179,6 @@ inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Pi
             pieces.push_back({number, region, t.lo, t.hi, bump, ray.room(c)});
         }
     };
-    if (!c.rod) return add(Region::Base, kWholeLine, within_ball(ray, c.base, c.radius));
     const Vec3 e = c.top - c.base;
     const double start = dot(ray.o - c.base, e), speed = dot(ray.given.direction, e);
     Interval before = kWholeLine, between = before, behind = before;
@@ -191,9 +193,18 @@ inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Pi
         behind = {between.hi, kInfinity};
         if (speed < 0.0) std::swap(before, behind);
     }
-    add(Region::Base, before, within_ball(ray, c.base, c.radius));
+    add(Region::Base, before, within(ray.line, ray.o - c.base, c.radius));
     add(Region::Middle, between, within_rod(ray, c));
-    add(Region::Top, behind, within_ball(ray, c.top, c.radius));
+    add(Region::Top, behind, within(ray.line, ray.o - c.top, c.radius));
+}
+
+inline void add_pieces(const LocalRay& ray, std::uint32_t number, std::vector<Piece>& pieces) {
+    const BlobComponent& c = ray.blob.components[number];
+    if (c.rod) return add_rod(ray, number, pieces);
+    const Bump bump = within(ray.line, ray.o - c.base, c.radius);
+    if (bump.t.lo < bump.t.hi && std::isfinite(bump.t.lo) && std::isfinite(bump.t.hi)) {
+        pieces.push_back({number, Region::Base, bump.t.lo, bump.t.hi, bump, ray.room(c)});
+    }
 }
 
 }  // namespace alhazen::blob

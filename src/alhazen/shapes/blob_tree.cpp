@@ -1,6 +1,7 @@
 #include "alhazen/shapes/blob_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -9,6 +10,21 @@ namespace alhazen {
 BlobTree::BlobTree(const std::vector<Box3>& boxes) : order_(boxes.size()), boxes_(boxes) {
     std::iota(order_.begin(), order_.end(), 0u);
     build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    for (const Box3& box : boxes) {
+        const Vec3 size = box.size();
+        mean_radius_ += 0.5 * std::min({size.x, size.y, size.z}) / double(boxes.size());
+    }
+}
+
+void BlobTree::add_sphere(const Vec3& center, double radius) {
+    if (spheres_.empty() || spheres_.back().used == BlobSpheres::kAll) spheres_.emplace_back();
+    BlobSpheres& last = spheres_.back();
+    const auto i = static_cast<std::size_t>(std::popcount(last.used));
+    last.x[i] = center.x;
+    last.y[i] = center.y;
+    last.z[i] = center.z;
+    last.radius[i] = (1.0 + 0x1p-40) * radius + 0x1p-40 * max_component(abs(center));
+    last.used |= 1u << i;
 }
 
 // Halves make it at most 33 deep.

@@ -14,9 +14,27 @@
 
 namespace alhazen {
 
+/// Spheres around eight components, side by side.
+struct BlobSpheres {
+    static constexpr std::uint32_t kCount = 8, kAll = (1u << kCount) - 1;
+
+    double x[kCount] = {}, y[kCount] = {}, z[kCount] = {}, radius[kCount] = {};
+    std::uint32_t used = 0;  ///< bit i for the i-th
+};
+
 class BlobTree {
   public:
+    /// So few components are looked at one after the other; beyond that the tree is faster.
+    static constexpr std::size_t kFew = 64;
+
     explicit BlobTree(const std::vector<Box3>& boxes);
+
+    /// Adds a sphere around the next component, with room for what it rounds.
+    void add_sphere(const Vec3& center, double radius);
+    /// What was added, in that order.
+    [[nodiscard]] const std::vector<BlobSpheres>& spheres() const { return spheres_; }
+    /// The mean of half the least sizes of the boxes.
+    [[nodiscard]] double mean_radius() const { return mean_radius_; }
 
     /// Calls f(component) for all whose box, grown by `pad`, the line o + t d meets.
     template <class F>
@@ -62,6 +80,8 @@ class BlobTree {
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> order_;
     std::vector<Box3> boxes_;
+    std::vector<BlobSpheres> spheres_;
+    double mean_radius_ = 0;
 };
 
 }  // namespace alhazen

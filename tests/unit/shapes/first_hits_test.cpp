@@ -151,6 +151,58 @@ TEST(FirstHits, OfBlobsAreThoseOfEachRayAlone) {
     check_random_shapes<Blob>(5);
 }
 
+Blob blob_of(int count, double radius, Random& random) {
+    Blob blob{.threshold = 0.6};
+    for (int i = 0; i < count; ++i) {
+        BlobComponent c{.base = random.in_cube(1), .radius = random.uniform(0.6, 1.6) * radius};
+        c.strength = random.below(5) == 0 ? -0.7 : random.uniform(0.7, 1.5);
+        c.rod = random.below(8) == 0;
+        c.top = c.rod ? c.base + radius * random.in_cube(1) : c.base;
+        blob.components.push_back(c);
+    }
+    blob.prepare();
+    return blob;
+}
+
+TEST(FirstHits, OfBlobsOfManyComponentsAreThoseOfEachRayAlone) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        SCOPED_TRACE(target);
+        Random random(10);
+        for (const int count : {1, 30, 64, 65, 300, 1000}) {
+            SCOPED_TRACE(count);
+            const Blob blob = blob_of(count, 1.5 / std::cbrt(count), random);
+            EXPECT_GT(check_shape(blob, random, 400), 200);
+        }
+    }
+}
+
+TEST(FirstHits, OfRaysFromABlobAreThoseOfEachRayAlone) {
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        SCOPED_TRACE(target);
+        Random random(11);
+        const Blob blob = blob_of(30, 0.5, random);
+        int hit_count = 0;
+        for (int block = 0; block < 2000 && !::testing::Test::HasFailure(); ++block) {
+            const Ray first = any_ray(blob.box(), random);
+            ShapeHit hit;
+            if (!find_first_hit(blob, first, hit)) continue;
+            const ShapeSurface surface = blob.surface(first, hit);
+            const Vec3 along = random.unit_vector();
+            const double spread = random.log_uniform(1e-9, 0.3);
+            std::array<Ray, 8> rays;
+            for (Ray& ray : rays) {
+                const double off = random.sign() * random.log_uniform(1e-16, 1e-2);
+                ray.origin = surface.point + off * surface.normal;
+                ray.direction = along + spread * random.unit_vector();
+            }
+            hit_count += check_block(blob, rays, 1 + static_cast<std::size_t>(block) % 8);
+        }
+        EXPECT_GT(hit_count, 1000);
+    }
+}
+
 TEST(FirstHits, OfAlgebraicSurfacesAreThoseOfEachRayAlone) {
     check_random_shapes<Algebraic>(2);
 }
