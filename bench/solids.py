@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Solids made of others beside POV-Ray: same scene, same eye rays, flat colours, one thread, in turn, medians.
 
-Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--json FILE] [--markdown FILE] [--keep FOLDER]
+Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--json FILE] [--markdown FILE] [--keep FOLDER]
 A scene is KIND[=SIZE][@SIDE], of plate, menger, spheres (so many leaves) and torus, quartic, sextic, blob (one surface).
+With --lit the colours are shaded by a point light that casts no shadows, in both, so that normals are needed too.
 Seconds are those of processor time that each program says it traced (without reading the scene); pixels are compared by colour.
 """
 
@@ -18,22 +19,41 @@ import tempfile
 
 GENERATORS = {"plate": "perforated_plate", "menger": "menger_sponge", "spheres": "drilled_spheres"}
 ALL = "spheres=1000,plate=1000,plate=100000@16,menger=1000,menger=100000@16,torus,quartic,sextic,blob"
-FLAT = {"skin": (1, 0, 0), "cut": (0, 1, 0)}  # the background is blue
+COLORS = {"skin": (1, 0, 0), "cut": (0, 1, 0)}  # the background is blue
+GLOW = 0.2  # of a lit surface, so that its colour can be told where the light grazes it
 NUMBER = r"[-+0-9.e]+"
 
 
-def generate(alhazen, kind, size, path):
-    """The generated scene as flat native text; returns that text."""
+def vector(v, scale=1.0):
+    return "(" + ", ".join(f"{scale * x:.17g}" for x in v) + ")"
+
+
+def light_of(eye):
+    """Beside the eye, away from the origin."""
+    return tuple(1.5 * x + y for x, y in zip(eye, (1.0, -0.5, 2.0)))
+
+
+def native_head(eye, lit, colors):
+    head = "picture { background = (0, 0, 1) }\nconventions { headlight = false }\n"
+    if lit:
+        head += f"point_light {{ position = {vector(light_of(eye))}; color = (1, 1, 1) }}\n"
+    for name in colors:
+        color = COLORS[name]
+        looks = f"emission = {vector(color, GLOW)}; diffuse = {vector(color, 1 - GLOW)}" if lit else f"emission = {vector(color)}"
+        head += f'material "{name}" {{ {looks} }}\n'
+    return head
+
+
+def generate(alhazen, kind, size, path, lit):
+    """The generated scene as native text with other looks; returns that text."""
     subprocess.run([alhazen, "generate", GENERATORS[kind], "--size", str(size), "-o", path, "-q"], check=True)
     with open(path, encoding="ascii") as file:
         text = file.read()
     text = re.sub(r"(?m)^(ambient|directional)_light .*\n", "", text)
     text = re.sub(r"(?m)^material .*\n", "", text)
     text = re.sub(r"(?m)^(picture|conventions) \{[^}]*\}\n", "", text)
-    flat = "picture { background = (0, 0, 1) }\nconventions { headlight = false }\n"
-    for name, color in FLAT.items():
-        flat += f'material "{name}" {{ emission = {color} }}\n'
-    text = text.replace("alhazen 1\n", "alhazen 1\n" + flat, 1)
+    eye = vectors(re.search(r"sheared_camera[^{]*\{(.*?)\}", text, re.S)[1])["eye"]
+    text = text.replace("alhazen 1\n", "alhazen 1\n" + native_head(eye, lit, COLORS), 1)
     with open(path, "w", encoding="ascii") as file:
         file.write(text)
     return text
@@ -120,14 +140,14 @@ def one_surface(kind):
             f"clip_box = ((-{side}, -{side}, -{side}), ({side}, {side}, {side})) }}", pov_polynomial(expression, side))
 
 
-def write_one_surface(kind, path, pov_path):
+def write_one_surface(kind, path, pov_path, lit):
     ours, theirs = one_surface(kind)
     camera = "; ".join(f"{key} = ({value[0]}, {value[1]}, {value[2]})" for key, value in CAMERA.items())
     with open(path, "w", encoding="ascii") as out:
-        out.write("alhazen 1\npicture { background = (0, 0, 1) }\nconventions { headlight = false }\n"
-                  f'material "skin" {{ emission = (1, 0, 0) }}\nsheared_camera "main" {{ {camera}; aspect = 1 }}\n{ours}\n')
+        out.write("alhazen 1\n" + native_head(CAMERA["eye"], lit, ["skin"]))
+        out.write(f'sheared_camera "main" {{ {camera}; aspect = 1 }}\n{ours}\n')
     with open(pov_path, "w", encoding="ascii") as out:
-        out.write(pov_head(CAMERA) + theirs + "\n")
+        out.write(pov_head(CAMERA, lit) + theirs + "\n")
 
 
 def vectors(line):
@@ -153,21 +173,23 @@ def pov_shape(line):
     raise ValueError(line)
 
 
-def pov_head(camera):
+def pov_head(camera, lit):
     head = ("#version 3.7;\nglobal_settings { assumed_gamma 1 }\nbackground { rgb <0,0,1> }\n"
             f"camera {{ perspective location {angle(camera['eye'])} direction {angle(camera['look'])} "
             f"right {angle(camera['right'])} up {angle(camera['up'])} }}\n")
-    for name, color in FLAT.items():
-        head += (f"#declare {name} = texture {{ pigment {{ rgb {angle(color)} }} "
-                 "finish { ambient 0 diffuse 0 emission 1 } }\n")
+    if lit:
+        head += f"light_source {{ {angle(light_of(camera['eye']))} rgb 1 shadowless }}\n"
+    finish = f"ambient 0 diffuse {1 - GLOW} emission {GLOW}" if lit else "ambient 0 diffuse 0 emission 1"
+    for name, color in COLORS.items():
+        head += f"#declare {name} = texture {{ pigment {{ rgb {angle(color)} }} finish {{ {finish} }} }}\n"
     return head
 
 
-def write_povray(text, path):
+def write_povray(text, path, lit):
     """The subset of the native format that the generators write."""
     camera = vectors(re.search(r"sheared_camera[^{]*\{(.*?)\}", text, re.S)[1])
     with open(path, "w", encoding="ascii") as out:
-        out.write(pov_head(camera))
+        out.write(pov_head(camera, lit))
         # Long blocks are written over several lines.
         joined = lambda block: "; ".join(line.strip() for line in block[0].splitlines()).replace("{;", "{").replace("; }", " }")
         text = re.sub(r"(?ms)^    (?:box|sphere|cylinder) \{\n.*?^    \}", joined, text)
@@ -230,6 +252,7 @@ def main():
     parser.add_argument("--sizes", default=ALL)
     parser.add_argument("--side", type=int, default=256)
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--lit", action="store_true", help="surfaces shaded by a light, not flat")
     parser.add_argument("--json")
     parser.add_argument("--markdown", help="writes the rows of the table of docs/benchmarks.md")
     parser.add_argument("--keep", help="folder for scenes and pictures (default: a temporary one)")
@@ -242,9 +265,9 @@ def main():
         side = int(side or args.side)
         at = lambda suffix: os.path.join(folder, f"{kind}_{size or 1}{suffix}")
         if kind in GENERATORS:
-            write_povray(generate(args.alhazen, kind, size or "1000", at(".alhazen")), at(".pov"))
+            write_povray(generate(args.alhazen, kind, size or "1000", at(".alhazen"), args.lit), at(".pov"), args.lit)
         else:
-            write_one_surface(kind, at(".alhazen"), at(".pov"))
+            write_one_surface(kind, at(".alhazen"), at(".pov"), args.lit)
         ours = [args.alhazen, "render", at(".alhazen"), "-o", at("_alhazen.pfm"), "--size", f"{side}x{side}",
                 "--renderer", "ray_casting", "-t", "1", "-q"]
         theirs = ["povray", f"+I{at('.pov')}", f"+O{at('_povray.ppm')}", f"+W{side}", f"+H{side}", "+WT1",

@@ -165,7 +165,7 @@ class PixelLoop {
     std::vector<Rgb> radiance_;
     PixelBox tile_;
     std::vector<Pixel> pixels_;  ///< of the tile, in the order in which they are done
-    std::size_t done_ = 0;  ///< pixels that have their light
+    std::size_t done_ = 0;       ///< pixels that have their light
     int samples_ = 0, finite_ = 0;
     Rgb sum_;
 };

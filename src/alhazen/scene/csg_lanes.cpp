@@ -101,7 +101,7 @@ HWY_INLINE void find_spans(const CsgLanesSolid::Leaf& leaf, const RayLanes& rays
 }
 
 HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::uint32_t wanted,
-           CsgLanesHits& out) {
+                       CsgLanesHits& out) {
     out.hit = out.unsure = out.tests = out.tests_met = 0;
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
     Doubles apart(0.0);

@@ -43,7 +43,7 @@ struct alignas(64) CsgLanesHits {
     double t[kRayLanes];
     double leaf[kRayLanes], part[kRayLanes];  ///< whole numbers; of the leaf its number
     std::uint32_t hit;
-    std::uint32_t unsure;  ///< ask the scalar text; not in `hit`
+    std::uint32_t unsure;            ///< ask the scalar text; not in `hit`
     std::uint32_t tests, tests_met;  ///< of rays with leaves
 };
 

@@ -74,10 +74,10 @@ void begin(const Blob& blob, const RayLanes& rays, BlobRayLanes& out) {
     const Doubles square = dot(d, d);
     const Mask distant =
         dot(from_center, from_center) > Doubles(4.0 * length_squared(blob.bounds.size()));
-    const Doubles shift = select(distant, -dot(from_center, d) / square, Doubles(0.0));
-    const Point o{select(distant, given.x + shift * d.x, given.x),
-                  select(distant, given.y + shift * d.y, given.y),
-                  select(distant, given.z + shift * d.z, given.z)};
+    const Doubles shift = select_lanes(distant, -dot(from_center, d) / square, Doubles(0.0));
+    const Point o{select_lanes(distant, given.x + shift * d.x, given.x),
+                  select_lanes(distant, given.y + shift * d.y, given.y),
+                  select_lanes(distant, given.z + shift * d.z, given.z)};
     store_lanes(o.x, out.origin[0]);
     store_lanes(o.y, out.origin[1]);
     store_lanes(o.z, out.origin[2]);
@@ -127,11 +127,11 @@ std::size_t balls(const Blob& blob, const BlobRayLanes& rays,
         const Doubles in = middle - half, out = middle + half;
         const Mask holds = met & (in < out) & is_finite(in) & is_finite(out);
         BlobRow& row = rows[count++];
-        store_lanes(select(holds, in, infinite), row.in);
-        store_lanes(select(holds, out, -infinite), row.out);
-        store_lanes(select(holds, middle, nothing), row.middle);
-        store_lanes(select(holds, room * inverse_squared, Doubles(-1.0)), row.peak);
-        store_lanes(select(holds, square * inverse_squared, nothing), row.bend);
+        store_lanes(select_lanes(holds, in, infinite), row.in);
+        store_lanes(select_lanes(holds, out, -infinite), row.out);
+        store_lanes(select_lanes(holds, middle, nothing), row.middle);
+        store_lanes(select_lanes(holds, room * inverse_squared, Doubles(-1.0)), row.peak);
+        store_lanes(select_lanes(holds, square * inverse_squared, nothing), row.bend);
         row.set(c, 0.0);
     }
     return count;

@@ -70,8 +70,8 @@ HWY_INLINE Doubles span_end(std::span<const BlobRow> rows, const Doubles& t0) {
     Doubles t1(std::numeric_limits<double>::infinity());
     for (const BlobRow& row : rows) {
         const Doubles in = load_lanes(row.in), out = load_lanes(row.out);
-        t1 = select(in > t0, min_lanes(t1, in), t1);
-        t1 = select(out > t0, min_lanes(t1, out), t1);
+        t1 = select_lanes(in > t0, min_lanes(t1, in), t1);
+        t1 = select_lanes(out > t0, min_lanes(t1, out), t1);
     }
     return t1;
 }
@@ -82,8 +82,8 @@ HWY_INLINE void span_polynomial(const Blob& blob, std::span<const BlobRow> rows,
     for (const BlobRow& row : rows) {
         const Mask holds = (load_lanes(row.in) <= t0) & (load_lanes(row.out) > t0);
         if (none(holds)) continue;
-        const Doubles s = select(holds, Doubles(row.strength), nothing);
-        const Doubles third = select(holds, Doubles(row.third), nothing);
+        const Doubles s = select_lanes(holds, Doubles(row.strength), nothing);
+        const Doubles third = select_lanes(holds, Doubles(row.third), nothing);
         take_bump(load_lanes(row.middle), load_lanes(row.peak), load_lanes(row.bend), t0, t1, s,
                   third, b);
     }
@@ -107,8 +107,8 @@ HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t)
     Doubles event(-std::numeric_limits<double>::infinity());
     for (const BlobRow& row : rows) {
         const Doubles in = load_lanes(row.in), out = load_lanes(row.out);
-        event = select(in <= t, max_lanes(event, in), event);
-        event = select(out <= t, max_lanes(event, out), event);
+        event = select_lanes(in <= t, max_lanes(event, in), event);
+        event = select_lanes(out <= t, max_lanes(event, out), event);
     }
     return event;
 }
@@ -151,15 +151,16 @@ struct CrossedSpans {
 
     HWY_INLINE void add(std::uint32_t more, const Doubles* b, const Doubles& from,
                         const Doubles& to, const Doubles& low, const Doubles& high) {
-        const Mask mask = mask_of(more);
+        const Mask mask = lanes_of_bits<double>(more);
         const bool first = set == 0;
         for (int k = 0; k <= 4; ++k) {
-            store_lanes(first ? b[k] : select(mask, b[k], load_lanes(lanes.b[k])), lanes.b[k]);
+            store_lanes(first ? b[k] : select_lanes(mask, b[k], load_lanes(lanes.b[k])),
+                        lanes.b[k]);
         }
-        t0 = first ? from : select(mask, from, t0);
-        t1 = first ? to : select(mask, to, t1);
-        lo = first ? low : select(mask, low, lo);
-        hi = first ? high : select(mask, high, hi);
+        t0 = first ? from : select_lanes(mask, from, t0);
+        t1 = first ? to : select_lanes(mask, to, t1);
+        lo = first ? low : select_lanes(mask, low, lo);
+        hi = first ? high : select_lanes(mask, high, hi);
         set |= more;
     }
 };
@@ -193,9 +194,9 @@ HWY_NOINLINE SearchedSpans search_spans(const SpanSigns& signs, std::uint32_t wa
     whole.hi = whole.first = unit;
     LaneBrackets found;
     const std::uint32_t done = search<4>(rest, everywhere, lanes, whole, found);
-    const Mask bracketed = mask_of(done & found.known);
-    result.lo = select(bracketed, found.lo, result.lo);
-    result.hi = select(bracketed, found.hi, result.hi);
+    const Mask bracketed = lanes_of_bits<double>(done & found.known);
+    result.lo = select_lanes(bracketed, found.lo, result.lo);
+    result.hi = select_lanes(bracketed, found.hi, result.hi);
     result.enter |= done & found.known;
     result.outside = done & ~found.known;
     return result;
@@ -207,8 +208,8 @@ HWY_NOINLINE Doubles crossings(CrossedSpans& spans, double sign_lo) {
     store_lanes(spans.lo, spans.lanes.lo);
     store_lanes(spans.hi, spans.lanes.hi);
     store_lanes(Doubles(sign_lo), spans.lanes.sign_lo);
-    Doubles u = polished<4>(spans.lanes, mask_of(spans.set));
-    u = select(u < spans.lo, spans.lo, select(spans.hi < u, spans.hi, u));
+    Doubles u = polished<4>(spans.lanes, lanes_of_bits<double>(spans.set));
+    u = select_lanes(u < spans.lo, spans.lo, select_lanes(spans.hi < u, spans.hi, u));
     return spans.t0 + u * (spans.t1 - spans.t0);
 }
 
@@ -236,7 +237,8 @@ class BlobWalk {
     HWY_INLINE void run() {
         if (left_ == 0) return;
         const std::uint32_t late = left_ & bits_of(begin_ > t0_);
-        if (late != 0) t0_ = select(mask_of(late), event_before(rows_, begin_), t0_);
+        if (late != 0)
+            t0_ = select_lanes(lanes_of_bits<double>(late), event_before(rows_, begin_), t0_);
         for (;;) {
             pass_weak_spans();
             if (left_ == 0) break;
@@ -269,7 +271,7 @@ class BlobWalk {
     HWY_INLINE void pass_weak_spans() {
         t1_ = t0_;
         for (std::uint32_t weak = kAllLanes; weak != 0;) {
-            t0_ = select(mask_of(weak), t1_, t0_);
+            t0_ = select_lanes(lanes_of_bits<double>(weak), t1_, t0_);
             const std::uint32_t more = bits_of((t0_ < totals_.last_out) & (shift_ + t0_ <= t_max_));
             give_up(inside_ & ~more);
             left_ &= more;
@@ -311,7 +313,9 @@ class BlobWalk {
     HWY_INLINE void report(std::uint32_t lanes, const Doubles& at, std::uint32_t& hit) {
         const std::uint32_t covered = lanes & bits_of((t_min_ <= at) & (at <= t_max_));
         const bool first = (out_.hit | out_.leave) == 0;
-        store_lanes(first ? at : select(mask_of(covered), at, load_lanes(out_.t)), out_.t);
+        store_lanes(
+            first ? at : select_lanes(lanes_of_bits<double>(covered), at, load_lanes(out_.t)),
+            out_.t);
         hit |= covered;
         left_ &= ~(covered | (lanes & bits_of(at > t_max_)));
     }

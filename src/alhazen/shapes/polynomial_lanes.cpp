@@ -98,7 +98,8 @@ HWY_INLINE std::uint32_t cut_by_box(const Box3& box, Lines& l, std::uint32_t& un
                          double low_part) HWY_ATTR {
         const Doubles lo(low), hi(high);
         const Mask up = d > Doubles(0.0), moves = up | (d < Doubles(0.0));
-        const Doubles near = (select_lanes(up, lo, hi) - o) / d, far = (select_lanes(up, hi, lo) - o) / d;
+        const Doubles near = (select_lanes(up, lo, hi) - o) / d,
+                      far = (select_lanes(up, hi, lo) - o) / d;
         const Mask later = moves & (near > l.entry), sooner = moves & (far < l.exit);
         const Doubles first(low_part), second(low_part + 1.0);
         l.entry = select_lanes(later, near, l.entry);

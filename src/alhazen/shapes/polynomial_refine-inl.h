@@ -80,8 +80,10 @@ HWY_INLINE Doubles polished(const PolynomialLanes& lanes, const Mask& wanted) {
     }
     const Mask mirrored = !(hi <= half);
     q.mirror(mirrored);
-    const Doubles near = select_lanes(mirrored, unit - hi, lo), near_by = select_lanes(mirrored, hi, unit - lo);
-    const Doubles far = select_lanes(mirrored, unit - lo, hi), far_by = select_lanes(mirrored, lo, unit - hi);
+    const Doubles near = select_lanes(mirrored, unit - hi, lo),
+                  near_by = select_lanes(mirrored, hi, unit - lo);
+    const Doubles far = select_lanes(mirrored, unit - lo, hi),
+                  far_by = select_lanes(mirrored, lo, unit - hi);
     const Doubles w_lo = near / near_by, w_hi = far / far_by;
     const Doubles sign = select_lanes(mirrored, -sign_lo, sign_lo);
     Doubles f_lo, f_hi;
@@ -110,7 +112,7 @@ HWY_INLINE Doubles slope_at(const PolynomialLanes& lanes, const Doubles& u) {
 template <int N>
 void refine_degree(const RayLanes& rays, PolynomialLanes& lanes) {
     const Doubles lo = load_lanes(lanes.lo), hi = load_lanes(lanes.hi);
-    Doubles u = polished<N>(lanes, mask_of(lanes.bracketed));
+    Doubles u = polished<N>(lanes, lanes_of_bits<double>(lanes.bracketed));
     u = select_lanes(u < lo, lo, select_lanes(hi < u, hi, u));
     const Doubles t = parameter_at(lanes, u);
     Doubles largest(0.0);

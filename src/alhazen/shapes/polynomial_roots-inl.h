@@ -36,16 +36,6 @@ HWY_INLINE Mask is_finite(const Doubles& a) {
     return abs(a) < Doubles(std::numeric_limits<double>::infinity());
 }
 
-HWY_INLINE Mask mask_of(std::uint32_t lanes) {
-    const LaneTag<double> d;
-    Mask r;
-    for (std::size_t i = 0; i < kParts<double>; ++i) {
-        const std::uint8_t bits[8] = {static_cast<std::uint8_t>(lanes >> (i * hn::Lanes(d)))};
-        r.part[i] = hn::LoadMaskBits(d, bits);
-    }
-    return r;
-}
-
 /// The degree: a constant where it is N <= 6.
 template <int N>
 HWY_INLINE int degree_of(const PolynomialLanes& lanes) {
@@ -137,7 +127,8 @@ HWY_INLINE std::uint32_t find_between(const PolynomialLanes& lanes, const Double
     const Doubles middle = most_unlike<N>(b, n, first, largest);
     const Mask mirrored = middle > Doubles(0.5);
     const Doubles rest = Doubles(1.0) - middle;
-    const Doubles far = select_lanes(mirrored, middle, rest), near = select_lanes(mirrored, rest, middle);
+    const Doubles far = select_lanes(mirrored, middle, rest),
+                  near = select_lanes(mirrored, rest, middle);
     Doubles value, slope;
     ScaledLanes<N> q(lanes);
     q.mirror(mirrored);
@@ -175,7 +166,7 @@ struct LaneBrackets {
     std::uint32_t known = 0;
 
     HWY_INLINE void set(std::uint32_t lanes, const Doubles& l, const Doubles& h, const Doubles& s) {
-        const Mask mask = mask_of(lanes);
+        const Mask mask = lanes_of_bits<double>(lanes);
         lo = select_lanes(mask, l, lo);
         hi = select_lanes(mask, h, hi);
         sign = select_lanes(mask, s, sign);
@@ -218,9 +209,11 @@ HWY_NOINLINE std::uint32_t search(std::uint32_t wanted, const RayLanes& rays,
         later.set(open & to_left & g.one & to_end, middle, part.hi, sign);
         done |= active & ~(to_left | to_right);
         active = to_left | to_right;
-        const Mask leftward = mask_of(to_left), rightward = mask_of(to_right);
+        const Mask leftward = lanes_of_bits<double>(to_left),
+                   rightward = lanes_of_bits<double>(to_right);
         for (int k = 0; k <= n; ++k) {
-            part.b[k] = select_lanes(leftward, left[k], select_lanes(rightward, right[k], part.b[k]));
+            part.b[k] =
+                select_lanes(leftward, left[k], select_lanes(rightward, right[k], part.b[k]));
         }
         part.hi = select_lanes(leftward, middle, part.hi);
         part.lo = select_lanes(rightward, middle, part.lo);

@@ -79,9 +79,8 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, LaneSpans
     const auto roots = span_lanes::sphere_roots(line, a, f.x, f.y, f.z, radius);
     const Doubles &entry = roots.t_near, &exit = roots.t_far;
     // As `are_plain_roots`, but for the largest numbers.
-    const std::uint32_t plain =
-        bits_of(entry <= exit) & bits_of((entry < zero) | (entry > zero)) &
-        bits_of((exit < zero) | (exit > zero));
+    const std::uint32_t plain = bits_of(entry <= exit) & bits_of((entry < zero) | (entry > zero)) &
+                                bits_of((exit < zero) | (exit > zero));
     spans.unsure = met & ~plain;
     spans.set(entry, exit, met & plain);
     spans.entry_part = spans.exit_part = zero;

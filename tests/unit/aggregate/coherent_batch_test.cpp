@@ -5,9 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "alhazen/math/random.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/wide_bvh_aggregate.h"
-#include "alhazen/math/random.h"
 #include "alhazen/simd/targets.h"
 #include "support/scene_maker.h"
 #include "unit/aggregate/compare_aggregates.h"
@@ -361,7 +361,8 @@ PrimitiveTable small_solids(std::uint64_t seed) {
                            .top = at + size * Vec3{0.2, 0.1, 1.2},
                            .radius = 0.4 * size},
                   MaterialId{0}, {}, object);
-        if (i % 5 == 0) maker.add(BoxShape{at, at + size * Vec3{1, 1, 1}}, MaterialId{0}, {}, object);
+        if (i % 5 == 0)
+            maker.add(BoxShape{at, at + size * Vec3{1, 1, 1}}, MaterialId{0}, {}, object);
         const Affine placement = Affine::translate(point()) *
                                  Affine::rotate({0.3, 1, 0.2}, random.uniform(0, 6)) *
                                  Affine::scale({1.0, 0.7, 1.4});

@@ -71,14 +71,14 @@ int check_spans(const S& shape, CsgLanesSolid::Kind kind, const void* kernels_sh
         line.t_max = kInf;
         ShapeHit hits[2];
         const int count = shape.intersect(line, hits);
-        const ShapeHit* first = std::find_if(hits, hits + count,
-                                             [&](const ShapeHit& h) { return ray.covers(h.t); });
+        const ShapeHit* first =
+            std::find_if(hits, hits + count, [&](const ShapeHit& h) { return ray.covers(h.t); });
         const bool hit = first != hits + count;
         EXPECT_EQ(hit, (found.hit >> i & 1) != 0) << S::kName;
         if (!hit || (found.hit >> i & 1) == 0) continue;
         const ShapeHit in_lane{found.t[i], 0, 0, static_cast<std::uint32_t>(found.part[i])};
-        EXPECT_TRUE(same_bits(*first, in_lane)) << S::kName << " t " << first->t << " became "
-                                                << found.t[i];
+        EXPECT_TRUE(same_bits(*first, in_lane))
+            << S::kName << " t " << first->t << " became " << found.t[i];
     }
     return sure;
 }
@@ -98,9 +98,10 @@ void check_spans_of(CsgLanesSolid::Kind kind, KernelsShape&& kernels_shape) {
             }
         }
         // Without fused operations cylinders and cones are all left to the scalar text.
-        const bool fuses = target.starts_with("AVX") || target == "NEON";
-        const bool expected = kind != CsgLanesSolid::Kind::Frustum || fuses;
-        EXPECT_EQ(sure > 15000, expected) << target << " " << sure;
+        const bool fuses = target.starts_with("AVX");
+        if (kind != CsgLanesSolid::Kind::Frustum || fuses) {
+            EXPECT_GT(sure, 15000) << target;
+        }
     }
 }
 
@@ -158,7 +159,7 @@ TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
             const CsgAggregate* solid = solid_of(scene);
             if (solid == nullptr || !solid->takes_lanes()) continue;
             ++small;
-            for (int block = 0; block < 40; ++block) {
+            for (int block = 0; block < 120; ++block) {
                 RayLanes rays;
                 const Ray first = solids.ray();
                 for (std::size_t i = 0; i < kRayLanes; ++i) {
@@ -171,11 +172,10 @@ TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
                     if (block % 5 == 0) ray.t_max = ray.t_min + random.uniform(0, 3);
                     rays.set(i, ray);
                 }
-                const std::uint32_t wanted =
-                    block % 7 == 0 ? 0x5Bu : kAllRayLanes;
-                hit_count += compare(*solid, rays, wanted,
-                                     target + " seed " + std::to_string(seed) + " block " +
-                                         std::to_string(block));
+                const std::uint32_t wanted = block % 7 == 0 ? 0x5Bu : kAllRayLanes;
+                hit_count += compare(
+                    *solid, rays, wanted,
+                    target + " seed " + std::to_string(seed) + " block " + std::to_string(block));
             }
         }
         EXPECT_GT(small, 40);
@@ -184,25 +184,28 @@ TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
 }
 
 TEST(CsgLanes, LeavesThatARayDoesNotSeeAreEmptyForIt) {
-    SceneMaker maker;
-    maker.material({});
-    const ObjectIndex object = maker.object("ball with a hole");
-    maker.description().objects[static_cast<std::size_t>(object)].combine = Combine::Difference;
-    maker.add(Sphere{{0, 0, 0}, 1}, MaterialId{0}, {}, object);
-    maker.add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.4}, MaterialId{0}, {},
-              object);
-    auto& parts = maker.description().objects[static_cast<std::size_t>(object)].parts;
-    parts[1].visible_to = mask_of(RayKind::Shadow);
-    maker.add(object);
-    const Scene scene = testing::compiled(maker, "event_heap");
-    const CsgAggregate* solid = solid_of(scene);
-    ASSERT_NE(solid, nullptr);
-    ASSERT_TRUE(solid->takes_lanes());
+    PrimitiveTable table;
+    const auto add = [&](auto& column, auto shape, RayMask visible_to) {
+        column.shapes.push_back(shape);
+        column.placements.push_back(kNoPlacement);
+        column.materials.push_back(MaterialId{0});
+        column.set_last_visible_to(visible_to);
+    };
+    const Cylinder hole{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.4};
+    add(std::get<ShapeColumn<Sphere>>(table.columns), Sphere{{0, 0, 0}, 1}, kAllRays);
+    add(std::get<ShapeColumn<Cylinder>>(table.columns), hole, mask_of(RayKind::Shadow));
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    CsgExpression expression;
+    expression.leaves = {PrimitiveId{0}, PrimitiveId{1}};
+    expression.nodes = {{Combine::Difference, {CsgOperand::leaf(0), CsgOperand::leaf(1)}}};
+    const CsgAggregate solid(std::move(table), std::move(expression), "event_heap");
+    ASSERT_TRUE(solid.takes_lanes());
     RayLanes rays;
     for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, {{0, 0, 5}, {0, 0, -1}, 0, kInf});
     LaneHits hits;
-    EXPECT_EQ(solid->closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Shadow)}), 0u);
-    EXPECT_EQ(solid->closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Eye)}), 1u);
+    EXPECT_EQ(solid.closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Shadow)}), 0u);
+    EXPECT_EQ(solid.closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Eye)}), 1u);
     EXPECT_EQ(hits.hits[0].t, 4.0);
 }
 

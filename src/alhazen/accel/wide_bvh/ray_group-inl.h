@@ -57,8 +57,7 @@ struct alignas(64) RayGroup {
 };
 
 /// Brings eight rays into the local frame, as `local_ray_nearby`; bits of those it could.
-HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const RayLanes& rays,
-                                   RayGroup& group) {
+HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const RayLanes& rays, RayGroup& group) {
     using D = Doubles;
     using F = Floats;
     const D scale(frame.scale);
