@@ -86,10 +86,10 @@ ExactReport verified(int count, std::uint64_t rays, int seed) {
 
 template <class S>
 class VerifyExactShape : public ::testing::Test {};
-// Without Lathe: it takes lines that climb less than 1e-12 of their way as level (docs/results.md).
-using ShapesWithFormulas = ::testing::Types<Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus,
-                                            Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric,
-                                            Algebraic, Superellipsoid, Blob, Prism, HeightField>;
+using ShapesWithFormulas =
+    ::testing::Types<Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid, Hyperboloid,
+                     TwoSheetHyperboloid, Quadric, Algebraic, Superellipsoid, Blob, Prism, Lathe,
+                     HeightField>;
 TYPED_TEST_SUITE(VerifyExactShape, ShapesWithFormulas);
 
 TYPED_TEST(VerifyExactShape, IsRight) {
