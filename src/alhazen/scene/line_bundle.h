@@ -23,6 +23,7 @@ struct Moments {
     Vec3 first;
     std::array<double, 6> second{};  ///< xx, yy, zz, xy, yz, zx
     double cosines = 0;
+    double measured = 0;  ///< volume or cosines, less the model of them: as precise as can be
 
     Moments& operator+=(const Moments& other);
     [[nodiscard]] Moments operator*(double factor) const;
@@ -36,6 +37,11 @@ struct BundleFrame {
 /// The lines of one direction. Where they stand is cut into cells, finer where what they measure
 /// varies; in every cell there are two pairs of lines, each pair opposite of each other about the
 /// middle. A half sample takes one pair of each cell, twice.
+///
+/// Which cells are cut is told by a survey: lines that are no part of the estimate, seven for a
+/// cell, and beyond it on all sides, so that a rim which only touches a corner is seen. They also
+/// give the curvature of what is measured, a model of it that is taken away from the lines of the
+/// cell and added as its integral.
 class LineBundle {
   public:
     enum class Measured { Volume, Area };
@@ -49,10 +55,11 @@ class LineBundle {
     [[nodiscard]] std::uint64_t lines() const { return casts_ * kLinesPerCell * cells_.size(); }
     /// As many as there would be if they lay everywhere as where they are sparsest.
     [[nodiscard]] double sparsest() const;
-    /// Cuts the cells until there are about so many lines, and casts all lines anew: which cells
-    /// are cut follows from lines that are no part of the estimate. Where there are as many cells
-    /// already, casts other lines and keeps the earlier ones. Returns the number of lines cast.
+    /// Cuts the cells until there are about so many lines, and casts all lines anew. Where there
+    /// are as many cells already, casts other lines and keeps the earlier ones. Returns the number
+    /// of lines cast, those of surveys included: about kCostOfLine for each.
     std::uint64_t grow_to(std::uint64_t lines);
+    static constexpr double kCostOfLine = 2.25;
 
     /// By a half sample. Cosines sum to this direction's share of the area; they are those of a
     /// bundle that measures the area only.
@@ -67,28 +74,43 @@ class LineBundle {
     [[nodiscard]] std::uint64_t misses() const { return sums_.misses; }
 
   private:
+    /// Second derivatives, xx, xy, yy, where half a cell's side is 1.
+    using Curvature = std::array<float, 3>;
     /// A part of the unit square.
     struct Cell {
-        double x, y, width, height;
-        double scatter = 0;  ///< of what was measured in it
+        double x, y;
+        float size;
+        float scatter = 0;  ///< guess of the variance of the two pairs, in units of scale_
+        Curvature curvature{};
+        float trust = 0;  ///< share of the curvature that the model takes: 0 where it is no model
+        bool quarter = false;  ///< of a cell that was surveyed
+        bool surveyed = false;
 
-        [[nodiscard]] double area() const { return width * height; }
+        [[nodiscard]] double area() const { return double{size} * size; }
+        [[nodiscard]] std::array<Cell, 4> quarters() const;
     };
     static constexpr std::uint64_t kLinesPerCell = 4;
     struct Sums {
         Moments all;
         /// First pair less the second one, of the cells of each row of the Hadamard matrix.
         std::array<Moments, kReplicates> differences;
-        std::uint64_t inconsistent = 0, misses = 0;
+        std::uint64_t inconsistent = 0, misses = 0, lines = 0;  ///< lines: of surveys
 
         Sums& operator+=(const Sums& other);
     };
 
+    void make_grid(std::size_t cells);
+    void survey();
+    void survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found, Sums& sums) const;
     void cut(std::size_t cells);
     void cast();
     void cast_in(Cell& cell, std::uint64_t number, LineSpans& found, Sums& sums) const;
     void cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found, Moments& pair,
                    Sums& sums) const;
+    /// Casts the line at a place of the unit square; returns where it stands.
+    Vec3 cast_line(double x, double y, LineSpans& found, Sums& sums) const;
+    template <class F>
+    Sums over_cells(F&& f);
     [[nodiscard]] double share() const;
 
     const Measurable& solid_;
@@ -97,9 +119,12 @@ class LineBundle {
     std::uint64_t key_;
     Measured measured_;
     Interval right_, up_;  ///< of what the lines stand on, from the centre
+    double scale_;         ///< what is measured by a line is some share of it
     std::vector<Cell> cells_;
     std::uint64_t rounds_ = 0, casts_ = 0;  ///< in all, and since the cells were cut
     std::uint64_t inconsistent_ = 0;
+    std::uint64_t missed_ = 0;    ///< lines that missed, of all
+    std::uint64_t surveyed_ = 0;  ///< lines of surveys
     Sums sums_;
 };
 

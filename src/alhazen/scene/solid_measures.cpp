@@ -15,16 +15,29 @@ namespace alhazen {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::uint64_t kPilotLines = 2048;  ///< of each direction
-constexpr std::uint64_t kFirstLines = 8192;
+constexpr std::uint64_t kPilotLines = 1024;  ///< of each direction
+constexpr std::uint64_t kFirstLines = 4096;
+/// Where lines are slow: no pilot, and no first round, takes more than this share of the time. But
+/// fewer lines than so many tell nothing.
+constexpr double kShareOfPilot = 1.0 / 64, kShareOfFirst = 1.0 / 32;
+constexpr std::uint64_t kLeastLines = 128;
 /// With so few more than before nothing is gained.
 constexpr double kLeastGrowth = 1.25;
+/// The interval of a bundle falls about with this power of its lines; with so many more than that
+/// says it is narrow enough for sure.
+constexpr double kOrder = 1.2, kReserve = 2;
+/// Growth in one step.
+constexpr double kLeastStep = 2, kMostStep = 16;
 /// Independent sets of lines for Crofton's formula, and the lines of each: a check, which converges
 /// slowly.
 constexpr std::size_t kCroftonSets = 16;
-constexpr std::uint32_t kCroftonLines = 2048;
+constexpr std::uint32_t kCroftonLines = 2048, kLeastCroftonLines = 32;
+constexpr double kShareOfCrofton = 1.0 / 16;  ///< of the time, at the most
 /// Of the time, when also the area is measured.
-constexpr double kShareOfVolume = 0.8;
+constexpr double kShareOfVolume = 0.875;
+/// Half of an interval of the wanted width is exceeded once in twenty cases: work on the volume
+/// goes on, while there is time, until that hardly happens.
+constexpr double kShareOfWanted = 0.5;
 /// How much wider than both intervals a difference may be.
 constexpr double kAgreement = 2.5;
 
@@ -87,28 +100,31 @@ class Measurer {
     /// Looks along six directions, and keeps those of the frame with the one that is best.
     void choose_frame() {
         const auto all = frames();
+        LineBundle first(solid_, all[0][0], center_, mix64(options_.seed) + 50);
+        grow_bundle(first, kLeastLines);  // tells how long a line takes
         double least = 0, least_area = 0;
         for (std::size_t f = 0; f < all.size(); ++f) {
+            if (f > 0 && deadline_.room(lines_) <= 0) break;
             std::size_t best = 0;
-            double best_spread = 0, area_spread = 0;
+            double best_work = 0, area_spread = 0;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint64_t key = mix64(options_.seed) + 16 * f + k;
                 LineBundle pilot(solid_, all[f][k], center_, key);
-                grow_bundle(pilot, kPilotLines);
-                const double s = spread(pilot.volumes());
-                if (k == 0 || s < best_spread) {
+                grow_bundle(pilot, affordable(kPilotLines, kShareOfPilot));
+                const double work = work_ahead(pilot);
+                if (k == 0 || work < best_work) {
                     best = k;
-                    best_spread = s;
+                    best_work = work;
                 }
                 if (!options_.area) continue;
                 LineBundle area_pilot(solid_, all[f][k], center_, key + 1000, kArea);
-                grow_bundle(area_pilot, kPilotLines);
+                grow_bundle(area_pilot, affordable(kPilotLines, kShareOfPilot));
                 area_spread += spread(area_pilot.areas());
             }
             const bool better =
-                best_spread < least || (best_spread == least && area_spread < least_area);
+                best_work < least || (best_work == least && area_spread < least_area);
             if (f > 0 && !better) continue;
-            least = best_spread;
+            least = best_work;
             least_area = area_spread;
             frame_ = f;
             best_ = best;
@@ -116,48 +132,75 @@ class Measurer {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint64_t key = mix64(options_.seed) + 100 + 16 * frame_ + k;
             bundles_.emplace_back(solid_, all[frame_][k], center_, key);
-            grow_bundle(bundles_.back(), kFirstLines);
+            grow_bundle(bundles_.back(), affordable(kFirstLines, kShareOfFirst));
             if (!options_.area) continue;
             area_bundles_.emplace_back(solid_, all[frame_][k], center_, key + 1000, kArea);
-            grow_bundle(area_bundles_.back(), kFirstLines);
+            grow_bundle(area_bundles_.back(), affordable(kFirstLines, kShareOfFirst));
         }
+    }
+
+    /// So many lines, or fewer where those would take more than that share of the time.
+    [[nodiscard]] std::uint64_t affordable(std::uint64_t lines, double share) const {
+        const double room = share * deadline_.room(lines_) / LineBundle::kCostOfLine;
+        const auto least = static_cast<double>(kLeastLines);
+        return static_cast<std::uint64_t>(std::clamp(room, least, double(lines)));
+    }
+
+    /// About how many lines the wanted error takes along the direction of a pilot.
+    [[nodiscard]] double work_ahead(const LineBundle& pilot) const {
+        const Estimate e = half_sample_estimate(pilot.volumes());
+        const Estimate widened = with_rare_misses(e, pilot.misses(), pilot.sparsest());
+        const double wanted = options_.relative_error * std::abs(e.value);
+        const double lines = static_cast<double>(pilot.lines());
+        if (!(wanted > 0)) return 0;
+        // What is added for rare misses falls as 1 / lines.
+        return lines * std::max(std::pow(e.half_width / wanted, 1 / kOrder),
+                                (widened.half_width - e.half_width) / wanted);
     }
 
     void grow_bundle(LineBundle& bundle, std::uint64_t lines) {
         lines_ += static_cast<double>(bundle.grow_to(lines));
     }
-    /// To twice the lines, or what there is time for; false when that is no more than before.
-    bool enlarge(LineBundle& bundle, const Deadline& deadline) {
+    /// To as many lines as an interval takes that is to be narrower by the factor, or what there is
+    /// time for; or other lines in the same cells; false when there is no time for that either.
+    bool enlarge(LineBundle& bundle, double factor, const Deadline& deadline) {
         const double room = deadline.room(lines_);
         const auto round = static_cast<double>(bundle.lines_of_round());
         const auto most = static_cast<double>(options_.most_lines_of_round);
-        if (kLeastGrowth * round >= most) {  // other lines in the same cells
-            if (room < round) return false;
-            grow_bundle(bundle, 0);
-            return true;
-        }
-        const double wanted = std::min({2 * round, room, most});
-        if (wanted < kLeastGrowth * round) return false;
-        grow_bundle(bundle, static_cast<std::uint64_t>(wanted));
+        const double needed = kReserve * std::pow(factor, 1 / kOrder);
+        const double growth = std::clamp(needed, kLeastStep, kMostStep);
+        const double wanted = std::min({growth * round, room / LineBundle::kCostOfLine, most});
+        const bool grows = wanted >= kLeastGrowth * round;
+        if (!grows && room < round) return false;
+        grow_bundle(bundle, grows ? static_cast<std::uint64_t>(wanted) : 0);
         return true;
     }
 
-    [[nodiscard]] static bool is_within(const Estimate& e, double relative) {
-        return e.half_width <= relative * std::abs(e.value);
+    /// How much too wide the interval is; at most 1 where it is narrow enough.
+    [[nodiscard]] static double excess(const Estimate& e, double relative) {
+        const double wanted = relative * std::abs(e.value);
+        return e.half_width <= wanted ? 1 : e.half_width / wanted;
     }
 
     void grow() {
-        const auto volume_done = [&] { return is_within(volume(), options_.relative_error); };
-        const auto area_done = [&] {
-            return !options_.area || is_within(area(), options_.relative_error);
+        const auto grow_volume = [&](const Deadline& deadline) {
+            for (;;) {
+                const double factor = excess(volume(), kShareOfWanted * options_.relative_error);
+                if (factor <= 1 || !enlarge(bundles_[best_], factor, deadline)) return;
+            }
         };
-        while (!volume_done() && enlarge(bundles_[best_], volume_deadline_)) {
-        }
-        while (!area_done() && enlarge(area_bundles_[widest_area()], deadline_)) {
-        }
-        while (!volume_done() && enlarge(bundles_[best_], deadline_)) {
-        }
-        reached_ = volume_done() && area_done();
+        const auto grow_area = [&] {
+            for (;;) {
+                const double factor = excess(area(), options_.relative_error);
+                if (factor <= 1 || !enlarge(area_bundles_[widest_area()], factor, deadline_))
+                    return;
+            }
+        };
+        grow_volume(volume_deadline_);
+        if (options_.area) grow_area();
+        grow_volume(deadline_);
+        reached_ = excess(volume(), options_.relative_error) <= 1 &&
+                   (!options_.area || excess(area(), options_.relative_error) <= 1);
     }
 
     [[nodiscard]] std::size_t widest_area() const {
@@ -191,20 +234,24 @@ class Measurer {
     [[nodiscard]] Estimate crofton() {
         const double radius = 0.5 * length(box_.size());
         std::array<double, kCroftonSets> area{};
+        const double share = kShareOfCrofton * (lines_ + deadline_.room(lines_)) / kCroftonSets;
+        const auto lines = static_cast<std::uint32_t>(
+            std::clamp(share, double{kLeastCroftonLines}, double{kCroftonLines}));
         parallel_for(kCroftonSets, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t r = begin; r < end; ++r) {
-                area[r] = 2 * kPi * radius * radius * mean_crossings(r, radius);
+                area[r] = 2 * kPi * radius * radius * mean_crossings(r, radius, lines);
             }
         });
-        lines_ += kCroftonSets * kCroftonLines;
+        lines_ += static_cast<double>(kCroftonSets * lines);
         return mean_of(area);
     }
 
-    [[nodiscard]] double mean_crossings(std::size_t replicate, double radius) const {
+    [[nodiscard]] double mean_crossings(std::size_t replicate, double radius,
+                                        std::uint32_t lines) const {
         const std::uint64_t key = mix64(options_.seed + 77) + replicate;
         LineSpans found;
         double sum = 0;
-        for (std::uint32_t i = 0; i < kCroftonLines; ++i) {
+        for (std::uint32_t i = 0; i < lines; ++i) {
             const double z = 1 - 2 * scrambled_sobol(key, i, 0);
             const double turn = 2 * kPi * scrambled_sobol(key, i, 1);
             const double across = std::sqrt(std::max(0.0, 1 - z * z));
@@ -216,7 +263,7 @@ class Measurer {
             solid_.cross({center_ + offset, d}, false, found);
             sum += 2.0 * static_cast<double>(found.spans.size());
         }
-        return sum / kCroftonLines;
+        return sum / lines;
     }
 
     void fill(SolidMeasures& found) {

@@ -58,7 +58,7 @@ class Expression {
 bool has_exact_crossings(const PrimitiveTable& table, PrimitiveId id) {
     bool has = false;
     with_shape(table, id, [&]<class S>(const S& shape, const Placement*) {
-        has = has_formula(shape) && shape.closed();
+        has = HasExactCrossings<S> && shape.closed();
     });
     return has;
 }

@@ -136,12 +136,6 @@ concept HasExactCrossings = requires(const S& shape, const ExactLine& line) {
     { exact_crossings(shape, line) } -> std::same_as<ExactCrossings>;
 };
 
-/// Some shapes have a formula for some of their parameters only.
-template <class S>
-[[nodiscard]] bool has_formula(const S&) {
-    return HasExactCrossings<S>;
-}
-
 // ---- primitives of a table and solids made of them
 
 /// Whether there is a formula for a closed shape; none for meshes and instances.

@@ -37,9 +37,7 @@ std::string why_unchecked(const PrimitiveTable& table, PrimitiveId id) {
              ...);
         },
         table.columns);
-    const bool some = std::string_view(name) == Superellipsoid::kName;
-    return fmt::format("a {}{} has no formula", name,
-                       some ? " with one exponent above 2 and one below" : "");
+    return fmt::format("a {} has no formula", name);
 }
 std::string why_unchecked(const CsgSolid& solid) {
     if (solid.leaf_count() > kMostLeaves) {

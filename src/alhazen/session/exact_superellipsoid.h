@@ -5,44 +5,12 @@
 /// Kelley, "The Cutting-Plane Method for Solving Convex Programs", SIAM J. 8, 1960 (a convex
 /// function lies above its tangents). Differs: where both exponents 2 / e and 2 / n are at least 1
 /// the function is convex, where both are at most 1 it is concave within each octant: either is
-/// crossed at most twice, and whether at all is told by tangents. No interval arithmetic. Others
-/// have no formula.
+/// crossed at most twice, and whether at all is told by tangents. No interval arithmetic. For
+/// others see exact_mixed_superellipsoid.h.
 
-#include "alhazen/session/exact_polynomials.h"
+#include "alhazen/session/exact_mixed_superellipsoid.h"
 
 namespace alhazen {
-
-/// e^x for |x| below 700, right to a few last digits of 113.
-template <class R>
-R exponential(const R& x) {
-    const R ln2 = R(0x1.62e42fefa39efp-1) + R(0x1.abc9e3b39803fp-56) + R(0x1.7b57a079a1934p-111);
-    const double k = std::nearbyint(static_cast<double>(x) / 0.6931471805599453);
-    const R small = (x - R(k) * ln2) * R(0x1p-8);
-    R s = 0;  // e^small - 1
-    for (int n = 14; n >= 1; --n) s = small * (1 + s) / n;
-    for (int i = 0; i < 8; ++i) s = s * (2 + s);
-    return (1 + s) * R(std::ldexp(1.0, static_cast<int>(k)));
-}
-
-/// x^p for 0 <= x, p > 0.
-template <class R>
-R power_of(const R& x, double p) {
-    if (!(x > 0)) return 0;
-    if (p == std::floor(p) && p <= 16) {
-        R product = x;
-        for (int i = 1; i < static_cast<int>(p); ++i) product = product * x;
-        return product;
-    }
-    const double start = std::log(static_cast<double>(x));
-    // Two of Halley's steps on e^y = x, each of which triples the digits.
-    R y = start;
-    for (int i = 0; i < 2; ++i) {
-        const R e = exponential(y);
-        y = y + 2 * (x - e) / (x + e);
-    }
-    const R exponent = R(p) * y;
-    return static_cast<double>(exponent) < -690 ? R(0) : exponential(exponent);
-}
 
 /// The function minus 1, and its derivative, along a line; t from `start`.
 template <class R>
@@ -66,7 +34,7 @@ class SuperellipsoidAlong {
         }
         const R across = value[0] + value[1];
         const R ratio = R(q_) / R(p_);
-        const R bent = p_ == q_ ? across : power_of(across, q_ / p_);
+        const R bent = p_ == q_ ? across : power_of(across, ratio);
         const R factor = across > 0 ? ratio * bent / across : R(0);
         return {bent + value[2] - 1, factor * (slope[0] + slope[1]) + slope[2]};
     }
@@ -144,28 +112,25 @@ class ConvexCrossings {
     int sign_;
 };
 
-/// Whether there is a formula for these exponents.
-[[nodiscard]] inline bool has_formula(const Superellipsoid& s) {
-    return (s.p >= 1 && s.q >= 1) || (s.p <= 1 && s.q <= 1);
-}
-
 template <class R>
 CrossingsOf<R> exact_crossings(const Superellipsoid& solid, const LineOf<R>& given) {
     const LineOf<R> line = in_frame(solid.frame, given);
     ClippedPart<R> part;
     part.cut(line, Box3{{-1, -1, -1}, {1, 1, 1}});
     if (part.empty()) return {};
-    const SuperellipsoidAlong<R> f(solid, line);
-    const bool concave = !(solid.p >= 1 && solid.q >= 1);
-    std::vector<R> ends{part.lo, part.hi};
-    for (int k = 0; k < 3 && concave; ++k) {
+    const bool convex = solid.p >= 1 && solid.q >= 1;
+    const bool mixed = (solid.p > 1 && solid.q < 1) || (solid.p < 1 && solid.q > 1);
+    std::vector<R> ends{part.lo, part.hi};  // with the planes of symmetry in between
+    for (int k = 0; k < 3 && !convex; ++k) {
         if (line.direction[k] == 0) continue;
         const R t = -line.origin[k] / line.direction[k];
         if (t > part.lo && t < part.hi) ends.push_back(t);
     }
     std::sort(ends.begin(), ends.end());
+    if (mixed) return {false, mixed_crossings(solid, line, ends)};
+    const SuperellipsoidAlong<R> f(solid, line);
     CrossingsOf<R> found;
-    const ConvexCrossings<R> crossings(f, concave);
+    const ConvexCrossings<R> crossings(f, !convex);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         crossings.add(ends[i], ends[i + 1], found.t);
     }

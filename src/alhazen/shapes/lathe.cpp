@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "alhazen/math/bernstein_roots.h"
+#include "alhazen/shapes/lathe_near_level.h"
 #include "alhazen/shapes/shape_numerics.h"
 
 namespace alhazen {
@@ -12,10 +13,11 @@ namespace {
 template <class Real>
 constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
 
-/// Rays that climb less than this are level: what differs is below the last digits of the shape.
-constexpr double kLevel = 1e-12;
+/// Rays that climb less than this are level: beside the lathe their height changes by less than a
+/// hundredth of the last digit of its own.
+constexpr double kLevel = 0x1p-60;
 /// Below this climb the parameter of the profile says little about t.
-constexpr double kFlat = 1e-4;
+constexpr double kNearLevel = 1e-4;
 
 struct LocalRay {
     double shift = 0;
@@ -41,7 +43,9 @@ struct LocalRay {
             distance = std::abs(difference_of_products(o.x, d.y, o.y, d.x)) / across;
         }
     }
-    [[nodiscard]] bool level() const { return std::abs(d.z) <= kLevel * across; }
+    [[nodiscard]] bool climbs_less_than(double share) const {
+        return std::abs(d.z) <= share * across;
+    }
 };
 
 /// |d_z o + (z - o_z) d|^2 - (d_z r)^2 across the axis, for (r, z) on the curve: it vanishes where
@@ -141,7 +145,7 @@ void level_crossings(const Lathe& lathe, const LocalRay& ray, ShapeHits& found) 
             for (const double side : {-half, half}) {
                 double s = changes.u[n], t = ray.nearest + side;
                 polish(curve, ray, changes.lo[n], changes.hi[n], s, t);
-                found.push_back({t, s, 0, i});
+                found.push_back({ray.shift + t, s, 0, i});
             }
         }
     }
@@ -149,7 +153,6 @@ void level_crossings(const Lathe& lathe, const LocalRay& ray, ShapeHits& found) 
 
 void climbing_crossings(const Lathe& lathe, const LocalRay& ray, const Ray& given,
                         ShapeHits& found) {
-    const double nearest_z = ray.o.z + ray.nearest * ray.d.z;
     for (std::uint32_t i = 0; i < lathe.profile.curves.size(); ++i) {
         const ProfileCurve& curve = lathe.profile.curves[i];
         SignChanges<6> changes;
@@ -157,15 +160,9 @@ void climbing_crossings(const Lathe& lathe, const LocalRay& ray, const Ray& give
             [&](auto& p) { make_polynomial(lathe, ray, given, curve, p); }, changes);
         for (int k = 0; k < changes.count; ++k) {
             const auto n = static_cast<std::size_t>(k);
-            double s = changes.u[n];
-            const Vec2 p = curve.point(s);
-            double t = (p.y - ray.o.z) / ray.d.z;
-            if (std::abs(ray.d.z) < kFlat * ray.across) {
-                const bool behind = ((p.y - nearest_z) < 0.0) == (ray.d.z > 0.0);
-                t = ray.nearest + (behind ? -1.0 : 1.0) * half_chord(ray, p.x);
-            }
+            double s = changes.u[n], t = (curve.point(s).y - ray.o.z) / ray.d.z;
             polish(curve, ray, changes.lo[n], changes.hi[n], s, t);
-            found.push_back({t, s, 0, i});
+            found.push_back({ray.shift + t, s, 0, i});
         }
     }
 }
@@ -223,13 +220,14 @@ Interval Lathe::extent(const Vec3& axis) const {
 void Lathe::intersect(const Ray& ray, ShapeHits& hits) const {
     const LocalRay local(*this, ray);
     ShapeHits found;
-    if (local.level()) {
+    if (local.climbs_less_than(kLevel)) {
         level_crossings(*this, local, found);
+    } else if (local.climbs_less_than(kNearLevel)) {
+        near_level_crossings(*this, ray, found);
     } else {
         climbing_crossings(*this, local, ray, found);
     }
-    for (ShapeHit& hit : found) {
-        hit.t += local.shift;
+    for (const ShapeHit& hit : found) {
         if (!std::isfinite(hit.t)) return;
     }
     std::sort(found.begin(), found.end(), [](const ShapeHit& a, const ShapeHit& b) {

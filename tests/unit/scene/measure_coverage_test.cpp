@@ -43,7 +43,9 @@ Coverage coverage_of(const Measurable& solid, double volume, double area, double
 void expect_honest(int held, const std::string& what, bool fills_its_shadow = false) {
     std::cout << what << ": " << held / 4.0 << " %\n";
     EXPECT_GE(held, kRuns * 90 / 100) << what;
-    if (!fills_its_shadow) EXPECT_LE(held, kRuns * 99 / 100) << what;
+    if (!fills_its_shadow) {
+        EXPECT_LE(held, kRuns * 99 / 100) << what;
+    }
 }
 
 TEST(MeasureCoverage, OfMeasurementsThatEndWhenTheyAreNarrowEnough) {

@@ -223,6 +223,32 @@ TEST(SolidMeasures, LinesWhoseCrossingsComeInNoPairsAreCountedInEveryRound) {
     EXPECT_EQ(bundle.inconsistent(), odd.asked() / 2);
 }
 
+/// Counts the lines that ask for another solid.
+class CountedSolid final : public Measurable {
+  public:
+    explicit CountedSolid(const Measurable& solid) : solid_(solid) {}
+    [[nodiscard]] Box3 box() const override { return solid_.box(); }
+    [[nodiscard]] Interval extent(const Vec3& axis) const override { return solid_.extent(axis); }
+    void cross(const Ray& line, bool want_cosines, LineSpans& found) const override {
+        ++asked_;
+        solid_.cross(line, want_cosines, found);
+    }
+    [[nodiscard]] std::uint64_t asked() const { return asked_; }
+
+  private:
+    const Measurable& solid_;
+    mutable std::atomic<std::uint64_t> asked_{0};
+};
+
+TEST(SolidMeasures, WithoutTimePilotsAreShortToo) {
+    const LoneScene sphere(known_solids()[0]);
+    const CountedSolid counted(sphere.solid);
+    const SolidMeasures m = measure(counted, {.seconds = 0});
+    EXPECT_LT(counted.asked(), 8000u);
+    EXPECT_NEAR(m.volume.value, 32 * kPi / 3, 2 * m.volume.half_width);
+    EXPECT_FALSE(m.reached);
+}
+
 TEST(SolidMeasures, NothingHasNoMiddle) {
     SceneMaker maker;
     const ObjectIndex nothing = maker.object("nothing");

@@ -135,6 +135,27 @@ TEST(Lathe, RaysThroughTheRimsAndAlongTheFloorsCrossEvenly) {
     }
 }
 
+TEST(Lathe, RaysThatHardlyClimbMeetFlatEndsWhereTheirHeightIs) {
+    const Lathe vase = of_lines({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}});
+    Random random(63);
+    for (int i = 0; i < 20000; ++i) {
+        const double tilt = random.sign() * random.log_uniform(1e-17, 1e-2);
+        const Vec3 d{1, 0, tilt};
+        // Through the rim at the height of 1, where its radius is 1 to 2: out of the foot and then
+        // through the neck, or into the foot.
+        const Vec3 o{-4, random.uniform(-0.9, 0.9), 1 - tilt * random.uniform(2.5, 2.9)};
+        const double through = (1 - o.z) / tilt;
+        const double x = -4 + through, r = std::sqrt(x * x + o.y * o.y);
+        if (!(x < 0 && r > 1.0001 && r < 1.9999)) continue;
+        ShapeHits hits;
+        vase.intersect(line(o, d), hits);
+        ASSERT_EQ(hits.size(), tilt > 0 ? 4u : 2u) << i << " tilt " << tilt;
+        const ShapeHit& rim = hits[tilt > 0 ? 1 : 0];
+        EXPECT_EQ(rim.part, 2u) << i << " tilt " << tilt;
+        EXPECT_NEAR(rim.t, through, 4e-16 * through) << i << " tilt " << tilt;
+    }
+}
+
 TEST(Lathe, IsASolidWhereItsLoopsCloseOrEndOnTheAxis) {
     EXPECT_TRUE(of_lines({{0, 0}, {1, 1}, {0, 2}}).closed());
     EXPECT_TRUE(of_lines({{1, 0}, {2, 1}, {1, 2}, {1, 0}}).closed());
