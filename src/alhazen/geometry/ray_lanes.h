@@ -1,8 +1,8 @@
 #pragma once
 /// Eight rays side by side, as the kernels take them that test several rays with one shape.
 ///
-/// Source: none. Differs: nothing. Conventions: bit i of a set of lanes stands for lane i. Lanes
-/// that are not used repeat a ray that is.
+/// Source: none. Differs: nothing. Conventions: bit i of a set of lanes stands for lane i. What
+/// lies in lanes of no set that is asked for may be anything.
 
 #include <bit>
 #include <cstddef>

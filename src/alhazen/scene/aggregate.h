@@ -77,7 +77,8 @@ class Aggregate {
 
     /// Whether `closest_of_lanes` may be asked, for it is faster than one ray after the other.
     [[nodiscard]] virtual bool takes_lanes() const { return false; }
-    /// The nearest hits of eight valid rays: those of `wanted` that have one.
+    /// The nearest hits of the rays of `wanted`, which are valid: those that have one. Other lanes
+    /// may hold anything.
     virtual std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
                                            LaneHits& hits, RayQuery query) const;
 

@@ -1,8 +1,11 @@
 /// Boxes along the axes around the eight shapes of a block, in float.
 ///
-/// Source: none. Differs: nothing. Conventions: in the frame of the tree, with room for the
-/// rounding of all that makes them: coordinates are at most about 1 there. Included once per target
-/// (see simd/lanes-inl.h).
+/// Source: none. Differs: nothing. Of slabs |d_k . (p - c)| <= h_k whose directions are of length 1
+/// and lean by at most e = |d_i . d_j|, p - c is the sum of (d_k . (p - c)) d_k but for terms of e
+/// times the widths: along an axis a it reaches sum h_k |d_k a| + 1.8 e (h_0 + h_1 + h_2), of which
+/// 4 e are taken.
+/// Conventions: in the frame of the tree, with room for the rounding of all that makes them:
+/// coordinates are at most about 1 there. Included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_SCENE_BLOCK_BOXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SCENE_BLOCK_BOXES_INL_H_
@@ -35,7 +38,7 @@ class BlockBoxes {
     }
     /// Slabs that do not stand across each other (of what is sheared) are not bounded here.
     HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {
-        constexpr float kAcross = 0x1p-16f;
+        constexpr float kAcross = 0x1p-19f;
         Floats direction[3][3];
         for (std::size_t k = 0; k < 3; ++k) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -48,15 +51,17 @@ class BlockBoxes {
         };
         const LaneMask<float> across =
             max_lanes(max_lanes(leaning(0, 1), leaning(1, 2)), leaning(2, 0)) < Floats(kAcross);
+        const Floats room =
+            Floats(4.0f * kAcross) *
+            (load_lanes(block.half[0]) + load_lanes(block.half[1]) + load_lanes(block.half[2]));
         Floats half[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            half[axis] = Floats(0.0f);
+            half[axis] = room;
             for (std::size_t k = 0; k < 3; ++k) {
                 half[axis] = half[axis] + load_lanes(block.half[k]) * abs(direction[k][axis]);
             }
-            // What leans a little reaches out by as much.
-            half[axis] = select_lanes(across, half[axis] * Floats(1.0f + 8.0f * kAcross),
-                                      Floats(std::numeric_limits<float>::infinity()));
+            half[axis] =
+                select_lanes(across, half[axis], Floats(std::numeric_limits<float>::infinity()));
         }
         set(block.center, half);
     }

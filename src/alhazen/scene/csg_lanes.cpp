@@ -54,7 +54,7 @@ struct Spans {
     /// The rays of which two crossings lie closer than `apart`.
     [[nodiscard]] HWY_INLINE std::uint32_t close(const Doubles& apart) const {
         const auto near = [&](const Doubles& a, const Doubles& b)
-                              HWY_ATTR { return abs(a - b) < apart; };
+                              HWY_ATTR { return abs(a - b) <= apart; };
         std::uint32_t lanes = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
             LaneMask<double> found = near(of[i].entry, of[i].exit);
@@ -87,16 +87,16 @@ struct Spans {
 };
 
 HWY_INLINE void find_spans(const CsgLanesSolid::Leaf& leaf, const RayLanes& rays,
-                           LaneSpans& spans) {
+                           std::uint32_t wanted, LaneSpans& spans) {
     switch (leaf.kind) {
         case CsgLanesSolid::Kind::Sphere:
-            return find_spans(rays, *static_cast<const Sphere*>(leaf.shape), spans);
+            return find_spans(rays, *static_cast<const Sphere*>(leaf.shape), wanted, spans);
         case CsgLanesSolid::Kind::Box:
-            return find_spans(rays, *static_cast<const BoxShape*>(leaf.shape), spans);
+            return find_spans(rays, *static_cast<const BoxShape*>(leaf.shape), wanted, spans);
         case CsgLanesSolid::Kind::Frustum:
-            return find_spans(rays, *static_cast<const Frustum*>(leaf.shape), spans);
+            return find_spans(rays, *static_cast<const Frustum*>(leaf.shape), wanted, spans);
         case CsgLanesSolid::Kind::None:
-            spans.unsure = kAllLanes;
+            spans.unsure = wanted;
     }
 }
 
@@ -109,11 +109,10 @@ HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::ui
     for (std::uint32_t i = 0; i < solid.leaf_count; ++i) {
         const CsgLanesSolid::Leaf& leaf = solid.leaves[i];
         LaneSpans& found = spans.begin();
-        find_spans(leaf, rays, found);
-        out.tests += static_cast<std::uint32_t>(std::popcount(wanted));
-        out.tests_met += static_cast<std::uint32_t>(std::popcount(wanted & found.met));
-        out.unsure |= found.unsure & wanted;
-        found.met &= wanted;
+        find_spans(leaf, rays, wanted, found);
+        out.tests += static_cast<std::uint32_t>(std::popcount(wanted & ~found.unsure));
+        out.tests_met += static_cast<std::uint32_t>(std::popcount(found.met));
+        out.unsure |= found.unsure;
         if (leaf.needed) {
             if (found.met != 0) {
                 if (spans.count == 0) apart = apart_along(solid, rays);
@@ -153,8 +152,9 @@ HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::ui
 
 }  // namespace
 
-CsgLanesKernel csg_lanes_of_target() {
-    return &first;
+const CsgLanesKernel& csg_lanes_of_target() {
+    static constexpr CsgLanesKernel kKernel{&first, kFusesExactly};
+    return kKernel;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -166,8 +166,7 @@ namespace alhazen {
 
 HWY_EXPORT(csg_lanes_of_target);
 
-CsgLanesKernel csg_lanes_kernel() {
-    // Asked for every eight rays: what the processor can do is not looked up again.
+const CsgLanesKernel& csg_lanes_kernel() {
     return HWY_DYNAMIC_DISPATCH(csg_lanes_of_target)();
 }
 

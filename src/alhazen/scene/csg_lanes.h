@@ -44,14 +44,17 @@ struct alignas(64) CsgLanesHits {
     double leaf[kRayLanes], part[kRayLanes];  ///< whole numbers; of the leaf its number
     std::uint32_t hit;
     std::uint32_t unsure;            ///< ask the scalar text; not in `hit`
-    std::uint32_t tests, tests_met;  ///< of rays with leaves
+    std::uint32_t tests, tests_met;  ///< of rays with leaves, where they are sure
 };
 
-/// Of `wanted` rays.
-using CsgLanesKernel = void (*)(const CsgLanesSolid&, const RayLanes&, std::uint32_t wanted,
-                                CsgLanesHits&);
+/// That of one instruction set.
+struct CsgLanesKernel {
+    /// Of `wanted` rays.
+    void (*first)(const CsgLanesSolid&, const RayLanes&, std::uint32_t wanted, CsgLanesHits&);
+    bool knows_frusta;  ///< else every ray is unsure of them
+};
 
 /// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
-[[nodiscard]] CsgLanesKernel csg_lanes_kernel();
+[[nodiscard]] const CsgLanesKernel& csg_lanes_kernel();
 
 }  // namespace alhazen

@@ -92,7 +92,7 @@ bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCross
     }
     const std::uint32_t index = static_cast<std::uint32_t>(id) - first_instance;
     const Instance& instance = table_.instances[index];
-    const Ray inner = transformed(instance.placement.inner_from_outer, ray.line);
+    const Ray inner = inner_ray(instance, ray.line);
     const std::size_t before = hits.size();
     instance.aggregate->all_hits(inner, hits, {stats, ray.mask});
     for (std::size_t i = before; i < hits.size(); ++i) {

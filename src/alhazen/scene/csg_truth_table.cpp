@@ -121,6 +121,7 @@ void CsgTruthTable::prepare_lanes() {
     // More than tau, for the sums that lead to it round otherwise.
     lanes_.apart = 4.0 * CsgSolid::kTolerance;
     lanes_.leaf_count = count;
+    first_in_lanes_ = csg_lanes_kernel().first;
 }
 
 /// Only of shapes that stand in the frame of the solid.
@@ -136,7 +137,7 @@ void CsgTruthTable::set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) con
             leaf.kind = CsgLanesSolid::Kind::Box;
             leaf.shape = &shape;
         } else if constexpr (std::is_same_v<S, Cylinder> || std::is_same_v<S, Cone>) {
-            if (!shape.capped) return;
+            if (!shape.capped || !csg_lanes_kernel().knows_frusta) return;
             leaf.kind = CsgLanesSolid::Kind::Frustum;
             leaf.shape = &shape.frustum;
         }
@@ -269,7 +270,7 @@ std::uint32_t CsgTruthTable::first_of_lanes(const RayLanes& rays, std::uint32_t 
                                             TraversalStats* stats) const {
     CsgLanesHits found;
     if (solid_.table().all_seen(mask)) {
-        csg_lanes_kernel()(lanes_, rays, wanted, found);
+        first_in_lanes_(lanes_, rays, wanted, found);
         if (stats != nullptr) {
             stats->primitive_tests += found.tests;
             stats->primitive_hits += found.tests_met;

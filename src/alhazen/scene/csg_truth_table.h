@@ -8,8 +8,9 @@
 /// crossings lie in one sorted list; a ray that misses a leaf without which there is nothing (what
 /// a difference takes from, an operand of an intersection) is done. Conventions: the transitions of
 /// csg_solid.h, the bits of the event heap. Leaves must be analytic shapes that cross a line no
-/// more than kMaxShapeHits times, and there is one medium. Threads: const functions may be called
-/// from many threads.
+/// more than kMaxShapeHits times, and there is one medium. Eight rays at a time go to csg_lanes.h
+/// where the leaves are convex shapes that it knows. Threads: const functions may be called from
+/// many threads.
 
 #include <array>
 
@@ -29,7 +30,7 @@ class CsgTruthTable final : public CsgEvaluator {
 
     bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const override;
     bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
-    [[nodiscard]] bool takes_lanes() const override { return lanes_.leaf_count > 0; }
+    [[nodiscard]] bool takes_lanes() const override { return first_in_lanes_ != nullptr; }
     std::uint32_t first_of_lanes(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
                                  LaneHits& hits, TraversalStats* stats) const override;
     [[nodiscard]] CsgSides sides(const CsgRay& ray, double t) const override;
@@ -71,6 +72,7 @@ class CsgTruthTable final : public CsgEvaluator {
     std::array<std::uint32_t, kMaxLeaves> order_{};
     LeafSet needed_ = 0;  ///< these
     CsgLanesSolid lanes_;
+    decltype(CsgLanesKernel::first) first_in_lanes_ = nullptr;  ///< where lanes know all leaves
 };
 
 }  // namespace alhazen

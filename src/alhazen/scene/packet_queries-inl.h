@@ -1,5 +1,5 @@
-/// The queries of the wide BVH aggregate on the leaves, for packets: each triangle against eight
-/// rays.
+/// The queries of the wide BVH aggregate on the leaves, for packets: each triangle and each shape
+/// against eight rays.
 ///
 /// Source: triangle_filter.h, with rays in the lanes; that of rays with a common point an edge
 /// function is linear in the slopes: Amanatides and Choi, "Ray Tracing Triangular Meshes", Western
@@ -213,11 +213,14 @@ class PacketLeaves {
             case LeafType::Triangles:
                 break;
             case LeafType::Spheres:
-                return visit_shapes(&scene_.layout->spheres[ref.offset()], ref.count(), stats);
+                visit_shapes(&scene_.layout->spheres[ref.offset()], ref.count(), stats);
+                return false;
             case LeafType::Frustums:
-                return visit_shapes(&scene_.layout->frustums[ref.offset()], ref.count(), stats);
+                visit_shapes(&scene_.layout->frustums[ref.offset()], ref.count(), stats);
+                return false;
             case LeafType::Others:
-                return visit_shapes(&scene_.layout->others[ref.offset()], ref.count(), stats);
+                visit_shapes(&scene_.layout->others[ref.offset()], ref.count(), stats);
+                return false;
         }
         std::uint32_t changed = 0;
         for (std::uint32_t i = 0; i < ref.count(); ++i) {
@@ -247,7 +250,7 @@ class PacketLeaves {
   protected:
     /// Shapes and instances, the nearest first, each by the groups of rays that may meet it.
     template <class Block, class Stats>
-    HWY_NOINLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
+    HWY_NOINLINE void visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
             const BlockBoxes boxes(*blocks);
             Floats nearest;
@@ -267,7 +270,6 @@ class PacketLeaves {
                 visit_shape(blocks->ids[lane].id(), packet_.meet_groups(lo, hi), stats);
             }
         }
-        return false;
     }
 
     const WideBvhScene& scene_;

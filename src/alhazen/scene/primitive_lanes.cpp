@@ -101,6 +101,7 @@ std::uint32_t closest_of_instance(const PrimitiveTable& table, PrimitiveId id, R
         b.primitive = hits.primitives[lane];
         b.path.clear();
         b.path.push_back(id);
+        if (found.t == rays.t_max[lane]) return;
         rays.t_max[lane] = found.t;
         changed |= 1u << lane;
     });
@@ -120,7 +121,7 @@ bool takes_lanes(const PrimitiveTable& table, PrimitiveId id) {
 
 std::uint32_t closest_of_lanes(const PrimitiveTable& table, PrimitiveId id, RayLanes& rays,
                                std::uint32_t wanted, std::span<Hit> best, RayQuery query) {
-    if (!table.is_seen(id, query.mask)) return 0;
+    if (wanted == 0 || !table.is_seen(id, query.mask)) return 0;
     const auto i = static_cast<std::uint32_t>(id);
     if (i < table.first(kTriangleKind)) {
         return closest_of_shape(table, id, rays, wanted, best, query);

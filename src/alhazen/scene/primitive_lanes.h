@@ -15,8 +15,9 @@ namespace alhazen {
 /// Whether eight rays take less time than one after the other; never for triangles.
 [[nodiscard]] bool takes_lanes(const PrimitiveTable& table, PrimitiveId id);
 
-/// Makes `best` [lane] the better of itself and the primitive's nearest hit, for the valid rays of
-/// `wanted`, and shrinks their t_max to it. Those for which that changed something.
+/// Makes `best` [lane] the better of itself and the primitive's nearest hit, for the rays of
+/// `wanted`, which are valid, and shrinks their t_max to it. Those whose t_max that changed. Other
+/// lanes may hold anything.
 std::uint32_t closest_of_lanes(const PrimitiveTable& table, PrimitiveId id, RayLanes& rays,
                                std::uint32_t wanted, std::span<Hit> best, RayQuery query);
 

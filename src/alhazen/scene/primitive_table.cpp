@@ -317,8 +317,7 @@ void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hi
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     Hit inner;
-    const Ray inner_ray = transformed(instance.placement.inner_from_outer, ray);
-    if (!instance.aggregate->closest(inner_ray, inner, {stats.sink(), mask})) return;
+    if (!instance.aggregate->closest(inner_ray(instance, ray), inner, {stats.sink(), mask})) return;
     if (inner.t < best.t || (inner.t == best.t && id < best.top())) {
         best = inner;
         best.path.push_back(id);
@@ -338,8 +337,7 @@ bool PrimitiveTable::occluded(PrimitiveId id, const Ray& ray, const RayShear& sh
         return true;
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
-    return instance.aggregate->occluded(transformed(instance.placement.inner_from_outer, ray),
-                                        {stats.sink(), mask});
+    return instance.aggregate->occluded(inner_ray(instance, ray), {stats.sink(), mask});
 }
 
 template <class Stats>
@@ -360,8 +358,7 @@ void PrimitiveTable::all_hits(PrimitiveId id, const Ray& ray, const RayShear& sh
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     const std::size_t before = hits.size();
-    instance.aggregate->all_hits(transformed(instance.placement.inner_from_outer, ray), hits,
-                                 {stats.sink(), mask});
+    instance.aggregate->all_hits(inner_ray(instance, ray), hits, {stats.sink(), mask});
     for (std::size_t i = before; i < hits.size(); ++i) hits[i].path.push_back(id);
 }
 
@@ -379,8 +376,7 @@ bool PrimitiveTable::shadowed(PrimitiveId id, const Ray& ray, const RayShear& sh
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     const std::size_t before = crossings.size();
-    if (instance.aggregate->shadowed(transformed(instance.placement.inner_from_outer, ray),
-                                     crossings, {stats.sink(), mask})) {
+    if (instance.aggregate->shadowed(inner_ray(instance, ray), crossings, {stats.sink(), mask})) {
         return true;
     }
     for (std::size_t i = before; i < crossings.size(); ++i) crossings[i].path.push_back(id);

@@ -68,6 +68,11 @@ struct Instance {
     bool in_place = false;
 };
 
+/// The ray in the frame of what is placed.
+[[nodiscard]] inline Ray inner_ray(const Instance& instance, const Ray& ray) {
+    return instance.in_place ? ray : transformed(instance.placement.inner_from_outer, ray);
+}
+
 /// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two
 /// below.
 inline constexpr std::uint32_t kTriangleKind = AnalyticShapes::kCount;

@@ -196,8 +196,8 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
     const PrimitiveTable& table = aggregate.primitives();
     if (depth > 0) {
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
-        surface_inside(*instance.aggregate, transformed(instance.placement.inner_from_outer, ray),
-                       hit, depth - 1, with_uv, surface);
+        surface_inside(*instance.aggregate, inner_ray(instance, ray), hit, depth - 1, with_uv,
+                       surface);
         carry_outward(instance.placement, with_uv, surface);
         surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;

@@ -1,5 +1,6 @@
 #include "alhazen/scene/wide_bvh_aggregate.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "alhazen/base/error.h"
@@ -55,6 +56,7 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
     alhazen::refit(layout_, moved, bounded);
     box_ = bounded.all();
     table_ = std::move(moved);
+    packets_pay_ = packets_pay();
     prepare_meshes();
     RefitReport report;
     report.cost = layout_.sah_cost();
@@ -75,7 +77,9 @@ bool WideBvhAggregate::packets_pay() const {
             i = end;
             if (i == table_.size()) break;
         }
-        ++(alhazen::takes_lanes(table_, PrimitiveId{i}) ? in_lanes : alone);
+        const PrimitiveId id{i};
+        if (std::binary_search(unbounded_.begin(), unbounded_.end(), id)) continue;
+        ++(alhazen::takes_lanes(table_, id) ? in_lanes : alone);
     }
     return 64 * alone <= in_lanes;
 }

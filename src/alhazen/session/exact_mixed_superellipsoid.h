@@ -78,7 +78,7 @@ class MixedSearch {
         : f_(f), concave_(concave), found_(found) {}
 
     void search(const Value& a, const Value& b, int halvings) {
-        const bool turns = a.height < 0 != b.height < 0;
+        const bool turns = (a.height < 0) != (b.height < 0);
         // The slope of a concave function falls from the one end to the other.
         const Value &first = concave_ ? b : a, &last = concave_ ? a : b;
         const R least = first.outward - last.upper, most = last.outward - first.upper;

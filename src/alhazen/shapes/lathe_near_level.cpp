@@ -64,7 +64,12 @@ void for_each_piece_within(const Controls& curve, double most, F f) {
     add_places(curve, -most, places, count);
     add_places(curve, most, places, count);
     places[count++] = 1.0;
-    std::sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(count));
+    // By insertion: GCC 12 sees std::sort reach beyond so few (false warning).
+    for (std::size_t i = 1; i < count; ++i) {
+        for (std::size_t k = i; k > 0 && places[k] < places[k - 1]; --k) {
+            std::swap(places[k], places[k - 1]);
+        }
+    }
     double from = 0.0, to = -1.0;
     const auto add = [&](double lo, double hi) {
         lo = std::fmax(0.0, lo - kPlace);

@@ -4,8 +4,8 @@
 /// Differs: what is rare (a cone steeper than the line, a line along an axis, numbers out of range)
 /// is left to the scalar text. Conventions: included once per target (see simd/lanes-inl.h), the
 /// limits of the rays are not looked at, frustums have their caps. `unsure` lanes are to be asked
-/// alone; of the others entry and exit are the bits of the two crossings that `intersect` writes
-/// for the whole line, or there are none.
+/// alone; of the others that are wanted entry and exit are the bits of the two crossings that
+/// `intersect` writes for the whole line, or there are none.
 
 #if defined(ALHAZEN_SHAPES_SPAN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SHAPES_SPAN_LANES_INL_H_
@@ -69,12 +69,13 @@ struct LaneSpans {
     }
 };
 
-HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, LaneSpans& spans) {
+HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, std::uint32_t wanted,
+                           LaneSpans& spans) {
     const Vec3Lanes d = load_vectors(rays.direction);
     const Vec3Lanes f = load_vectors(rays.origin) - sphere.center;
     const Doubles a = dot(d, d), radius(sphere.radius), zero(0.0);
     const auto line = span_lanes::sphere_line(d.x, d.y, d.z, a, f.x, f.y, f.z, radius);
-    const std::uint32_t met = bits_of(line.discriminant >= zero);
+    const std::uint32_t met = wanted & bits_of(line.discriminant >= zero);
     if (met == 0) return;
     const auto roots = span_lanes::sphere_roots(line, a, f.x, f.y, f.z, radius);
     const Doubles &entry = roots.t_near, &exit = roots.t_far;
@@ -87,7 +88,8 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, LaneSpans
 }
 
 /// As BoxShape::intersect. What lies in the plane of a face, or along it, is asked alone.
-HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, LaneSpans& spans) {
+HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, std::uint32_t wanted,
+                           LaneSpans& spans) {
     Doubles entry(-kFarNumber), exit(kFarNumber), entry_part(0.0), exit_part(0.0);
     const Doubles zero(0.0);
     std::uint32_t level = 0;
@@ -106,15 +108,16 @@ HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, LaneSpans&
         entry_part = select_lanes(later, select_lanes(up, low_face, high_face), entry_part);
         exit_part = select_lanes(sooner, select_lanes(up, high_face, low_face), exit_part);
     }
-    spans.unsure = level;
-    spans.set(entry, exit, kAllLanes & ~level);
+    spans.unsure = wanted & level;
+    spans.set(entry, exit, wanted & ~level);
     spans.entry_part = entry_part;
     spans.exit_part = exit_part;
 }
 
 /// As frustum.cpp: `localise`, `inside_side` for lines flatter than the cone, `intersect_solid`.
-HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, LaneSpans& spans) {
-    spans.unsure = kAllLanes;
+HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t wanted,
+                           LaneSpans& spans) {
+    spans.unsure = wanted;
     if (!kFusesExactly) return;
     const Vec3Lanes d = load_vectors(rays.direction);
     Vec3Lanes o = load_vectors(rays.origin) - f.center;
@@ -135,8 +138,8 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, LaneSpans& sp
     const Doubles w = sqrt(wx * wx + wy * wy);
     const Doubles moment = abs(difference_of_products(ox, dy, oy, dx));
     const Doubles discriminant = (w - moment) * (w + moment);
-    const std::uint32_t flat = bits_of(a > zero);
-    spans.unsure = kAllLanes & ~flat;
+    const std::uint32_t flat = wanted & bits_of(a > zero);
+    spans.unsure = wanted & ~flat;
     std::uint32_t maybe = flat & bits_of(discriminant >= zero);
     if (maybe == 0) return;
     const Doubles b = ox * dx + oy * dy - radius * growth;

@@ -106,11 +106,13 @@ HWY_INLINE Lanes<float, N> as_floats(const Lanes<double, N>& a) {
         Lanes<float, N> r;
         r.part[0] = hn::DemoteTo(df, a.part[0]);
         return r;
+#if HWY_TARGET != HWY_SCALAR  // which has nothing to combine
     } else if constexpr (kParts<double, N> == 2 && kParts<float, N> == 1) {
         Lanes<float, N> r;
         r.part[0] = hn::Combine(LaneTag<float, N>(), hn::DemoteTo(df, a.part[1]),
                                 hn::DemoteTo(df, a.part[0]));
         return r;
+#endif
     } else {
         alignas(64) float values[N];
         for (std::size_t i = 0; i < kParts<double, N>; ++i) {

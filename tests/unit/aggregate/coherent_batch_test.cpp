@@ -5,12 +5,10 @@
 #include <cmath>
 #include <memory>
 
-#include "alhazen/math/random.h"
 #include "alhazen/scene/accelerator_table.h"
 #include "alhazen/scene/wide_bvh_aggregate.h"
 #include "alhazen/simd/targets.h"
-#include "support/scene_maker.h"
-#include "unit/aggregate/compare_aggregates.h"
+#include "unit/aggregate/coherent_rays.h"
 
 namespace alhazen {
 namespace {
@@ -18,86 +16,6 @@ namespace {
 using namespace testing;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-using Rays = std::vector<Ray>;
-
-/// The packets themselves, also where the aggregate would not choose them.
-void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
-                     const std::vector<Hit>& expected, const std::string& name) {
-    const WideBvhScene scene(tested.primitives(), tested.layout());
-    std::vector<Hit> hits(rays.size());
-    wide_bvh_kernels(8).closest_coherent(scene, rays, hits, nullptr);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_TRUE(same(hits[i], expected[i])) << name << ", packets, ray " << i;
-    }
-}
-
-void compare_with(const Aggregate& list, const Aggregate& tested, const Rays& rays,
-                  const std::string& name) {
-    std::vector<Hit> hits(rays.size());
-    tested.closest_batch(rays, hits, nullptr, Coherence::Coherent);
-    const auto occluded = std::make_unique<bool[]>(rays.size());
-    tested.occluded_batch(rays, {occluded.get(), rays.size()}, nullptr, Coherence::Coherent);
-    TraversalStats stats;
-    std::vector<Hit> counted(rays.size());
-    tested.closest_batch(rays, counted, &stats, Coherence::Coherent);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        Hit expected;
-        const bool found = list.closest(rays[i], expected, nullptr);
-        ASSERT_TRUE(same(hits[i], expected))
-            << name << ", ray " << i << ": " << show(rays[i]) << ": " << show(expected)
-            << " became " << show(hits[i]);
-        ASSERT_EQ(occluded[i], found) << name << ", ray " << i << ": " << show(rays[i]);
-        ASSERT_TRUE(same(counted[i], hits[i])) << name << ", ray " << i;
-    }
-    const auto* tree = dynamic_cast<const WideBvhAggregate*>(&tested);
-    // What has no bounds is not in the tree.
-    if (tree != nullptr && std::isfinite(tree->box().size().x) && !tree->layout().tree.empty) {
-        compare_packets(*tree, rays, hits, name);
-    }
-}
-
-/// Compares with the list on every instruction set.
-void compare(const std::string& name, const PrimitiveTable& table, const Rays& rays,
-             bool some_hit = true) {
-    const auto list = make_aggregate("list", table);
-    std::size_t found = 0;
-    for (const Ray& ray : rays) {
-        Hit hit;
-        found += list->closest(ray, hit, nullptr);
-    }
-    // A comparison of misses only would say little.
-    EXPECT_TRUE(!some_hit || found > 0) << name;
-    for (const std::string& target : simd_targets()) {
-        const SimdTargetOverride use(target);
-        compare_with(*list, *make_aggregate("wide_bvh", table), rays, name + " on " + target);
-    }
-}
-
-/// Eye rays through a square of side x side points, `width` wide at distance 1, along `look`.
-Rays eye_rays(const Vec3& eye, const Vec3& look, double width, int side) {
-    const Vec3 u = perpendicular(normalize(look));
-    const Vec3 v = normalize(cross(look, u));
-    Rays rays;
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            const double a = width * ((x + 0.5) / side - 0.5), b = width * ((y + 0.5) / side - 0.5);
-            rays.push_back({eye, normalize(look) + a * u + b * v, 0, kInf});
-        }
-    }
-    return rays;
-}
-
-/// Shadow rays from points of a small square to a light.
-Rays shadow_rays(const Vec3& middle, double width, const Vec3& light, int side) {
-    Rays rays = eye_rays(middle, {0.2, 0.3, 1}, width, side);
-    for (Ray& ray : rays) {
-        ray.origin = middle + (ray.direction - Vec3{0.2, 0.3, 1});
-        ray.direction = light - ray.origin;
-        ray.t_max = 1;
-    }
-    return rays;
-}
 
 std::vector<std::pair<std::string, PrimitiveTable>> tables(double size, std::uint64_t seed) {
     return {{"many triangles", random_triangles(800, size, 0.1 * size, seed)},
@@ -338,53 +256,6 @@ TEST(CoherentBatch, NestedAggregatesGiveTheHitsOfNestedLists) {
         compare_with(*list, *nest("wide_bvh"),
                      shadow_rays({-1.2, -1.1, -1.3}, 0.3, {1.5, 1.3, 1.4}, 24),
                      "instances in shadow on " + target);
-    }
-}
-
-/// Many small solids made of others, where they are made or placed by transforms, and other shapes.
-PrimitiveTable small_solids(std::uint64_t seed) {
-    RandomStream random(seed);
-    SceneMaker maker;
-    maker.material({});
-    const auto point = [&] {
-        return Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-    };
-    const Combine kinds[] = {Combine::Difference, Combine::Union, Combine::Intersection};
-    for (int i = 0; i < 60; ++i) {
-        const ObjectIndex object = maker.object("solid");
-        maker.description().objects[static_cast<std::size_t>(object)].combine = kinds[i % 3];
-        const bool placed = i % 4 == 0;
-        const Vec3 at = placed ? Vec3{} : point();
-        const double size = random.uniform(0.05, 0.2);
-        maker.add(Sphere{at, size}, MaterialId{0}, {}, object);
-        maker.add(Cylinder{.base = at - size * Vec3{0.2, 0.1, 1.2},
-                           .top = at + size * Vec3{0.2, 0.1, 1.2},
-                           .radius = 0.4 * size},
-                  MaterialId{0}, {}, object);
-        if (i % 5 == 0)
-            maker.add(BoxShape{at, at + size * Vec3{1, 1, 1}}, MaterialId{0}, {}, object);
-        const Affine placement = Affine::translate(point()) *
-                                 Affine::rotate({0.3, 1, 0.2}, random.uniform(0, 6)) *
-                                 Affine::scale({1.0, 0.7, 1.4});
-        maker.add(object, MaterialId{0}, placed ? placement : Affine{});
-    }
-    for (int i = 0; i < 10; ++i) {
-        maker.add(Sphere{point(), 0.1});
-        maker.add(Torus{.center = point(), .major_radius = 0.1, .minor_radius = 0.03});
-        maker.add(BoxShape{{0, 0, 0}, {0.1, 0.1, 0.1}}, MaterialId{0}, Affine::translate(point()));
-    }
-    return maker.compile().aggregate->primitives();
-}
-
-TEST(CoherentBatch, SmallSolidsAreHitAsByTheList) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        const PrimitiveTable table = small_solids(seed);
-        const std::string name = "small solids " + std::to_string(seed);
-        compare(name, table, eye_rays({0.1, 0.2, 4}, {0, 0, -1}, 0.6, 48));
-        compare(name + " from inside", table, eye_rays({0.1, 0.2, 0.3}, {-1, 0.2, 0.3}, 0.4, 24));
-        compare(name + " in shadow", table,
-                shadow_rays({-1.2, -1.1, -1.3}, 0.3, {1.5, 1.3, 1.4}, 24));
-        compare(name + " along an axis", table, eye_rays({0, 0, 4}, {0, 0, -1}, 0.0, 16), false);
     }
 }
 

@@ -59,7 +59,7 @@ int check_spans(const S& shape, CsgLanesSolid::Kind kind, const void* kernels_sh
     RayLanes rays;
     for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, any_ray(shape.box(), random));
     CsgLanesHits found;
-    csg_lanes_kernel()(solid, rays, kAllRayLanes, found);
+    csg_lanes_kernel().first(solid, rays, kAllRayLanes, found);
     EXPECT_EQ(found.hit & found.unsure, 0u);
     int sure = 0;
     for (std::size_t i = 0; i < kRayLanes; ++i) {
@@ -98,10 +98,9 @@ void check_spans_of(CsgLanesSolid::Kind kind, KernelsShape&& kernels_shape) {
             }
         }
         // Without fused operations cylinders and cones are all left to the scalar text.
-        const bool fuses = target.starts_with("AVX");
-        if (kind != CsgLanesSolid::Kind::Frustum || fuses) {
-            EXPECT_GT(sure, 15000) << target;
-        }
+        const bool known = kind != CsgLanesSolid::Kind::Frustum || csg_lanes_kernel().knows_frusta;
+        EXPECT_EQ(sure > 15000, known) << target << " " << sure;
+        EXPECT_EQ(sure > 0, known) << target;
     }
 }
 
@@ -178,8 +177,10 @@ TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
                     target + " seed " + std::to_string(seed) + " block " + std::to_string(block));
             }
         }
-        EXPECT_GT(small, 40);
-        EXPECT_GT(hit_count, 2000);
+        // Else only those of spheres and boxes.
+        const bool most = csg_lanes_kernel().knows_frusta;
+        EXPECT_GT(small, most ? 40 : 4) << target;
+        EXPECT_GT(hit_count, most ? 2000 : 200) << target;
     }
 }
 
@@ -200,7 +201,7 @@ TEST(CsgLanes, LeavesThatARayDoesNotSeeAreEmptyForIt) {
     expression.leaves = {PrimitiveId{0}, PrimitiveId{1}};
     expression.nodes = {{Combine::Difference, {CsgOperand::leaf(0), CsgOperand::leaf(1)}}};
     const CsgAggregate solid(std::move(table), std::move(expression), "event_heap");
-    ASSERT_TRUE(solid.takes_lanes());
+    if (!solid.takes_lanes()) GTEST_SKIP() << "no lanes for cylinders on this machine";
     RayLanes rays;
     for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, {{0, 0, 5}, {0, 0, -1}, 0, kInf});
     LaneHits hits;
