@@ -134,10 +134,12 @@ HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::ui
         const LaneSpans& of = spans.of[i];
         for (int side = 0; side < 2; ++side) {
             const Doubles& t = side == 0 ? of.entry : of.exit;
-            const std::uint32_t lanes = spans.changed(solid, i, t) & wanted;
+            const LaneMask<double> nearer = (t >= t_min) & (t <= t_max) & (t < best);
+            const std::uint32_t maybe = bits_of(nearer) & wanted;
+            if (maybe == 0) continue;
+            const std::uint32_t lanes = spans.changed(solid, i, t) & maybe;
             if (lanes == 0) continue;
-            const LaneMask<double> better =
-                lanes_of_bits<double>(lanes) & (t >= t_min) & (t <= t_max) & (t < best);
+            const LaneMask<double> better = lanes_of_bits<double>(lanes);
             best = select_lanes(better, t, best);
             best_leaf =
                 select_lanes(better, Doubles(solid.leaves[spans.place[i]].number), best_leaf);

@@ -1,6 +1,6 @@
 /// The test in double of what packets have left, eight pairs of a ray and a triangle at a time.
 ///
-/// Source: TrianglePairs, which decides; here rays come from the packet.
+/// Source: TrianglePairs, which decides. Differs: rays come from the packet.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_SCENE_PACKET_DECIDER_INL_H_) == defined(HWY_TARGET_TOGGLE)

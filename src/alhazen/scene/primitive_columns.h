@@ -1,5 +1,7 @@
 #pragma once
 /// Access to the column of an analytic kind that is known at run time.
+///
+/// Source: none. Differs: nothing.
 
 #include <tuple>
 #include <type_traits>

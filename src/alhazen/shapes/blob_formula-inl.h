@@ -1,6 +1,8 @@
 /// The arithmetic of a blob's components along a ray; a fragment without a guard, included by
-/// blob_pieces.h and by kernels in the namespace of each instruction set. `Real` needs + - * and,
-/// by argument-dependent look-up, sqrt.
+/// blob_pieces.h and by kernels in the namespace of each instruction set.
+///
+/// Source: see blob.h. Differs: one square root and no division for each ball, the same in double
+/// and in lanes. Conventions: `Real` needs + - * and, by argument-dependent look-up, sqrt.
 
 /// A line from a point near the blob: direction, its square, and one over that.
 template <class Real>

@@ -180,8 +180,18 @@ inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ra
     group_count = (given.size() + kGroupRays - 1) / kGroupRays;
     for (std::size_t g = 0; g < group_count; ++g) {
         const std::span<const Ray> group = given.subspan(g * kGroupRays);
+        RayLanes& lanes = rays[g];
         for (std::size_t i = 0; i < kGroupRays; ++i) {
-            rays[g].set(i, group[std::min(i, group.size() - 1)]);
+            // Written out: the loops of RayLanes::set are not unrolled.
+            const Ray& ray = group[std::min(i, group.size() - 1)];
+            lanes.origin[0][i] = ray.origin.x;
+            lanes.origin[1][i] = ray.origin.y;
+            lanes.origin[2][i] = ray.origin.z;
+            lanes.direction[0][i] = ray.direction.x;
+            lanes.direction[1][i] = ray.direction.y;
+            lanes.direction[2][i] = ray.direction.z;
+            lanes.t_min[i] = ray.t_min;
+            lanes.t_max[i] = ray.t_max;
         }
     }
     std::uint64_t used = 0;
