@@ -74,7 +74,7 @@ TEST(CoherentShapes, RaysInThePlanesOfCoordinatesAreThoseOfTheList) {
     const auto zero = [&] { return random.uniform(0, 1) < 0.5 ? 0.0 : -0.0; };
     Rays rays;
     for (int i = 0; i < 512; ++i) {
-        rays.push_back({{-random.uniform(0.2, 0.7), -random.uniform(0, 0.7), zero()},
+        rays.push_back({{-random.uniform(0.4, 0.5), -random.uniform(0.4, 0.5), zero()},
                         {zero(), zero(), 1},
                         i % 2 == 0 ? 0.0 : 0.1,
                         std::numeric_limits<double>::infinity()});
