@@ -2,8 +2,9 @@
 /// The first surface of which something is there along each of many rays: `first_visible_hit` for
 /// all of them, in batches.
 ///
-/// Source: none. Differs: nothing. Conventions: surfaces are told one at a time, in any order of the rays; what is told of a
-/// surface is gone with the next: it is large. Memory is kept from batch to batch.
+/// Source: none. Differs: nothing. Conventions: surfaces are told one at a time, in any order of
+/// the rays; what is told of a surface is gone with the next: it is large. Memory is kept from
+/// batch to batch.
 
 #include <cstdint>
 #include <span>
