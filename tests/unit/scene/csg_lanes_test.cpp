@@ -7,47 +7,21 @@
 #include "alhazen/scene/csg_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "csg_random_trees.h"
+#include "support/any_ray.h"
 #include "support/random_shapes.h"
 
 namespace alhazen {
 namespace {
 
+using testing::any_ray;
 using testing::Random;
 using testing::RandomSolids;
+using testing::same_bits;
 using testing::SceneMaker;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-bool same_bits(const ShapeHit& a, const ShapeHit& b) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-    return bits(a.t) == bits(b.t) && bits(a.u) == bits(b.u) && bits(a.v) == bits(b.v) &&
-           a.part == b.part;
-}
-
 // ---- one leaf: where a line enters and leaves a shape
-
-/// Towards the shape from anywhere, at times along axes with zeros of either sign, at times from
-/// far away, at times with a range of its own.
-Ray any_ray(const Box3& box, Random& random) {
-    Vec3 target;
-    for (int k = 0; k < 3; ++k) target[k] = random.uniform(box.lo[k], box.hi[k]);
-    const double size = length(box.size());
-    Vec3 direction = random.log_uniform(1e-3, 1e3) * random.unit_vector();
-    if (random.below(4) == 0) {
-        const int axis = random.below(3);
-        for (int k = 0; k < 3; ++k) {
-            if (k != axis && random.coin()) direction[k] = random.coin() ? 0.0 : -0.0;
-        }
-        if (random.coin()) target[(axis + 1) % 3] = box.lo[(axis + 1) % 3];
-    }
-    const double distance[] = {0.0, 0.5, 3.0, 100.0, 1e5, 1e9};
-    const double away = distance[random.below(6)] * size / length(direction);
-    Ray ray{target - away * direction, direction};
-    if (random.below(4) == 0) ray.t_min = -kInf;
-    if (random.below(5) == 0) ray.t_min = random.uniform(-0.1, 1.1) * away;
-    if (random.below(5) == 0) ray.t_max = ray.t_min + random.uniform(0, 2) * (away + 0.1);
-    return ray;
-}
 
 /// How many of the rays the kernel was sure of.
 template <class S>
