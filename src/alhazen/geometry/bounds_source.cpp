@@ -18,11 +18,14 @@ Interval BoundsSource::extent(std::size_t i, const Vec3& axis) const {
     return alhazen::extent(box(i), axis);
 }
 
-BoundingSphere BoundsSource::sphere(std::size_t i) const {
-    const Box3 b = box(i);
+BoundingSphere bounding_sphere(const Box3& box) {
     // The center is rounded, and so is the distance.
-    return {b.center(),
-            (1.0 + 1e-15) * (0.5 * length(b.size())) + 1e-15 * max_component(abs(b.center()))};
+    return {box.center(),
+            (1.0 + 1e-15) * (0.5 * length(box.size())) + 1e-15 * max_component(abs(box.center()))};
+}
+
+BoundingSphere BoundsSource::sphere(std::size_t i) const {
+    return bounding_sphere(box(i));
 }
 
 bool BoundsSource::overlaps(std::size_t i, const Box3& cell) const {

@@ -50,6 +50,9 @@ class BoundsSource {
     [[nodiscard]] virtual std::span<const RayEnd> ray_ends() const;
 };
 
+/// The sphere around a box.
+[[nodiscard]] BoundingSphere bounding_sphere(const Box3& box);
+
 /// Range of dot(axis, p) over the points of a box.
 [[nodiscard]] Interval extent(const Box3& box, const Vec3& axis);
 

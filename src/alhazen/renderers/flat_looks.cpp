@@ -36,14 +36,11 @@ FlatLooks::FlatLooks(const Scene& scene, std::span<const Rgb> ambient) : scene_(
     if (!any) looks_.clear();
 }
 
-const Rgb* FlatLooks::look_up(const Hit& hit) {
-    last_ = hit;
-    last_look_ = nullptr;
+const Rgb* FlatLooks::look_up(const Hit& hit) const {
     const std::optional<MaterialId> material = plain_material(*scene_.aggregate, hit);
     if (!material) return nullptr;
     const std::optional<Rgb>& look = looks_[static_cast<std::size_t>(*material)];
-    if (look) last_look_ = &*look;
-    return last_look_;
+    return look ? &*look : nullptr;
 }
 
 }  // namespace alhazen

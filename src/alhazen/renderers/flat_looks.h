@@ -6,6 +6,8 @@
 /// Source: none. Differs: nothing. Conventions: for rays that come through air; the colour is what
 /// shading the surface would give, bit for bit. Threads: belongs to one.
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,24 +24,34 @@ class FlatLooks {
     /// Null where the surface tells more.
     [[nodiscard]] const Rgb* find(const Hit& hit) {
         if (looks_.empty()) return nullptr;
-        // Neighbours mostly hit the same.
-        return is_last(hit) ? last_look_ : look_up(hit);
+        if (hit.path.size() > 1) return look_up(hit);
+        // Neighbours mostly hit the same few.
+        const PrimitiveId around = hit.path.empty() ? kNoPrimitive : hit.path[0];
+        Known& known = known_[slot(hit.primitive, around)];
+        if (known.primitive != hit.primitive || known.around != around) {
+            known = {hit.primitive, around, look_up(hit)};
+        }
+        return known.look;
     }
 
   private:
-    [[nodiscard]] bool is_last(const Hit& hit) const {
-        if (hit.primitive != last_.primitive || hit.path.size() != last_.path.size()) return false;
-        for (std::size_t i = 0; i < hit.path.size(); ++i) {
-            if (hit.path[i] != last_.path[i]) return false;
-        }
-        return true;
+    /// The look of a primitive that lies in no more than one instance.
+    struct Known {
+        PrimitiveId primitive = kNoPrimitive, around = kNoPrimitive;
+        const Rgb* look = nullptr;
+    };
+    static constexpr std::size_t kKnown = 256;
+
+    [[nodiscard]] static std::size_t slot(PrimitiveId primitive, PrimitiveId around) {
+        const auto mixed =
+            static_cast<std::uint32_t>(primitive) + 37 * static_cast<std::uint32_t>(around);
+        return mixed % kKnown;
     }
-    const Rgb* look_up(const Hit& hit);
+    [[nodiscard]] const Rgb* look_up(const Hit& hit) const;
 
     const Scene& scene_;
     std::vector<std::optional<Rgb>> looks_;  ///< [material]; empty where none is flat
-    Hit last_;
-    const Rgb* last_look_ = nullptr;
+    std::array<Known, kKnown> known_;
 };
 
 }  // namespace alhazen

@@ -25,6 +25,7 @@ class PixelLoop {
           counters_(counters),
           aovs_(job, counters),
           eye_(job.camera),
+          sums_(at_once),
           rays_(at_once),
           radiance_(at_once) {}
 
@@ -34,13 +35,14 @@ class PixelLoop {
     template <class Radiance>
     void run(const PixelBox& tile, Film& film, Radiance&& radiance) {
         begin_tile(tile, film);
+        if (is_plain()) return run_plain(film, radiance);
         // What a pixel costs is known where its rays are alone.
         const bool alone = job_.aovs != nullptr && job_.aovs->wanted().has_costs();
         for (const Pixel& pixel : pixels_) {
             if (job_.aovs != nullptr) aovs_.begin_pixel();
             for (int s = 0; s < job_.samples_per_pixel; ++s) {
-                rays_[gathered_++] = eye_ray_of(pixel, s);
-                if (gathered_ == rays_.size() && !trace(film, radiance)) return;
+                sums_[gathered_++] = sum_of(pixel, s);
+                if (gathered_ == sums_.size() && !trace(film, radiance)) return;
             }
             if (alone && !trace(film, radiance)) return;
         }
@@ -48,6 +50,22 @@ class PixelLoop {
     }
 
   private:
+    /// Every pixel has one sample, and nobody records how it came about.
+    [[nodiscard]] bool is_plain() const {
+        return job_.samples_per_pixel == 1 && job_.aovs == nullptr;
+    }
+    /// As `run`.
+    template <class Radiance>
+    void run_plain(Film& film, Radiance& radiance) {
+        std::span<const Pixel> rest = pixels_;
+        while (!rest.empty()) {
+            const std::span<const Pixel> next = rest.first(std::min(rest.size(), sums_.size()));
+            for (const Pixel& pixel : next) sums_[gathered_++] = sum_of_single(pixel);
+            if (!trace(film, radiance)) return;
+            rest = rest.subspan(next.size());
+        }
+    }
+
     /// Counted from the corner of the tile.
     struct Pixel {
         int i, j;
@@ -95,26 +113,29 @@ class PixelLoop {
         });
     }
 
-    [[nodiscard]] Ray eye_ray_of(const Pixel& pixel, int s) const {
-        if (job_.samples_per_pixel == 1) {
-            return eye_.ray(columns_[static_cast<std::size_t>(pixel.i)],
-                            rows_[static_cast<std::size_t>(pixel.j)]);
-        }
+    /// What makes the eye ray of a pixel's only sample.
+    [[nodiscard]] Vec3 sum_of_single(const Pixel& pixel) const {
+        return columns_[static_cast<std::size_t>(pixel.i)] +
+               rows_[static_cast<std::size_t>(pixel.j)];
+    }
+    [[nodiscard]] Vec3 sum_of(const Pixel& pixel, int s) const {
+        if (job_.samples_per_pixel == 1) return sum_of_single(pixel);
         const Vec2 p =
             jittered_sample(job_, tile_.x0 + pixel.i, tile_.y0 + pixel.j, width_, height_, s);
-        return eye_.ray(eye_.column(p.x), eye_.row(p.y));
+        return eye_.column(p.x) + eye_.row(p.y);
     }
 
     /// False when the job is to stop.
     template <class Radiance>
     bool trace(Film& film, Radiance& radiance) {
         if (job_.stop_requested()) return false;
+        eye_.rays(std::span(sums_).first(gathered_), rays_.data());
         const std::span<Rgb> found = std::span(radiance_).first(gathered_);
         std::fill(found.begin(), found.end(), Rgb{});
         radiance(std::span<const Ray>(rays_).first(gathered_), found);
         // What was cut short is given up.
         if (job_.stop_requested()) return false;
-        if (job_.samples_per_pixel == 1 && job_.aovs == nullptr) {
+        if (is_plain()) {
             take_pixels(film, found);
         } else {
             for (const Rgb& c : found) take(film, c);
@@ -126,12 +147,15 @@ class PixelLoop {
     /// As `take`, where each is a pixel and nobody records them.
     void take_pixels(Film& film, std::span<const Rgb> found) {
         const Pixel* pixel = pixels_.data() + done_;
+        const int x0 = tile_.x0, y0 = tile_.y0;
+        std::uint64_t non_finite = 0;
         for (const Rgb& c : found) {
             const bool finite = c.is_finite();
-            counters_.non_finite += !finite;
-            film.set(tile_.x0 + pixel->i, tile_.y0 + pixel->j, finite ? Rgb{} + c : Rgb{});
+            non_finite += !finite;
+            film.set(x0 + pixel->i, y0 + pixel->j, finite ? Rgb{} + c : Rgb{});
             ++pixel;
         }
+        counters_.non_finite += non_finite;
         done_ += found.size();
     }
 
@@ -160,8 +184,9 @@ class PixelLoop {
     EyeRays eye_;
     int width_ = 0, height_ = 0;        ///< of the frame
     std::vector<Vec3> columns_, rows_;  ///< of the tile, where a pixel has one sample
-    std::vector<Ray> rays_;
+    std::vector<Vec3> sums_;    ///< of a column and a row
     std::size_t gathered_ = 0;  ///< of them
+    std::vector<Ray> rays_;
     std::vector<Rgb> radiance_;
     PixelBox tile_;
     std::vector<Pixel> pixels_;  ///< of the tile, in the order in which they are done

@@ -2,6 +2,10 @@
 
 namespace alhazen {
 
+BoundingSphere Aggregate::sphere() const {
+    return bounding_sphere(box());
+}
+
 void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                               Coherence) const {
     for (std::size_t i = 0; i < rays.size(); ++i) (void)closest(rays[i], hits[i], query);

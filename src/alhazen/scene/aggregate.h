@@ -11,15 +11,17 @@
 #include <vector>
 
 #include "alhazen/accel/traversal_stats.h"
+#include "alhazen/geometry/bounds_source.h"
 #include "alhazen/geometry/box.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
-#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/geometry/ray_mask.h"
 
 namespace alhazen {
 
 class PrimitiveTable;
+struct LaneHits;
+struct RayLanes;
 struct Surface;
 
 /// What is known of the rays of a batch: a hint, which never changes a hit.
@@ -39,12 +41,6 @@ struct RayQuery {
     RayMask mask;           ///< what the rays see
 };
 
-/// The hits of eight rays, lane by lane, with primitives of the aggregate itself.
-struct LaneHits {
-    ShapeHit hits[kRayLanes];
-    PrimitiveId primitives[kRayLanes];
-};
-
 class Aggregate {
   public:
     virtual ~Aggregate() = default;
@@ -53,6 +49,8 @@ class Aggregate {
     [[nodiscard]] virtual const PrimitiveTable& primitives() const = 0;
     /// Holds all primitives; unbounded when one of them is.
     [[nodiscard]] virtual Box3 box() const = 0;
+    /// Holds them too, and so may be the closer of the two; by default the one around the box.
+    [[nodiscard]] virtual BoundingSphere sphere() const;
     /// Bytes of the acceleration structure, nested aggregates not included.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 

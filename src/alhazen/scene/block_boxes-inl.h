@@ -1,4 +1,4 @@
-/// Boxes along the axes around the eight shapes of a block, in float.
+/// Boxes along the axes and balls around the eight shapes of a block, in float.
 ///
 /// Source: none. Differs: nothing. Of slabs |d_k . (p - c)| <= h_k whose directions are of length 1
 /// and lean by at most e = |d_i . d_j|, p - c is the sum of (d_k . (p - c)) d_k but for terms of e
@@ -14,8 +14,6 @@
 #define ALHAZEN_SCENE_BLOCK_BOXES_INL_H_
 #endif
 
-#include <limits>
-
 #include "alhazen/scene/leaf_blocks.h"
 #include "alhazen/simd/lanes-inl.h"
 
@@ -28,13 +26,13 @@ class BlockBoxes {
     HWY_INLINE explicit BlockBoxes(const SphereBlock& block) {
         const Floats radius = load_lanes(block.radius);
         const Floats half[3] = {radius, radius, radius};
-        set(block.center, half);
+        set(block.center, half, radius);
     }
     /// Of each frustum the ball around it.
     HWY_INLINE explicit BlockBoxes(const FrustumBlock& block) {
         const Floats radius = load_lanes(block.half_height) + load_lanes(block.radius);
         const Floats half[3] = {radius, radius, radius};
-        set(block.center, half);
+        set(block.center, half, radius);
     }
     /// Slabs that do not stand across each other (of what is sheared) are not bounded here.
     HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {
@@ -54,30 +52,40 @@ class BlockBoxes {
         const Floats room =
             Floats(4.0f * kAcross) *
             (load_lanes(block.half[0]) + load_lanes(block.half[1]) + load_lanes(block.half[2]));
+        const Floats radius = load_lanes(block.radius);
         Floats half[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
             half[axis] = room;
             for (std::size_t k = 0; k < 3; ++k) {
                 half[axis] = half[axis] + load_lanes(block.half[k]) * abs(direction[k][axis]);
             }
-            half[axis] =
-                select_lanes(across, half[axis], Floats(std::numeric_limits<float>::infinity()));
+            half[axis] = select_lanes(across, min_lanes(half[axis], radius), radius);
         }
-        set(block.center, half);
+        set(block.center, half, radius);
     }
 
-    HWY_INLINE void get(std::size_t lane, float (&lo)[3], float (&hi)[3]) const {
+    /// What is around one shape.
+    struct Bounds {
+        float lo[3], hi[3];         ///< the box
+        float center[3], radius;  ///< the ball
+    };
+    [[nodiscard]] HWY_INLINE Bounds bounds(std::size_t lane) const {
+        Bounds b;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            lo[axis] = rows_[axis][lane];
-            hi[axis] = rows_[3 + axis][lane];
+            b.lo[axis] = rows_[axis][lane];
+            b.hi[axis] = rows_[3 + axis][lane];
+            b.center[axis] = (*center_)[axis][lane];
         }
+        b.radius = radius_[lane];
+        return b;
     }
     /// [lower x, y, z, upper x, y, z][lane], as the planes of a node.
     using Rows = float[6][kBlockWidth];
     [[nodiscard]] HWY_INLINE const Rows& rows() const { return rows_; }
 
   private:
-    HWY_INLINE void set(const float (&center)[3][kBlockWidth], const Floats (&half)[3]) {
+    HWY_INLINE void set(const float (&center)[3][kBlockWidth], const Floats (&half)[3],
+                        const Floats& radius) {
         // Some roundings of numbers up to 2.
         const Floats room(0x1p-20f);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -85,9 +93,13 @@ class BlockBoxes {
             store_lanes(c - h, rows_[axis]);
             store_lanes(c + h, rows_[3 + axis]);
         }
+        store_lanes(radius, radius_);
+        center_ = &center;
     }
 
     HWY_ALIGN Rows rows_;
+    HWY_ALIGN float radius_[kBlockWidth];
+    const float (*center_)[3][kBlockWidth];
 };
 
 }  // namespace HWY_NAMESPACE

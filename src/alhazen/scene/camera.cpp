@@ -18,7 +18,7 @@ Vec3 any_perpendicular_up(const Vec3& forward, const Vec3& up) {
 
 Ray eye_ray(const Camera& camera, double x, double y) {
     const EyeRays rays(camera);
-    return rays.ray(rays.column(x), rays.row(y));
+    return rays.ray(rays.column(x) + rays.row(y));
 }
 
 RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel) {

@@ -50,26 +50,33 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
             otherwise(i, count);
             continue;
         }
-        RayPacket packet;
-        const std::uint64_t wanted = ~std::uint64_t{0} >> (kPacketRays - count);
-        std::uint64_t used = wanted;
-        bool done = packet.make(layout.frame, rays.subspan(i, count), used) &&
-                    std::popcount(used) >= kFewRays;
-        if (done) {
+        // Those of each way by themselves: there are six ways at most.
+        std::uint64_t rest = ~std::uint64_t{0} >> (kPacketRays - count), alone = 0;
+        while (rest != 0) {
+            RayPacket packet;
+            std::uint64_t used = rest;
+            if (!packet.make(layout.frame, rays.subspan(i, count), used)) break;
+            rest &= ~used;
+            alone |= used;
+            if (std::popcount(used) < kFewRays) continue;
             ClosestPacket leaves(scene, rays.subspan(i, count), results.subspan(i, count), packet);
-            done = traverse_packet(layout.tree.nodes.data(), layout.tree.root, places, packet,
-                                   leaves, stats);
-            if (done) leaves.finish(stats);
+            if (!traverse_packet(layout.tree.nodes.data(), layout.tree.root, places, packet, leaves,
+                                 stats)) {
+                break;
+            }
+            leaves.finish(stats);
+            alone &= ~used;
         }
-        if (!done) {
+        alone |= rest;
+        if (alone == ~std::uint64_t{0} >> (kPacketRays - count)) {
             failures = std::min<std::size_t>(failures + 1, 4);
             skip = (std::size_t{1} << failures) - 1;
             otherwise(i, count);
             continue;
         }
         failures = 0;
-        for (std::uint64_t rest = wanted & ~used; rest != 0; rest &= rest - 1) {
-            otherwise(i + static_cast<std::size_t>(std::countr_zero(rest)), 1);
+        for (; alone != 0; alone &= alone - 1) {
+            otherwise(i + static_cast<std::size_t>(std::countr_zero(alone)), 1);
         }
     }
 }

@@ -29,6 +29,7 @@ bool wound_inward(const Aggregate& meshes) {
 CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
                            const std::string& evaluator)
     : solid_(std::move(table), std::move(expression)),
+      sphere_(find_sphere()),
       evaluator_(find_csg_evaluator(evaluator).make(solid_)),
       turned_(solid_.table().size(), false) {
     if (!solid_.expression().shows_minuend.empty()) {
@@ -54,6 +55,20 @@ CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
 Box3 CsgAggregate::box() const {
     // Leaves that coincide with the bound may be met a little outside it.
     return padded(solid_.tree().box(), 1e-15);
+}
+
+/// The smallest that is known: of the box, or of a leaf that holds the solid.
+BoundingSphere CsgAggregate::find_sphere() const {
+    BoundingSphere smallest = bounding_sphere(box());
+    for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
+        if (!solid_.tree().leaves()[i].holds) continue;
+        const auto primitive = static_cast<std::size_t>(solid_.expression().leaves[i]);
+        const BoundingSphere sphere = primitives().sphere(primitive);
+        if (sphere.radius < smallest.radius) smallest = sphere;
+    }
+    // A transition is where one of the crossings is that lie together.
+    smallest.radius += 4.0 * solid_.tolerance();
+    return smallest;
 }
 
 std::size_t CsgAggregate::memory_bytes() const {

@@ -20,6 +20,7 @@ class CsgAggregate final : public SolidAggregate {
 
     [[nodiscard]] const PrimitiveTable& primitives() const override { return solid_.table(); }
     [[nodiscard]] Box3 box() const override;
+    [[nodiscard]] BoundingSphere sphere() const override { return sphere_; }
     [[nodiscard]] std::size_t memory_bytes() const override;
     [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override;
     [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override;
@@ -45,7 +46,10 @@ class CsgAggregate final : public SolidAggregate {
     [[nodiscard]] Look look(const CsgRay& ray, double t, PrimitiveId primitive) const;
     [[nodiscard]] Opacity opacity(const CsgRay& ray, const Hit& hit) const;
 
+    [[nodiscard]] BoundingSphere find_sphere() const;
+
     CsgSolid solid_;
+    BoundingSphere sphere_;
     std::unique_ptr<const CsgEvaluator> evaluator_;
     std::vector<bool> shows_minuend_;  ///< [primitive], or empty: none does
     std::vector<bool> turned_;         ///< [primitive] its normal points into the solid

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "alhazen/scene/csg_solid.h"
+#include "alhazen/scene/lane_hits.h"
 
 namespace alhazen {
 

@@ -32,6 +32,42 @@ HWY_INLINE Doubles apart_along(const CsgLanesSolid& solid, const RayLanes& rays)
     return Doubles(solid.apart) * (Doubles(solid.size) + away) / speed;
 }
 
+HWY_INLINE LaneMask<double> far_outside(const CsgLanesSolid::Leaf& leaf, const Vec3Lanes& point,
+                                        const Doubles& margin) {
+    switch (leaf.kind) {
+        case CsgLanesSolid::Kind::Sphere:
+            return far_outside(*static_cast<const Sphere*>(leaf.shape), point, margin);
+        case CsgLanesSolid::Kind::Box:
+            return far_outside(*static_cast<const BoxShape*>(leaf.shape), point, margin);
+        case CsgLanesSolid::Kind::Frustum:
+            return far_outside(*static_cast<const Frustum*>(leaf.shape), point, margin);
+        case CsgLanesSolid::Kind::None:
+            break;
+    }
+    return margin < margin;
+}
+
+/// The rays for which nothing but entering the first leaf matters: it is the only one that is
+/// needed, and the others are far from where that is.
+HWY_INLINE std::uint32_t settled_by_first(const CsgLanesSolid& solid, const RayLanes& rays,
+                                          const LaneSpans& first) {
+    const Vec3Lanes o = load_vectors(rays.origin), d = load_vectors(rays.direction);
+    const Vec3Lanes from_center = o - solid.center;
+    // Twice what crossings that lie apart along a ray are apart in space, at least: a length of a
+    // ray is at most 1.8 times that along the axis where it is longest.
+    const Doubles margin = Doubles(4.0 * solid.apart) *
+                           (Doubles(solid.size) + largest(from_center.x, from_center.y, from_center.z));
+    LaneMask<double> settled =
+        (first.entry >= load_lanes(rays.t_min)) & (first.entry <= load_lanes(rays.t_max)) &
+        ((first.exit - first.entry) * largest(d.x, d.y, d.z) > margin);
+    const Vec3Lanes point{o.x + first.entry * d.x, o.y + first.entry * d.y,
+                          o.z + first.entry * d.z};
+    for (std::uint32_t i = 1; i < solid.leaf_count; ++i) {
+        settled = settled & far_outside(solid.leaves[i], point, margin);
+    }
+    return first.met & bits_of(settled);
+}
+
 /// The spans of the leaves that some ray meets.
 struct Spans {
     std::uint32_t count = 0;
@@ -100,9 +136,9 @@ HWY_INLINE void find_spans(const CsgLanesSolid::Leaf& leaf, const RayLanes& rays
     }
 }
 
-HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::uint32_t wanted,
-                       CsgLanesHits& out) {
-    out.hit = out.unsure = out.tests = out.tests_met = 0;
+HWY_FLATTEN std::uint32_t first(const CsgLanesSolid& solid, const RayLanes& rays,
+                                std::uint32_t wanted, LaneHits& hits, CsgLanesReport& report) {
+    report.unsure = report.tests = report.tests_met = 0;
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
     Doubles apart(0.0);
     Spans spans;
@@ -110,9 +146,9 @@ HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::ui
         const CsgLanesSolid::Leaf& leaf = solid.leaves[i];
         LaneSpans& found = spans.begin();
         find_spans(leaf, rays, wanted, found);
-        out.tests += static_cast<std::uint32_t>(std::popcount(wanted & ~found.unsure));
-        out.tests_met += static_cast<std::uint32_t>(std::popcount(found.met));
-        out.unsure |= found.unsure;
+        report.tests += static_cast<std::uint32_t>(std::popcount(wanted & ~found.unsure));
+        report.tests_met += static_cast<std::uint32_t>(std::popcount(found.met));
+        report.unsure |= found.unsure;
         if (leaf.needed) {
             if (found.met != 0) {
                 if (spans.count == 0) apart = apart_along(solid, rays);
@@ -120,15 +156,21 @@ HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::ui
                 found.met &= bits_of((found.entry <= t_max + apart) & (found.exit >= t_min));
             }
             wanted &= found.met | found.unsure;
-            if (wanted == 0) return;
+            if (wanted == 0) return 0;
+            if (solid.begins_with_first && settled_by_first(solid, rays, found) == wanted) {
+                store_lanes(found.entry, hits.t);
+                store_lanes(found.entry_part, hits.part);
+                store_lanes(Doubles(static_cast<double>(leaf.id)), hits.primitive);
+                return wanted;
+            }
         }
         if (found.met != 0) {
             if (spans.count == 0 && !leaf.needed) apart = apart_along(solid, rays);
             spans.keep(i);
         }
     }
-    out.unsure = (out.unsure | spans.close(apart)) & wanted;
-    wanted &= ~out.unsure;
+    report.unsure = (report.unsure | spans.close(apart)) & wanted;
+    wanted &= ~report.unsure;
     Doubles best(kInfinite), best_leaf(0.0), best_part(0.0);
     for (std::uint32_t i = 0; i < spans.count; ++i) {
         const LaneSpans& of = spans.of[i];
@@ -141,15 +183,15 @@ HWY_FLATTEN void first(const CsgLanesSolid& solid, const RayLanes& rays, std::ui
             if (lanes == 0) continue;
             const LaneMask<double> better = lanes_of_bits<double>(lanes);
             best = select_lanes(better, t, best);
-            best_leaf =
-                select_lanes(better, Doubles(solid.leaves[spans.place[i]].number), best_leaf);
+            const auto leaf = static_cast<double>(solid.leaves[spans.place[i]].id);
+            best_leaf = select_lanes(better, Doubles(leaf), best_leaf);
             best_part = select_lanes(better, side == 0 ? of.entry_part : of.exit_part, best_part);
         }
     }
-    out.hit = wanted & bits_of(best < Doubles(kInfinite));
-    store_lanes(best, out.t);
-    store_lanes(best_leaf, out.leaf);
-    store_lanes(best_part, out.part);
+    store_lanes(best, hits.t);
+    store_lanes(best_part, hits.part);
+    store_lanes(best_leaf, hits.primitive);
+    return wanted & bits_of(best < Doubles(kInfinite));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 #include <cstdint>
 
-#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/math/vec.h"
+#include "alhazen/scene/lane_hits.h"
 
 namespace alhazen {
 
@@ -22,7 +22,7 @@ struct CsgLanesSolid {
     enum class Kind : std::uint32_t { None, Sphere, Box, Frustum };
 
     struct Leaf {
-        std::uint32_t number = 0;
+        PrimitiveId id{0};
         Kind kind = Kind::None;
         const void* shape = nullptr;  ///< a Sphere, a BoxShape or a Frustum with its caps
         bool needed = false;          ///< where it is not, nothing is
@@ -33,24 +33,26 @@ struct CsgLanesSolid {
     };
     std::uint32_t leaf_count = 0;
     Leaf leaves[kMaxLeaves];  ///< those that are needed first
+    /// The first leaf is the only one that is needed, and where a ray enters it alone it enters the
+    /// solid.
+    bool begins_with_first = false;
     // What crossings must lie apart: `apart` times the sum of `size` and the distance of the
     // origin from the center along the axis where it is largest.
     Vec3 center;
     double size = 0, apart = 0;
 };
 
-struct alignas(64) CsgLanesHits {
-    double t[kRayLanes];
-    double leaf[kRayLanes], part[kRayLanes];  ///< whole numbers; of the leaf its number
-    std::uint32_t hit;
-    std::uint32_t unsure;            ///< ask the scalar text; not in `hit`
+/// What the kernel tells beside the hits.
+struct CsgLanesReport {
+    std::uint32_t unsure;            ///< rays that the scalar text must be asked for
     std::uint32_t tests, tests_met;  ///< of rays with leaves, where they are sure
 };
 
 /// That of one instruction set.
 struct CsgLanesKernel {
-    /// Of `wanted` rays.
-    void (*first)(const CsgLanesSolid&, const RayLanes&, std::uint32_t wanted, CsgLanesHits&);
+    /// Of `wanted` rays those that hit; none that it is unsure of.
+    std::uint32_t (*first)(const CsgLanesSolid&, const RayLanes&, std::uint32_t wanted, LaneHits&,
+                           CsgLanesReport&);
     bool knows_frusta;  ///< else every ray is unsure of them
 };
 

@@ -29,6 +29,7 @@ CsgTree::CsgTree(const CsgExpression& expression, std::span<const Box3> boxes) {
     flatten(expression, draft);
     for (Leaf& leaf : leaves_) {
         leaf.decides = leaf.parent == 0 && draft.is_union.front() != leaf.complement;
+        leaf.holds = leaf.parent == 0 && !draft.is_union.front() && !leaf.complement;
     }
     set_needs(draft);
     tighten(draft, boxes);

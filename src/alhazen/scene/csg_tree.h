@@ -36,6 +36,8 @@ class CsgTree {
         /// Inside its primitive the root has one value, whatever the others are: an operand of a
         /// union, or one that is taken away, at the root itself.
         bool decides = false;
+        /// The solid lies inside of its primitive: an operand of an intersection at the root.
+        bool holds = false;
     };
 
     CsgTree() = default;

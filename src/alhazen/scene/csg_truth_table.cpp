@@ -1,6 +1,7 @@
 #include "alhazen/scene/csg_truth_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <span>
 #include <type_traits>
@@ -99,7 +100,7 @@ void CsgTruthTable::prepare_lanes() {
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t number = order_[i];
         CsgLanesSolid::Leaf& leaf = lanes_.leaves[i];
-        leaf.number = number;
+        leaf.id = solid_.expression().leaves[number];
         leaf.needed = (needed_ >> number & 1) != 0;
         set_shape(places_[number], leaf);
         if (leaf.kind == CsgLanesSolid::Kind::None) return;
@@ -116,6 +117,8 @@ void CsgTruthTable::prepare_lanes() {
             lanes_.leaves[place_of[number]].changes |= std::uint64_t{1} << places;
         }
     }
+    lanes_.begins_with_first =
+        std::has_single_bit(needed_) && (lanes_.leaves[0].changes & 1) != 0;
     lanes_.center = solid_.center();
     lanes_.size = solid_.size();
     // More than tau, for the sums that lead to it round otherwise.
@@ -268,28 +271,24 @@ void CsgTruthTable::fill(const CsgCrossing& crossing, Hit& hit) const {
 std::uint32_t CsgTruthTable::first_of_lanes(const RayLanes& rays, std::uint32_t wanted,
                                             RayMask mask, LaneHits& hits,
                                             TraversalStats* stats) const {
-    CsgLanesHits found;
-    if (solid_.table().all_seen(mask)) {
-        first_in_lanes_(lanes_, rays, wanted, found);
-        if (stats != nullptr) {
-            stats->primitive_tests += found.tests;
-            stats->primitive_hits += found.tests_met;
-        }
-    } else {
-        found.hit = 0;
-        found.unsure = wanted;
+    if (!solid_.table().all_seen(mask)) return first_of_each(rays, wanted, mask, hits, stats);
+    CsgLanesReport report;
+    std::uint32_t hit = first_in_lanes_(lanes_, rays, wanted, hits, report);
+    if (stats != nullptr) {
+        stats->primitive_tests += report.tests;
+        stats->primitive_hits += report.tests_met;
     }
-    for_each_lane(found.hit, [&](std::size_t lane) {
-        hits.hits[lane] = {found.t[lane], 0, 0, static_cast<std::uint32_t>(found.part[lane])};
-        hits.primitives[lane] =
-            solid_.expression().leaves[static_cast<std::size_t>(found.leaf[lane])];
-    });
-    std::uint32_t hit = found.hit;
-    for_each_lane(found.unsure, [&](std::size_t lane) {
+    if (report.unsure != 0) hit |= first_of_each(rays, report.unsure, mask, hits, stats);
+    return hit;
+}
+
+std::uint32_t CsgTruthTable::first_of_each(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
+                                           LaneHits& hits, TraversalStats* stats) const {
+    std::uint32_t hit = 0;
+    for_each_lane(wanted, [&](std::size_t lane) {
         Hit alone;
         if (!first(solid_.prepare(rays.ray(lane), mask), alone, stats)) return;
-        hits.hits[lane] = alone;
-        hits.primitives[lane] = alone.primitive;
+        hits.set(lane, alone);
         hit |= 1u << lane;
     });
     return hit;

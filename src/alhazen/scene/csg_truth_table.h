@@ -56,6 +56,9 @@ class CsgTruthTable final : public CsgEvaluator {
     /// Where all leaves are convex shapes that lanes know, which stand in the frame of the solid.
     void prepare_lanes();
     void set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const;
+    /// As `first_of_lanes`, one ray after the other.
+    std::uint32_t first_of_each(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
+                                LaneHits& hits, TraversalStats* stats) const;
     Crossings cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
                     TraversalStats* stats) const;
     bool gather(const CsgRay& ray, Events& events, TraversalStats* stats) const;

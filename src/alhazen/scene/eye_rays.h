@@ -5,6 +5,8 @@
 /// Source: none. Differs: nothing. Conventions: those of the cameras; the bits are those of
 /// `eye_ray`.
 
+#include <span>
+
 #include "alhazen/scene/camera.h"
 
 namespace alhazen {
@@ -25,10 +27,12 @@ class EyeRays {
     [[nodiscard]] Vec3 column(double x) const { return middle_ + (x - 0.5) * right_; }
     /// What the rays of one y share.
     [[nodiscard]] Vec3 row(double y) const { return (y - 0.5) * up_; }
-    [[nodiscard]] Ray ray(const Vec3& column, const Vec3& row) const {
-        const Vec3 sum = column + row;
+    /// `sum`: of a column and a row, in this order.
+    [[nodiscard]] Ray ray(const Vec3& sum) const {
         return from_eye_ ? Ray{fixed_, normalize(sum)} : Ray{sum, fixed_};
     }
+    /// As many rays as sums.
+    void rays(std::span<const Vec3> sums, Ray* out) const;
 
   private:
     void set(const Vec3& fixed, const Vec3& middle, const Vec3& right, const Vec3& up) {

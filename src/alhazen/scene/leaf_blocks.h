@@ -96,14 +96,15 @@ struct alignas(64) FrustumBlock {
 static_assert(sizeof(FrustumBlock) == 320);
 
 /// Slanted boxes around whatever has no block of its own: all p with |direction_k . (p - center)|
-/// at most half_k, for k = 0, 1, 2.
+/// at most half_k, for k = 0, 1, 2; and balls around the same centers that hold it too.
 struct alignas(64) BoxBlock {
     float center[3][kBlockWidth];
     float direction[3][3][kBlockWidth];  ///< [k][axis][lane]; of length 1, rounded
     float half[3][kBlockWidth];          ///< [k][lane]; of a free lane -inf
+    float radius[kBlockWidth];
     BlockId ids[kBlockWidth];
 };
-static_assert(sizeof(BoxBlock) == 512);
+static_assert(sizeof(BoxBlock) == 576);
 
 /// A wide BVH over a table, with its leaves.
 struct WideBvhLayout {

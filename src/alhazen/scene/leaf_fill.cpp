@@ -118,21 +118,49 @@ void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const Pri
 
 namespace {
 
-/// Half the width of the body along the direction of a slab, as float has that and the center.
-double half_of(const SlantedBounds& bounds, const BoxBlock& block, std::size_t lane, int slab,
-               const LocalFrame& frame) {
-    const auto& d = block.direction[slab];
-    const Vec3 along{d[0][lane], d[1][lane], d[2][lane]};
-    const Vec3 center{block.center[0][lane], block.center[1][lane], block.center[2][lane]};
-    double half = 0;
+/// The center of a box as float has it.
+Vec3 center_of(const BoxBlock& block, std::size_t lane) {
+    return {block.center[0][lane], block.center[1][lane], block.center[2][lane]};
+}
+
+/// The largest of `size(p - center)` over the corners p of a body.
+template <class Size>
+double largest_of_corners(const SlantedBounds& bounds, const Vec3& center, const LocalFrame& frame,
+                          Size&& size) {
+    double largest = 0;
     for (int i = 0; i < 8; ++i) {
         Vec3 p = bounds.corner;
         for (int k = 0; k < 3; ++k) {
             if ((i >> k & 1) != 0) p += bounds.edge[k];
         }
-        half = std::max(half, std::abs(dot(along, frame.local(p) - center)));
+        largest = std::max(largest, size(frame.local(p) - center));
     }
+    return largest;
+}
+
+/// Half the width of the body along the direction of a slab, as float has that and the center.
+double half_of(const SlantedBounds& bounds, const BoxBlock& block, std::size_t lane, int slab,
+               const LocalFrame& frame) {
+    const auto& d = block.direction[slab];
+    const Vec3 along{d[0][lane], d[1][lane], d[2][lane]};
+    const double half =
+        largest_of_corners(bounds, center_of(block, lane), frame,
+                           [&](const Vec3& p) { return std::abs(dot(along, p)); });
     return kMore * (half + dot(abs(along), frame.scale * bounds.pad));
+}
+
+/// The radius of the ball around the center: the smaller one of that around the body and of that
+/// around the sphere which is known of the primitive.
+double radius_of(const SlantedBounds& bounds, const BoundingSphere& sphere, const BoxBlock& block,
+                 std::size_t lane, const LocalFrame& frame) {
+    const Vec3 center = center_of(block, lane);
+    const double of_body = largest_of_corners(bounds, center, frame,
+                                              [](const Vec3& p) { return length(p); }) +
+                           length(frame.scale * bounds.pad);
+    const double of_sphere =
+        length(frame.local(sphere.center) - center) + frame.scale * sphere.radius;
+    // Written so that a NaN is never taken.
+    return kMore * (of_sphere < of_body ? of_sphere : of_body);
 }
 
 }  // namespace
@@ -144,6 +172,8 @@ void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const Primiti
         const Vec3 middle =
             bounds.corner + 0.5 * bounds.edge[0] + 0.5 * bounds.edge[1] + 0.5 * bounds.edge[2];
         set_point(block.center, lane, frame.local(middle));
+        block.radius[lane] =
+            round_up(radius_of(bounds, table.sphere(static_cast<std::size_t>(id)), block, lane, frame));
         for (int slab = 0; slab < 3; ++slab) {
             set_point(block.direction[slab], lane, bounds.direction[slab]);
             block.half[slab][lane] = round_up(half_of(bounds, block, lane, slab, frame));

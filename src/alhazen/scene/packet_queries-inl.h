@@ -265,9 +265,10 @@ class PacketLeaves {
                 }
                 rest &= ~(1u << lane);
                 if (!blocks->ids[lane].used()) continue;
-                float lo[3], hi[3];
-                boxes.get(lane, lo, hi);
-                visit_shape(blocks->ids[lane].id(), packet_.meet_groups(lo, hi), stats);
+                const BlockBoxes::Bounds b = boxes.bounds(lane);
+                std::uint32_t groups = packet_.meet_groups(b.lo, b.hi);
+                if (groups != 0) groups &= packet_.meet_ball(b.center, b.radius);
+                visit_shape(blocks->ids[lane].id(), groups, stats);
             }
         }
     }

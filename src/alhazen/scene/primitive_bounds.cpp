@@ -105,6 +105,30 @@ struct ClippedTriangle {
     }
 };
 
+/// By how much a map lengthens a vector at most: the root of the largest eigenvalue of its square,
+/// which is at most the largest sum of a row (Gershgorin).
+double most_stretch(const Mat3& m) {
+    const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
+    double most = 0;
+    for (const Vec3& a : columns) {
+        double sum = 0;
+        for (const Vec3& b : columns) sum += std::abs(dot(a, b));
+        most = std::max(most, sum);
+    }
+    return (1.0 + 1e-15) * std::sqrt(most);
+}
+
+BoundingSphere placed_sphere(const Affine& to_from, const BoundingSphere& sphere) {
+    const Vec3 center = to_from.point(sphere.center);
+    // Of the center, whose coordinates are sums of four.
+    const Vec3 terms = abs(to_from.linear.x_axis) * std::abs(sphere.center.x) +
+                       abs(to_from.linear.y_axis) * std::abs(sphere.center.y) +
+                       abs(to_from.linear.z_axis) * std::abs(sphere.center.z) +
+                       abs(to_from.translation);
+    return {center, (1.0 + 1e-15) * (most_stretch(to_from.linear) * sphere.radius) +
+                        2e-15 * max_component(terms)};
+}
+
 }  // namespace
 
 BoundingSphere PrimitiveTable::sphere(std::size_t i) const {
@@ -113,7 +137,12 @@ BoundingSphere PrimitiveTable::sphere(std::size_t i) const {
         const Sphere& sphere = std::get<ShapeColumn<Sphere>>(columns).shapes[index(id)];
         return {sphere.center, (1.0 + 1e-15) * std::abs(sphere.radius)};
     }
-    return BoundsSource::sphere(i);
+    const BoundingSphere around_box = BoundsSource::sphere(i);
+    if (kind(id) != kInstanceKind) return around_box;
+    const Instance& instance = instances[index(id)];
+    const BoundingSphere placed =
+        placed_sphere(instance.placement.outer_from_inner, instance.aggregate->sphere());
+    return placed.radius < around_box.radius ? placed : around_box;
 }
 
 bool PrimitiveTable::overlaps(std::size_t i, const Box3& cell) const {

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "alhazen/scene/aggregate_of.h"
+#include "alhazen/scene/lane_hits.h"
 #include "alhazen/scene/no_shear.h"
 #include "alhazen/scene/primitive_columns.h"
 #include "alhazen/shapes/first_hit.h"
@@ -81,28 +82,31 @@ std::uint32_t closest_of_shape(const PrimitiveTable& table, PrimitiveId id, RayL
     return changed;
 }
 
-std::uint32_t closest_of_instance(const PrimitiveTable& table, PrimitiveId id, RayLanes& rays,
+// Apart, for the rays that are made need much room.
+[[gnu::noinline]] std::uint32_t closest_of_moved(const Instance& instance, const RayLanes& rays,
+                                                 std::uint32_t wanted, LaneHits& hits,
+                                                 RayQuery query) {
+    return instance.aggregate->closest_of_lanes(
+        transformed(instance.placement.inner_from_outer, rays), wanted, hits, query);
+}
+
+std::uint32_t closest_of_instance(const Instance& instance, PrimitiveId id, RayLanes& rays,
                                   std::uint32_t wanted, std::span<Hit> best, RayQuery query) {
-    const Instance& instance =
-        table.instances[static_cast<std::uint32_t>(id) - table.first(kInstanceKind)];
     LaneHits hits;
-    const Aggregate& inside = *instance.aggregate;
     const std::uint32_t hit =
-        instance.in_place
-            ? inside.closest_of_lanes(rays, wanted, hits, query)
-            : inside.closest_of_lanes(transformed(instance.placement.inner_from_outer, rays),
-                                      wanted, hits, query);
+        instance.in_place ? instance.aggregate->closest_of_lanes(rays, wanted, hits, query)
+                          : closest_of_moved(instance, rays, wanted, hits, query);
     std::uint32_t changed = 0;
     for_each_lane(hit, [&](std::size_t lane) {
         Hit& b = best[lane];
-        const ShapeHit& found = hits.hits[lane];
-        if (!(found.t < b.t || (found.t == b.t && id < b.top()))) return;
-        static_cast<ShapeHit&>(b) = found;
-        b.primitive = hits.primitives[lane];
+        const double t = hits.t[lane];
+        if (!(t < b.t || (t == b.t && id < b.top()))) return;
+        static_cast<ShapeHit&>(b) = hits.hit(lane);
+        b.primitive = hits.id(lane);
         b.path.clear();
         b.path.push_back(id);
-        if (found.t == rays.t_max[lane]) return;
-        rays.t_max[lane] = found.t;
+        if (t == rays.t_max[lane]) return;
+        rays.t_max[lane] = t;
         changed |= 1u << lane;
     });
     return changed;
@@ -113,7 +117,7 @@ std::uint32_t closest_of_instance(const PrimitiveTable& table, PrimitiveId id, R
 bool takes_lanes(const PrimitiveTable& table, PrimitiveId id) {
     const std::uint32_t kind = table.kind(id);
     if (kind == kTriangleKind) return false;
-    if (kind == kInstanceKind) return table.instances[table.index(id)].aggregate->takes_lanes();
+    if (kind == kInstanceKind) return table.instances[table.index(id)].takes_lanes;
     return with_column(table.columns, kind, [](const auto& column) {
         return HitSideBySide<typename ShapeOfColumn<decltype(column)>::Type>;
     });
@@ -127,8 +131,9 @@ std::uint32_t closest_of_lanes(const PrimitiveTable& table, PrimitiveId id, RayL
         return closest_of_shape(table, id, rays, wanted, best, query);
     }
     const std::uint32_t first_instance = table.first(kInstanceKind);
-    if (i >= first_instance && table.instances[i - first_instance].aggregate->takes_lanes()) {
-        return closest_of_instance(table, id, rays, wanted, best, query);
+    if (i >= first_instance && table.instances[i - first_instance].takes_lanes) {
+        return closest_of_instance(table.instances[i - first_instance], id, rays, wanted, best,
+                                   query);
     }
     std::uint32_t changed = 0;
     for_each_lane(wanted, [&](std::size_t lane) {

@@ -66,6 +66,8 @@ struct Instance {
     RayMask visible_to = kAllRays;
     /// The placement moves nothing; set by PrimitiveTable::finish.
     bool in_place = false;
+    /// That of the aggregate; set by PrimitiveTable::finish.
+    bool takes_lanes = false;
 };
 
 /// The ray in the frame of what is placed.
@@ -152,7 +154,8 @@ class PrimitiveTable final : public BoundsSource {
     // ---- bounds; empty for what cannot be hit: a triangle with two equal vertices
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
-    /// Exact for spheres that are not placed, except for rounding.
+    /// Exact for spheres that are not placed, except for rounding; of an instance that of what is
+    /// in it.
     [[nodiscard]] BoundingSphere sphere(std::size_t i) const override;
     /// Exact for triangles and for spheres that are not placed (their surface, which is all that
     /// rays meet), except for rounding.

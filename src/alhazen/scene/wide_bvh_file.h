@@ -20,7 +20,7 @@
 namespace alhazen {
 
 /// Raise it when what the stored arrays mean changes; sizes are compared anyway.
-inline constexpr std::uint32_t kWideBvhFileVersion = 2;
+inline constexpr std::uint32_t kWideBvhFileVersion = 3;
 
 struct StoredWideBvh {
     WideBvhLayout layout;

@@ -14,6 +14,8 @@
 #define ALHAZEN_SHAPES_SPAN_LANES_INL_H_
 #endif
 
+#include <algorithm>
+
 #include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/geometry/sphere_roots.h"
 #include "alhazen/shapes/box_shape.h"
@@ -45,6 +47,29 @@ HWY_INLINE Doubles dot(const Vec3Lanes& a, const Vec3Lanes& b) {
 }
 HWY_INLINE Doubles dot(const Vec3& a, const Vec3Lanes& b) {
     return Doubles(a.x) * b.x + Doubles(a.y) * b.y + Doubles(a.z) * b.z;
+}
+
+/// Those of points that lie outside of a shape and farther than `margin` from it; of some that do
+/// nothing may be said, and a NaN never does.
+HWY_INLINE LaneMask<double> far_outside(const Sphere& sphere, const Vec3Lanes& point,
+                                        const Doubles& margin) {
+    const Vec3Lanes p = point - sphere.center;
+    const Doubles reach = Doubles(sphere.radius) + margin;
+    return dot(p, p) > reach * reach;
+}
+HWY_INLINE LaneMask<double> far_outside(const BoxShape& box, const Vec3Lanes& point,
+                                        const Doubles& margin) {
+    const Vec3Lanes below = point - box.lo, above = point - box.hi;
+    return (max_lanes(max_lanes(above.x, above.y), above.z) > margin) |
+           (min_lanes(min_lanes(below.x, below.y), below.z) < -margin);
+}
+/// Of the cylinder around it.
+HWY_INLINE LaneMask<double> far_outside(const Frustum& f, const Vec3Lanes& point,
+                                        const Doubles& margin) {
+    const Vec3Lanes p = point - f.center;
+    const Doubles x = dot(f.x_axis, p), y = dot(f.y_axis, p), z = dot(f.axis, p);
+    const Doubles reach = Doubles(std::max(f.base_radius, f.top_radius)) + margin;
+    return (x * x + y * y > reach * reach) | (abs(z) > Doubles(f.half_height) + margin);
 }
 
 /// A number that no crossing is beyond, nor any that makes one; not one that overflows when it is

@@ -60,6 +60,48 @@ TEST(CoherentShapes, SmallSolidsAreHitAsByTheList) {
     }
 }
 
+TEST(CoherentShapes, RaysThatTouchBallsHitWhatTheListHits) {
+    // Groups of eight rays as narrow as can be, past the very limb of solids and of their bounds.
+    const PrimitiveTable table = small_solids(5, false);
+    RandomStream random(6);
+    const Vec3 eye{0.2, -0.3, 3.5};
+    std::vector<std::size_t> solids;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (table.kind(PrimitiveId{static_cast<std::uint32_t>(i)}) == kInstanceKind) {
+            solids.push_back(i);
+        }
+    }
+    for (const double off : {1e-2, 1e-5, 1e-7, 1e-9, 1e-14}) {
+        Rays rays;
+        for (int i = 0; i < 600; ++i) {
+            const BoundingSphere ball = table.sphere(solids[static_cast<std::size_t>(i) % solids.size()]);
+            const Vec3 to = ball.center - eye;
+            const Vec3 across = perpendicular(normalize(to));
+            const double turn = random.uniform(0, 7), sine = ball.radius / length(to);
+            const Vec3 limb =
+                std::cos(turn) * across + std::sin(turn) * cross(normalize(to), across);
+            for (int k = 0; k < 8; ++k) {
+                const double reach = sine / std::sqrt(1 - sine * sine) * (1 + random.uniform(-off, off));
+                rays.push_back({eye, normalize(to) + reach * limb, 0,
+                                std::numeric_limits<double>::infinity()});
+            }
+        }
+        compare("limbs, off by " + std::to_string(off), table, rays);
+    }
+}
+
+TEST(CoherentShapes, RaysOfSeveralWaysInOnePacketHitWhatTheListHits) {
+    // Those that are longest along x, along y and along z side by side.
+    for (std::uint64_t seed = 7; seed < 10; ++seed) {
+        const PrimitiveTable table = small_solids(seed, seed % 2 == 0);
+        const std::string name = "ways " + std::to_string(seed);
+        compare(name, table, eye_rays({-2, -2, -2}, {1, 1, 1}, 0.7, 40));
+        compare(name + " of two", table, eye_rays({-2, -2, 0}, {1, 1, 0.1}, 0.5, 40));
+        // Few of one way, far from the first of their packet.
+        compare(name + " of a corner", table, eye_rays({2, 2, 2}, {-1, -1.02, -1.05}, 0.1, 40));
+    }
+}
+
 TEST(CoherentShapes, RaysInThePlanesOfCoordinatesAreThoseOfTheList) {
     // Zeros of either sign, where a solid stands that no transform moves.
     SceneMaker maker;
@@ -111,7 +153,7 @@ TEST(CoherentShapes, FlatBodiesThatLeanAreHitAsByTheList) {
 }
 
 TEST(CoherentShapes, GroupsWithoutAUsableRayMeetNothing) {
-    // Sheared, so that packets have no box for them.
+    // Sheared, so that packets have only boxes around balls for them.
     SceneMaker maker;
     maker.material({});
     RandomStream random(4);

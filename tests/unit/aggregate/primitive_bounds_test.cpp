@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/scene_maker.h"
 #include "unit/aggregate/random_tables.h"
 
 namespace alhazen {
@@ -63,6 +64,50 @@ TEST(PrimitiveBounds, ASphereOverlapsTheCellsThatItsSurfaceIsIn) {
     const BoundingSphere sphere = table.sphere(0);
     EXPECT_EQ(sphere.center, (Vec3{1, 2, 3}));
     EXPECT_NEAR(sphere.radius, 2, 1e-14);
+}
+
+TEST(PrimitiveBounds, OfSolidsThatASphereHoldsTheSphereIsKnown) {
+    const auto sphere_of = [](const Affine& placement, bool holds, double stretch) {
+        SceneMaker maker;
+        maker.material({});
+        const ObjectIndex object = maker.object("solid");
+        maker.description().objects[static_cast<std::size_t>(object)].combine =
+            holds ? Combine::Difference : Combine::Union;
+        maker.add(Sphere{{0.5, 0, 0}, 0.7}, MaterialId{0}, {}, object);
+        maker.add(BoxShape{{0, 0, 0}, {1, 1, 1}}, MaterialId{0}, {}, object);
+        maker.add(object, MaterialId{0}, placement);
+        const Scene scene = maker.compile();
+        const PrimitiveTable& table = scene.aggregate->primitives();
+        const BoundingSphere sphere = table.sphere(0);
+        if (holds) {
+            // To what crossings that lie together may be apart.
+            EXPECT_NEAR(sphere.radius, 0.7 * stretch, 1e-9);
+            EXPECT_NEAR(length(sphere.center - placement.point({0.5, 0, 0})), 0, 1e-9);
+        }
+        // Rays towards it find nothing outside of it.
+        Random random(3);
+        int found = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 from = sphere.center + uniform_point(random, 9 * stretch);
+            const Vec3 to = sphere.center + uniform_point(random, stretch);
+            const Ray ray{from, to - from};
+            std::vector<Hit> hits;
+            scene.aggregate->all_hits(ray, hits, nullptr);
+            for (const Hit& hit : hits) {
+                ++found;
+                EXPECT_LE(length(ray.at(hit.t) - sphere.center), (1 + 1e-12) * sphere.radius);
+            }
+        }
+        EXPECT_GT(found, 200);
+    };
+    const Affine turned = Affine::translate({3, 2, 1}) * Affine::rotate({0.3, 1, 0.2}, 0.7);
+    for (const bool holds : {true, false}) {
+        sphere_of({}, holds, 1);
+        sphere_of(turned, holds, 1);
+        sphere_of(turned * Affine::scale({5, 5, 5}), holds, 5);
+    }
+    // Longer along one axis: no sphere is as close.
+    sphere_of(turned * Affine::scale({1, 0.7, 1.4}), false, 1.4);
 }
 
 TEST(PrimitiveBounds, OnlyWhatIsOpaqueAndSeenByAllRaysBlocksLight) {

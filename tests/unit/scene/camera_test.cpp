@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <numbers>
+#include <vector>
+
+#include "alhazen/scene/eye_rays.h"
+#include "alhazen/simd/targets.h"
 
 namespace alhazen {
 namespace {
@@ -54,6 +59,43 @@ TEST(Camera, AnotherAspectRatioKeepsTheVerticalExtent) {
     EXPECT_EQ(std::get<PerspectiveCamera>(wide).up, std::get<PerspectiveCamera>(camera).up);
     EXPECT_EQ(std::get<PerspectiveCamera>(wide).right,
               2.0 * std::get<PerspectiveCamera>(camera).right);
+}
+
+TEST(Camera, RaysSideBySideHaveTheBitsOfEachAlone) {
+    const auto same_bits = [](const Vec3& a, const Vec3& b) {
+        const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+        return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
+    };
+    const Camera cameras[] = {
+        PerspectiveCamera{{1, 2, 3}, {0.1, 0.2, -1}, {1, 0.5, 0}, {0.25, 1, 0}},
+        PerspectiveCamera{{0, 0, 0}, {0, 0, -1e-170}, {1e-170, 0, 0}, {0, 1e-160, 0}},
+        OrthographicCamera{{1, 2, 3}, {0.1, 0.2, -1}, {1, 0.5, 0}, {0.25, 1, 0}},
+    };
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        for (const Camera& camera : cameras) {
+            const EyeRays eye(camera);
+            for (std::size_t count = 0; count < 40; ++count) {
+                std::vector<Vec3> sums;
+                for (std::size_t i = 0; i < count; ++i) {
+                    sums.push_back(eye.column(0.025 * static_cast<double>(i)) +
+                                   eye.row(0.4 + 0.01 * static_cast<double>(count)));
+                }
+                // One more that must be left alone.
+                std::vector<Ray> rays(count + 1, Ray{{7, 7, 7}, {7, 7, 7}, 7, 7});
+                eye.rays(sums, rays.data());
+                for (std::size_t i = 0; i < count; ++i) {
+                    const Ray alone = eye_ray(camera, 0.025 * static_cast<double>(i),
+                                              0.4 + 0.01 * static_cast<double>(count));
+                    ASSERT_TRUE(same_bits(rays[i].origin, alone.origin)) << target;
+                    ASSERT_TRUE(same_bits(rays[i].direction, alone.direction)) << target;
+                    ASSERT_EQ(rays[i].t_min, alone.t_min);
+                    ASSERT_EQ(rays[i].t_max, alone.t_max);
+                }
+                EXPECT_EQ(rays[count].t_max, 7);
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -29,15 +29,17 @@ int check_spans(const S& shape, CsgLanesSolid::Kind kind, const void* kernels_sh
                 Random& random) {
     CsgLanesSolid solid;
     solid.leaf_count = 1;
-    solid.leaves[0] = {0, kind, kernels_shape, true, 1};
+    solid.leaves[0] = {PrimitiveId{0}, kind, kernels_shape, true, 1};
     RayLanes rays;
     for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, any_ray(shape.box(), random));
-    CsgLanesHits found;
-    csg_lanes_kernel().first(solid, rays, kAllRayLanes, found);
-    EXPECT_EQ(found.hit & found.unsure, 0u);
+    LaneHits found;
+    CsgLanesReport report;
+    const std::uint32_t hit_lanes =
+        csg_lanes_kernel().first(solid, rays, kAllRayLanes, found, report);
+    EXPECT_EQ(hit_lanes & report.unsure, 0u);
     int sure = 0;
     for (std::size_t i = 0; i < kRayLanes; ++i) {
-        if ((found.unsure >> i & 1) != 0) continue;
+        if ((report.unsure >> i & 1) != 0) continue;
         ++sure;
         const Ray ray = rays.ray(i);
         Ray line = ray;
@@ -48,10 +50,9 @@ int check_spans(const S& shape, CsgLanesSolid::Kind kind, const void* kernels_sh
         const ShapeHit* first =
             std::find_if(hits, hits + count, [&](const ShapeHit& h) { return ray.covers(h.t); });
         const bool hit = first != hits + count;
-        EXPECT_EQ(hit, (found.hit >> i & 1) != 0) << S::kName;
-        if (!hit || (found.hit >> i & 1) == 0) continue;
-        const ShapeHit in_lane{found.t[i], 0, 0, static_cast<std::uint32_t>(found.part[i])};
-        EXPECT_TRUE(same_bits(*first, in_lane))
+        EXPECT_EQ(hit, (hit_lanes >> i & 1) != 0) << S::kName;
+        if (!hit || (hit_lanes >> i & 1) == 0) continue;
+        EXPECT_TRUE(same_bits(*first, found.hit(i)))
             << S::kName << " t " << first->t << " became " << found.t[i];
     }
     return sure;
@@ -112,8 +113,8 @@ int compare(const CsgAggregate& solid, const RayLanes& rays, std::uint32_t wante
         const bool found = solid.closest(rays.ray(i), alone, nullptr);
         EXPECT_EQ(found, (hit >> i & 1) != 0) << at << " ray " << i;
         if (!found || (hit >> i & 1) == 0) return;
-        EXPECT_TRUE(same_bits(alone, hits.hits[i]) && alone.primitive == hits.primitives[i])
-            << at << " ray " << i << " t " << alone.t << " became " << hits.hits[i].t;
+        EXPECT_TRUE(same_bits(alone, hits.hit(i)) && alone.primitive == hits.id(i))
+            << at << " ray " << i << " t " << alone.t << " became " << hits.t[i];
     });
     return std::popcount(hit);
 }
@@ -158,6 +159,66 @@ TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
     }
 }
 
+/// A solid of shapes: a sphere around the origin, and what is taken away from it.
+std::unique_ptr<CsgAggregate> sphere_without(std::size_t others, auto&& add_others) {
+    PrimitiveTable table;
+    const auto add = [&](auto shape) {
+        auto& column = std::get<ShapeColumn<decltype(shape)>>(table.columns);
+        column.shapes.push_back(shape);
+        column.placements.push_back(kNoPlacement);
+        column.materials.push_back(MaterialId{0});
+    };
+    add(Sphere{{0, 0, 0}, 1});
+    add_others(add);
+    table.material_opacity = {Opacity::Opaque};
+    table.finish();
+    CsgExpression expression;
+    expression.nodes = {{Combine::Difference, {}}};
+    for (std::uint32_t i = 0; i <= others; ++i) {
+        expression.leaves.push_back(PrimitiveId{i});
+        expression.nodes[0].operands.push_back(CsgOperand::leaf(i));
+    }
+    return std::make_unique<CsgAggregate>(std::move(table), std::move(expression), "event_heap");
+}
+
+// Where a ray enters the sphere is all that matters unless a surface of the others is near there.
+TEST(CsgLanes, RaysThatEnterNearTheRimOfAHoleFindWhatEachFindsAlone) {
+    const auto drilled = sphere_without(1, [](auto&& add) {
+        add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.6});
+    });
+    // The sphere touches one box from inside, and another box's corner is on it.
+    const auto cut = sphere_without(2, [](auto&& add) {
+        add(BoxShape{{-2, -2, 1}, {2, 2, 2}});
+        add(BoxShape{{0.6, 0, 0.8}, {2, 2, 2}});
+    });
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride forced(target);
+        Random random(11);
+        const auto number = [&](double size) { return random.uniform(-size, size); };
+        int hit_count = 0;
+        for (int block = 0; block < 4000 && !::testing::Test::HasFailure(); ++block) {
+            const double off = std::pow(10.0, -0.005 * block);
+            RayLanes rays;
+            for (std::size_t i = 0; i < kRayLanes; ++i) {
+                const double turn = number(4);
+                const bool at_pole = i % 4 == 0;
+                const Vec3 rim = at_pole ? Vec3{0, 0, 1}
+                                         : Vec3{0.6 * std::cos(turn), 0.6 * std::sin(turn), 0.8};
+                const Vec3 place = (i % 2 == 0 ? Vec3{0.6, 0, 0.8} : rim) +
+                                   Vec3{number(off), number(off), number(off)};
+                const Vec3 from{number(2), number(2), 3};
+                const double t_min = i % 3 == 0 ? 1.0 + number(off) : 0.0;
+                const double t_max = i % 5 == 0 ? 1.0 + number(off) : kInf;
+                rays.set(i, {from, place - from, std::min(t_min, t_max), t_max});
+            }
+            const std::string at = target + " block " + std::to_string(block);
+            if (drilled->takes_lanes()) hit_count += compare(*drilled, rays, kAllRayLanes, at);
+            hit_count += compare(*cut, rays, kAllRayLanes, at + " boxes");
+        }
+        EXPECT_GT(hit_count, 20000) << target;
+    }
+}
+
 TEST(CsgLanes, LeavesThatARayDoesNotSeeAreEmptyForIt) {
     PrimitiveTable table;
     const auto add = [&](auto& column, auto shape, RayMask visible_to) {
@@ -181,7 +242,7 @@ TEST(CsgLanes, LeavesThatARayDoesNotSeeAreEmptyForIt) {
     LaneHits hits;
     EXPECT_EQ(solid.closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Shadow)}), 0u);
     EXPECT_EQ(solid.closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Eye)}), 1u);
-    EXPECT_EQ(hits.hits[0].t, 4.0);
+    EXPECT_EQ(hits.t[0], 4.0);
 }
 
 }  // namespace

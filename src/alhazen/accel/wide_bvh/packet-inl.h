@@ -55,6 +55,9 @@ class RayPacket {
     HWY_ALIGN float slope_lo[2][kPacketGroups];
     HWY_ALIGN float slope_hi[2][kPacketGroups];
     HWY_ALIGN float group_k_max[kPacketGroups];  ///< no ray of the group needs to go deeper
+    /// [x, y][group] between these, for h; and how far slopes of the group lie from it, at most.
+    HWY_ALIGN float group_middle[2][kPacketGroups];
+    HWY_ALIGN float group_spread[kPacketGroups];
     float middle[2];                             ///< of all slopes, in x and in y
     float widest = 0;                            ///< how far a slope lies beside it, at most
 
@@ -139,6 +142,26 @@ class RayPacket {
         return ((1u << group_count) - 1) & ~bits_of(missed);
     }
 
+    /// The groups of which a ray may meet a ball. With C its center from P, m the middle slope of
+    /// a group, q the distance of C from the line P + h (m, 1) and w the length by which slopes
+    /// of the group differ from m: a ray that meets the ball does so where h is at most C_h + r,
+    /// so q <= r + w (C_h + r). What is computed in float is off by less than 34 e R and, as for a
+    /// box, by delta and by how far rays pass P.
+    HWY_INLINE std::uint32_t meet_ball(const float (&center)[3], float radius) const {
+        const float along = sign_ * center[kz] - depth_of_point_;
+        const float deep = from_start_ ? along : -along;
+        const float beside[2] = {center[kx] - point[0], center[ky] - point[1]};
+        const Floats x(beside[0]), y(beside[1]), h(deep);
+        const Floats mx = load_lanes(group_middle[0]), my = load_lanes(group_middle[1]);
+        const Floats a = neg_mul_add(h, my, y), b = neg_mul_add(h, mx, x);
+        const Floats c = mul_sub(x, my, y * mx);
+        const Floats reach = mul_add(load_lanes(group_spread), Floats(std::max(deep + radius, 0.0f)),
+                                     Floats(radius + ball_slack_));
+        const Floats squared = mul_add(a, a, mul_add(b, b, c * c));
+        const Floats scale = mul_add(mx, mx, mul_add(my, my, Floats(1.0f)));
+        return ((1u << group_count) - 1) & ~bits_of(squared > scale * (reach * reach));
+    }
+
     /// Ray i need not go farther than that.
     HWY_INLINE void limit(std::size_t i, float s) {
         float& s_max = groups[i / kGroupRays].s_max[i % kGroupRays];
@@ -172,6 +195,7 @@ class RayPacket {
     std::size_t near_row_ = 0, far_row_ = 0, lateral_row_[2];
     bool from_start_ = true;
     float point_lo_[2], point_hi_[2];  ///< P with the slack
+    float ball_slack_ = 0;
     /// Parts of the largest and the smallest slope that are positive and negative.
     float hi_up_[2], hi_down_[2], lo_up_[2], lo_down_[2];
 };
@@ -356,6 +380,16 @@ inline bool RayPacket::find_planes() {
         point_lo_[i] = point[i] - slack;
         point_hi_[i] = point[i] + slack;
     }
+    ball_slack_ = 3.0f * error + 2.0f * (away[0] + away[1]);
+    Floats squared(0.0f);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Floats lo = load_lanes(slope_lo[i]), hi = load_lanes(slope_hi[i]);
+        const Floats between = Floats(0.5f) * (lo + hi);
+        store_lanes(Floats(turn) * between, group_middle[i]);
+        const Floats most = max_lanes(hi - between, between - lo);
+        squared = mul_add(most, most, squared);
+    }
+    store_lanes(sqrt(squared), group_spread);
     GroupFloats least(0.0f);
     for (std::size_t g = 0; g < group_count; ++g) {
         RayGroup& group = groups[g];
