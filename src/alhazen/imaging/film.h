@@ -1,8 +1,9 @@
 #pragma once
 /// The picture while it is rendered: radiance in double, tiles written from many threads.
 ///
-/// Conventions: pixel (0, 0) is the top left of the full frame; the film holds the crop [x0, x1) x [y0, y1) of it.
-/// Threads: `set` may be called at the same time for different pixels.
+/// Conventions: pixel (0, 0) is the top left of the full frame; the film holds the crop [x0, x1) x
+/// [y0, y1) of it. Threads: `set` may be called at the same time for different pixels, and what
+/// `from` gives be written to.
 
 #include <cstdint>
 #include <vector>
@@ -33,6 +34,8 @@ class Film {
     [[nodiscard]] const PixelBox& crop() const { return crop_; }
 
     void set(int x, int y, const Rgb& radiance) { samples_[index(x, y)] = radiance; }
+    /// The pixels from (x, y) on; those of the next row are the crop's width behind.
+    [[nodiscard]] Rgb* from(int x, int y) { return &samples_[index(x, y)]; }
     [[nodiscard]] const Rgb& at(int x, int y) const { return samples_[index(x, y)]; }
     /// [crop height][crop width][3], as `encode` of image_io takes it.
     [[nodiscard]] const double* data() const { return &samples_.front().r; }

@@ -147,12 +147,13 @@ class PixelLoop {
     /// As `take`, where each is a pixel and nobody records them.
     void take_pixels(Film& film, std::span<const Rgb> found) {
         const Pixel* pixel = pixels_.data() + done_;
-        const int x0 = tile_.x0, y0 = tile_.y0;
+        Rgb* const corner = film.from(tile_.x0, tile_.y0);
+        const std::ptrdiff_t stride = film.crop().width();
         std::uint64_t non_finite = 0;
         for (const Rgb& c : found) {
             const bool finite = c.is_finite();
             non_finite += !finite;
-            film.set(x0 + pixel->i, y0 + pixel->j, finite ? Rgb{} + c : Rgb{});
+            corner[pixel->j * stride + pixel->i] = finite ? Rgb{} + c : Rgb{};
             ++pixel;
         }
         counters_.non_finite += non_finite;
@@ -184,8 +185,8 @@ class PixelLoop {
     EyeRays eye_;
     int width_ = 0, height_ = 0;        ///< of the frame
     std::vector<Vec3> columns_, rows_;  ///< of the tile, where a pixel has one sample
-    std::vector<Vec3> sums_;    ///< of a column and a row
-    std::size_t gathered_ = 0;  ///< of them
+    std::vector<Vec3> sums_;            ///< of a column and a row
+    std::size_t gathered_ = 0;          ///< of them
     std::vector<Ray> rays_;
     std::vector<Rgb> radiance_;
     PixelBox tile_;

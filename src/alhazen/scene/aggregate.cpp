@@ -16,11 +16,6 @@ void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result
     for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], query);
 }
 
-std::uint32_t Aggregate::closest_of_lanes(const RayLanes&, std::uint32_t, LaneHits&,
-                                          RayQuery) const {
-    return 0;
-}
-
 void Aggregate::complete(const Ray&, double, PrimitiveId, Surface&) const {}
 
 bool hit_less(const Hit& a, const Hit& b) {

@@ -20,8 +20,7 @@
 namespace alhazen {
 
 class PrimitiveTable;
-struct LaneHits;
-struct RayLanes;
+class LaneSolid;
 struct Surface;
 
 /// What is known of the rays of a batch: a hint, which never changes a hit.
@@ -73,12 +72,8 @@ class Aggregate {
     /// Whether `complete` may change the material.
     [[nodiscard]] virtual bool changes_materials() const { return false; }
 
-    /// Whether `closest_of_lanes` may be asked, for it is faster than one ray after the other.
-    [[nodiscard]] virtual bool takes_lanes() const { return false; }
-    /// The nearest hits of the rays of `wanted`, which are valid: those that have one. Other lanes
-    /// may hold anything.
-    virtual std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
-                                           LaneHits& hits, RayQuery query) const;
+    /// The same primitives for rays side by side; null where these are no faster.
+    [[nodiscard]] virtual const LaneSolid* lane_solid() const { return nullptr; }
 
     /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
     /// than ray by ray from about ten rays on, whatever their order.

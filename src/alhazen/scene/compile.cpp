@@ -346,11 +346,10 @@ class Compiler {
 
     static void add_instance(const Built& child, const PlacedPart& placed, Draft& draft) {
         const Affine& outer_from_inner = placed.outer_from_part;
-        draft.table.instances.push_back({child.aggregate,
-                                         {outer_from_inner, inverse(outer_from_inner)},
-                                         placed.number,
-                                         false,
-                                         placed.visible_to});
+        draft.table.instances.push_back({.aggregate = child.aggregate,
+                                         .placement = {outer_from_inner, inverse(outer_from_inner)},
+                                         .part = placed.number,
+                                         .visible_to = placed.visible_to});
         draft.built.effective_primitives =
             saturating_add(draft.built.effective_primitives, child.effective_primitives);
         draft.built.instance_depth = std::max(draft.built.instance_depth, child.instance_depth + 1);

@@ -112,11 +112,6 @@ bool CsgAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuer
     return false;
 }
 
-std::uint32_t CsgAggregate::closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
-                                             LaneHits& hits, RayQuery query) const {
-    return evaluator_->first_of_lanes(rays, wanted, query.mask, hits, query.stats);
-}
-
 bool CsgAggregate::inside_at_minus_infinity(const Ray& ray) const {
     if (box().bounded()) return false;
     constexpr double kInfinite = std::numeric_limits<double>::infinity();

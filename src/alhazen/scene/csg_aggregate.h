@@ -27,9 +27,7 @@ class CsgAggregate final : public SolidAggregate {
     void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
     [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                 RayQuery query) const override;
-    [[nodiscard]] bool takes_lanes() const override { return evaluator_->takes_lanes(); }
-    std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted, LaneHits& hits,
-                                   RayQuery query) const override;
+    [[nodiscard]] const LaneSolid* lane_solid() const override { return evaluator_->lane_solid(); }
     [[nodiscard]] bool inside_at_minus_infinity(const Ray& ray) const override;
     void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
     [[nodiscard]] bool changes_materials() const override {

@@ -26,11 +26,6 @@ constexpr std::array kEntries{
 
 }  // namespace
 
-std::uint32_t CsgEvaluator::first_of_lanes(const RayLanes&, std::uint32_t, RayMask, LaneHits&,
-                                           TraversalStats*) const {
-    return 0;
-}
-
 std::span<const CsgEvaluatorEntry> csg_evaluator_table() {
     return kEntries;
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "alhazen/scene/csg_solid.h"
-#include "alhazen/scene/lane_hits.h"
 
 namespace alhazen {
 
@@ -29,11 +28,8 @@ class CsgEvaluator {
     /// Appends all transitions; a wall between two media twice, once for each. True when the ray
     /// begins inside.
     virtual bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const = 0;
-    /// Whether `first_of_lanes` may be asked, for it is faster than one ray after the other.
-    [[nodiscard]] virtual bool takes_lanes() const { return false; }
-    /// As `first` for eight rays: those of `wanted` that hit.
-    virtual std::uint32_t first_of_lanes(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
-                                         LaneHits& hits, TraversalStats* stats) const;
+    /// `first` for rays side by side; null where these are no faster.
+    [[nodiscard]] virtual const LaneSolid* lane_solid() const { return nullptr; }
     /// What is on both sides of the transition at t.
     [[nodiscard]] virtual CsgSides sides(const CsgRay& ray, double t) const = 0;
     /// Of what the evaluator adds to the solid.

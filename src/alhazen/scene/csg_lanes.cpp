@@ -1,5 +1,7 @@
 #include "alhazen/scene/csg_lanes.h"
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <limits>
 
@@ -22,15 +24,19 @@ HWY_INLINE Doubles largest(const Doubles& x, const Doubles& y, const Doubles& z)
     return max_lanes(max_lanes(abs(x), abs(y)), abs(z));
 }
 
-/// How far crossings must lie apart along the rays.
-HWY_INLINE Doubles apart_along(const CsgLanesSolid& solid, const RayLanes& rays) {
-    const Doubles away = largest(load_lanes(rays.origin[0]) - Doubles(solid.center.x),
-                                 load_lanes(rays.origin[1]) - Doubles(solid.center.y),
-                                 load_lanes(rays.origin[2]) - Doubles(solid.center.z));
-    const Doubles speed = largest(load_lanes(rays.direction[0]), load_lanes(rays.direction[1]),
-                                  load_lanes(rays.direction[2]));
-    return Doubles(solid.apart) * (Doubles(solid.size) + away) / speed;
-}
+/// How far crossings must lie apart: along an axis, where rays go by `speed`.
+struct Apart {
+    Doubles length, speed;
+
+    HWY_INLINE Apart(const CsgLanesSolid& solid, const RayLanes& rays) : length(0.0), speed(0.0) {
+        const Vec3Lanes away = load_vectors(rays.origin) - solid.center;
+        const Vec3Lanes d = load_vectors(rays.direction);
+        length = Doubles(solid.apart) * (Doubles(solid.size) + largest(away.x, away.y, away.z));
+        speed = largest(d.x, d.y, d.z);
+    }
+    /// Along the rays.
+    [[nodiscard]] HWY_INLINE Doubles parameter() const { return length / speed; }
+};
 
 HWY_INLINE LaneMask<double> far_outside(const CsgLanesSolid::Leaf& leaf, const Vec3Lanes& point,
                                         const Doubles& margin) {
@@ -47,25 +53,29 @@ HWY_INLINE LaneMask<double> far_outside(const CsgLanesSolid::Leaf& leaf, const V
     return margin < margin;
 }
 
-/// The rays for which nothing but entering the first leaf matters: it is the only one that is
-/// needed, and the others are far from where that is.
-HWY_INLINE std::uint32_t settled_by_first(const CsgLanesSolid& solid, const RayLanes& rays,
-                                          const LaneSpans& first) {
+/// Whether for each ray that crosses the first leaf nothing but where it enters it matters: that
+/// leaf is the only one that is needed, and the others are far from that place. Then `hit` is those
+/// that enter the solid.
+HWY_INLINE bool settled_by_first(const CsgLanesSolid& solid, const RayLanes& rays,
+                                 const LaneSpans& first, std::uint32_t& hit) {
+    const Apart apart(solid, rays);
     const Vec3Lanes o = load_vectors(rays.origin), d = load_vectors(rays.direction);
-    const Vec3Lanes from_center = o - solid.center;
-    // Twice what crossings that lie apart along a ray are apart in space, at least: a length of a
-    // ray is at most 1.8 times that along the axis where it is longest.
-    const Doubles margin = Doubles(4.0 * solid.apart) *
-                           (Doubles(solid.size) + largest(from_center.x, from_center.y, from_center.z));
-    LaneMask<double> settled =
-        (first.entry >= load_lanes(rays.t_min)) & (first.entry <= load_lanes(rays.t_max)) &
-        ((first.exit - first.entry) * largest(d.x, d.y, d.z) > margin);
+    const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
+    // What lies a little behind the end may be one with a crossing in front of it.
+    const LaneMask<double> beyond =
+        ((first.entry - t_max) * apart.speed > apart.length) | (first.exit < t_min);
+    // Twice what crossings that lie apart are apart in space, at least: a length of a ray is at
+    // most 1.8 times that along the axis where it is longest.
+    const Doubles margin = Doubles(4.0) * apart.length;
+    LaneMask<double> settled = (first.entry >= t_min) & (first.entry <= t_max) &
+                               ((first.exit - first.entry) * apart.speed > margin);
     const Vec3Lanes point{o.x + first.entry * d.x, o.y + first.entry * d.y,
                           o.z + first.entry * d.z};
     for (std::uint32_t i = 1; i < solid.leaf_count; ++i) {
         settled = settled & far_outside(solid.leaves[i], point, margin);
     }
-    return first.met & bits_of(settled);
+    hit = first.met & ~bits_of(beyond);
+    return (hit & ~bits_of(settled)) == 0;
 }
 
 /// The spans of the leaves that some ray meets.
@@ -139,6 +149,7 @@ HWY_INLINE void find_spans(const CsgLanesSolid::Leaf& leaf, const RayLanes& rays
 HWY_FLATTEN std::uint32_t first(const CsgLanesSolid& solid, const RayLanes& rays,
                                 std::uint32_t wanted, LaneHits& hits, CsgLanesReport& report) {
     report.unsure = report.tests = report.tests_met = 0;
+    for (std::uint32_t i = 0; i < solid.leaf_count; ++i) hwy::Prefetch(solid.leaves[i].shape);
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
     Doubles apart(0.0);
     Spans spans;
@@ -149,23 +160,27 @@ HWY_FLATTEN std::uint32_t first(const CsgLanesSolid& solid, const RayLanes& rays
         report.tests += static_cast<std::uint32_t>(std::popcount(wanted & ~found.unsure));
         report.tests_met += static_cast<std::uint32_t>(std::popcount(found.met));
         report.unsure |= found.unsure;
+        if (i == 0 && solid.begins_with_first && found.unsure == 0) {
+            if (found.met == 0) return 0;
+            std::uint32_t hit;
+            if (settled_by_first(solid, rays, found, hit)) {
+                store_lanes(found.entry, hits.t);
+                store_lanes(found.entry_part, hits.part);
+                store_lanes(Doubles(static_cast<double>(leaf.id)), hits.primitive);
+                return hit;
+            }
+        }
         if (leaf.needed) {
             if (found.met != 0) {
-                if (spans.count == 0) apart = apart_along(solid, rays);
+                if (spans.count == 0) apart = Apart(solid, rays).parameter();
                 // What lies a little behind the end may be one with a crossing in front of it.
                 found.met &= bits_of((found.entry <= t_max + apart) & (found.exit >= t_min));
             }
             wanted &= found.met | found.unsure;
             if (wanted == 0) return 0;
-            if (solid.begins_with_first && settled_by_first(solid, rays, found) == wanted) {
-                store_lanes(found.entry, hits.t);
-                store_lanes(found.entry_part, hits.part);
-                store_lanes(Doubles(static_cast<double>(leaf.id)), hits.primitive);
-                return wanted;
-            }
         }
         if (found.met != 0) {
-            if (spans.count == 0 && !leaf.needed) apart = apart_along(solid, rays);
+            if (spans.count == 0 && !leaf.needed) apart = Apart(solid, rays).parameter();
             spans.keep(i);
         }
     }

@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "alhazen/math/vec.h"
-#include "alhazen/scene/lane_hits.h"
+#include "alhazen/scene/lane_solid.h"
 
 namespace alhazen {
 
@@ -32,14 +32,15 @@ struct CsgLanesSolid {
         std::uint64_t changes = 0;
     };
     std::uint32_t leaf_count = 0;
-    Leaf leaves[kMaxLeaves];  ///< those that are needed first
     /// The first leaf is the only one that is needed, and where a ray enters it alone it enters the
     /// solid.
     bool begins_with_first = false;
+    RayMask visible_to = kAllRays;  ///< rays that see all leaves
     // What crossings must lie apart: `apart` times the sum of `size` and the distance of the
     // origin from the center along the axis where it is largest.
     Vec3 center;
     double size = 0, apart = 0;
+    Leaf leaves[kMaxLeaves];  ///< those that are needed first
 };
 
 /// What the kernel tells beside the hits.

@@ -60,6 +60,10 @@ bool CsgTruthTable::fits(const CsgSolid& solid) {
 }
 
 CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
+    // With the pointers in front of it.
+    static_assert(sizeof(LaneSolid) + sizeof(CsgEvaluator) + sizeof(first_in_lanes_) +
+                      offsetof(CsgLanesSolid, leaves) + 3 * sizeof(CsgLanesSolid::Leaf) <=
+                  kReadBytes);
     const std::vector<CsgTree::Node>& nodes = solid.tree().nodes();
     const std::vector<CsgTree::Leaf>& leaves = solid.tree().leaves();
     const auto leaf_count = static_cast<std::uint32_t>(leaves.size());
@@ -117,13 +121,13 @@ void CsgTruthTable::prepare_lanes() {
             lanes_.leaves[place_of[number]].changes |= std::uint64_t{1} << places;
         }
     }
-    lanes_.begins_with_first =
-        std::has_single_bit(needed_) && (lanes_.leaves[0].changes & 1) != 0;
+    lanes_.begins_with_first = std::has_single_bit(needed_) && (lanes_.leaves[0].changes & 1) != 0;
     lanes_.center = solid_.center();
     lanes_.size = solid_.size();
     // More than tau, for the sums that lead to it round otherwise.
     lanes_.apart = 4.0 * CsgSolid::kTolerance;
     lanes_.leaf_count = count;
+    lanes_.visible_to = solid_.table().common_mask();
     first_in_lanes_ = csg_lanes_kernel().first;
 }
 
@@ -268,26 +272,25 @@ void CsgTruthTable::fill(const CsgCrossing& crossing, Hit& hit) const {
     return true;
 }
 
-std::uint32_t CsgTruthTable::first_of_lanes(const RayLanes& rays, std::uint32_t wanted,
-                                            RayMask mask, LaneHits& hits,
-                                            TraversalStats* stats) const {
-    if (!solid_.table().all_seen(mask)) return first_of_each(rays, wanted, mask, hits, stats);
+std::uint32_t CsgTruthTable::closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
+                                              LaneHits& hits, RayQuery query) const {
+    if ((lanes_.visible_to & query.mask) == 0) return closest_of_each(rays, wanted, hits, query);
     CsgLanesReport report;
     std::uint32_t hit = first_in_lanes_(lanes_, rays, wanted, hits, report);
-    if (stats != nullptr) {
-        stats->primitive_tests += report.tests;
-        stats->primitive_hits += report.tests_met;
+    if (query.stats != nullptr) {
+        query.stats->primitive_tests += report.tests;
+        query.stats->primitive_hits += report.tests_met;
     }
-    if (report.unsure != 0) hit |= first_of_each(rays, report.unsure, mask, hits, stats);
+    if (report.unsure != 0) hit |= closest_of_each(rays, report.unsure, hits, query);
     return hit;
 }
 
-std::uint32_t CsgTruthTable::first_of_each(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
-                                           LaneHits& hits, TraversalStats* stats) const {
+std::uint32_t CsgTruthTable::closest_of_each(const RayLanes& rays, std::uint32_t wanted,
+                                             LaneHits& hits, RayQuery query) const {
     std::uint32_t hit = 0;
     for_each_lane(wanted, [&](std::size_t lane) {
         Hit alone;
-        if (!first(solid_.prepare(rays.ray(lane), mask), alone, stats)) return;
+        if (!first(solid_.prepare(rays.ray(lane), query.mask), alone, query.stats)) return;
         hits.set(lane, alone);
         hit |= 1u << lane;
     });

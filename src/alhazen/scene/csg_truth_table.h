@@ -19,7 +19,7 @@
 
 namespace alhazen {
 
-class CsgTruthTable final : public CsgEvaluator {
+class CsgTruthTable final : public LaneSolid, public CsgEvaluator {
   public:
     static constexpr std::uint32_t kMaxLeaves = 6;  ///< a table has 2^6 bits
     static constexpr std::uint32_t kMaxNodes = 8;
@@ -30,9 +30,11 @@ class CsgTruthTable final : public CsgEvaluator {
 
     bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const override;
     bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const override;
-    [[nodiscard]] bool takes_lanes() const override { return first_in_lanes_ != nullptr; }
-    std::uint32_t first_of_lanes(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
-                                 LaneHits& hits, TraversalStats* stats) const override;
+    [[nodiscard]] const LaneSolid* lane_solid() const override {
+        return first_in_lanes_ != nullptr ? this : nullptr;
+    }
+    std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted, LaneHits& hits,
+                                   RayQuery query) const override;
     [[nodiscard]] CsgSides sides(const CsgRay& ray, double t) const override;
     [[nodiscard]] std::size_t memory_bytes() const override { return sizeof(*this); }
 
@@ -56,9 +58,9 @@ class CsgTruthTable final : public CsgEvaluator {
     /// Where all leaves are convex shapes that lanes know, which stand in the frame of the solid.
     void prepare_lanes();
     void set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const;
-    /// As `first_of_lanes`, one ray after the other.
-    std::uint32_t first_of_each(const RayLanes& rays, std::uint32_t wanted, RayMask mask,
-                                LaneHits& hits, TraversalStats* stats) const;
+    /// As `closest_of_lanes`, one ray after the other.
+    std::uint32_t closest_of_each(const RayLanes& rays, std::uint32_t wanted, LaneHits& hits,
+                                  RayQuery query) const;
     Crossings cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
                     TraversalStats* stats) const;
     bool gather(const CsgRay& ray, Events& events, TraversalStats* stats) const;
@@ -67,6 +69,9 @@ class CsgTruthTable final : public CsgEvaluator {
     [[nodiscard]] std::uint32_t filling_leaf(LeafSet inside) const;
     void fill(const CsgCrossing& crossing, Hit& hit) const;
 
+    // What lanes need comes first, together.
+    decltype(CsgLanesKernel::first) first_in_lanes_ = nullptr;  ///< where lanes know all leaves
+    CsgLanesSolid lanes_;
     const CsgSolid& solid_;
     std::array<Place, kMaxLeaves> places_{};
     std::array<std::uint64_t, kMaxNodes>
@@ -74,8 +79,6 @@ class CsgTruthTable final : public CsgEvaluator {
     /// Leaves without which the solid is empty first.
     std::array<std::uint32_t, kMaxLeaves> order_{};
     LeafSet needed_ = 0;  ///< these
-    CsgLanesSolid lanes_;
-    decltype(CsgLanesKernel::first) first_in_lanes_ = nullptr;  ///< where lanes know all leaves
 };
 
 }  // namespace alhazen

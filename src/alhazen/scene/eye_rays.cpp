@@ -32,8 +32,7 @@ std::size_t rays_along(const Vec3& eye, std::span<const Vec3> vectors, Ray* rays
     for (; i + kLanes <= vectors.size(); i += kLanes) {
         auto x = t_min, y = t_min, z = t_min;
         hn::LoadInterleaved3(d, &vectors[i].x, x, y, z);
-        const auto length =
-            hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
+        const auto length = hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
         // The first four numbers of each ray, and the last four.
         HWY_ALIGN double halves[2][kLanes][4];
         hn::StoreInterleaved4(eye_x, eye_y, eye_z, hn::Div(x, length), d, halves[0][0]);

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "alhazen/scene/aggregate_of.h"
-#include "alhazen/scene/lane_hits.h"
+#include "alhazen/scene/lane_solid.h"
 #include "alhazen/scene/no_shear.h"
 #include "alhazen/scene/primitive_columns.h"
 #include "alhazen/shapes/first_hit.h"
@@ -86,16 +86,16 @@ std::uint32_t closest_of_shape(const PrimitiveTable& table, PrimitiveId id, RayL
 [[gnu::noinline]] std::uint32_t closest_of_moved(const Instance& instance, const RayLanes& rays,
                                                  std::uint32_t wanted, LaneHits& hits,
                                                  RayQuery query) {
-    return instance.aggregate->closest_of_lanes(
+    return instance.lane_solid->closest_of_lanes(
         transformed(instance.placement.inner_from_outer, rays), wanted, hits, query);
 }
 
 std::uint32_t closest_of_instance(const Instance& instance, PrimitiveId id, RayLanes& rays,
                                   std::uint32_t wanted, std::span<Hit> best, RayQuery query) {
     LaneHits hits;
-    const std::uint32_t hit =
-        instance.in_place ? instance.aggregate->closest_of_lanes(rays, wanted, hits, query)
-                          : closest_of_moved(instance, rays, wanted, hits, query);
+    const std::uint32_t hit = instance.in_place
+                                  ? instance.lane_solid->closest_of_lanes(rays, wanted, hits, query)
+                                  : closest_of_moved(instance, rays, wanted, hits, query);
     std::uint32_t changed = 0;
     for_each_lane(hit, [&](std::size_t lane) {
         Hit& b = best[lane];
@@ -117,7 +117,7 @@ std::uint32_t closest_of_instance(const Instance& instance, PrimitiveId id, RayL
 bool takes_lanes(const PrimitiveTable& table, PrimitiveId id) {
     const std::uint32_t kind = table.kind(id);
     if (kind == kTriangleKind) return false;
-    if (kind == kInstanceKind) return table.instances[table.index(id)].takes_lanes;
+    if (kind == kInstanceKind) return table.instances[table.index(id)].lane_solid != nullptr;
     return with_column(table.columns, kind, [](const auto& column) {
         return HitSideBySide<typename ShapeOfColumn<decltype(column)>::Type>;
     });
@@ -131,7 +131,7 @@ std::uint32_t closest_of_lanes(const PrimitiveTable& table, PrimitiveId id, RayL
         return closest_of_shape(table, id, rays, wanted, best, query);
     }
     const std::uint32_t first_instance = table.first(kInstanceKind);
-    if (i >= first_instance && table.instances[i - first_instance].takes_lanes) {
+    if (i >= first_instance && table.instances[i - first_instance].lane_solid != nullptr) {
         return closest_of_instance(table.instances[i - first_instance], id, rays, wanted, best,
                                    query);
     }

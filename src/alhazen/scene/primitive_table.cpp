@@ -65,7 +65,7 @@ void PrimitiveTable::finish() {
     begin_kind(triangles);
     for (Instance& instance : instances) {
         instance.in_place = instance.placement.inner_from_outer == Affine{};
-        instance.takes_lanes = instance.aggregate->takes_lanes();
+        instance.lane_solid = instance.aggregate->lane_solid();
     }
     begin_kind(instances.size());
     first_[kind] = static_cast<std::uint32_t>(next);

@@ -59,15 +59,14 @@ struct PlacedMesh {
 
 struct Instance {
     std::shared_ptr<const Aggregate> aggregate;
+    /// Of the aggregate; set by PrimitiveTable::finish, as `in_place` is.
+    const LaneSolid* lane_solid = nullptr;
+    bool in_place = false;  ///< the placement moves nothing
     Placement placement;
     std::uint32_t part = 0;  ///< number of the part that placed it
     /// What is placed is one mesh that several parts share: `part` is the mesh's own part.
     bool of_shared_mesh = false;
     RayMask visible_to = kAllRays;
-    /// The placement moves nothing; set by PrimitiveTable::finish.
-    bool in_place = false;
-    /// That of the aggregate; set by PrimitiveTable::finish.
-    bool takes_lanes = false;
 };
 
 /// The ray in the frame of what is placed.
@@ -139,6 +138,8 @@ class PrimitiveTable final : public BoundsSource {
     [[nodiscard]] RayMask visible_to(PrimitiveId id) const;
     /// True when rays of this mask see all there is.
     [[nodiscard]] bool all_seen(RayMask mask) const { return (common_mask_ & mask) != 0; }
+    /// Rays that see all there is.
+    [[nodiscard]] RayMask common_mask() const { return common_mask_; }
     [[nodiscard]] bool is_seen(PrimitiveId id, RayMask mask) const {
         return all_seen(mask) || (visible_to(id) & mask) != 0;
     }

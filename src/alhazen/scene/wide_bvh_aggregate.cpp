@@ -186,9 +186,9 @@ bool goes_one_by_one(const WideBvhLayout& layout, Coherence coherence) {
 
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                      Coherence coherence) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        hits[i] = Hit{};
-        if (unbounded_.empty() || !is_valid(rays[i])) continue;
+    for (Hit& hit : hits) hit = Hit{};
+    for (std::size_t i = 0; i < rays.size() && !unbounded_.empty(); ++i) {
+        if (!is_valid(rays[i])) continue;
         Ray shrinking = rays[i];
         const RayShear shear(shrinking.direction);
         any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {

@@ -123,8 +123,10 @@ GeometryId TracerScene::add_instance(const Tracer& inner, const GeometryOptions&
             place_of(count_));
     }
     depth_ = std::max(depth_, inner.depth_ + 1);
-    table_.instances.push_back(
-        {inner.aggregate_, {transform, inverse(transform)}, count_, false, options.visible_to});
+    table_.instances.push_back({.aggregate = inner.aggregate_,
+                                .placement = {transform, inverse(transform)},
+                                .part = count_,
+                                .visible_to = options.visible_to});
     return GeometryId{count_++};
 }
 

@@ -106,7 +106,7 @@ const CsgAggregate* solid_of(const Scene& scene) {
 int compare(const CsgAggregate& solid, const RayLanes& rays, std::uint32_t wanted,
             const std::string& at) {
     LaneHits hits;
-    const std::uint32_t hit = solid.closest_of_lanes(rays, wanted, hits, nullptr);
+    const std::uint32_t hit = solid.lane_solid()->closest_of_lanes(rays, wanted, hits, nullptr);
     EXPECT_EQ(hit & ~wanted, 0u) << at;
     for_each_lane(wanted, [&](std::size_t i) {
         Hit alone;
@@ -131,7 +131,7 @@ TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
             maker.add(solids.tree(1 + static_cast<int>(seed % 6)));
             const Scene scene = testing::compiled(maker, "event_heap");
             const CsgAggregate* solid = solid_of(scene);
-            if (solid == nullptr || !solid->takes_lanes()) continue;
+            if (solid == nullptr || solid->lane_solid() == nullptr) continue;
             ++small;
             for (int block = 0; block < 120; ++block) {
                 RayLanes rays;
@@ -202,8 +202,8 @@ TEST(CsgLanes, RaysThatEnterNearTheRimOfAHoleFindWhatEachFindsAlone) {
             for (std::size_t i = 0; i < kRayLanes; ++i) {
                 const double turn = number(4);
                 const bool at_pole = i % 4 == 0;
-                const Vec3 rim = at_pole ? Vec3{0, 0, 1}
-                                         : Vec3{0.6 * std::cos(turn), 0.6 * std::sin(turn), 0.8};
+                const Vec3 rim =
+                    at_pole ? Vec3{0, 0, 1} : Vec3{0.6 * std::cos(turn), 0.6 * std::sin(turn), 0.8};
                 const Vec3 place = (i % 2 == 0 ? Vec3{0.6, 0, 0.8} : rim) +
                                    Vec3{number(off), number(off), number(off)};
                 const Vec3 from{number(2), number(2), 3};
@@ -212,7 +212,8 @@ TEST(CsgLanes, RaysThatEnterNearTheRimOfAHoleFindWhatEachFindsAlone) {
                 rays.set(i, {from, place - from, std::min(t_min, t_max), t_max});
             }
             const std::string at = target + " block " + std::to_string(block);
-            if (drilled->takes_lanes()) hit_count += compare(*drilled, rays, kAllRayLanes, at);
+            if (drilled->lane_solid() != nullptr)
+                hit_count += compare(*drilled, rays, kAllRayLanes, at);
             hit_count += compare(*cut, rays, kAllRayLanes, at + " boxes");
         }
         EXPECT_GT(hit_count, 20000) << target;
@@ -236,12 +237,15 @@ TEST(CsgLanes, LeavesThatARayDoesNotSeeAreEmptyForIt) {
     expression.leaves = {PrimitiveId{0}, PrimitiveId{1}};
     expression.nodes = {{Combine::Difference, {CsgOperand::leaf(0), CsgOperand::leaf(1)}}};
     const CsgAggregate solid(std::move(table), std::move(expression), "event_heap");
-    if (!solid.takes_lanes()) GTEST_SKIP() << "no lanes for cylinders on this machine";
+    if (solid.lane_solid() == nullptr) GTEST_SKIP() << "no lanes for cylinders on this machine";
     RayLanes rays;
     for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, {{0, 0, 5}, {0, 0, -1}, 0, kInf});
     LaneHits hits;
-    EXPECT_EQ(solid.closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Shadow)}), 0u);
-    EXPECT_EQ(solid.closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Eye)}), 1u);
+    EXPECT_EQ(
+        solid.lane_solid()->closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Shadow)}),
+        0u);
+    EXPECT_EQ(solid.lane_solid()->closest_of_lanes(rays, 1, hits, {nullptr, mask_of(RayKind::Eye)}),
+              1u);
     EXPECT_EQ(hits.t[0], 4.0);
 }
 

@@ -58,8 +58,8 @@ class RayPacket {
     /// [x, y][group] between these, for h; and how far slopes of the group lie from it, at most.
     HWY_ALIGN float group_middle[2][kPacketGroups];
     HWY_ALIGN float group_spread[kPacketGroups];
-    float middle[2];                             ///< of all slopes, in x and in y
-    float widest = 0;                            ///< how far a slope lies beside it, at most
+    float middle[2];   ///< of all slopes, in x and in y
+    float widest = 0;  ///< how far a slope lies beside it, at most
 
     /// False when the rays are too different; then nothing else may be called. `used` has bits for
     /// the rays that are wanted; those are cleared that do not fit in, and remain to be traced in
@@ -142,6 +142,11 @@ class RayPacket {
         return ((1u << group_count) - 1) & ~bits_of(missed);
     }
 
+    /// The groups of which a ray goes as deep as that, by what orders boxes.
+    [[nodiscard]] HWY_INLINE std::uint32_t groups_reaching(float nearest) const {
+        return kAllLanes & ~bits_of(Floats(nearest) > load_lanes(group_k_max));
+    }
+
     /// The groups of which a ray may meet a ball. With C its center from P, m the middle slope of
     /// a group, q the distance of C from the line P + h (m, 1) and w the length by which slopes
     /// of the group differ from m: a ray that meets the ball does so where h is at most C_h + r,
@@ -155,8 +160,9 @@ class RayPacket {
         const Floats mx = load_lanes(group_middle[0]), my = load_lanes(group_middle[1]);
         const Floats a = neg_mul_add(h, my, y), b = neg_mul_add(h, mx, x);
         const Floats c = mul_sub(x, my, y * mx);
-        const Floats reach = mul_add(load_lanes(group_spread), Floats(std::max(deep + radius, 0.0f)),
-                                     Floats(radius + ball_slack_));
+        const Floats reach =
+            mul_add(load_lanes(group_spread), Floats(std::max(deep + radius, 0.0f)),
+                    Floats(radius + ball_slack_));
         const Floats squared = mul_add(a, a, mul_add(b, b, c * c));
         const Floats scale = mul_add(mx, mx, mul_add(my, my, Floats(1.0f)));
         return ((1u << group_count) - 1) & ~bits_of(squared > scale * (reach * reach));
@@ -314,7 +320,7 @@ struct PacketPoints {
 /// Takes as P the middle of where the rays begin or end, whichever lies closer together.
 inline bool RayPacket::find_point() {
     const std::uint32_t axes[3] = {kx, ky, kz};
-    PacketPoints begins, ends;
+    PacketPoints begins;
     GroupFloats first(0.0f), last(0.0f);
     for (std::size_t g = 0; g < group_count; ++g) {
         const RayGroup& group = groups[g];
@@ -323,10 +329,7 @@ inline bool RayPacket::find_point() {
         first = g == 0 ? s_min : min_lanes(first, s_min);
         last = g == 0 ? s_max : max_lanes(last, s_max);
         for (std::size_t k = 0; k < 3; ++k) {
-            const GroupFloats o = load_lanes<kGroupRays>(group.origin[axes[k]]);
-            const GroupFloats d = load_lanes<kGroupRays>(group.direction[axes[k]]);
-            begins.include(k, o, g == 0);
-            ends.include(k, mul_add(d, s_max, o), g == 0);
+            begins.include(k, load_lanes<kGroupRays>(group.origin[axes[k]]), g == 0);
         }
     }
     float begin_half[3], end_half[3], end[3];
@@ -338,6 +341,16 @@ inline bool RayPacket::find_point() {
     const float* half = begin_half;
     float rounding = 0;
     if (RayGroup::most_of(last) < 1e20f) {
+        PacketPoints ends;
+        for (std::size_t g = 0; g < group_count; ++g) {
+            const RayGroup& group = groups[g];
+            const GroupFloats s_max = load_lanes<kGroupRays>(group.s_max);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const GroupFloats o = load_lanes<kGroupRays>(group.origin[axes[k]]);
+                const GroupFloats d = load_lanes<kGroupRays>(group.direction[axes[k]]);
+                ends.include(k, mul_add(d, s_max, o), g == 0);
+            }
+        }
         ends.summarize(end, end_half);
         const float far = std::max({std::abs(end[0]) + end_half[0], std::abs(end[1]) + end_half[1],
                                     std::abs(end[2]) + end_half[2]});
