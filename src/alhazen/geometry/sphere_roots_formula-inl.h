@@ -53,6 +53,18 @@ inline SphereRoots<Real> sphere_roots(const SphereLine<Real>& line, const Real& 
     return {line.discriminant, fmin(big, small), fmax(big, small)};
 }
 
+/// The same, bit for bit, where the origin lies outside and the line comes towards the sphere:
+/// b < 0 and c = (f - radius) (f + radius) > 0, with f as there.
+template <class Real>
+inline SphereRoots<Real> sphere_roots_ahead(const SphereLine<Real>& line, const Real& a,
+                                            const Real& c) {
+    using std::fmin;
+    using std::sqrt;
+    const Real q = line.b - sqrt(line.discriminant * a);
+    const Real big = -(q / a);
+    return {line.discriminant, fmin(big, -(c / q)), big};
+}
+
 template <class Real>
 inline SphereRoots<Real> sphere_roots(const Real& dx, const Real& dy, const Real& dz, const Real& a,
                                       const Real& fx, const Real& fy, const Real& fz,

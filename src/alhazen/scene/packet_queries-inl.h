@@ -291,20 +291,15 @@ class PacketLeaves {
   private:
     template <class Stats>
     HWY_INLINE void visit_shape(PrimitiveId id, std::uint32_t groups, Stats stats) {
-        const LocalParameter parameter{scene_.layout->frame.scale, 0.0};
         std::uint32_t shrunk = 0;
         for (; groups != 0; groups &= groups - 1) {
             const auto g = static_cast<std::size_t>(std::countr_zero(groups));
-            RayLanes& lanes = packet_.rays[g];
-            const std::size_t first = g * kGroupRays;
-            std::uint32_t changed =
-                closest_of_lanes(*scene_.table, id, lanes, packet_.groups[g].used,
-                                 results_.subspan(first), {stats.sink(), scene_.mask});
-            if (changed != 0) shrunk |= 1u << g;
-            for (; changed != 0; changed &= changed - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(changed));
-                packet_.limit(first + lane, parameter.above(lanes.t_max[lane]));
-            }
+            const std::uint32_t changed =
+                closest_of_lanes(*scene_.table, id, packet_.rays[g], packet_.groups[g].used,
+                                 results_.subspan(g * kGroupRays), {stats.sink(), scene_.mask});
+            if (changed == 0) continue;
+            packet_.limit_group(g, scene_.layout->frame.scale);
+            shrunk |= 1u << g;
         }
         if (shrunk != 0) packet_.shrink(shrunk);
     }

@@ -102,6 +102,19 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, std::uint
     const auto line = span_lanes::sphere_line(d.x, d.y, d.z, a, f.x, f.y, f.z, radius);
     const std::uint32_t met = wanted & bits_of(line.discriminant >= zero);
     if (met == 0) return;
+    spans.entry_part = spans.exit_part = zero;
+    const Doubles distance = sqrt(dot(f, f));
+    const Doubles c = (distance - radius) * (distance + radius);
+    if ((met & ~bits_of((line.b < zero) & (c > zero))) == 0) {
+        const auto ahead = span_lanes::sphere_roots_ahead(line, a, c);
+        const std::uint32_t plain =
+            bits_of((ahead.t_near > zero) & (ahead.t_far < Doubles(kFarNumber)));
+        spans.entry = ahead.t_near;
+        spans.exit = ahead.t_far;
+        spans.met = met & plain;
+        spans.unsure = met & ~plain;
+        return;
+    }
     const auto roots = span_lanes::sphere_roots(line, a, f.x, f.y, f.z, radius);
     const Doubles &entry = roots.t_near, &exit = roots.t_far;
     // As `are_plain_roots`, but for the largest numbers.
@@ -109,7 +122,6 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, std::uint
                                 bits_of((exit < zero) | (exit > zero));
     spans.unsure = met & ~plain;
     spans.set(entry, exit, met & plain);
-    spans.entry_part = spans.exit_part = zero;
 }
 
 /// As BoxShape::intersect. What lies in the plane of a face, or along it, is asked alone.

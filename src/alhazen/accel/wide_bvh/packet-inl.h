@@ -33,6 +33,7 @@
 #include <span>
 
 #include "alhazen/accel/wide_bvh/ray_group-inl.h"
+#include "alhazen/accel/wide_bvh/slab_ray.h"
 #include "alhazen/accel/wide_bvh/wide_node.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -173,6 +174,16 @@ class RayPacket {
         float& s_max = groups[i / kGroupRays].s_max[i % kGroupRays];
         s_max = std::min(s_max, s);
     }
+    /// Nor do the rays of a group beyond their t_max, which has shrunk; `scale` is that of the
+    /// frame.
+    HWY_INLINE void limit_group(std::size_t g, double scale) {
+        if (scale == 0) return;
+        // As LocalParameter::above.
+        const Doubles t = load_lanes(rays[g].t_max) * Doubles(scale);
+        const Doubles s = t + Doubles(kLocalSlack) * abs(t);
+        const Floats above = as_floats(s + (abs(s) * Doubles(0x1p-23) + Doubles(0x1p-100)));
+        store_lanes(min_lanes(above, load_lanes(groups[g].s_max)), groups[g].s_max);
+    }
     void shrink_all() { shrink((1u << group_count) - 1); }
     /// After groups have changed: bits of those that have.
     HWY_INLINE void shrink(std::uint32_t changed) {
@@ -210,18 +221,12 @@ inline std::uint64_t RayPacket::load(const LocalFrame& frame, std::span<const Ra
     group_count = (given.size() + kGroupRays - 1) / kGroupRays;
     for (std::size_t g = 0; g < group_count; ++g) {
         const std::span<const Ray> group = given.subspan(g * kGroupRays);
-        RayLanes& lanes = rays[g];
+        if (group.size() >= kGroupRays) {
+            take_lanes(group.first<kGroupRays>(), rays[g]);
+            continue;
+        }
         for (std::size_t i = 0; i < kGroupRays; ++i) {
-            // Written out: the loops of RayLanes::set are not unrolled.
-            const Ray& ray = group[std::min(i, group.size() - 1)];
-            lanes.origin[0][i] = ray.origin.x;
-            lanes.origin[1][i] = ray.origin.y;
-            lanes.origin[2][i] = ray.origin.z;
-            lanes.direction[0][i] = ray.direction.x;
-            lanes.direction[1][i] = ray.direction.y;
-            lanes.direction[2][i] = ray.direction.z;
-            lanes.t_min[i] = ray.t_min;
-            lanes.t_max[i] = ray.t_max;
+            rays[g].set(i, group[std::min(i, group.size() - 1)]);
         }
     }
     std::uint64_t used = 0;

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "alhazen/accel/wide_bvh/local_frame.h"
 #include "alhazen/geometry/ray_lanes.h"
@@ -56,6 +57,40 @@ struct alignas(64) RayGroup {
         return hn::GetLane(hn::MinOfLanes(d, least));
     }
 };
+
+/// Eight rays side by side.
+HWY_INLINE void take_lanes(std::span<const Ray, kRayLanes> rays, RayLanes& lanes) {
+#if HWY_TARGET != HWY_SCALAR
+    const LaneTag<double> d;
+    if constexpr (hn::MaxLanes(LaneTag<double>()) == 4) {
+        // A ray is two rows of four numbers; numbers of a kind lie eight apart in `lanes`.
+        static_assert(offsetof(Ray, direction) == 3 * sizeof(double) &&
+                      offsetof(Ray, t_min) == 6 * sizeof(double));
+        static_assert(offsetof(RayLanes, direction) == 3 * kRayLanes * sizeof(double) &&
+                      offsetof(RayLanes, t_min) == 6 * kRayLanes * sizeof(double));
+        for (std::size_t i = 0; i < kRayLanes; i += 4) {
+            HWY_UNROLL(2)
+            for (std::size_t half = 0; half < 2; ++half) {
+                const auto row = [&](std::size_t k) HWY_ATTR {
+                    return hn::Load(d, &rays[i + k].origin.x + 4 * half);
+                };
+                const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+                const auto even0 = hn::InterleaveLower(d, r0, r1);
+                const auto even2 = hn::InterleaveLower(d, r2, r3);
+                const auto odd0 = hn::InterleaveUpper(d, r0, r1);
+                const auto odd2 = hn::InterleaveUpper(d, r2, r3);
+                double* const to = lanes.origin[0] + 4 * half * kRayLanes + i;
+                hn::Store(hn::ConcatLowerLower(d, even2, even0), d, to);
+                hn::Store(hn::ConcatLowerLower(d, odd2, odd0), d, to + kRayLanes);
+                hn::Store(hn::ConcatUpperUpper(d, even2, even0), d, to + 2 * kRayLanes);
+                hn::Store(hn::ConcatUpperUpper(d, odd2, odd0), d, to + 3 * kRayLanes);
+            }
+        }
+        return;
+    }
+#endif
+    for (std::size_t i = 0; i < kRayLanes; ++i) lanes.set(i, rays[i]);
+}
 
 /// Brings eight rays into the local frame, as `local_ray_nearby`; bits of those it could.
 HWY_INLINE std::uint32_t load_rays(const LocalFrame& frame, const RayLanes& rays, RayGroup& group) {
