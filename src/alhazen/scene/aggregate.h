@@ -48,7 +48,7 @@ class Aggregate {
     [[nodiscard]] virtual const PrimitiveTable& primitives() const = 0;
     /// Holds all primitives; unbounded when one of them is.
     [[nodiscard]] virtual Box3 box() const = 0;
-    /// Holds them too, and so may be the closer of the two; by default the one around the box.
+    /// A sphere that holds them; by default the one around the box.
     [[nodiscard]] virtual BoundingSphere sphere() const;
     /// Bytes of the acceleration structure, nested aggregates not included.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;

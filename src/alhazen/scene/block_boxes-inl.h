@@ -34,7 +34,7 @@ class BlockBoxes {
         const Floats half[3] = {radius, radius, radius};
         set(block.center, half, radius);
     }
-    /// Slabs that do not stand across each other (of what is sheared) are not bounded here.
+    /// Of slabs that do not stand across each other (of what is sheared) the box around the ball.
     HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {
         constexpr float kAcross = 0x1p-19f;
         Floats direction[3][3];
@@ -66,7 +66,7 @@ class BlockBoxes {
 
     /// What is around one shape.
     struct Bounds {
-        float lo[3], hi[3];         ///< the box
+        float lo[3], hi[3];       ///< the box
         float center[3], radius;  ///< the ball
     };
     [[nodiscard]] HWY_INLINE Bounds bounds(std::size_t lane) const {

@@ -55,14 +55,15 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         while (rest != 0) {
             RayPacket packet;
             std::uint64_t used = rest;
-            if (!packet.make(layout.frame, rays.subspan(i, count), used)) break;
+            const bool made = packet.make(layout.frame, rays.subspan(i, count), used);
+            if (used == 0) break;  // none can be used
             rest &= ~used;
             alone |= used;
-            if (std::popcount(used) < kFewRays) continue;
+            if (!made || std::popcount(used) < kFewRays) continue;
             ClosestPacket leaves(scene, rays.subspan(i, count), results.subspan(i, count), packet);
             if (!traverse_packet(layout.tree.nodes.data(), layout.tree.root, places, packet, leaves,
                                  stats)) {
-                break;
+                continue;
             }
             leaves.finish(stats);
             alone &= ~used;

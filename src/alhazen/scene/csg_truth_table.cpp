@@ -121,7 +121,8 @@ void CsgTruthTable::prepare_lanes() {
             lanes_.leaves[place_of[number]].changes |= std::uint64_t{1} << places;
         }
     }
-    lanes_.begins_with_first = std::has_single_bit(needed_) && (lanes_.leaves[0].changes & 1) != 0;
+    lanes_.begins_with_first =
+        std::has_single_bit(needed_) && (lanes_.leaves[0].changes & 1) != 0 && !has_huge_leaf();
     lanes_.center = solid_.center();
     lanes_.size = solid_.size();
     // More than tau, for the sums that lead to it round otherwise.
@@ -129,6 +130,17 @@ void CsgTruthTable::prepare_lanes() {
     lanes_.leaf_count = count;
     lanes_.visible_to = solid_.table().common_mask();
     first_in_lanes_ = csg_lanes_kernel().first;
+}
+
+/// Whether a leaf is so much larger than the solid that the rounding of where it is crossed, 2^-48
+/// of its size at most, is not small beside what crossings of the solid lie apart.
+bool CsgTruthTable::has_huge_leaf() const {
+    constexpr double kHuge = 0x1p10;
+    const std::vector<PrimitiveId>& leaves = solid_.expression().leaves;
+    return std::any_of(leaves.begin(), leaves.end(), [&](PrimitiveId leaf) {
+        const Vec3 size = solid_.table().box(static_cast<std::size_t>(leaf)).size();
+        return !(max_component(size) <= kHuge * solid_.size());
+    });
 }
 
 /// Only of shapes that stand in the frame of the solid.

@@ -57,6 +57,7 @@ class CsgTruthTable final : public LaneSolid, public CsgEvaluator {
 
     /// Where all leaves are convex shapes that lanes know, which stand in the frame of the solid.
     void prepare_lanes();
+    [[nodiscard]] bool has_huge_leaf() const;
     void set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const;
     /// As `closest_of_lanes`, one ray after the other.
     std::uint32_t closest_of_each(const RayLanes& rays, std::uint32_t wanted, LaneHits& hits,

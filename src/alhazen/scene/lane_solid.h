@@ -2,9 +2,9 @@
 /// A solid that eight rays that lie side by side are tested with at once, faster than one after the
 /// other.
 ///
-/// Conventions: numbers of the hits are doubles, for they are found in lanes of these; u and v are
-/// 0, as of all shapes that are met so. Bit i of a set of rays stands for lane i.
-/// Threads: const functions may be called from many threads.
+/// Source: none. Differs: nothing. Conventions: numbers of the hits are doubles, for they are found
+/// in lanes of these; u and v are 0, as of all shapes that are met so. Bit i of a set of rays
+/// stands for lane i. Threads: const functions may be called from many threads.
 
 #include <cstddef>
 #include <cstdint>

@@ -143,9 +143,8 @@ double half_of(const SlantedBounds& bounds, const BoxBlock& block, std::size_t l
                const LocalFrame& frame) {
     const auto& d = block.direction[slab];
     const Vec3 along{d[0][lane], d[1][lane], d[2][lane]};
-    const double half =
-        largest_of_corners(bounds, center_of(block, lane), frame,
-                           [&](const Vec3& p) { return std::abs(dot(along, p)); });
+    const double half = largest_of_corners(bounds, center_of(block, lane), frame,
+                                           [&](const Vec3& p) { return std::abs(dot(along, p)); });
     return kMore * (half + dot(abs(along), frame.scale * bounds.pad));
 }
 
@@ -154,9 +153,9 @@ double half_of(const SlantedBounds& bounds, const BoxBlock& block, std::size_t l
 double radius_of(const SlantedBounds& bounds, const BoundingSphere& sphere, const BoxBlock& block,
                  std::size_t lane, const LocalFrame& frame) {
     const Vec3 center = center_of(block, lane);
-    const double of_body = largest_of_corners(bounds, center, frame,
-                                              [](const Vec3& p) { return length(p); }) +
-                           length(frame.scale * bounds.pad);
+    const double of_body =
+        largest_of_corners(bounds, center, frame, [](const Vec3& p) { return length(p); }) +
+        length(frame.scale * bounds.pad);
     const double of_sphere =
         length(frame.local(sphere.center) - center) + frame.scale * sphere.radius;
     // Written so that a NaN is never taken.
@@ -172,8 +171,8 @@ void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const Primiti
         const Vec3 middle =
             bounds.corner + 0.5 * bounds.edge[0] + 0.5 * bounds.edge[1] + 0.5 * bounds.edge[2];
         set_point(block.center, lane, frame.local(middle));
-        block.radius[lane] =
-            round_up(radius_of(bounds, table.sphere(static_cast<std::size_t>(id)), block, lane, frame));
+        block.radius[lane] = round_up(
+            radius_of(bounds, table.sphere(static_cast<std::size_t>(id)), block, lane, frame));
         for (int slab = 0; slab < 3; ++slab) {
             set_point(block.direction[slab], lane, bounds.direction[slab]);
             block.half[slab][lane] = round_up(half_of(bounds, block, lane, slab, frame));

@@ -155,8 +155,8 @@ class PrimitiveTable final : public BoundsSource {
     // ---- bounds; empty for what cannot be hit: a triangle with two equal vertices
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
-    /// Exact for spheres that are not placed, except for rounding; of an instance that of what is
-    /// in it.
+    /// Exact for spheres that are not placed, except for rounding; of an instance
+    /// the smaller one of that of what is in it and that around its box.
     [[nodiscard]] BoundingSphere sphere(std::size_t i) const override;
     /// Exact for triangles and for spheres that are not placed (their surface, which is all that
     /// rays meet), except for rounding.

@@ -27,6 +27,9 @@ void add_body(Checksum& sum, const PrimitiveTable& table, PrimitiveId id) {
         const SlantedBounds bounds = slanted_bounds(table, id);
         add(sum, bounds.corner);
         for (const Vec3& edge : bounds.edge) add(sum, edge);
+        const BoundingSphere sphere = table.sphere(static_cast<std::size_t>(id));
+        add(sum, sphere.center);
+        sum.add(sphere.radius);
     }
 }
 

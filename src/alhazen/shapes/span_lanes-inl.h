@@ -49,8 +49,8 @@ HWY_INLINE Doubles dot(const Vec3& a, const Vec3Lanes& b) {
     return Doubles(a.x) * b.x + Doubles(a.y) * b.y + Doubles(a.z) * b.z;
 }
 
-/// Those of points that lie outside of a shape and farther than `margin` from it; of some that do
-/// nothing may be said, and a NaN never does.
+/// Those of points that lie outside of a shape and farther than `margin` from it; some that do may
+/// be missing. Points must be finite.
 HWY_INLINE LaneMask<double> far_outside(const Sphere& sphere, const Vec3Lanes& point,
                                         const Doubles& margin) {
     const Vec3Lanes p = point - sphere.center;

@@ -120,7 +120,7 @@ std::shared_ptr<const Aggregate> nest(const std::string& outer, const std::strin
         placement.outer_from_inner.linear = {{0.2, 0, 0}, {0, 0.1, 0.1}, {0, -0.1, 0.1}};
         placement.outer_from_inner.translation = uniform_point(random, 1);
         placement.inner_from_outer = inverse(placement.outer_from_inner);
-        builder.table.instances.push_back({placed, placement});
+        builder.table.instances.push_back({.aggregate = placed, .placement = placement});
     }
     builder.add_sphere({0, 0, 0}, 0.4);
     return make_aggregate(outer, builder.finish());

@@ -240,7 +240,7 @@ TEST(CoherentBatch, NestedAggregatesGiveTheHitsOfNestedLists) {
             placement.outer_from_inner.linear = {{0.2, 0, 0}, {0, 0.1, 0.1}, {0, -0.1, 0.1}};
             placement.outer_from_inner.translation = uniform_point(random, 1);
             placement.inner_from_outer = inverse(placement.outer_from_inner);
-            builder.table.instances.push_back({inner, placement});
+            builder.table.instances.push_back({.aggregate = inner, .placement = placement});
         }
         for (int i = 0; i < 100; ++i) {
             const Vec3 a = uniform_point(random, 1);

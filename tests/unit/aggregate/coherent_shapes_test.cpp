@@ -61,29 +61,27 @@ TEST(CoherentShapes, SmallSolidsAreHitAsByTheList) {
 }
 
 TEST(CoherentShapes, RaysThatTouchBallsHitWhatTheListHits) {
-    // Groups of eight rays as narrow as can be, past the very limb of solids and of their bounds.
+    // Packets around one solid each, whose groups of eight rays go as narrow as can be past the
+    // very limb of the ball around it.
     const PrimitiveTable table = small_solids(5, false);
     RandomStream random(6);
-    const Vec3 eye{0.2, -0.3, 3.5};
-    std::vector<std::size_t> solids;
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        if (table.kind(PrimitiveId{static_cast<std::uint32_t>(i)}) == kInstanceKind) {
-            solids.push_back(i);
-        }
-    }
     for (const double off : {1e-2, 1e-5, 1e-7, 1e-9, 1e-14}) {
         Rays rays;
-        for (int i = 0; i < 600; ++i) {
-            const BoundingSphere ball = table.sphere(solids[static_cast<std::size_t>(i) % solids.size()]);
+        for (std::size_t i = table.first(kInstanceKind); i < table.size(); ++i) {
+            const BoundingSphere ball = table.sphere(i);
+            const Vec3 eye = ball.center + Vec3{random.uniform(-1, 1), random.uniform(-1, 1), 3};
             const Vec3 to = ball.center - eye;
-            const Vec3 across = perpendicular(normalize(to));
-            const double turn = random.uniform(0, 7), sine = ball.radius / length(to);
-            const Vec3 limb =
-                std::cos(turn) * across + std::sin(turn) * cross(normalize(to), across);
-            for (int k = 0; k < 8; ++k) {
-                const double reach = sine / std::sqrt(1 - sine * sine) * (1 + random.uniform(-off, off));
-                rays.push_back({eye, normalize(to) + reach * limb, 0,
-                                std::numeric_limits<double>::infinity()});
+            const Vec3 ahead = normalize(to), across = perpendicular(ahead);
+            const double sine = ball.radius / length(to);
+            for (int group = 0; group < 8; ++group) {
+                const double turn = random.uniform(0, 7);
+                const Vec3 limb = std::cos(turn) * across + std::sin(turn) * cross(ahead, across);
+                for (int k = 0; k < 8; ++k) {
+                    const double reach =
+                        sine / std::sqrt(1 - sine * sine) * (1 + random.uniform(-off, off));
+                    rays.push_back(
+                        {eye, ahead + reach * limb, 0, std::numeric_limits<double>::infinity()});
+                }
             }
         }
         compare("limbs, off by " + std::to_string(off), table, rays);

@@ -207,7 +207,7 @@ std::shared_ptr<const Aggregate> nest(const char* accelerator, bool masks) {
             placement.outer_from_inner.linear = {{0.5, 0, 0}, {0, 0.4, 0.3}, {0, -0.3, 0.4}};
             placement.outer_from_inner.translation = uniform_point(random, 1);
             placement.inner_from_outer = inverse(placement.outer_from_inner);
-            table.instances.push_back({inner, placement});
+            table.instances.push_back({.aggregate = inner, .placement = placement});
         }
         table.finish();
         Random mask(11);

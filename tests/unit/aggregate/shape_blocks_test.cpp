@@ -204,7 +204,7 @@ TEST(ShapeBlocksMixture, OfTurnedInstancesGivesTheHitsOfNestedLists) {
             Placement placement = some_placement(places);
             placement.outer_from_inner.translation = places.in_cube(100);
             placement.inner_from_outer = inverse(placement.outer_from_inner);
-            table.instances.push_back({inner, placement});
+            table.instances.push_back({.aggregate = inner, .placement = placement});
         }
         return finished(std::move(table));
     };

@@ -11,6 +11,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/scene/wide_bvh_aggregate.h"
+#include "support/scene_maker.h"
 #include "support/scratch_folder.h"
 #include "unit/aggregate/random_tables.h"
 
@@ -211,6 +212,31 @@ TEST(WideBvhFile, OtherGeometryIsRefused) {
             << number;
         ++number;
     }
+}
+
+TEST(WideBvhFile, SolidsThatOtherSpheresHoldAreRefused) {
+    // In the same box: of one the leaves know a smaller ball.
+    const auto solids = [](Combine combine) {
+        testing::SceneMaker maker;
+        maker.material({});
+        const ObjectIndex object = maker.object("solid");
+        maker.description().objects[static_cast<std::size_t>(object)].combine = combine;
+        maker.add(BoxShape{{-1, -1, -1}, {1, 1, 1}}, MaterialId{0}, {}, object);
+        maker.add(Sphere{{0, 0, 0}, 1.1}, MaterialId{0}, {}, object);
+        for (const double x : {-3.0, 3.0}) {
+            maker.add(object, MaterialId{0}, Affine::translate({x, 0, 0}));
+        }
+        return maker.compile().aggregate->primitives();
+    };
+    const ScratchFolder folder;
+    const auto path = folder.path() / "tree";
+    const PrimitiveTable rounded = solids(Combine::Intersection);
+    WideBvhAggregate(rounded).save(path);
+    EXPECT_EQ(refusal(rounded, path), "");
+    const PrimitiveTable hollow = solids(Combine::Difference);
+    EXPECT_EQ(rounded.box(0), hollow.box(0));
+    EXPECT_LT(rounded.sphere(0).radius, hollow.sphere(0).radius);
+    EXPECT_NE(refusal(hollow, path).find("other geometry"), std::string::npos);
 }
 
 /// A tree that someone forges: saved as it is, so that its checksum is right.

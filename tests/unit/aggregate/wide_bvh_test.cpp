@@ -348,7 +348,8 @@ TEST(WideBvh, NestedAggregatesGiveTheHitsOfNestedLists) {
             placement.outer_from_inner.linear = {{0.2, 0, 0}, {0, 0.1, 0.1}, {0, -0.1, 0.1}};
             placement.outer_from_inner.translation = uniform_point(random, 1);
             placement.inner_from_outer = inverse(placement.outer_from_inner);
-            builder.table.instances.push_back({i % 5 == 0 ? nothing : inner, placement});
+            builder.table.instances.push_back(
+                {.aggregate = i % 5 == 0 ? nothing : inner, .placement = placement});
         }
         builder.add_sphere({0, 0, 0}, 0.4);
         return make_aggregate(name, builder.finish());

@@ -99,10 +99,10 @@ TEST(EyeRays, AreThoseOfTheFormulaOfTheirCamera) {
         const OrthographicCamera o{vec(), vec(), vec(), vec()};
         const double x = number(random), y = number(random);
         const EyeRays a{Camera(p)}, b{Camera(o)};
-        const Ray ray = a.ray(a.column(x), a.row(y));
+        const Ray ray = a.ray(a.column(x) + a.row(y));
         EXPECT_EQ(ray.origin, p.eye);
         EXPECT_EQ(ray.direction, normalize(p.look + (x - 0.5) * p.right + (y - 0.5) * p.up));
-        const Ray parallel = b.ray(b.column(x), b.row(y));
+        const Ray parallel = b.ray(b.column(x) + b.row(y));
         EXPECT_EQ(parallel.origin, o.origin + (x - 0.5) * o.right + (y - 0.5) * o.up);
         EXPECT_EQ(parallel.direction, normalize(o.direction));
     }

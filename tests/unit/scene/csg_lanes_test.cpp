@@ -3,6 +3,9 @@
 #include "alhazen/scene/csg_lanes.h"
 
 #include <bit>
+#include <cmath>
+#include <memory>
+#include <vector>
 
 #include "alhazen/scene/csg_aggregate.h"
 #include "alhazen/simd/targets.h"
@@ -182,41 +185,51 @@ std::unique_ptr<CsgAggregate> sphere_without(std::size_t others, auto&& add_othe
 }
 
 // Where a ray enters the sphere is all that matters unless a surface of the others is near there.
+// All lanes hold one ray, for they are settled together or not at all.
 TEST(CsgLanes, RaysThatEnterNearTheRimOfAHoleFindWhatEachFindsAlone) {
-    const auto drilled = sphere_without(1, [](auto&& add) {
-        add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.6});
-    });
-    // The sphere touches one box from inside, and another box's corner is on it.
-    const auto cut = sphere_without(2, [](auto&& add) {
-        add(BoxShape{{-2, -2, 1}, {2, 2, 2}});
-        add(BoxShape{{0.6, 0, 0.8}, {2, 2, 2}});
-    });
     for (const std::string& target : simd_targets()) {
+        // Solids choose their kernels where they are made.
         const SimdTargetOverride forced(target);
+        std::vector<std::unique_ptr<CsgAggregate>> solids;
+        solids.push_back(sphere_without(1, [](auto&& add) {
+            add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.6});
+        }));
+        // The sphere touches one box from inside, and another box's corner is on it.
+        solids.push_back(sphere_without(2, [](auto&& add) {
+            add(BoxShape{{-2, -2, 1}, {2, 2, 2}});
+            add(BoxShape{{0.6, 0, 0.8}, {2, 2, 2}});
+        }));
+        // Spheres of any size through the circle z = 0.8: the larger they are, the more the place
+        // where they are crossed is rounded.
+        for (const double radius : {1.0, 1e3, 1e5, 1e8, 1e11}) {
+            solids.push_back(sphere_without(1, [&](auto&& add) {
+                add(Sphere{{0, 0, 0.8 + std::sqrt(radius * radius - 0.36)}, radius});
+            }));
+        }
         Random random(11);
         const auto number = [&](double size) { return random.uniform(-size, size); };
-        int hit_count = 0;
-        for (int block = 0; block < 4000 && !::testing::Test::HasFailure(); ++block) {
-            const double off = std::pow(10.0, -0.005 * block);
+        int hit_count = 0, asked = 0;
+        for (int block = 0; block < 16000 && !::testing::Test::HasFailure(); ++block) {
+            const double off = std::pow(10.0, -0.001 * block);
+            const double turn = number(4);
+            const Vec3 places[] = {
+                {0, 0, 1}, {0.6, 0, 0.8}, {0.6 * std::cos(turn), 0.6 * std::sin(turn), 0.8}};
+            const Vec3 place = places[block % 3] + Vec3{number(off), number(off), number(off)};
+            const Vec3 from{number(2), number(2), 3};
+            Ray ray{from, place - from, block % 5 == 0 ? 1.0 + number(off) : 0.0, kInf};
+            if (block % 7 == 0) ray.t_max = std::max(ray.t_min, 1.0 + number(off));
             RayLanes rays;
-            for (std::size_t i = 0; i < kRayLanes; ++i) {
-                const double turn = number(4);
-                const bool at_pole = i % 4 == 0;
-                const Vec3 rim =
-                    at_pole ? Vec3{0, 0, 1} : Vec3{0.6 * std::cos(turn), 0.6 * std::sin(turn), 0.8};
-                const Vec3 place = (i % 2 == 0 ? Vec3{0.6, 0, 0.8} : rim) +
-                                   Vec3{number(off), number(off), number(off)};
-                const Vec3 from{number(2), number(2), 3};
-                const double t_min = i % 3 == 0 ? 1.0 + number(off) : 0.0;
-                const double t_max = i % 5 == 0 ? 1.0 + number(off) : kInf;
-                rays.set(i, {from, place - from, std::min(t_min, t_max), t_max});
+            for (std::size_t i = 0; i < kRayLanes; ++i) rays.set(i, ray);
+            for (std::size_t i = 0; i < solids.size(); ++i) {
+                if (solids[i]->lane_solid() == nullptr) continue;
+                ++asked;
+                hit_count += compare(
+                    *solids[i], rays, kAllRayLanes,
+                    target + " block " + std::to_string(block) + " solid " + std::to_string(i));
             }
-            const std::string at = target + " block " + std::to_string(block);
-            if (drilled->lane_solid() != nullptr)
-                hit_count += compare(*drilled, rays, kAllRayLanes, at);
-            hit_count += compare(*cut, rays, kAllRayLanes, at + " boxes");
         }
-        EXPECT_GT(hit_count, 20000) << target;
+        EXPECT_GT(hit_count, 2 * asked) << target;
+        EXPECT_GT(asked, 60000) << target;
     }
 }
 

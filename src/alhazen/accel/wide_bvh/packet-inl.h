@@ -182,7 +182,9 @@ class RayPacket {
         const Doubles t = load_lanes(rays[g].t_max) * Doubles(scale);
         const Doubles s = t + Doubles(kLocalSlack) * abs(t);
         const Floats above = as_floats(s + (abs(s) * Doubles(0x1p-23) + Doubles(0x1p-100)));
-        store_lanes(min_lanes(above, load_lanes(groups[g].s_max)), groups[g].s_max);
+        const Floats s_max = load_lanes(groups[g].s_max);
+        // A NaN, of a ray that is not used, changes nothing.
+        store_lanes(select_lanes(above < s_max, above, s_max), groups[g].s_max);
     }
     void shrink_all() { shrink((1u << group_count) - 1); }
     /// After groups have changed: bits of those that have.
