@@ -14,6 +14,7 @@
 #include <bit>
 #include <span>
 
+#include "alhazen/accel/wide_bvh/make_packet-inl.h"
 #include "alhazen/accel/wide_bvh/traverse_packet-inl.h"
 #include "alhazen/scene/packet_queries-inl.h"
 
