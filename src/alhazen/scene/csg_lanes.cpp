@@ -1,7 +1,5 @@
 #include "alhazen/scene/csg_lanes.h"
 
-#include <hwy/cache_control.h>
-
 #include <bit>
 #include <limits>
 
@@ -149,7 +147,6 @@ HWY_INLINE void find_spans(const CsgLanesSolid::Leaf& leaf, const RayLanes& rays
 HWY_FLATTEN std::uint32_t first(const CsgLanesSolid& solid, const RayLanes& rays,
                                 std::uint32_t wanted, LaneHits& hits, CsgLanesReport& report) {
     report.unsure = report.tests = report.tests_met = 0;
-    for (std::uint32_t i = 0; i < solid.leaf_count; ++i) hwy::Prefetch(solid.leaves[i].shape);
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
     Doubles apart(0.0);
     Spans spans;

@@ -5,9 +5,8 @@
 /// where a leaf is crossed is a comparison with the ends of the others' spans, so nothing is
 /// sorted; where all rays enter the leaf without which there is nothing far from the others, these
 /// are not crossed at all, nor counted; crossings that lie nearly together are left to the scalar
-/// text. Conventions: internal
-/// to this folder. Bit i of a set of lanes stands for lane i. Every target gives the bits of the
-/// scalar text.
+/// text. Conventions: internal to this folder. Bit i of a set of lanes stands for lane i. Every
+/// target gives the bits of the scalar text.
 
 #include <cstdint>
 

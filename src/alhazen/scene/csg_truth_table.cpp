@@ -60,10 +60,6 @@ bool CsgTruthTable::fits(const CsgSolid& solid) {
 }
 
 CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
-    // With the pointers in front of it.
-    static_assert(sizeof(LaneSolid) + sizeof(CsgEvaluator) + sizeof(first_in_lanes_) +
-                      offsetof(CsgLanesSolid, leaves) + 3 * sizeof(CsgLanesSolid::Leaf) <=
-                  kReadBytes);
     const std::vector<CsgTree::Node>& nodes = solid.tree().nodes();
     const std::vector<CsgTree::Leaf>& leaves = solid.tree().leaves();
     const auto leaf_count = static_cast<std::uint32_t>(leaves.size());

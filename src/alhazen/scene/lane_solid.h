@@ -41,8 +41,6 @@ class LaneSolid {
     /// others may hold anything.
     virtual std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
                                            LaneHits& hits, RayQuery query) const = 0;
-    /// So much from its beginning on is read for every ray: to fetch it ahead of use.
-    static constexpr std::size_t kReadBytes = 256;
 };
 
 }  // namespace alhazen

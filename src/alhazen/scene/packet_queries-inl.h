@@ -254,20 +254,9 @@ class PacketLeaves {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
             const BlockBoxes boxes(*blocks);
             Floats nearest;
-            const std::uint32_t met = packet_.meet_boxes(boxes.rows(), nearest);
+            std::uint32_t rest = packet_.meet_boxes(boxes.rows(), nearest);
             HWY_ALIGN float depth[kBlockWidth];
             store_lanes(nearest, depth);
-            std::uint32_t groups[kBlockWidth], rest = 0;
-            for (std::uint32_t lanes = met; lanes != 0; lanes &= lanes - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-                if (!blocks->ids[lane].used()) continue;
-                const BlockBoxes::Bounds b = boxes.bounds(lane);
-                groups[lane] = packet_.meet_groups(b.lo, b.hi);
-                if (groups[lane] != 0) groups[lane] &= packet_.meet_ball(b.center, b.radius);
-                if (groups[lane] == 0) continue;
-                rest |= 1u << lane;
-                prefetch_lanes(*scene_.table, blocks->ids[lane].id());
-            }
             while (rest != 0) {
                 auto lane = static_cast<std::size_t>(std::countr_zero(rest));
                 for (std::uint32_t others = rest & (rest - 1); others != 0; others &= others - 1) {
@@ -275,8 +264,11 @@ class PacketLeaves {
                     if (depth[other] < depth[lane]) lane = other;
                 }
                 rest &= ~(1u << lane);
-                visit_shape(blocks->ids[lane].id(),
-                            groups[lane] & packet_.groups_reaching(depth[lane]), stats);
+                if (!blocks->ids[lane].used()) continue;
+                const BlockBoxes::Bounds b = boxes.bounds(lane);
+                std::uint32_t groups = packet_.meet_groups(b.lo, b.hi);
+                if (groups != 0) groups &= packet_.meet_ball(b.center, b.radius);
+                visit_shape(blocks->ids[lane].id(), groups, stats);
             }
         }
     }

@@ -56,7 +56,8 @@ class RayPacket {
     HWY_ALIGN float slope_lo[2][kPacketGroups];
     HWY_ALIGN float slope_hi[2][kPacketGroups];
     HWY_ALIGN float group_k_max[kPacketGroups];  ///< no ray of the group needs to go deeper
-    /// [x, y][group] between these, for h; and how far slopes of the group lie from it, at most.
+    /// [x, y][group] the middle of these, with the sign that it has for h; and how far slopes of
+    /// the group lie from it, at most.
     HWY_ALIGN float group_middle[2][kPacketGroups];
     HWY_ALIGN float group_spread[kPacketGroups];
     float middle[2];   ///< of all slopes, in x and in y
@@ -64,7 +65,7 @@ class RayPacket {
 
     /// False when the rays are too different; then nothing else may be called. `used` has bits for
     /// the rays that are wanted; those are cleared that do not fit in, and remain to be traced in
-    /// another way.
+    /// another way: those that cannot be used or go another way than the first, in either case.
     [[nodiscard]] bool make(const LocalFrame& frame, std::span<const Ray> given,
                             std::uint64_t& used);
     /// Lanes that need not go any further.
@@ -126,11 +127,6 @@ class RayPacket {
             missed = missed | (above > zero) | (below < zero);
         }
         return ((1u << group_count) - 1) & ~bits_of(missed);
-    }
-
-    /// The groups of which a ray goes as deep as that, by what orders boxes.
-    [[nodiscard]] HWY_INLINE std::uint32_t groups_reaching(float nearest) const {
-        return kAllLanes & ~bits_of(Floats(nearest) > load_lanes(group_k_max));
     }
 
     /// The groups of which a ray may meet a ball. With C its center from P, m the middle slope of
