@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
 #include "alhazen/base/file.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/scene/bounded_primitives.h"
-#include "alhazen/scene/leaf_blocks.h"
+#include "alhazen/primitives/bounded_primitives.h"
 #include "alhazen/session/stopwatch.h"
 #include "command_line.h"
 #include "kernel_scenes.h"

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "alhazen/shapes/cylinder.h"
+#include "alhazen/shapes/quadrics/cylinder.h"
 
 namespace alhazen::bench {
 

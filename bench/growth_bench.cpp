@@ -50,7 +50,7 @@ std::vector<Point> measure_size(double wanted, const Settings& settings) {
     std::vector<Point> points;
     for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
         if (set.name != "shuffled" && set.name != "lines") continue;
-        std::vector<Tracer> tracers{
+        std::vector<Contender> tracers{
             {"wide_bvh", "single", {}, [&] { return trace_single(*aggregate, set); }, {}},
             {"wide_bvh", "batch", {}, [&] { return trace_batches(*aggregate, set); }, {}}};
 #ifdef ALHAZEN_HAVE_EMBREE

@@ -58,15 +58,15 @@ class Peers {
 #endif
 };
 
-std::vector<Tracer> our_tracers(const Aggregate& aggregate, const Aggregate& fast,
-                                const RaySet& set) {
+std::vector<Contender> our_tracers(const Aggregate& aggregate, const Aggregate& fast,
+                                   const RaySet& set) {
     return {{kOurs, "single", {}, [&] { return trace_single(aggregate, set); }, {}},
             {kOurs, "batch", {}, [&] { return trace_batches(aggregate, set); }, {}},
             {kOursFast, "single", {}, [&] { return trace_single(fast, set); }, {}},
             {kOursFast, "batch", {}, [&] { return trace_batches(fast, set); }, {}}};
 }
 
-void add_masked(const Aggregate& masked, const RaySet& set, std::vector<Tracer>& tracers) {
+void add_masked(const Aggregate& masked, const RaySet& set, std::vector<Contender>& tracers) {
     tracers.push_back(
         {kOursMasked, "single", {}, [&] { return trace_single(masked, set, kSeeing); }, {}});
     tracers.push_back(
@@ -76,7 +76,8 @@ void add_masked(const Aggregate& masked, const RaySet& set, std::vector<Tracer>&
 #ifdef ALHAZEN_HAVE_EMBREE
 /// All ways to trace the set in Embree; packets share the rays in their form.
 void add_peers(const Peers& peers, const RaySet& set,
-               std::vector<std::unique_ptr<EmbreePackets>>& packets, std::vector<Tracer>& tracers) {
+               std::vector<std::unique_ptr<EmbreePackets>>& packets,
+               std::vector<Contender>& tracers) {
     for (const int width : kPacketWidths) {
         packets.push_back(make_embree_packets(set, width));
         EmbreePackets* rays = packets.back().get();
@@ -111,7 +112,7 @@ SceneResult run(const KernelScene& scene, const Settings& settings) {
     for (const RaySet& set : ray_sets(scene, *aggregate, settings.side)) {
         if (!settings.only.empty() && set.name != settings.only) continue;
         if (set.rays.empty()) continue;
-        std::vector<Tracer> tracers = our_tracers(*aggregate, *fast, set);
+        std::vector<Contender> tracers = our_tracers(*aggregate, *fast, set);
         if (masked != nullptr) add_masked(*masked, set, tracers);
 #ifdef ALHAZEN_HAVE_EMBREE
         std::vector<std::unique_ptr<EmbreePackets>> packets;

@@ -4,9 +4,9 @@
 #include <numbers>
 #include <utility>
 
-#include "alhazen/math/random.h"
-#include "alhazen/scene/camera.h"
-#include "alhazen/scene/surface.h"
+#include "alhazen/cameras/camera.h"
+#include "alhazen/primitives/surface.h"
+#include "alhazen/sampling/random.h"
 #include "mesh_makers.h"
 
 namespace alhazen::bench {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/scene/aggregate.h"
+#include "alhazen/primitives/aggregate.h"
 #include "kernel_scenes.h"
 
 namespace alhazen::bench {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "alhazen/base/error.h"
-#include "alhazen/importers/mesh_io.h"
+#include "alhazen/formats/mesh_files/mesh_io.h"
 #include "mesh_makers.h"
 
 namespace alhazen::bench {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/shapes/cylinder.h"
-#include "alhazen/shapes/sphere.h"
-#include "alhazen/shapes/triangle_mesh.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
+#include "alhazen/shapes/quadrics/cylinder.h"
+#include "alhazen/shapes/quadrics/sphere.h"
 
 namespace alhazen::bench {
 

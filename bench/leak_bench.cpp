@@ -11,7 +11,7 @@
 #include <mutex>
 
 #include "alhazen/base/file.h"
-#include "alhazen/importers/mesh_io.h"
+#include "alhazen/formats/mesh_files/mesh_io.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/stopwatch.h"
 #include "command_line.h"
@@ -35,7 +35,7 @@ constexpr std::size_t kBlock = 4096;
 constexpr std::size_t kShown = 5;
 
 /// Counts the rays of the list that hit nothing.
-struct LeakTracer {
+struct LeakContender {
     std::string name;
     std::function<std::size_t(RaySet&)> count_misses;
     bool is_ours = false;
@@ -50,7 +50,7 @@ struct LeakRow {
         : mesh(std::move(name)), kind(k), rays(tracers), misses(tracers), nanoseconds(tracers) {}
 };
 
-std::vector<LeakTracer> our_tracers(const Aggregate& aggregate) {
+std::vector<LeakContender> our_tracers(const Aggregate& aggregate) {
     const auto batch = [&aggregate](bool any_hit) {
         return [&aggregate, any_hit](RaySet& set) {
             set.any_hit = any_hit;
@@ -61,7 +61,7 @@ std::vector<LeakTracer> our_tracers(const Aggregate& aggregate) {
 }
 
 #ifdef ALHAZEN_HAVE_EMBREE
-LeakTracer embree_tracer(const EmbreeScene& scene, const char* mode, int width) {
+LeakContender embree_tracer(const EmbreeScene& scene, const char* mode, int width) {
     return {fmt::format("Embree {}, rtcIntersect{}", mode, width), [&scene, width](RaySet& s) {
                 s.any_hit = false;
                 const auto packets = make_embree_packets(s, width);
@@ -86,7 +86,7 @@ void show_leaks(const Aggregate& aggregate, const RaySet& set) {
 
 /// One block of rays through all tracers; `peers_too`: else ours alone.
 void run_block(const LeakMesh& mesh, const Aggregate& aggregate, std::uint64_t block,
-               bool peers_too, const std::vector<LeakTracer>& tracers,
+               bool peers_too, const std::vector<LeakContender>& tracers,
                std::vector<std::unique_ptr<LeakRow>>& rows) {
     LeakRow& row = *rows[block % kLeakKinds];
     RandomStream random(mix64(block));
@@ -103,9 +103,9 @@ void run_block(const LeakMesh& mesh, const Aggregate& aggregate, std::uint64_t b
     }
 }
 
-std::string head(const std::vector<LeakTracer>& tracers) {
+std::string head(const std::vector<LeakContender>& tracers) {
     std::string text = "| mesh | rays at | number |", rule = "|---|---|---|";
-    for (const LeakTracer& t : tracers) {
+    for (const LeakContender& t : tracers) {
         text += fmt::format(" {} |", t.name);
         rule += "---|";
     }
@@ -125,7 +125,7 @@ std::string cells(const LeakRow& row) {
 }
 
 /// Rays per second of one thread's processor time; Embree's packets are made in that time too.
-std::string rates(const std::vector<LeakTracer>& tracers,
+std::string rates(const std::vector<LeakContender>& tracers,
                   const std::vector<std::unique_ptr<LeakRow>>& rows) {
     std::string text;
     for (std::size_t t = 0; t < tracers.size(); ++t) {
@@ -161,7 +161,7 @@ void run(const std::string& spec, std::size_t rays, std::size_t embree_rays,
     KernelScene scene;
     scene.mesh = mesh.mesh();
     const auto aggregate = build_ours(scene);
-    std::vector<LeakTracer> tracers = our_tracers(*aggregate);
+    std::vector<LeakContender> tracers = our_tracers(*aggregate);
 #ifdef ALHAZEN_HAVE_EMBREE
     EmbreeOptions options;
     const EmbreeScene robust(scene, options);

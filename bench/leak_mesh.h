@@ -15,8 +15,8 @@
 #include <string>
 
 #include "alhazen/geometry/ray.h"
-#include "alhazen/math/random.h"
-#include "alhazen/shapes/triangle_mesh.h"
+#include "alhazen/sampling/random.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
 
 namespace alhazen::bench {
 

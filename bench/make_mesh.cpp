@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "alhazen/base/file.h"
-#include "alhazen/importers/mesh_export.h"
+#include "alhazen/formats/mesh_files/mesh_export.h"
 #include "mesh_makers.h"
 
 int main(int argc, char** argv) {

@@ -24,9 +24,9 @@ Spread spread_of(std::vector<double> values) {
     return {values.front(), quantile(0.25), quantile(0.5), quantile(0.75), values.back()};
 }
 
-std::vector<Measured> measure(const std::vector<Tracer>& tracers, std::size_t rays, int rounds) {
+std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t rays, int rounds) {
     std::vector<Measured> results;
-    for (const Tracer& t : tracers) results.push_back({t.group, t.name, {}, 0});
+    for (const Contender& t : tracers) results.push_back({t.group, t.name, {}, 0});
     for (int round = 0; round <= rounds; ++round) {
         for (std::size_t i = 0; i < tracers.size(); ++i) {
             if (tracers[i].prepare) tracers[i].prepare();

@@ -17,7 +17,7 @@ struct Spread {
 /// Quantiles are interpolated; `values` is not empty.
 [[nodiscard]] Spread spread_of(std::vector<double> values);
 
-struct Tracer {
+struct Contender {
     std::string group;              ///< who: "alhazen", "robust", "fast"
     std::string name;               ///< which way within the group
     std::function<void()> prepare;  ///< before each round, not timed; may be empty
@@ -36,7 +36,7 @@ struct Measured {
 
 /// Tracers in turn, round after round, so that a drift of the machine's speed meets them all alike.
 /// The first round warms the caches and is not counted.
-[[nodiscard]] std::vector<Measured> measure(const std::vector<Tracer>& tracers, std::size_t rays,
+[[nodiscard]] std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t rays,
                                             int rounds);
 
 /// The one of a group with the best median; null when there is none. One whose number of hits is

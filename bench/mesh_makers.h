@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "alhazen/shapes/triangle_mesh.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
 
 namespace alhazen::bench {
 

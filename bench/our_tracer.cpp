@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen::bench {
 

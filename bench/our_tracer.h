@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "alhazen/accel/wide_bvh/build_options.h"
-#include "alhazen/scene/aggregate.h"
+#include "alhazen/accel/wide_bvh/build/build_options.h"
+#include "alhazen/primitives/aggregate.h"
 #include "kernel_rays.h"
 
 namespace alhazen::bench {

@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 # What alhazen_tracer is made of, in the order of who may include whom.
-set(alhazen_installed base math sampling simd parallel geometry shapes accel imaging shading scene tracer)
+set(alhazen_installed base math sampling simd parallel geometry imaging shading cameras shapes accel scene_model primitives
+    csg aggregates scene solids tracer)
 
 foreach(folder ${alhazen_installed})
     set_target_properties(alhazen_${folder} PROPERTIES EXPORT_NAME ${folder})

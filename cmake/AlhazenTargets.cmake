@@ -4,6 +4,8 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release)
 endif()
 
+include(CheckCXXCompilerFlag)
+
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -33,9 +35,6 @@ target_compile_options(alhazen_flags INTERFACE
     # Designated initialisers leave the other fields to their defaults on purpose.
     -Wno-missing-field-initializers
     $<$<BOOL:${ALHAZEN_WERROR}>:-Werror>
-    # With precompiled headers GCC 12 inlines std::string otherwise, and sees overflows that cannot be (its bug 105651);
-    # and names of headers that a file does not include are shadowed.
-    $<$<AND:$<BOOL:${ALHAZEN_QUICK_BUILD}>,$<CXX_COMPILER_ID:GNU>>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-error=invalid-pch;-Wno-shadow>
     # GCC says of wide vectors that it passed them otherwise in 2010.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 target_compile_definitions(alhazen_flags INTERFACE
@@ -50,35 +49,53 @@ if(ALHAZEN_SANITIZE)
     target_link_options(alhazen_flags INTERFACE -fsanitize=${ALHAZEN_SANITIZE})
 endif()
 
-# alhazen_precompile(TARGET header...): where ALHAZEN_QUICK_BUILD is on, compiles these once for the target.
-function(alhazen_precompile target)
-    if(ALHAZEN_QUICK_BUILD)
-        target_precompile_headers(${target} PRIVATE ${ARGN})
-    endif()
-endfunction()
+# The options of kernels: files compiled once per instruction set (src/alhazen/simd/lanes-inl.h).
+set(ALHAZEN_KERNEL_OPTIONS)
+# No 512-bit registers for copies either: see LaneTag in simd/lanes-inl.h.
+check_cxx_compiler_flag(-mmove-max=256 ALHAZEN_HAS_MOVE_MAX)
+if(ALHAZEN_HAS_MOVE_MAX)
+    list(APPEND ALHAZEN_KERNEL_OPTIONS -mmove-max=256 -mstore-max=256)
+endif()
+# Queries are copied as a whole: by the library's memcpy, not by rep movs (docs/design/build.md).
+check_cxx_compiler_flag(-mmemcpy-strategy=libcall:-1:noalign ALHAZEN_HAS_MEMCPY_STRATEGY)
+if(ALHAZEN_HAS_MEMCPY_STRATEGY)
+    list(APPEND ALHAZEN_KERNEL_OPTIONS -mmemcpy-strategy=libcall:-1:noalign)
+endif()
+# ALHAZEN_KERNEL_TARGETS: definitions that choose the instruction sets.
+set(ALHAZEN_KERNEL_TARGETS)
+if(ALHAZEN_FUZZ)
+    # The fuzzers trace no ray: one instruction set, without sanitizers in it, is enough.
+    set(ALHAZEN_KERNEL_TARGETS HWY_COMPILE_ONLY_STATIC)
+    list(APPEND ALHAZEN_KERNEL_OPTIONS -fno-sanitize=all)
+elseif(ALHAZEN_KERNELS STREQUAL "native")
+    set(ALHAZEN_KERNEL_TARGETS HWY_COMPILE_ONLY_STATIC)
+    list(APPEND ALHAZEN_KERNEL_OPTIONS -march=native)
+endif()
 
-# alhazen_quick_build(TARGET): where ALHAZEN_QUICK_BUILD is on, -O1, for a target whose speed hardly counts.
-function(alhazen_quick_build target)
-    if(ALHAZEN_QUICK_BUILD)
-        target_compile_options(${target} PRIVATE -O1)
-    endif()
-endfunction()
-
-# alhazen_library(NAME SOURCES file... DEPENDS folder... LIBRARIES target... PRIVATE_LIBRARIES target...)
-# makes the target alhazen_NAME of one folder of src/alhazen. Without sources it is header-only. Our flags stay
+# alhazen_library(NAME SOURCES file... KERNELS file... DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...)
+# makes the target alhazen_NAME of one room of src/alhazen. Without sources it is header-only. Our flags stay
 # inside of this build: who uses an installed library has the few of AlhazenInstall.cmake.
+# Sources are compiled several to a unit (unity build), kernels one by one.
 function(alhazen_library name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "SOURCES;KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
     if(ARG_SOURCES)
-        add_library(alhazen_${name} STATIC ${ARG_SOURCES})
+        add_library(alhazen_${name} STATIC ${ARG_SOURCES} ${ARG_KERNELS})
         target_link_libraries(alhazen_${name} PUBLIC $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES}
                               PRIVATE ${ARG_PRIVATE_LIBRARIES})
+        set_target_properties(alhazen_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10
+                              UNITY_BUILD_UNIQUE_ID ALHAZEN_UNITY_ID)
+        set_source_files_properties(${ARG_KERNELS} PROPERTIES
+            SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON
+            COMPILE_DEFINITIONS "${ALHAZEN_KERNEL_TARGETS}" COMPILE_OPTIONS "${ALHAZEN_KERNEL_OPTIONS}")
     else()
         add_library(alhazen_${name} INTERFACE)
         target_link_libraries(alhazen_${name} INTERFACE $<BUILD_INTERFACE:alhazen_flags> ${ARG_DEPENDS} ${ARG_LIBRARIES})
     endif()
 endfunction()
+
+# Tests are compiled quickly: their own speed hardly counts. -fpch-preprocess lets ccache see through the precompiled header.
+set(ALHAZEN_TEST_OPTIONS -O1 $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-shadow>)
 
 # alhazen_test(NAME [LABEL label] SOURCES file... DEPENDS folder...) makes the GoogleTest program
 # alhazen_NAME_test. Tests labelled "heavy" do not belong to the everyday run.
@@ -87,23 +104,12 @@ function(alhazen_test name)
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
     set(target alhazen_${name}_test)
     add_executable(${target} ${ARG_SOURCES})
-    target_link_libraries(${target} PRIVATE alhazen_flags ${ARG_DEPENDS} ${ARG_LIBRARIES}
+    target_link_libraries(${target} PRIVATE alhazen_flags alhazen_test_support ${ARG_DEPENDS} ${ARG_LIBRARIES}
                           GTest::gtest_main)
-    if(ALHAZEN_QUICK_BUILD)
-        target_precompile_headers(${target} REUSE_FROM alhazen_test_headers)
-        target_compile_options(${target} PRIVATE -O1)
-        # Of Highway: the definitions must be those of the precompiled headers.
-        target_compile_definitions(${target} PRIVATE HWY_SHARED_DEFINE)
-    endif()
-    target_include_directories(${target} PRIVATE "${CMAKE_SOURCE_DIR}/tests")
-    target_compile_definitions(${target} PRIVATE
-        ALHAZEN_TEST_DATA_DEFAULT="${ALHAZEN_TEST_DATA}"
-        ALHAZEN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+    target_precompile_headers(${target} REUSE_FROM alhazen_test_headers)
+    target_compile_options(${target} PRIVATE ${ALHAZEN_TEST_OPTIONS})
     if(NOT ARG_LABEL)
         set(ARG_LABEL fast)
-    endif()
-    if(ALHAZEN_QUICK_BUILD AND ARG_LABEL STREQUAL "heavy")
-        set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
     endif()
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 600)

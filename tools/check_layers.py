@@ -2,11 +2,14 @@
 """Fails when a file includes what its folder may not.
 
 Checks of src/alhazen and apps:
-  - a folder includes only the folders below it (TABLE), siblings never each other;
+  - a room (a folder of src/alhazen) includes only the rooms below it (ROOMS), siblings never each other;
+  - a folder inside of a room includes of the same room only the folders below it (INSIDE);
+  - no chain of includes leads from a folder, or a file, back to itself;
+  - each room and folder of the tables exists, and each folder that exists is in them;
   - a third-party library is included only where it belongs (LIBRARIES);
-  - quoted includes are written from src ("alhazen/folder/file.h") and exist;
+  - quoted includes are written from src ("alhazen/room/file.h") and exist;
   - a .cpp includes its own header first;
-  - headers have #pragma once, and no chain of includes leads back to its start.
+  - headers have #pragma once.
 
 Usage: check_layers.py [ROOT]    or    check_layers.py --self-test
 """
@@ -16,31 +19,110 @@ import re
 import sys
 import tempfile
 
-# Folder -> the folders it may include directly; what those may include, it may too.
-TABLE = {
+# Room -> the rooms it may include directly; what those may include, it may too.
+ROOMS = {
     "base": [],
     "math": ["base"],
     "simd": ["base"],
     "parallel": ["base"],
-    "geometry": ["math", "base"],
     "sampling": ["math"],
+    "geometry": ["math"],
     "imaging": ["math"],
     "shading": ["sampling", "imaging", "geometry"],
+    "cameras": ["geometry", "simd"],
     "shapes": ["geometry", "simd"],
-    "accel": ["geometry", "simd", "parallel"],
-    "scene": ["shading", "shapes", "accel"],
-    "tracer": ["scene"],
+    "accel": ["geometry", "sampling", "simd", "parallel"],
+    "scene_model": ["accel", "cameras", "shading", "shapes"],
+    "primitives": ["accel", "shading", "shapes"],
+    "csg": ["primitives", "scene_model"],
+    "aggregates": ["primitives"],
+    "scene": ["aggregates", "csg", "scene_model"],
+    "solids": ["scene"],
+    "tracer": ["solids"],
+    "formats": ["scene_model"],
     "renderers": ["scene"],
-    "importers": ["scene"],
-    "session": ["renderers", "importers"],
-    "cluster": ["session"],
+    "verification": ["solids"],
+    "session": ["formats", "renderers", "verification"],
     "laboratory": ["session"],
-    "apps": ["cluster", "laboratory"],
+    "apps": ["laboratory"],
 }
 
-# Start of an include -> the folders that may include it. Unlisted ones (standard, POSIX, fmt) are free.
+# Room -> its folders, each with those of the room that it may include directly. "" stands for the files of the room
+# itself: where it is not named they may include every folder, and no folder includes them.
+INSIDE = {
+    "accel": {
+        "core": [],
+        "bounds": ["core"],
+        "cells": ["bounds"],
+        "directions": ["cells"],
+        "wide_bvh/nodes": [],
+        "wide_bvh/build": ["wide_bvh/nodes"],
+        "wide_bvh/trace": ["wide_bvh/build"],
+    },
+    "aggregates": {
+        "wide_bvh": [],
+    },
+    "formats": {
+        "core": [],
+        "text": [],
+        "mesh": ["core", "text"],
+        "brlcad": ["mesh"],
+        "pictures": ["core"],
+        "gltf/document": ["pictures"],
+        "gltf/scene": ["gltf/document"],
+        "obj": ["mesh", "pictures"],
+        "ply": ["mesh"],
+        "stl": ["mesh"],
+        "mesh_files": ["obj", "ply", "stl"],
+        "native": ["text"],
+        "native/read": ["mesh_files", "native"],
+        "nff": ["mesh"],
+        "ray": ["mesh", "pictures"],
+        "uw_yaml": ["mesh_files"],
+        "gltf/check": ["gltf/scene"],
+        "native/write": ["native/read"],
+    },
+    "geometry": {
+        "polygon": [],
+    },
+    "imaging": {
+        "image": [],
+        "film": ["image"],
+        "codecs": ["film"],
+        "figures": ["image"],
+    },
+    "laboratory": {
+        "": [],
+        "claims": [""],
+        "report": [""],
+    },
+    "renderers": {
+        "core": [],
+        "ray_casting": ["core"],
+        "whitted": ["core"],
+    },
+    "session": {
+        "generators": [],
+    },
+    "shading": {
+        "lights": [],
+        "textures": [],
+        "materials": ["textures"],
+    },
+    "shapes": {
+        "core": [],
+        "quadrics": ["core"],
+        "algebraic": ["quadrics"],
+        "blobs": ["algebraic"],
+        "meshes": ["core"],
+        "polygons": ["core"],
+        "swept": ["core"],
+    },
+}
+
+# Start of an include -> the rooms that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
-    "hwy/": {"simd", "shapes", "accel", "scene"},
+    "hwy/": {"simd", "shapes", "cameras", "accel", "csg", "aggregates"},
     "tbb/": {"parallel"},
     "oneapi/": {"parallel"},
     "Imf": {"imaging"},
@@ -48,10 +130,9 @@ LIBRARIES = {
     "OpenEXR/": {"imaging"},
     "png.h": {"imaging"},
     "jpeglib.h": {"imaging"},
-    "yaml-cpp/": {"importers"},
-    "nlohmann/": {"importers", "session", "laboratory", "cluster", "apps"},
+    "yaml-cpp/": {"formats"},
+    "nlohmann/": {"formats", "solids", "session", "laboratory", "apps"},
     "CLI/": {"apps"},
-    "mpi.h": {"cluster"},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
@@ -59,15 +140,23 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 REPEATED = "-inl.h"
 
 
-def closure(folder):
-    """The folder and all it may include."""
-    reached, waiting = set(), [folder]
+def closure(table, name):
+    """The entry and all it may include."""
+    reached, waiting = set(), [name]
     while waiting:
         name = waiting.pop()
         if name not in reached:
             reached.add(name)
-            waiting += TABLE[name]
+            waiting += table.get(name, [])
     return reached
+
+
+def allowed_inside(room, folder):
+    """The folders of the room that a file in one of them may include."""
+    table = INSIDE.get(room, {})
+    if folder == "" and "" not in table:
+        return set(table) | {""}
+    return closure(table, folder)
 
 
 def without_comments(text):
@@ -76,10 +165,10 @@ def without_comments(text):
 
 
 class Source:
-    """One file: where it is, its folder in TABLE and what it includes as (line, quote, name)."""
+    """One file: where it is, its room, its folder in the room and what it includes as (line, quote, name)."""
 
-    def __init__(self, path, name, folder):
-        self.path, self.name, self.folder = path, name, folder
+    def __init__(self, path, name, room, folder):
+        self.path, self.name, self.room, self.folder = path, name, room, folder
         self.text = without_comments(path.read_text(encoding="utf-8"))
         self.includes = [
             (self.text.count("\n", 0, m.start(2)) + 1, m.group(1), m.group(2))
@@ -96,35 +185,40 @@ def read_sources(root):
                 continue
             inside = path.relative_to(root)
             if inside.parts[0] == "apps":
-                name, folder = inside.as_posix(), "apps"
+                name, room, folder = inside.as_posix(), "apps", ""
             else:
-                name, folder = path.relative_to(root / "src").as_posix(), inside.parts[2]
-            sources[name] = Source(path, name, folder)
+                name, room = path.relative_to(root / "src").as_posix(), inside.parts[2]
+                folder = "/".join(inside.parts[3:-1])
+            sources[name] = Source(path, name, room, folder)
     return sources
 
 
 def check_one_include(source, include, sources):
     line, quote, name = include
     where = f"{source.path}:{line}: "
-    for start, folders in LIBRARIES.items():
-        if name.startswith(start) and source.folder not in folders:
-            yield f"{where}<{name}> belongs to {', '.join(sorted(folders))}, not to {source.folder}"
+    for start, rooms in LIBRARIES.items():
+        if name.startswith(start) and source.room not in rooms:
+            yield f"{where}<{name}> belongs to {', '.join(sorted(rooms))}, not to {source.room}"
     if not name.startswith("alhazen/"):
         beside = (source.path.parent / name).is_file()
-        if quote == '"' and not name.startswith("hwy/") and not (source.folder == "apps" and beside):
-            yield f'{where}write "{name}" from src, as "alhazen/FOLDER/FILE.h"'
+        if quote == '"' and not name.startswith("hwy/") and not (source.room == "apps" and beside):
+            yield f'{where}write "{name}" from src, as "alhazen/ROOM/FILE.h"'
         return
     if name not in sources:
         yield f'{where}there is no "{name}"'
-    elif sources[name].folder not in closure(source.folder):
-        yield f"{where}{source.folder} may not include {sources[name].folder} ({name})"
+        return
+    other = sources[name]
+    if other.room not in closure(ROOMS, source.room):
+        yield f"{where}{source.room} may not include {other.room} ({name})"
+    elif other.room == source.room and other.folder not in allowed_inside(source.room, source.folder):
+        yield f"{where}{source.room}/{source.folder} may not include {other.room}/{other.folder} ({name})"
 
 
 def check_own_header(source, sources):
     if source.path.suffix != ".cpp":
         return
     own = source.name[:-4] + ".h"
-    if source.folder == "apps":
+    if source.room == "apps":
         exists, own = source.path.with_suffix(".h").is_file(), source.path.with_suffix(".h").name
     else:
         exists = own in sources
@@ -153,16 +247,35 @@ def find_cycles(sources):
             yield from visit(name, [name])
 
 
-def check(root):
+def check_tables(sources):
+    """Entries of the tables without a folder, and folders without an entry."""
+    folders = {(s.room, s.folder) for s in sources.values()}
+    for room in sorted({room for room, _ in folders} - ROOMS.keys()):
+        yield f"src/alhazen/{room}: the room is not in ROOMS of tools/check_layers.py"
+    for room in sorted(ROOMS.keys() - {room for room, _ in folders}):
+        yield f"tools/check_layers.py: there is no room {room}"
+    for where, table in [("ROOMS", ROOMS), *INSIDE.items()]:
+        for name, below in table.items():
+            if any(name in closure(table, other) for other in below):
+                yield f"tools/check_layers.py: {where}: {name or 'the room itself'} may include itself by way of others"
+    entries = {(room, folder) for room, table in INSIDE.items() for folder in table}
+    for room, folder in sorted(entries - folders):
+        yield f"tools/check_layers.py: there is no folder {room}/{folder} with sources"
+    for room, folder in sorted(folders - entries):
+        if folder:
+            yield f"src/alhazen/{room}/{folder}: the folder is not in INSIDE of tools/check_layers.py"
+
+
+def check(root, tables=True):
     """All findings, as lines of text."""
     sources = read_sources(root)
     findings = []
     if not sources:
         findings.append(f"{root}: there is nothing to check")
+    if tables:
+        findings += check_tables(sources)
     for source in sources.values():
-        if source.folder not in TABLE:
-            findings.append(f"{source.path}:1: the folder {source.folder} is not in the table of "
-                            "tools/check_layers.py")
+        if source.room not in ROOMS:
             continue
         for include in source.includes:
             findings += check_one_include(source, include, sources)
@@ -177,6 +290,8 @@ GOOD = {
     "src/alhazen/base/a.h": '#pragma once\n#include <string>\n',
     "src/alhazen/base/a.cpp": '#include "alhazen/base/a.h"\n',
     "src/alhazen/math/m.h": '#pragma once\n#include "alhazen/base/a.h"\n',
+    "src/alhazen/shapes/quadrics/q.h": '#pragma once\n#include "alhazen/shapes/core/c.h"\n',
+    "src/alhazen/shapes/core/c.h": '#pragma once\n',
     "src/alhazen/scene/s.h": '#pragma once\n// #include "alhazen/session/x.h"\n'
                              '#include "alhazen/base/a.h"\n',
     "src/alhazen/imaging/i.cpp": '#include <png.h>\n',
@@ -195,24 +310,26 @@ BAD = [
      "n.cpp:3: math may not include scene"),
     ({"src/alhazen/math/n.cpp": '#include "m.h"\n'}, "from src"),
     ({"src/alhazen/math/n.cpp": '#include "alhazen/base/none.h"\n'}, "there is no"),
-    ({"src/alhazen/math/n.cpp": '#include <yaml-cpp/yaml.h>\n'}, "belongs to importers"),
+    ({"src/alhazen/math/n.cpp": '#include <yaml-cpp/yaml.h>\n'}, "belongs to formats"),
     ({"src/alhazen/base/a.cpp": '#include <string>\n#include "alhazen/base/a.h"\n'}, "own header"),
     ({"apps/cli/c.cpp": '#include <string>\n#include "c.h"\n'}, "own header"),
     ({"src/alhazen/base/a.h": '// #pragma once\n'}, "no #pragma once"),
-    ({"src/alhazen/common/c.h": '#pragma once\n'}, "not in the table"),
+    ({"src/alhazen/shapes/core/c.h": '#pragma once\n#include "alhazen/shapes/quadrics/r.h"\n',
+      "src/alhazen/shapes/quadrics/r.h": '#pragma once\n'},
+     "shapes/core may not include shapes/quadrics"),
     ({"src/alhazen/math/m.h": '#pragma once\n#include "alhazen/math/n.h"\n',
       "src/alhazen/math/n.h": '#pragma once\n#include "alhazen/math/m.h"\n'}, "in a circle"),
 ]
 
 
-def check_tree(files):
+def check_tree(files, tables=False):
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name, text in files.items():
             path = root / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
-        return check(root)
+        return check(root, tables)
 
 
 def self_test():
@@ -223,6 +340,13 @@ def self_test():
         findings = check_tree({**GOOD, **change})
         if len(findings) != 1 or expected not in findings[0]:
             failures.append(f"expected one finding with {expected!r}, got {findings}")
+    # The tables themselves: a room and a folder that are not in them, and entries without a folder.
+    strange = {**GOOD, "src/alhazen/common/c.h": "#pragma once\n", "src/alhazen/shapes/odd/o.h": "#pragma once\n"}
+    findings = check_tree(strange, tables=True)
+    for expected in ("common: the room is not in ROOMS", "shapes/odd: the folder is not in INSIDE",
+                     "there is no room tracer", "there is no folder shapes/blobs"):
+        if not any(expected in finding for finding in findings):
+            failures.append(f"expected a finding with {expected!r}, got {findings}")
     return failures
 
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
-#include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/convert.h"
 #include "commands.h"
 #include "messages.h"

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/base/error.h"
-#include "alhazen/imaging/image_difference.h"
-#include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/imaging/image/image_difference.h"
 #include "alhazen/session/scene_files.h"
 #include "commands.h"
 #include "messages.h"

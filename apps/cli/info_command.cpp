@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/session/info.h"
 #include "commands.h"
 #include "messages.h"

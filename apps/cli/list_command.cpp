@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
-#include "alhazen/importers/importer_list.h"
-#include "alhazen/renderers/renderer.h"
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/scene/csg_evaluator.h"
+#include "alhazen/csg/csg_evaluator.h"
+#include "alhazen/formats/importer_list.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "commands.h"
 #include "messages.h"
 

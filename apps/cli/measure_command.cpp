@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/session/measure_report.h"
 #include "alhazen/session/scene_files.h"
-#include "alhazen/session/solid_queries_json.h"
 #include "alhazen/session/stopwatch.h"
+#include "alhazen/solids/measure_report.h"
+#include "alhazen/solids/solid_queries_json.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
@@ -52,7 +52,7 @@ std::pair<SolidId, SolidId> find_pair(const SolidScene& scene, const std::string
 SolidReport measure_solid(const SolidScene& scene, SolidId id, const Arguments& args,
                           const MeasureOptions& options, const std::optional<SectionPlane>& plane) {
     const Stopwatch time;
-    const LoneSolid solid(scene.solids(), id);
+    const IsolatedSolid solid(scene.solids(), id);
     SolidReport report;
     report.solid = id;
     report.name = scene.name(id);
@@ -82,7 +82,7 @@ void measure_pairs(const SolidScene& scene, const Arguments& args, const Measure
                    const std::vector<WantedPair>& pairs, MeasureReport& report) {
     for (const WantedPair& wanted : pairs) {
         const auto [a, b] = wanted.solids;
-        const LoneSolid solid_a(scene.solids(), a), solid_b(scene.solids(), b);
+        const IsolatedSolid solid_a(scene.solids(), a), solid_b(scene.solids(), b);
         PairReport pair{a, b, scene.name(a), scene.name(b), {}, {}};
         if (wanted.overlap) {
             MeasureOptions volume_only = options;

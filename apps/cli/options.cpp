@@ -10,7 +10,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
-#include "alhazen/scene/csg_evaluator.h"
+#include "alhazen/csg/csg_evaluator.h"
 #include "messages.h"
 
 namespace alhazen::cli {

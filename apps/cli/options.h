@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/imaging/film.h"
+#include "alhazen/imaging/film/film.h"
 #include "alhazen/session/load.h"
 
 namespace alhazen::cli {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
-#include "alhazen/renderers/renderer.h"
-#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"

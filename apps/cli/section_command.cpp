@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/scene_files.h"
-#include "alhazen/session/section.h"
-#include "alhazen/session/solid_queries_json.h"
+#include "alhazen/solids/section.h"
+#include "alhazen/solids/solid_queries_json.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
@@ -58,7 +58,7 @@ struct Chosen {
 Chosen choose(const SolidScene& solids, const std::vector<std::string>& objects) {
     Chosen chosen;
     for (const SolidId id : solids.select(objects)) {
-        const Box3 box = LoneSolid(solids.solids(), id).box();
+        const Box3 box = IsolatedSolid(solids.solids(), id).box();
         if (!box.bounded()) {
             tell("alhazen: '{}' is not bounded: it has neither area nor outline\n",
                  solids.name(id));
@@ -86,7 +86,7 @@ std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
         .relative_error = args.error, .seconds = args.budget, .area = false};
     std::vector<Cut> cuts;
     for (const SolidId id : chosen.solids) {
-        const SectionArea area = section_area(LoneSolid(solids.solids(), id), plane, options);
+        const SectionArea area = section_area(IsolatedSolid(solids.solids(), id), plane, options);
         if (area.area.hi() > 0.0) cuts.push_back({id, solids.name(id), area});
     }
     return cuts;
@@ -97,14 +97,14 @@ std::string outlines_of(const SolidScene& solids, const Scene& scene, const Plan
                         const Chosen& chosen, const std::vector<Cut>& cuts, Arguments& args,
                         std::uint64_t& unresolved) {
     Box3 box;
-    for (const Cut& cut : cuts) box.include(LoneSolid(solids.solids(), cut.solid).box());
+    for (const Cut& cut : cuts) box.include(IsolatedSolid(solids.solids(), cut.solid).box());
     if (box.empty()) box = chosen.box;
     const double usual = box.empty() ? 1e-4 : 1e-4 * length(box.size());
     args.svg_options.tolerance = args.tolerance.value_or(usual);
     args.svg_options.around = box;
     std::vector<SectionLayer> layers;
     for (const Cut& cut : cuts) {
-        const LoneSolid solid(solids.solids(), cut.solid);
+        const IsolatedSolid solid(solids.solids(), cut.solid);
         SectionLayer layer{cut.solid, cut.name, color_of(scene, solid.place().material), {}};
         layer.outlines = trace_section(
             solid, frame, {.cells = args.grid, .tolerance = args.svg_options.tolerance});

@@ -4,10 +4,10 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/session/solid_queries_json.h"
+#include "alhazen/solids/solid_queries_json.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"

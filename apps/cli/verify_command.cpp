@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/control_characters.h"
-#include "alhazen/importers/importer_list.h"
+#include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/scene/accelerator_table.h"
 #include "alhazen/session/scene_files.h"
-#include "alhazen/session/verify.h"
-#include "alhazen/session/verify_exact.h"
+#include "alhazen/verification/verify.h"
+#include "alhazen/verification/verify_exact.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"

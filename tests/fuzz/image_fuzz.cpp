@@ -8,14 +8,14 @@
 #include <utility>
 
 #include "alhazen/base/error.h"
-#include "alhazen/imaging/bmp.h"
-#include "alhazen/imaging/exr.h"
-#include "alhazen/imaging/hdr.h"
-#include "alhazen/imaging/jpeg.h"
-#include "alhazen/imaging/pfm.h"
-#include "alhazen/imaging/png.h"
-#include "alhazen/imaging/stored_image.h"
-#include "alhazen/imaging/tga.h"
+#include "alhazen/imaging/codecs/bmp.h"
+#include "alhazen/imaging/codecs/exr.h"
+#include "alhazen/imaging/codecs/hdr.h"
+#include "alhazen/imaging/codecs/jpeg.h"
+#include "alhazen/imaging/codecs/pfm.h"
+#include "alhazen/imaging/codecs/png.h"
+#include "alhazen/imaging/codecs/stored_image.h"
+#include "alhazen/imaging/codecs/tga.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "alhazen/importers/importer_list.h"
+#include "alhazen/formats/importer_list.h"
 
 namespace {
 

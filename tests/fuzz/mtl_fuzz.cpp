@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "alhazen/importers/obj/mtl_reader.h"
+#include "alhazen/formats/obj/mtl_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     alhazen::Diagnostics diagnostics;

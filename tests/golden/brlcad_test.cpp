@@ -4,10 +4,11 @@
 
 #include <cmath>
 
-#include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"
 #include "scene_files.h"
+#include "support/test_data.h"
 
 namespace alhazen {
 namespace {
@@ -43,8 +44,7 @@ TEST(BrlcadPictures, EveryPixelOfTheSilhouetteOfMossIsRight) {
     for (const char* accelerator : {"list", "wide_bvh"}) {
         LoadOptions options;
         options.compile.accelerator = accelerator;
-        options.import.view_script =
-            std::filesystem::path(ALHAZEN_SOURCE_DIR) / "tests/golden/moss.rt";
+        options.import.view_script = testing::source_folder() / "tests/golden/moss.rt";
         std::size_t background = 0;
         const std::vector<std::string> wrong = wrong_pixels(options, background);
         EXPECT_EQ(wrong, std::vector<std::string>{}) << accelerator;

@@ -15,6 +15,7 @@
 #include "scene_files.h"
 #include "support/same_description.h"
 #include "support/scratch_folder.h"
+#include "support/test_data.h"
 
 namespace alhazen {
 namespace {
@@ -91,7 +92,7 @@ void expect_all_convert(const std::vector<fs::path>& files, std::size_t at_least
 
 TEST(Convert, NativeScenesToTheSameBits) {
     for (const char* name : {"showcase", "cornell", "glass_slab"}) {
-        expect_converts(fs::path(ALHAZEN_SOURCE_DIR) / "scenes" / (std::string(name) + ".alhazen"));
+        expect_converts(testing::source_folder() / "scenes" / (std::string(name) + ".alhazen"));
     }
 }
 
@@ -136,7 +137,7 @@ TEST(Convert, MeshFilesToTheSameBits) {
 }
 
 TEST(Convert, OddScenesToTheSameBits) {
-    const fs::path corpus = fs::path(ALHAZEN_SOURCE_DIR) / "tests" / "corpus";
+    const fs::path corpus = testing::source_folder() / "tests" / "corpus";
     std::vector<fs::path> files;
     for (const char* folder : {"native", "ray", "nff", "uw_yaml", "gltf"}) {
         if (!fs::exists(corpus / folder)) continue;

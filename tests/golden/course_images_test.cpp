@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "alhazen/imaging/image_difference.h"
-#include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/imaging/image/image_difference.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/picture.h"
 #include "alhazen/session/render.h"

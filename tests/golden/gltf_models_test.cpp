@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "alhazen/importers/importer_list.h"
+#include "alhazen/formats/importer_list.h"
 #include "golden/scene_files.h"
 
 namespace alhazen::testing {

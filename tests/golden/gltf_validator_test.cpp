@@ -9,7 +9,7 @@
 #include <set>
 
 #include "alhazen/base/file.h"
-#include "alhazen/importers/importer_list.h"
+#include "alhazen/formats/importer_list.h"
 #include "golden/scene_files.h"
 
 namespace alhazen::testing {

@@ -4,16 +4,16 @@
 
 #include <numbers>
 
-#include "alhazen/importers/importer_list.h"
-#include "alhazen/importers/mesh_export.h"
-#include "alhazen/importers/mesh_io.h"
-#include "alhazen/importers/obj/obj_reader.h"
-#include "alhazen/importers/ply/ply_reader.h"
-#include "alhazen/importers/stl/stl_reader.h"
-#include "alhazen/math/random.h"
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/scene/primitive_table.h"
-#include "alhazen/scene/surface.h"
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/formats/importer_list.h"
+#include "alhazen/formats/mesh_files/mesh_export.h"
+#include "alhazen/formats/mesh_files/mesh_io.h"
+#include "alhazen/formats/obj/obj_reader.h"
+#include "alhazen/formats/ply/ply_reader.h"
+#include "alhazen/formats/stl/stl_reader.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/primitives/surface.h"
+#include "alhazen/sampling/random.h"
 #include "scene_files.h"
 
 namespace alhazen {

@@ -11,7 +11,7 @@
 #include <iostream>
 #include <set>
 
-#include "alhazen/importers/importer_list.h"
+#include "alhazen/formats/importer_list.h"
 #include "scene_files.h"
 #include "support/triangle_soup.h"
 

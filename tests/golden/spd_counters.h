@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/session/generate.h"
 #include "alhazen/session/render.h"
 

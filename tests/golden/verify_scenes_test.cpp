@@ -5,8 +5,9 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/session/load.h"
-#include "alhazen/session/verify.h"
+#include "alhazen/verification/verify.h"
 #include "scene_files.h"
+#include "support/test_data.h"
 
 namespace alhazen {
 namespace {
@@ -42,8 +43,8 @@ std::size_t verify_all(const std::vector<std::filesystem::path>& files, std::uin
 
 TEST(VerifyScenes, OwnScenes) {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(
-             std::filesystem::path(ALHAZEN_SOURCE_DIR) / "scenes")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(testing::source_folder() / "scenes")) {
         if (entry.path().extension() == ".alhazen") files.push_back(entry.path());
     }
     EXPECT_GE(verify_all(files, 4000), 3u);

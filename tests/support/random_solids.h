@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::testing {

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <string>
 
-#include "alhazen/imaging/stored_image.h"
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/imaging/codecs/stored_image.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen::testing {
 

@@ -1,24 +1,30 @@
 #pragma once
-/// Where the real scenes and reference images are. Tests that need them skip, and say so, where
-/// they are not.
+/// Where tests find files: the real scenes and reference images, and this checkout.
 
-#include <cstdlib>
+#include <gtest/gtest.h>
+
 #include <filesystem>
-#include <string>
 
 namespace alhazen::testing {
 
 /// ALHAZEN_TEST_DATA from the environment, else the folder beside the checkout.
-inline std::filesystem::path test_data() {
-    const char* folder = std::getenv("ALHAZEN_TEST_DATA");
-    return folder != nullptr ? folder : ALHAZEN_TEST_DATA_DEFAULT;
-}
+[[nodiscard]] std::filesystem::path test_data();
+
+/// The root of the checkout.
+[[nodiscard]] std::filesystem::path source_folder();
+
+/// Whether this is a run of continuous integration (CI in the environment), where nothing may be
+/// skipped for want of data.
+[[nodiscard]] bool data_is_required();
 
 }  // namespace alhazen::testing
 
-/// Skips the test when `path` (below the test data folder) does not exist.
+/// Skips the test when `path` (below the test data folder) does not exist; fails it in CI.
 #define ALHAZEN_NEEDS_DATA(path)                                                      \
     if (!std::filesystem::exists(alhazen::testing::test_data() / (path))) {           \
+        if (alhazen::testing::data_is_required()) {                                   \
+            FAIL() << "no test data at " << alhazen::testing::test_data() / (path);   \
+        }                                                                             \
         GTEST_SKIP() << "no test data at " << alhazen::testing::test_data() / (path); \
     }                                                                                 \
     static_assert(true)

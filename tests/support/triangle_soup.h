@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "alhazen/importers/triangulate.h"
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/geometry/polygon/triangulate.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen::testing {
 

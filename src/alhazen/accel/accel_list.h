@@ -4,19 +4,19 @@
 
 #include <tuple>
 
-#include "alhazen/accel/bounding_volumes.h"
-#include "alhazen/accel/bsp.h"
-#include "alhazen/accel/goldsmith_salmon.h"
-#include "alhazen/accel/hierarchy.h"
-#include "alhazen/accel/kay_kajiya.h"
-#include "alhazen/accel/kd_tree.h"
-#include "alhazen/accel/light_buffer.h"
-#include "alhazen/accel/list.h"
-#include "alhazen/accel/nested_grid.h"
-#include "alhazen/accel/octree.h"
-#include "alhazen/accel/ray_classification.h"
-#include "alhazen/accel/ray_coherence.h"
-#include "alhazen/accel/uniform_grid.h"
+#include "alhazen/accel/bounds/bounding_volumes.h"
+#include "alhazen/accel/bounds/goldsmith_salmon.h"
+#include "alhazen/accel/bounds/hierarchy.h"
+#include "alhazen/accel/bounds/kay_kajiya.h"
+#include "alhazen/accel/bounds/list.h"
+#include "alhazen/accel/cells/bsp.h"
+#include "alhazen/accel/cells/kd_tree.h"
+#include "alhazen/accel/cells/nested_grid.h"
+#include "alhazen/accel/cells/octree.h"
+#include "alhazen/accel/cells/uniform_grid.h"
+#include "alhazen/accel/directions/light_buffer.h"
+#include "alhazen/accel/directions/ray_classification.h"
+#include "alhazen/accel/directions/ray_coherence.h"
 
 namespace alhazen {
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "alhazen/math/affine.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/math/interval.h"
 
 namespace alhazen {
@@ -40,6 +41,16 @@ struct Box3 {
     friend bool operator==(const Box3&, const Box3&) = default;
 };
 
+inline constexpr Box3 kAllSpace{{-kInfinity, -kInfinity, -kInfinity},
+                                {kInfinity, kInfinity, kInfinity}};
+
+/// What lies in both; the empty box where nothing does.
+[[nodiscard]] inline Box3 intersection(const Box3& a, const Box3& b) {
+    const Box3 both{{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+                    {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
+    return both.empty() ? Box3{} : both;
+}
+
 /// The box grown on every side by `relative` times the largest coordinate magnitude: room for the
 /// rounding of whatever computed it.
 [[nodiscard]] inline Box3 padded(const Box3& box, double relative = 8e-16) {
@@ -54,10 +65,7 @@ struct Box3 {
 /// A box that holds the image of `box`; exact for the eight corners, padded for rounding.
 [[nodiscard]] inline Box3 transformed(const Affine& to_from, const Box3& box) {
     if (box.empty()) return box;
-    if (!box.bounded()) {
-        const double inf = std::numeric_limits<double>::infinity();
-        return {{-inf, -inf, -inf}, {inf, inf, inf}};
-    }
+    if (!box.bounded()) return kAllSpace;
     Box3 image;
     for (int i = 0; i < 8; ++i) image.include(to_from.point(box.corner(i)));
     // Rounding grows with the terms that were added, not with their sum.

@@ -14,7 +14,7 @@
 
 namespace alhazen {
 
-#include "alhazen/geometry/plain_double-inl.h"
+#include "alhazen/geometry/fast_min_max-inl.h"
 #include "alhazen/geometry/sphere_roots_formula-inl.h"
 
 }  // namespace alhazen

@@ -1,8 +1,10 @@
-/// The arithmetic of the ray-triangle test, for double and for lanes of double alike: `Real` needs + - * /.
+/// The arithmetic of the ray-triangle test, for double and for lanes of double alike: `Real` needs
+/// + - * /.
 ///
-/// A fragment without a guard: watertight_triangle.h includes it in namespace alhazen; code for an instruction set
-/// would include it once more in its namespace, because a compiler gives a template the instruction set of the
-/// place where it is written (tests/unit/simd does). One text, so one order of operations and the same bits.
+/// A fragment without a guard: watertight_triangle.h includes it in namespace alhazen; code for an
+/// instruction set would include it once more in its namespace, because a compiler gives a template
+/// the instruction set of the place where it is written (tests/unit/simd does). One text, so one
+/// order of operations and the same bits.
 
 /// A vertex relative to the ray, in sheared space: x and y across the ray, z along its dominant
 /// axis.

@@ -6,12 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include "alhazen/aggregates/accelerator_bytes.h"
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/laboratory/picture_check.h"
 #include "alhazen/laboratory/tuning.h"
-#include "alhazen/scene/accelerator_bytes.h"
-#include "alhazen/scene/accelerator_table.h"
 
 namespace alhazen {
 namespace {

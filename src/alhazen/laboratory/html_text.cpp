@@ -1,6 +1,6 @@
 #include "alhazen/laboratory/html_text.h"
 
-#include "alhazen/imaging/png.h"
+#include "alhazen/imaging/codecs/png.h"
 
 namespace alhazen {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "alhazen/imaging/encoding.h"
+#include "alhazen/imaging/image/encoding.h"
 
 namespace alhazen {
 

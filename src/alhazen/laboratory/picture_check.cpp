@@ -5,7 +5,7 @@
 #include <cstring>
 #include <limits>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {

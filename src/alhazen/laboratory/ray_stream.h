@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "alhazen/geometry/ray_mask.h"
-#include "alhazen/scene/aggregate.h"
+#include "alhazen/primitives/aggregate.h"
 
 namespace alhazen {
 

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "alhazen/laboratory/cpu_clock.h"
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {

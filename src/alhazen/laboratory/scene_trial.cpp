@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/renderers/eye_samples.h"
-#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/renderers/core/eye_samples.h"
 #include "alhazen/session/framing.h"
 
 namespace alhazen {

@@ -9,7 +9,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/convex_corners.h"
 #include "alhazen/laboratory/html_text.h"
-#include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/primitives/bounded_primitives.h"
 
 namespace alhazen {
 namespace {

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <utility>
 
-#include "alhazen/accel/kay_kajiya.h"
-#include "alhazen/accel/kd_tree.h"
-#include "alhazen/accel/octree.h"
-#include "alhazen/accel/ray_classification.h"
-#include "alhazen/accel/uniform_grid.h"
+#include "alhazen/accel/bounds/kay_kajiya.h"
+#include "alhazen/accel/cells/kd_tree.h"
+#include "alhazen/accel/cells/octree.h"
+#include "alhazen/accel/cells/uniform_grid.h"
+#include "alhazen/accel/directions/ray_classification.h"
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/convex_corners.h"
-#include "alhazen/scene/bounded_primitives.h"
+#include "alhazen/primitives/bounded_primitives.h"
 
 namespace alhazen {
 namespace {

@@ -3,8 +3,8 @@
 /// it tests, in order, as shapes that can be drawn.
 ///
 /// Source: the figures of the papers on each accelerator.
-/// Differs: the steps are those of the real traversal, told by it (accel/traversal_trace.h), none
-/// is drawn up for the figure.
+/// Differs: the steps are those of the real traversal, told by it (accel/core/traversal_trace.h),
+/// none is drawn up for the figure.
 
 #include <string>
 #include <vector>

@@ -10,11 +10,15 @@
 /// as well).
 
 #include <cmath>
+#include <type_traits>
 
 namespace alhazen {
 
 /// Relative error bound of one operation; the source proves 5 * 2^-106 or less.
 inline constexpr double kDoubleDoubleUlp = 0x1p-103;
+/// The relative rounding of one operation.
+template <class Real>
+inline constexpr double kUnitRoundoff = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
 
 struct DoubleDouble {
     double high = 0, low = 0;

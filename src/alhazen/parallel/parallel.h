@@ -1,9 +1,10 @@
 #pragma once
-/// Tasks over all cores: a facade over oneTBB, or over std::jthread where TBB is not wanted (ThreadSanitizer,
-/// minimal builds; CMake option ALHAZEN_PARALLEL=tbb|jthread).
+/// Tasks over all cores: a facade over oneTBB, or over std::jthread where TBB is not wanted
+/// (ThreadSanitizer, minimal builds; CMake option ALHAZEN_PARALLEL=tbb|jthread).
 ///
-/// Conventions: results never depend on the number of threads or the order of execution; floating point is
-/// never reduced in completion order. An exception thrown by a task is rethrown to the caller once.
+/// Conventions: results never depend on the number of threads or the order of execution; floating
+/// point is never reduced in completion order. An exception thrown by a task is rethrown to the
+/// caller once.
 
 #include <cstddef>
 #include <functional>
@@ -13,7 +14,8 @@ namespace alhazen {
 /// Cores this process may use (affinity and cgroup limits included), at least 1.
 [[nodiscard]] int available_cores();
 
-/// A pool bound for the life of the object: parallel calls made inside `run` use at most `threads` threads.
+/// A pool bound for the life of the object: parallel calls made inside `run` use at most `threads`
+/// threads.
 class ThreadLimit {
   public:
     /// 0 = all available cores.
@@ -32,7 +34,8 @@ class ThreadLimit {
     Impl* impl_;
 };
 
-/// Calls body(begin, end) for disjoint ranges that cover [0, count), of at most `grain` items each (grain >= 1).
+/// Calls body(begin, end) for disjoint ranges that cover [0, count), of at most `grain` items each
+/// (grain >= 1).
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

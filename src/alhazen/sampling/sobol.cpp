@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 

@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/scene/compile_looks.h"
-#include "alhazen/scene/csg_aggregate.h"
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/csg/csg_aggregate.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/scene/compile_materials.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
@@ -67,7 +67,7 @@ class Compiler {
     Scene run() {
         (void)find_csg_evaluator(options_.csg);  // an unknown one is an error in any scene
         Scene scene;
-        compile_looks(d_, scene);
+        compile_materials(d_, scene);
         for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
         scene.all_opaque = std::all_of(opacity_.begin(), opacity_.end(),
                                        [](Opacity o) { return o == Opacity::Opaque; });

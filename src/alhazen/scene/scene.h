@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/accel/wide_bvh/build_options.h"
-#include "alhazen/scene/aggregate.h"
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/accel/wide_bvh/build/build_options.h"
+#include "alhazen/primitives/aggregate.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

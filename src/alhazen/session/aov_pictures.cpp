@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "alhazen/imaging/false_color.h"
+#include "alhazen/imaging/figures/false_color.h"
 
 namespace alhazen {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/imaging/image_io.h"
-#include "alhazen/renderers/aov.h"
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/renderers/core/aov.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

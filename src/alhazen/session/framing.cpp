@@ -8,8 +8,8 @@
 #include <map>
 
 #include "alhazen/base/error.h"
-#include "alhazen/math/angle.h"
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "alhazen/base/error.h"
-#include "alhazen/importers/nff/nff_importer.h"
+#include "alhazen/formats/nff/nff_importer.h"
 #include "alhazen/session/generated_solids.h"
 #include "alhazen/session/generators/field.h"
 #include "alhazen/session/generators/spd.h"

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 #include "alhazen/session/generators/nff_text.h"
 
 namespace alhazen {

@@ -1,7 +1,7 @@
 #pragma once
 /// The generated scenes whose subject is CSG (see generate.h).
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "alhazen/session/exact_bounds.h"
 #include "alhazen/session/masked_parts.h"
 #include "alhazen/session/mesh_figures.h"
 #include "alhazen/session/unique_bytes.h"
+#include "alhazen/verification/exact_bounds.h"
 
 namespace alhazen {
 

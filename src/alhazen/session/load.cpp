@@ -1,6 +1,6 @@
 #include "alhazen/session/load.h"
 
-#include "alhazen/importers/importer_list.h"
+#include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/statistics.h"
 #include "alhazen/session/stopwatch.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "alhazen/base/progress.h"
-#include "alhazen/importers/importer.h"
+#include "alhazen/formats/core/importer.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

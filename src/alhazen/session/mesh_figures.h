@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

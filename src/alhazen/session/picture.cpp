@@ -1,7 +1,7 @@
 #include "alhazen/session/picture.h"
 
 #include "alhazen/base/lower_case.h"
-#include "alhazen/imaging/exr_layers.h"
+#include "alhazen/imaging/codecs/exr_layers.h"
 
 namespace alhazen {
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "alhazen/imaging/film.h"
-#include "alhazen/imaging/film_layers.h"
-#include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/imaging/film/film.h"
+#include "alhazen/imaging/film/film_layers.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/importers/mesh_export.h"
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/formats/mesh_files/mesh_export.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

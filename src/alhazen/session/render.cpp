@@ -10,7 +10,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/renderers/renderer.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/stopwatch.h"
 
 namespace alhazen {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "alhazen/base/progress.h"
-#include "alhazen/imaging/film.h"
-#include "alhazen/renderers/aov.h"
-#include "alhazen/renderers/ray_counters.h"
+#include "alhazen/imaging/film/film.h"
+#include "alhazen/renderers/core/aov.h"
+#include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {

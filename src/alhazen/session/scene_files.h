@@ -5,7 +5,7 @@
 #include <set>
 #include <span>
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "alhazen/scene/accelerator_bytes.h"
+#include "alhazen/aggregates/accelerator_bytes.h"
 #include "alhazen/session/unique_bytes.h"
 
 namespace alhazen {

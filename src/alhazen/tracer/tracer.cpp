@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/ray_scale.h"
-#include "alhazen/scene/wide_bvh_aggregate.h"
 
 namespace alhazen {
 namespace {
@@ -79,8 +79,8 @@ Tracer Tracer::load(TracerScene scene, const std::filesystem::path& file) {
 void Tracer::save(const std::filesystem::path& file) const {
     const auto* wide = dynamic_cast<const WideBvhAggregate*>(aggregate_.get());
     if (wide == nullptr) {
-        throw Error(ErrorKind::Usage, std::string("only the accelerator ") +
-                                          WideBvhAggregate::kName + " can be stored");
+        throw Error(ErrorKind::Usage,
+                    std::string("only the accelerator ") + kDefaultAccelerator + " can be stored");
     }
     wide->save(file);
 }

@@ -18,13 +18,13 @@
 #include <utility>
 #include <vector>
 
-#include "alhazen/accel/wide_bvh/build_options.h"
+#include "alhazen/accel/wide_bvh/build/build_options.h"
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
-#include "alhazen/scene/accelerator_table.h"
-#include "alhazen/scene/aggregate.h"
-#include "alhazen/scene/spans.h"
-#include "alhazen/scene/surface.h"
+#include "alhazen/primitives/aggregate.h"
+#include "alhazen/primitives/surface.h"
+#include "alhazen/solids/spans.h"
 #include "alhazen/tracer/tracer_scene.h"
 
 namespace alhazen {
@@ -84,8 +84,8 @@ class Tracer {
                   RayMask mask = kAllRays) const;
     void all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask = kAllRays) const;
 
-    /// Where a hit of this very tracer lies and what it belongs to. `leaving_ray` (scene/surface.h)
-    /// begins the next ray there. Throws Error (Usage) when nothing was hit.
+    /// Where a hit of this very tracer lies and what it belongs to. `leaving_ray`
+    /// (primitives/surface.h) begins the next ray there. Throws Error (Usage) when nothing was hit.
     [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
 
     /// Spans, thickness and points inside, of the geometry that bounds volumes. Finds out which

@@ -13,9 +13,9 @@
 
 #include "alhazen/geometry/ray_mask.h"
 #include "alhazen/math/affine.h"
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "alhazen/shapes/shape_list.h"
-#include "alhazen/shapes/triangle_mesh.h"
 
 namespace alhazen {
 

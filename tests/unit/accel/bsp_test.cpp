@@ -1,11 +1,11 @@
-#include "alhazen/accel/bsp.h"
+#include "alhazen/accel/cells/bsp.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/accel/convex_cell.h"
+#include "alhazen/accel/cells/convex_cell.h"
 #include "unit/accel/random_boxes.h"
 
 namespace alhazen {

@@ -1,10 +1,10 @@
-#include "alhazen/accel/cell_grid.h"
+#include "alhazen/accel/cells/cell_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {

@@ -1,8 +1,8 @@
-#include "alhazen/accel/goldsmith_salmon.h"
+#include "alhazen/accel/bounds/goldsmith_salmon.h"
 
 #include <gtest/gtest.h>
 
-#include "alhazen/accel/insertion_tree.h"
+#include "alhazen/accel/bounds/insertion_tree.h"
 #include "unit/accel/random_boxes.h"
 
 namespace alhazen {

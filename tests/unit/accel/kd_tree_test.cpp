@@ -1,4 +1,4 @@
-#include "alhazen/accel/kd_tree.h"
+#include "alhazen/accel/cells/kd_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "alhazen/accel/light_buffer.h"
+#include "alhazen/accel/directions/light_buffer.h"
 
 #include <gtest/gtest.h>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {
@@ -144,7 +144,8 @@ TEST(LightBuffer, TheLastOccluderIsTestedFirst) {
 }
 
 TEST(LightBuffer, OnlyRaysToTheLightAreLookedUp) {
-    const LightBuffer made = LightBuffer::build(scene(false), {.others = OtherRays::Kind::List});
+    const LightBuffer made =
+        LightBuffer::build(scene(false), {.others = FallbackAccelerator::Kind::List});
     const auto visits = [&](const Ray& ray) {
         CountingVisitor visitor;
         made.traverse(ray, visitor, NoStats{});

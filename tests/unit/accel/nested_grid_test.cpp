@@ -1,4 +1,4 @@
-#include "alhazen/accel/nested_grid.h"
+#include "alhazen/accel/cells/nested_grid.h"
 
 #include <gtest/gtest.h>
 

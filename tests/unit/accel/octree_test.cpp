@@ -1,4 +1,4 @@
-#include "alhazen/accel/octree.h"
+#include "alhazen/accel/cells/octree.h"
 
 #include <gtest/gtest.h>
 

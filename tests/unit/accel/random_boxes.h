@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "alhazen/geometry/bounds_source.h"
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen::testing {
 

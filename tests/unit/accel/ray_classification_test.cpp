@@ -1,4 +1,4 @@
-#include "alhazen/accel/ray_classification.h"
+#include "alhazen/accel/directions/ray_classification.h"
 
 #include <gtest/gtest.h>
 

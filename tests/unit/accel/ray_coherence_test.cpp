@@ -1,10 +1,10 @@
-#include "alhazen/accel/ray_coherence.h"
+#include "alhazen/accel/directions/ray_coherence.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {

@@ -1,7 +1,7 @@
 // The node test never misses a box that the exact line meets, on any instruction set; and it is not
 // so generous as to be useless.
 
-#include "alhazen/accel/wide_bvh/slab_ray.h"
+#include "alhazen/accel/wide_bvh/trace/slab_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #define HWY_TARGET_INCLUDE "unit/accel/slab_ray_test.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
 // After foreach_target.h.
-#include "alhazen/accel/wide_bvh/traverse-inl.h"
+#include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {

@@ -4,13 +4,13 @@
 #include <random>
 #include <string>
 
-#include "alhazen/accel/wide_bvh/binary_builder.h"
-#include "alhazen/accel/wide_bvh/build_options.h"
-#include "alhazen/accel/wide_bvh/clustering.h"
-#include "alhazen/accel/wide_bvh/collapse.h"
-#include "alhazen/accel/wide_bvh/local_frame.h"
-#include "alhazen/accel/wide_bvh/reinsertion.h"
-#include "alhazen/accel/wide_bvh/spatial_split.h"
+#include "alhazen/accel/wide_bvh/build/binary_builder.h"
+#include "alhazen/accel/wide_bvh/build/build_options.h"
+#include "alhazen/accel/wide_bvh/build/clustering.h"
+#include "alhazen/accel/wide_bvh/build/collapse.h"
+#include "alhazen/accel/wide_bvh/build/reinsertion.h"
+#include "alhazen/accel/wide_bvh/build/spatial_split.h"
+#include "alhazen/accel/wide_bvh/nodes/local_frame.h"
 
 namespace alhazen {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "alhazen/imaging/image_difference.h"
+#include "alhazen/imaging/image/image_difference.h"
 #include "support/test_data.h"
 #include "unit/imaging/test_images.h"
 

@@ -1,4 +1,4 @@
-#include "alhazen/imaging/encoding.h"
+#include "alhazen/imaging/image/encoding.h"
 
 #include <cmath>
 #include <limits>

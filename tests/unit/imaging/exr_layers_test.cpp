@@ -1,4 +1,4 @@
-#include "alhazen/imaging/exr_layers.h"
+#include "alhazen/imaging/codecs/exr_layers.h"
 
 #include <gtest/gtest.h>
 #include <ImathBox.h>

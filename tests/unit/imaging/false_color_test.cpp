@@ -1,4 +1,4 @@
-#include "alhazen/imaging/false_color.h"
+#include "alhazen/imaging/figures/false_color.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/imaging/heat_map.h"
-#include "alhazen/imaging/tiny_font.h"
+#include "alhazen/imaging/figures/heat_map.h"
+#include "alhazen/imaging/figures/tiny_font.h"
 
 namespace alhazen {
 namespace {

@@ -158,7 +158,7 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
 TEST(HostileImages, TheCorpusIsReadButForTheBadFilesThatOnceDidHarm) {
     int files = 0;
     for (const char* format : {"png", "jpeg", "bmp", "exr", "hdr", "pfm", "tga"}) {
-        const fs::path folder = fs::path(ALHAZEN_SOURCE_DIR "/tests/corpus") / format;
+        const fs::path folder = fs::path(testing::source_folder() / "tests/corpus") / format;
         if (!fs::exists(folder)) continue;
         for (const auto& entry : fs::directory_iterator(folder)) {
             const std::string name = entry.path().filename().string();

@@ -1,4 +1,4 @@
-#include "alhazen/imaging/image_difference.h"
+#include "alhazen/imaging/image/image_difference.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/codecs/image_io.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "alhazen/imaging/stored_image.h"
+#include "alhazen/imaging/codecs/stored_image.h"
 
 #include <gtest/gtest.h>
 
-#include "alhazen/imaging/encoding.h"
+#include "alhazen/imaging/image/encoding.h"
 #include "unit/imaging/test_images.h"
 
 namespace alhazen {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "alhazen/base/error.h"
-#include "alhazen/imaging/image_io.h"
+#include "alhazen/imaging/codecs/image_io.h"
 
 namespace alhazen::testing {
 

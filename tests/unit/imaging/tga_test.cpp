@@ -1,4 +1,4 @@
-#include "alhazen/imaging/tga.h"
+#include "alhazen/imaging/codecs/tga.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "alhazen/laboratory/claims.h"
+#include "alhazen/laboratory/claims/claims.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "alhazen/base/error.h"
-#include "alhazen/laboratory/claim_run.h"
+#include "alhazen/laboratory/claims/claim_run.h"
 
 namespace alhazen {
 namespace {

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
+#include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
-#include "alhazen/laboratory/compare_report.h"
-#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/laboratory/report/compare_report.h"
 #include "unit/laboratory/small_scene.h"
 
 namespace alhazen {

@@ -1,7 +1,7 @@
 #pragma once
 /// A scene with rays of all four kinds: mirrors and glass over a floor, in a light.
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
 
 namespace alhazen::testing {

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "alhazen/scene/accelerator_table.h"
+#include "alhazen/aggregates/accelerator_table.h"
 
 namespace alhazen {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "alhazen/renderers/local_shading.h"
-#include "alhazen/renderers/ray_casting.h"
-#include "alhazen/renderers/whitted.h"
+#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {

@@ -1,4 +1,4 @@
-#include "alhazen/renderers/aov.h"
+#include "alhazen/renderers/core/aov.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "alhazen/base/error.h"
-#include "alhazen/renderers/whitted.h"
+#include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {

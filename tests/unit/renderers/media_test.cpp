@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "alhazen/renderers/whitted.h"
+#include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {

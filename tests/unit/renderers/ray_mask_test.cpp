@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "alhazen/renderers/ray_casting.h"
-#include "alhazen/renderers/whitted.h"
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/renderers/whitted/whitted.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
 

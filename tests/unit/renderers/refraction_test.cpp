@@ -1,4 +1,4 @@
-#include "alhazen/renderers/refraction.h"
+#include "alhazen/renderers/core/refraction.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "alhazen/renderers/pixel_loop.h"
+#include "alhazen/renderers/core/pixel_loop.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <random>
 
-#include "alhazen/renderers/material_cache.h"
-#include "alhazen/renderers/ray_casting.h"
-#include "alhazen/renderers/whitted.h"
-#include "alhazen/scene/eye_rays.h"
-#include "alhazen/shading/texture_inputs.h"
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/renderers/core/material_cache.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/renderers/whitted/whitted.h"
+#include "alhazen/shading/materials/texture_inputs.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {

@@ -1,7 +1,7 @@
 /// Whatever the number of rays that are traced together: the same picture, bounded memory, and an
 /// end when one is asked for.
 
-#include "alhazen/renderers/wavefront.h"
+#include "alhazen/renderers/core/wavefront.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "alhazen/renderers/ray_casting.h"
-#include "alhazen/renderers/whitted.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/renderers/whitted/whitted.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
 

@@ -1,10 +1,10 @@
-#include "alhazen/renderers/whitted.h"
+#include "alhazen/renderers/whitted/whitted.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "alhazen/renderers/ray_casting.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {

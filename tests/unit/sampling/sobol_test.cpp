@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "alhazen/math/random.h"
+#include "alhazen/sampling/random.h"
 
 namespace alhazen {
 namespace {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "alhazen/base/error.h"
-#include "alhazen/math/random.h"
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/primitives/surface.h"
+#include "alhazen/sampling/random.h"
 #include "alhazen/scene/scene.h"
-#include "alhazen/scene/surface.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {

@@ -4,9 +4,9 @@
 
 #include <cstring>
 
-#include "alhazen/math/random.h"
-#include "alhazen/scene/accelerator_bytes.h"
-#include "alhazen/scene/primitive_table.h"
+#include "alhazen/aggregates/accelerator_bytes.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/sampling/random.h"
 #include "alhazen/scene/scene.h"
 #include "support/scene_maker.h"
 

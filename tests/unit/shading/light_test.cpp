@@ -1,4 +1,4 @@
-#include "alhazen/shading/light.h"
+#include "alhazen/shading/lights/light.h"
 
 #include <gtest/gtest.h>
 

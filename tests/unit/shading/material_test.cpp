@@ -1,4 +1,4 @@
-#include "alhazen/shading/material.h"
+#include "alhazen/shading/materials/material.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "alhazen/shading/material.h"
-#include "alhazen/shading/turn_to_view.h"
+#include "alhazen/shading/materials/material.h"
+#include "alhazen/shading/materials/turn_to_view.h"
 
 namespace alhazen {
 namespace {

@@ -1,9 +1,9 @@
-#include "alhazen/shading/mip_pyramid.h"
+#include "alhazen/shading/textures/mip_pyramid.h"
 
 #include <gtest/gtest.h>
 
-#include "alhazen/imaging/encoding.h"
-#include "alhazen/shading/texture.h"
+#include "alhazen/imaging/image/encoding.h"
+#include "alhazen/shading/textures/texture.h"
 
 namespace alhazen {
 namespace {

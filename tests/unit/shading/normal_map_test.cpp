@@ -1,4 +1,4 @@
-#include "alhazen/shading/normal_map.h"
+#include "alhazen/shading/textures/normal_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "alhazen/shading/texture.h"
+#include "alhazen/shading/textures/texture.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "alhazen/shapes/triangle_mesh.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "support/random_shapes.h"
 
 namespace alhazen {

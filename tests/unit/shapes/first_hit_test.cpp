@@ -1,14 +1,14 @@
 // The first crossing on its own is the first of all of them, bit for bit; so is the surface without
 // texture coordinates.
 
-#include "alhazen/shapes/first_hit.h"
+#include "alhazen/shapes/core/first_hit.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <sstream>
 
-#include "alhazen/shapes/plain_surface.h"
+#include "alhazen/shapes/core/plain_surface.h"
 #include "support/random_shapes.h"
 
 namespace alhazen {

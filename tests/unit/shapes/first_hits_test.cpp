@@ -1,6 +1,6 @@
 // The first crossings of rays side by side are those of each ray alone, bit for bit.
 
-#include "alhazen/shapes/first_hits.h"
+#include "alhazen/shapes/core/first_hits.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <bit>
 #include <sstream>
 
-#include "alhazen/shapes/first_hit.h"
+#include "alhazen/shapes/core/first_hit.h"
 #include "alhazen/simd/targets.h"
 #include "support/any_ray.h"
 #include "support/random_shapes.h"

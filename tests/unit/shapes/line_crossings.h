@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "alhazen/shapes/shape.h"
+#include "alhazen/shapes/core/shape.h"
 #include "support/random.h"
 
 namespace alhazen::testing {

@@ -1,6 +1,6 @@
 // The list of crossings: it holds any number, in order, wherever they are kept.
 
-#include "alhazen/shapes/shape_hits.h"
+#include "alhazen/shapes/core/shape_hits.h"
 
 #include <gtest/gtest.h>
 

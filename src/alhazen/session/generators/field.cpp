@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "alhazen/math/angle.h"
-#include "alhazen/math/random.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/sampling/random.h"
 #include "alhazen/session/generators/generated_scene.h"
 
 namespace alhazen {

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "alhazen/math/angle.h"
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 

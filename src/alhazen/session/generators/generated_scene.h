@@ -1,7 +1,7 @@
 #pragma once
 /// What generated scenes in the native terms have in common: a camera, a sun, a pale sky.
 
-#include "alhazen/scene/scene_description.h"
+#include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "alhazen/imaging/rgb.h"
+#include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"
 
 namespace alhazen {

@@ -53,4 +53,9 @@ void write_tetra(std::uint64_t n, NffText& out);
 /// 2^(n+1) - 1 cones and as many spheres, and 1 polygon; published 11: 4095 + 4095.
 void write_tree(std::uint64_t n, NffText& out);
 
+/// The background of most databases.
+inline constexpr Rgb kSky{0.078, 0.361, 0.753};
+/// The shininess of a material without a highlight.
+inline constexpr double kDull = 100000;
+
 }  // namespace alhazen

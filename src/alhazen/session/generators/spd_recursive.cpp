@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "alhazen/math/affine.h"
-#include "alhazen/math/angle.h"
-#include "alhazen/math/random.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/sampling/random.h"
 #include "alhazen/session/generators/spd.h"
 
 namespace alhazen {
 
 namespace {
-
-constexpr Rgb kSky{0.078, 0.361, 0.753};
-constexpr double kDull = 100000;  ///< the shininess of what does not shine
 
 Affine rotation(const Vec3& axis, double degrees) {
     return Affine::rotate(axis, degrees * kRadiansPerDegree);

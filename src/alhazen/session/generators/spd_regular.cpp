@@ -5,16 +5,13 @@
 #include <cmath>
 #include <vector>
 
-#include "alhazen/math/angle.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/session/generators/spd.h"
 #include "alhazen/session/generators/teapot_patches.h"
 
 namespace alhazen {
 
 namespace {
-
-constexpr Rgb kSky{0.078, 0.361, 0.753};
-constexpr double kDull = 100000;  ///< the shininess of what does not shine
 
 // gears
 

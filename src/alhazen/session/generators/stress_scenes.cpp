@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "alhazen/math/angle.h"
-#include "alhazen/math/random.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/sampling/random.h"
 #include "alhazen/session/generators/generated_scene.h"
 #include "alhazen/session/generators/teapot_patches.h"
 

@@ -1,0 +1,77 @@
+#pragma once
+/// What a traversal did, counted by a policy that costs nothing when it is off.
+///
+/// Names follow Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999.
+
+#include <cstdint>
+#include <utility>
+
+namespace alhazen {
+
+struct TraversalStats {
+    std::uint64_t box_tests = 0;        ///< ray-bound tests, one for each child of a wide node
+    std::uint64_t primitive_tests = 0;  ///< ray-primitive tests, padding lanes not counted
+    std::uint64_t primitive_hits = 0;   ///< tests that found a crossing in the ray's range
+    std::uint64_t mailbox_saved = 0;    ///< tests avoided by a mailbox
+    std::uint64_t node_visits = 0;      ///< nodes or cells entered
+    std::uint64_t empty_cells = 0;      ///< of these, cells without primitives
+    std::uint64_t slab_tests = 0;       ///< slabs examined in the tests of bounds made of slabs
+    std::uint64_t heap_pushes = 0;      ///< bounds put into a heap
+    std::uint64_t cache_lookups = 0;    ///< questions to a cache: of cells, of last occluders
+    std::uint64_t cache_hits = 0;       ///< of these, the ones it had the answer to
+
+    TraversalStats& operator+=(const TraversalStats& other) {
+        box_tests += other.box_tests;
+        primitive_tests += other.primitive_tests;
+        primitive_hits += other.primitive_hits;
+        mailbox_saved += other.mailbox_saved;
+        node_visits += other.node_visits;
+        empty_cells += other.empty_cells;
+        slab_tests += other.slab_tests;
+        heap_pushes += other.heap_pushes;
+        cache_lookups += other.cache_lookups;
+        cache_hits += other.cache_hits;
+        return *this;
+    }
+};
+
+/// The policy that counts.
+struct CountingStats {
+    TraversalStats* stats;
+    void boxes(std::uint64_t n) const { stats->box_tests += n; }
+    void primitives(std::uint64_t n) const { stats->primitive_tests += n; }
+    void primitive_hits(std::uint64_t n) const { stats->primitive_hits += n; }
+    void mailbox_saved(std::uint64_t n) const { stats->mailbox_saved += n; }
+    void nodes(std::uint64_t n) const { stats->node_visits += n; }
+    void empty_cells(std::uint64_t n) const { stats->empty_cells += n; }
+    void slabs(std::uint64_t n) const { stats->slab_tests += n; }
+    void heap_pushes(std::uint64_t n) const { stats->heap_pushes += n; }
+    void cache_lookup(bool hit) const {
+        ++stats->cache_lookups;
+        stats->cache_hits += hit;
+    }
+    [[nodiscard]] TraversalStats* sink() const { return stats; }  ///< for nested aggregates
+};
+
+/// The policy that does not.
+struct NoStats {
+    void boxes(std::uint64_t) const {}
+    void primitives(std::uint64_t) const {}
+    void primitive_hits(std::uint64_t) const {}
+    void mailbox_saved(std::uint64_t) const {}
+    void nodes(std::uint64_t) const {}
+    void empty_cells(std::uint64_t) const {}
+    void slabs(std::uint64_t) const {}
+    void heap_pushes(std::uint64_t) const {}
+    void cache_lookup(bool) const {}
+    [[nodiscard]] TraversalStats* sink() const { return nullptr; }
+};
+
+/// Calls `body(policy)` with the policy that counts into `stats`, or the one that does not.
+template <class Body>
+decltype(auto) with_stats(TraversalStats* stats, Body&& body) {
+    if (stats != nullptr) return body(CountingStats{stats});
+    return body(NoStats{});
+}
+
+}  // namespace alhazen

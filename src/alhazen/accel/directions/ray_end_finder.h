@@ -1,0 +1,68 @@
+#pragma once
+/// Says which of the known ends (lights) a ray goes to.
+///
+/// Conventions: a ray goes to an end when its line passes within `room` of it and it does not go on
+/// behind it by more than that. Ends at infinity are not looked for.
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "alhazen/accel/core/accelerator.h"
+#include "alhazen/accel/core/padded_box.h"
+
+namespace alhazen {
+
+class RayEndFinder {
+  public:
+    RayEndFinder() = default;
+    /// The first `most` ends that are near enough to the primitives for double numbers.
+    RayEndFinder(const BoundsSource& source, const PaddedBox& space, std::size_t most)
+        : room_(space.pad) {
+        for (const RayEnd& end : source.ray_ends()) {
+            const bool near = max_component(abs(end.place)) <= 0x1p40 * space.pad;
+            if (!end.at_infinity && near && places_.size() < most) places_.push_back(end.place);
+        }
+    }
+
+    [[nodiscard]] const std::vector<Vec3>& places() const { return places_; }
+    /// How far beside an end a ray may pass.
+    [[nodiscard]] double room() const { return room_; }
+
+    struct Found {
+        std::size_t end;
+        double start, stop;  ///< distances of both ends of the ray from the place
+    };
+    [[nodiscard]] std::optional<Found> find(const Ray& ray) const {
+        // Scaled, so that squares neither overflow nor vanish.
+        const double scale = max_component(abs(ray.direction));
+        const Vec3 d = ray.direction / scale;
+        const double length2 = dot(d, d);
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Vec3 to_end = places_[i] - ray.origin;
+            const double t = dot(to_end, d) / length2;
+            if (!(max_component(abs(to_end - t * d)) <= 0.5 * room_)) continue;
+            const double length = std::sqrt(length2);
+            const double start = (t - ray.t_min * scale) * length;
+            const double stop = (t - ray.t_max * scale) * length;
+            if (start > 4 * room_ && stop >= -room_) return Found{i, start, stop};
+        }
+        return std::nullopt;
+    }
+    /// The same of rays that ask what is in their way; others go nowhere.
+    template <class Visitor>
+    [[nodiscard]] std::optional<Found> find_for(const Ray& ray) const {
+        constexpr AsksFor kAsked = asks_for<Visitor>();
+        if constexpr (kAsked == AsksFor::AnyHit || kAsked == AsksFor::AnyBlocker) {
+            return find(ray);
+        } else {
+            return std::nullopt;
+        }
+    }
+
+  private:
+    std::vector<Vec3> places_;
+    double room_ = 0;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,76 @@
+#pragma once
+/// What the builders of the wide BVH work on: references to primitives, and binary trees over them.
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "alhazen/accel/wide_bvh/nodes/wide_node.h"
+#include "alhazen/base/huge_array.h"
+
+namespace alhazen {
+
+/// Kinds of primitive that cannot share a leaf.
+inline constexpr std::size_t kLeafKinds = 4;
+
+/// What a leaf of one kind costs to test.
+struct LeafKind {
+    std::uint32_t width_log2 = 0;  ///< of the number of primitives in a block
+    float cost = 1;                ///< of a block, in visits of a wide node
+
+    [[nodiscard]] std::uint32_t width() const { return 1u << width_log2; }
+    /// Blocks that `count` primitives fill.
+    [[nodiscard]] std::uint32_t blocks(std::uint32_t count) const {
+        return (count + width() - 1) >> width_log2;
+    }
+    /// Half a block is not worth a box of its own, except by the cost that `collapse` weighs:
+    /// builders need not divide so few.
+    [[nodiscard]] std::uint32_t indivisible() const { return width() > 2 ? width() / 2 : 1; }
+};
+using LeafKinds = std::array<LeafKind, kLeafKinds>;
+
+/// A primitive to build over, or the part of one that lies in a cell. Two registers of four floats.
+struct alignas(32) BuildReference {
+    float lo[3];
+    std::uint32_t id;
+    float hi[3];
+    std::uint32_t kind;
+
+    BuildReference() = default;
+    BuildReference(const FloatBox& box, std::uint32_t primitive, std::uint32_t leaf_kind)
+        : id(primitive), kind(leaf_kind) {
+        set_box(box);
+    }
+    [[nodiscard]] FloatBox box() const {
+        FloatBox box;
+        std::memcpy(box.lo, lo, sizeof(lo));
+        std::memcpy(box.hi, hi, sizeof(hi));
+        return box;
+    }
+    void set_box(const FloatBox& box) {
+        std::memcpy(lo, box.lo, sizeof(lo));
+        std::memcpy(hi, box.hi, sizeof(hi));
+    }
+    /// Twice the center of the box.
+    [[nodiscard]] float center2(int axis) const { return lo[axis] + hi[axis]; }
+};
+static_assert(sizeof(BuildReference) == 32);
+
+struct BinaryNode {
+    FloatBox box;
+    std::uint32_t begin = 0, end = 0;  ///< its range of the references
+    std::uint32_t right = 0;  ///< index of the right child; the left one follows; 0: a leaf
+    std::uint32_t kind =
+        kLeafKinds;  ///< of all primitives in the range; kLeafKinds where they differ
+
+    [[nodiscard]] bool is_leaf() const { return right == 0; }
+    [[nodiscard]] std::uint32_t size() const { return end - begin; }
+};
+
+struct BinaryBvh {
+    HugeArray<BinaryNode> nodes;    ///< [0] is the root; not every index is used
+    std::uint32_t index_count = 0;  ///< indices are below this
+    bool empty = true;
+};
+
+}  // namespace alhazen

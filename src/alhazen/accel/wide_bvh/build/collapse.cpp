@@ -1,0 +1,296 @@
+#include "alhazen/accel/wide_bvh/build/collapse.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/parallel/parallel.h"
+
+namespace alhazen {
+namespace {
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+/// Subtrees of so many references are tasks of their own.
+constexpr std::uint32_t kTaskSize = 4096;
+
+/// The best ways to turn the subtree of a binary node into at most i wide subtrees.
+template <std::uint32_t kWidth>
+struct ChoiceOf {
+    std::array<float, kWidth + 1> cost;  ///< [i]; of at most i subtrees
+    std::array<std::uint8_t, kWidth + 1>
+        left;                 ///< [i]; how many go to the left child, 0: do as for i - 1
+    std::uint8_t inner_left;  ///< as left[kWidth], for a wide node made of this one
+    bool as_leaf;             ///< the single subtree is a leaf
+};
+
+/// What a wide subtree takes up, or where it begins.
+struct Extent {
+    std::size_t nodes = 0;
+    std::array<std::size_t, kLeafKinds> blocks{};
+
+    void add(const Extent& other) {
+        nodes += other.nodes;
+        for (std::size_t k = 0; k < kLeafKinds; ++k) blocks[k] += other.blocks[k];
+    }
+};
+
+/// What was found out about a wide subtree.
+struct Plan {
+    Extent extent;
+    int depth = 0;               ///< levels of inner nodes
+    std::vector<Plan> children;  ///< only where they are tasks of their own
+
+    void add(const Plan& child) {
+        extent.add(child.extent);
+        depth = std::max(depth, child.depth);
+    }
+};
+
+/// The binary nodes that become the children of a wide node.
+template <std::uint32_t kWidth>
+struct ChildrenOf {
+    std::array<std::uint32_t, kWidth> node;
+    std::uint32_t count = 0;
+};
+
+/// A subtree that has been written: where it is, and what it means to a query for any hit.
+struct Emitted {
+    NodeRef ref;
+    float surface = 0;  ///< area
+    float cost = 0;     ///< of a line that meets its box and goes on through all of it
+};
+
+/// What is to be visited first has more: the chance to end there over its cost.
+float promise_of(const Emitted& child, const FloatBox& box) {
+    return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
+}
+
+/// Three passes: what to do with each binary node, from the leaves up; what each wide subtree takes
+/// up; and then all of them are written, each to its place.
+template <std::uint32_t kWidth>
+class Collapse {
+    using Choice = ChoiceOf<kWidth>;
+    using Children = ChildrenOf<kWidth>;
+    using Node = WideNodeOf<kWidth>;
+
+  public:
+    Collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
+             const LeafKinds& kinds, LeafSink& sink)
+        : binary_(binary),
+          references_(references),
+          kinds_(kinds),
+          sink_(sink),
+          choices_(make_huge_array<Choice>(binary.index_count)) {}
+
+    WideBvh run() {
+        choose(0);
+        const Plan all = plan(0, 1);
+        const auto& blocks = all.extent.blocks;
+        if (all.depth > kMaxWideDepth || all.extent.nodes >= NodeRef::kMaxNodes ||
+            *std::max_element(blocks.begin(), blocks.end()) > NodeRef::kMaxOffset) {
+            throw Error(ErrorKind::Resource, "too many primitives for one wide BVH");
+        }
+        wide_.empty = false;
+        wide_.depth = all.depth;
+        wide_.width = kWidth;
+        nodes_of<kWidth>(wide_).resize(all.extent.nodes);
+        nodes_ = nodes_of<kWidth>(wide_).data();
+        sink_.resize(blocks);
+        wide_.root = emit(0, all, {}).ref;
+        return std::move(wide_);
+    }
+
+  private:
+    [[nodiscard]] static bool is_task(const BinaryNode& node) { return node.size() >= kTaskSize; }
+
+    void choose(std::uint32_t index) {
+        const BinaryNode& node = binary_.nodes[index];
+        Choice& choice = choices_[index];
+        const float area = node.box.weight();
+        choice.cost.fill(leaf_cost(node, area));
+        choice.left.fill(0);
+        choice.as_leaf = true;
+        if (node.is_leaf()) return;
+        const auto left = [&] { choose(index + 1); };
+        const auto right = [&] { choose(node.right); };
+        if (is_task(node)) {
+            parallel_invoke(left, right);
+        } else {
+            left();
+            right();
+        }
+        weigh(choice, choices_[index + 1], choices_[node.right], area);
+    }
+
+    [[nodiscard]] float leaf_cost(const BinaryNode& node, float area) const {
+        if (node.kind == kLeafKinds) return kNever;
+        const LeafKind& kind = kinds_[node.kind];
+        const std::uint32_t blocks = kind.blocks(node.size());
+        if (blocks > NodeRef::kMaxBlocks) return kNever;
+        return area * kind.cost * static_cast<float>(blocks);
+    }
+
+    static void weigh(Choice& choice, const Choice& l, const Choice& r, float area) {
+        std::array<float, kWidth + 1>
+            spread{};  // [j]: exactly these children, at most j subtrees in all
+        for (std::uint32_t j = 2; j <= kWidth; ++j) {
+            float least = kNever;
+            std::uint32_t at = 1;
+            for (std::uint32_t k = 1; k < j; ++k) {
+                const float cost = l.cost[k] + r.cost[j - k];
+                at = cost < least ? k : at;
+                least = cost < least ? cost : least;
+            }
+            spread[j] = least;
+            choice.left[j] = static_cast<std::uint8_t>(at);
+        }
+        const float inner = area + spread[kWidth];
+        choice.as_leaf = choice.cost[1] <= inner && choice.cost[1] < kNever;
+        choice.cost[1] = std::min(choice.cost[1], inner);
+        choice.inner_left = choice.left[kWidth];
+        for (std::uint32_t j = 2; j <= kWidth; ++j) {
+            choice.cost[j] = std::min(spread[j], choice.cost[j - 1]);
+            if (!(spread[j] < choice.cost[j - 1])) choice.left[j] = 0;
+        }
+    }
+
+    /// Appends the at most `budget` subtrees that were chosen for a subtree.
+    void gather(std::uint32_t index, std::uint32_t budget, Children& out) const {
+        const Choice& choice = choices_[index];
+        while (budget > 1 && choice.left[budget] == 0) --budget;
+        if (budget == 1) {
+            out.node[out.count++] = index;
+        } else {
+            divide(index, choice.left[budget], budget, out);
+        }
+    }
+    void divide(std::uint32_t index, std::uint32_t left, std::uint32_t budget,
+                Children& out) const {
+        gather(index + 1, left, out);
+        gather(binary_.nodes[index].right, budget - left, out);
+    }
+    [[nodiscard]] Children children(std::uint32_t index) const {
+        Children out;
+        divide(index, choices_[index].inner_left, kWidth, out);
+        return out;
+    }
+
+    [[nodiscard]] std::uint32_t blocks_of(const BinaryNode& node) const {
+        return kinds_[node.kind].blocks(node.size());
+    }
+
+    [[nodiscard]] Plan plan(std::uint32_t index, int depth) const {
+        const BinaryNode& node = binary_.nodes[index];
+        Plan sum;
+        if (choices_[index].as_leaf) {
+            sum.extent.blocks[node.kind] = blocks_of(node);
+            return sum;
+        }
+        sum.extent.nodes = 1;
+        sum.depth = depth;
+        // A tree too deep is refused; what it takes up is not of interest.
+        if (depth > kMaxWideDepth) return sum;
+        const Children all = children(index);
+        if (!is_task(node)) {
+            for (std::uint32_t i = 0; i < all.count; ++i) sum.add(plan(all.node[i], depth + 1));
+            return sum;
+        }
+        sum.children.resize(all.count);
+        parallel_for(all.count, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                sum.children[i] = plan(all.node[i], depth + 1);
+            }
+        });
+        for (const Plan& child : sum.children) sum.add(child);
+        return sum;
+    }
+
+    /// Writes a subtree from `place` on, and moves that behind it.
+    Emitted emit(std::uint32_t index, Extent& place) {
+        const BinaryNode& node = binary_.nodes[index];
+        if (choices_[index].as_leaf) return emit_leaf(node, place);
+        const std::size_t number = place.nodes++;
+        const Children all = children(index);
+        std::array<Emitted, kWidth> emitted;
+        for (std::uint32_t i = 0; i < all.count; ++i) emitted[i] = emit(all.node[i], place);
+        return emit_node(number, index, all, emitted);
+    }
+    Emitted emit_leaf(const BinaryNode& node, Extent& place) {
+        const std::uint32_t count = blocks_of(node);
+        const std::size_t offset = place.blocks[node.kind];
+        place.blocks[node.kind] += count;
+        const float surface =
+            sink_.pack(node.kind, offset, references_.subspan(node.begin, node.size()));
+        return {NodeRef::leaf(node.kind, static_cast<std::uint32_t>(offset), count), surface,
+                kinds_[node.kind].cost * static_cast<float>(count)};
+    }
+
+    /// The same with the children in parallel, where there is a plan of them.
+    Emitted emit(std::uint32_t index, const Plan& plan, Extent place) {
+        if (plan.children.empty()) return emit(index, place);
+        const std::size_t number = place.nodes++;
+        const Children all = children(index);
+        std::array<Extent, kWidth> places;
+        for (std::uint32_t i = 0; i < all.count; ++i) {
+            places[i] = place;
+            place.add(plan.children[i].extent);
+        }
+        std::array<Emitted, kWidth> emitted;
+        parallel_for(all.count, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                emitted[i] = emit(all.node[i], plan.children[i], places[i]);
+            }
+        });
+        return emit_node(number, index, all, emitted);
+    }
+
+    /// Writes a node above its children, the most promising one first.
+    Emitted emit_node(std::size_t number, std::uint32_t index, const Children& all,
+                      const std::array<Emitted, kWidth>& emitted) {
+        Emitted sum{NodeRef::node(static_cast<std::uint32_t>(number)), 0, 0};
+        std::array<float, kWidth> promise;
+        std::array<std::uint32_t, kWidth> order;
+        for (std::uint32_t i = 0; i < all.count; ++i) {
+            const FloatBox& box = binary_.nodes[all.node[i]].box;
+            sum.surface += emitted[i].surface;
+            sum.cost += emitted[i].cost * box.weight();
+            promise[i] = promise_of(emitted[i], box);
+            // Insertion sort; of equal ones the first stays the first.
+            std::uint32_t place = i;
+            for (; place > 0 && promise[order[place - 1]] < promise[i]; --place) {
+                order[place] = order[place - 1];
+            }
+            order[place] = i;
+        }
+        sum.cost = 1.0f + sum.cost / binary_.nodes[index].box.weight();
+        Node& node = nodes_[number];
+        for (std::uint32_t slot = 0; slot < all.count; ++slot) {
+            node.set_box(slot, binary_.nodes[all.node[order[slot]]].box);
+            node.child[slot] = emitted[order[slot]].ref;
+        }
+        node.set_order();
+        return sum;
+    }
+
+    const BinaryBvh& binary_;
+    std::span<const BuildReference> references_;
+    LeafKinds kinds_;
+    LeafSink& sink_;
+    HugeArray<Choice> choices_;
+    WideBvh wide_;
+    Node* nodes_ = nullptr;
+};
+
+}  // namespace
+
+WideBvh collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
+                 const LeafKinds& kinds, LeafSink& sink, std::uint32_t width) {
+    if (binary.empty) return {};
+    if (width == 4) return Collapse<4>(binary, references, kinds, sink).run();
+    if (width == 16) return Collapse<16>(binary, references, kinds, sink).run();
+    return Collapse<8>(binary, references, kinds, sink).run();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,35 @@
+#pragma once
+/// A binary tree in the making, its nodes in any order: what the methods work on that build from
+/// the leaves or move subtrees about.
+///
+/// Complexity and threads: O(n); `linearize` is partly parallel, with the same result for every
+/// number of threads.
+
+#include <span>
+#include <vector>
+
+#include "alhazen/accel/wide_bvh/build/build_types.h"
+
+namespace alhazen {
+
+struct DraftNode {
+    FloatBox box;
+    std::uint32_t left = 0, right = 0;  ///< nodes; both 0: a leaf
+    std::uint32_t begin = 0, end = 0;   ///< of a leaf: its references, of one kind
+
+    [[nodiscard]] bool is_leaf() const { return right == 0; }
+};
+
+struct DraftBvh {
+    std::vector<DraftNode> nodes;  ///< none for an empty tree
+    std::uint32_t root = 0;
+};
+
+/// The same tree; what is best left in one block is a leaf. The root is node 0.
+[[nodiscard]] DraftBvh draft_of(const BinaryBvh& tree, const LeafKinds& kinds);
+
+/// Writes the tree down with the references in the order of its leaves. Subtrees that begin at
+/// level kMaxSahLevel and reach too far down are balanced anew, so the depth is bounded.
+[[nodiscard]] BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references);
+
+}  // namespace alhazen

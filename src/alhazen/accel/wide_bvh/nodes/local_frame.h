@@ -1,0 +1,117 @@
+#pragma once
+/// The frame in which the float boxes of a wide BVH live: the scene moved to the origin and
+/// scaled by a power of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps
+/// the full resolution of float.
+///
+/// A scene that has the origin near its middle is only scaled: coordinates that are float stay so,
+/// exactly.
+/// Conventions: local = (world - center) * scale, computed in double. The rounding of that and of
+/// the exact tests is covered once per ray (`SlabRay`), not in the boxes; boxes carry only the
+/// rounding to float.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "alhazen/accel/wide_bvh/nodes/wide_node.h"
+#include "alhazen/geometry/box.h"
+
+namespace alhazen {
+
+/// The largest float not above `x`, and the smallest not below it.
+inline float round_down(double x) {
+    const float f = static_cast<float>(x);
+    if (static_cast<double>(f) <= x) return f;
+    if (f == 0.0f) return -std::numeric_limits<float>::denorm_min();
+    // One step towards -infinity: away from zero is up in the bits.
+    const auto bits = std::bit_cast<std::uint32_t>(f);
+    return std::bit_cast<float>(f > 0.0f ? bits - 1 : bits + 1);
+}
+inline float round_up(double x) {
+    return -round_down(-x);
+}
+
+/// Bound, relative to the distances in play, of how far from the ray a computed hit can be.
+inline constexpr double kExactTestSlack = 0x1p-38;
+
+/// A bound that grows with the distance of a ray's origin, its largest local coordinate.
+struct DistanceBound {
+    float slope, constant;
+    [[nodiscard]] float at(float distance) const { return slope * distance + constant; }
+    friend bool operator==(const DistanceBound&, const DistanceBound&) = default;
+};
+
+/// What the slack of the rays of one frame is made of (see SlabRay). All are a little more than the
+/// sums in real numbers, for their own rounding.
+struct FrameSlack {
+    DistanceBound delta;  ///< displacement that covers what is computed in double
+    DistanceBound reach;  ///< no coordinate of the scene is farther from the origin
+    DistanceBound slab;   ///< of the slab test, for a direction of 1
+    float least_length;   ///< directions below this take the careful way
+
+    /// Of a frame with the offset `offset`; `usual` is LocalFrame::usual.
+    explicit FrameSlack(double offset = 0, bool usual = true)
+        : delta{kMore * static_cast<float>(kExactTestSlack),
+                kMore * static_cast<float>(kExactTestSlack * (1.0 + offset))},
+          reach{kMore + 2.0f * delta.slope, kMore + 2.0f * delta.constant},
+          slab{6.5f * 0x1p-24f * reach.slope + kMore * delta.slope,
+               6.5f * 0x1p-24f * reach.constant + kMore * delta.constant},
+          least_length(usual ? 0x1p-40f : std::numeric_limits<float>::infinity()) {}
+
+    friend bool operator==(const FrameSlack&, const FrameSlack&) = default;
+
+  private:
+    static constexpr float kMore = 1.0001f;
+};
+
+struct LocalFrame {
+    Vec3 center;
+    double scale = 1;
+    double inverse_scale = 1;
+    /// Largest coordinate of the center, in local units: how much of a double the offset uses up.
+    double offset = 0;
+    /// False where exponents could leave the range of double in the exact tests.
+    bool usual = true;
+    FrameSlack slack;
+
+    LocalFrame() = default;
+    /// `box` is finite or empty, with coordinates up to 1e150.
+    explicit LocalFrame(const Box3& box) {
+        if (box.empty()) return;
+        center = box.center();
+        double half = 0.5 * max_component(box.size());
+        double far = max_component(abs(center));
+        if (far <= 2.0 * half) {
+            center = {};
+            half = std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+            far = 0;
+        }
+        // Not finer than the rounding of the coordinates themselves.
+        const double reach = std::max({half, far * 0x1p-30, 0x1p-500});
+        scale = std::ldexp(1.0, -std::ilogb(reach) - 1);
+        inverse_scale = 1.0 / scale;
+        offset = far * scale;
+        usual = is_usual(scale);
+        slack = FrameSlack(offset, usual);
+    }
+
+    [[nodiscard]] static bool is_usual(double scale) {
+        return scale >= 0x1p-200 && scale <= 0x1p200;
+    }
+    [[nodiscard]] Vec3 local(const Vec3& p) const { return scale * (p - center); }
+    /// The point whose local coordinates these are, rounded.
+    [[nodiscard]] Vec3 world(const Vec3& local) const { return inverse_scale * local + center; }
+    [[nodiscard]] FloatBox local(const Box3& box) const {
+        const Vec3 lo = local(box.lo);
+        const Vec3 hi = local(box.hi);
+        FloatBox out;
+        for (int k = 0; k < 3; ++k) {
+            out.lo[k] = round_down(lo[k]);
+            out.hi[k] = round_up(hi[k]);
+        }
+        return out;
+    }
+};
+
+}  // namespace alhazen

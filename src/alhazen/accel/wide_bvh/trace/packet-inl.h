@@ -1,0 +1,207 @@
+/// The coherent kernel of the wide BVH: a packet of rays with a common point, eye rays or shadow
+/// rays of a point light, goes through the tree as one pyramid; rays are told apart in the leaves.
+///
+/// Source: Fuetterling, Lojewski, Pfreundt and Ebert, "Efficient Ray Tracing Kernels for Modern CPU
+/// Architectures", JCGT 4(5), 2015 (large packets, a test of the whole packet per node); Wald,
+/// Boulos and Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies",
+/// ACM TOG 26(1), 2007 (coherent traversal, nodes skipped by a bound of all rays).
+/// Differs: no box is tested for single rays. All slack of `SlabRay`, and the distance of the rays
+/// from a common point, is in the planes of the pyramid, so that it never loses a box in which the
+/// test in double of a ray finds a hit.
+/// Let z be the axis along which all rays go the same way and fastest, D = +-z their depth along
+/// it, P a point near which all rays pass, either where they begin or where they end, k = D - D_P,
+/// and h = k or -k the distance from P, not negative within the rays' ranges. A point of a ray has
+/// x = P_x + T h + r, where T is the ray's slope and |r| at most what it passes P by. A box is met
+/// only if that can be said of one of its points with a slope of the range of all; with products
+/// over h >= 0 monotone, four planes tell. What is computed in float is off by less than 8 e R, the
+/// error of a slope, 3 e, included (e = 2^-24, R the reach, as for SlabRay), and by `delta` for the
+/// test in double; twice 13.2 e R + 4 delta are taken, for h is clamped to 0 as well, and twice the
+/// distance from P.
+/// Conventions: included once per target (see simd/lanes-inl.h). A packet that does not fit (rays
+/// in all directions, or from afar) is refused; statistics count a packet as one ray.
+
+#if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_PACKET_INL_H_
+#undef ALHAZEN_ACCEL_WIDE_BVH_TRACE_PACKET_INL_H_
+#else
+#define ALHAZEN_ACCEL_WIDE_BVH_TRACE_PACKET_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+
+#include "alhazen/accel/wide_bvh/nodes/wide_node.h"
+#include "alhazen/accel/wide_bvh/trace/ray_group-inl.h"
+#include "alhazen/accel/wide_bvh/trace/slab_ray.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// The rays of a packet and the pyramid around them. What makes it: make_packet-inl.h.
+class RayPacket {
+  public:
+    RayGroup groups[kPacketGroups];
+    RayLanes rays[kPacketGroups];  ///< as given
+    std::size_t group_count = 0;
+    std::uint32_t kx = 0, ky = 0, kz = 0;
+    float error = 0;    ///< of a sheared coordinate, as in triangle_filter.h, of any ray
+    float s_error = 0;  ///< of a local parameter, for a slope of 1
+    float point[3];     ///< P, along kx, ky, kz
+    float away[2];      ///< how far the rays pass it by, in x and in y, at most
+    float k_max = 0;    ///< the largest of the groups
+    /// [x, y][group] the slopes of their rays; those of no group are never met
+    HWY_ALIGN float slope_lo[2][kPacketGroups];
+    HWY_ALIGN float slope_hi[2][kPacketGroups];
+    HWY_ALIGN float group_k_max[kPacketGroups];  ///< no ray of the group needs to go deeper
+    /// [x, y][group] the middle of these, with the sign that it has for h; and how far slopes of
+    /// the group lie from it, at most.
+    HWY_ALIGN float group_middle[2][kPacketGroups];
+    HWY_ALIGN float group_spread[kPacketGroups];
+    float middle[2];   ///< of all slopes, in x and in y
+    float widest = 0;  ///< how far a slope lies beside it, at most
+
+    /// False when the rays are too different; then nothing else may be called. `used` has bits for
+    /// the rays that are wanted; those are cleared that do not fit in, and remain to be traced in
+    /// another way: those that cannot be used or go another way than the first, in either case.
+    [[nodiscard]] bool make(const LocalFrame& frame, std::span<const Ray> given,
+                            std::uint64_t& used);
+    /// Lanes that need not go any further.
+    static HWY_INLINE void retire(RayGroup& group, std::uint32_t lanes) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            group.s_max[std::countr_zero(lanes)] = -std::numeric_limits<float>::infinity();
+        }
+    }
+
+    /// Bits of the children that the pyramid meets; `nearest` orders them.
+    HWY_INLINE std::uint32_t meet_children(const WideNode& node, Floats& nearest) const {
+        return meet_boxes(node.planes, nearest);
+    }
+    /// The same for eight boxes [lower x, y, z, upper x, y, z][box].
+    HWY_INLINE std::uint32_t meet_boxes(const float (&planes)[6][kLaneCount],
+                                        Floats& nearest) const {
+        const Floats sign(sign_), minus_depth(-depth_of_point_);
+        // Depths of the near and the far plane.
+        nearest = mul_add(load_lanes(planes[near_row_]), sign, minus_depth);
+        const Floats farthest = mul_add(load_lanes(planes[far_row_]), sign, minus_depth);
+        const Floats zero(0.0f);
+        const Floats h0 = max_lanes(from_start_ ? nearest : -farthest, zero);
+        const Floats h1 = max_lanes(from_start_ ? farthest : -nearest, zero);
+        LaneMask<float> missed = (nearest > Floats(k_max)) | (farthest < Floats(k_min_));
+        HWY_UNROLL(2)
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Floats lo = load_lanes(planes[lateral_row_[i]]) - Floats(point_hi_[i]);
+            const Floats hi = load_lanes(planes[lateral_row_[i] + 3]) - Floats(point_lo_[i]);
+            const Floats above =
+                neg_mul_add(Floats(hi_up_[i]), h1, neg_mul_add(Floats(hi_down_[i]), h0, lo));
+            const Floats below =
+                neg_mul_add(Floats(lo_up_[i]), h0, neg_mul_add(Floats(lo_down_[i]), h1, hi));
+            missed = missed | (above > zero) | (below < zero);
+        }
+        return kAllLanes & ~bits_of(missed);
+    }
+
+    /// The groups whose part of the pyramid meets a box [axis], with slack for its rounding.
+    HWY_INLINE std::uint32_t meet_groups(const float (&lo)[3], const float (&hi)[3]) const {
+        const float near = (sign_ > 0 ? lo[kz] : -hi[kz]) - depth_of_point_;
+        const float far = (sign_ > 0 ? hi[kz] : -lo[kz]) - depth_of_point_;
+        if (!(far >= k_min_)) return 0;
+        const Floats zero(0.0f);
+        const Floats h0(std::max(from_start_ ? near : -far, 0.0f));
+        const Floats h1(std::max(from_start_ ? far : -near, 0.0f));
+        LaneMask<float> missed = Floats(near) > load_lanes(group_k_max);
+        const std::uint32_t axes[2] = {kx, ky};
+        const bool up = (sign_ > 0) == from_start_;
+        HWY_UNROLL(2)
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Floats least = up ? load_lanes(slope_lo[i]) : -load_lanes(slope_hi[i]);
+            const Floats most = up ? load_lanes(slope_hi[i]) : -load_lanes(slope_lo[i]);
+            const Floats above = neg_mul_add(
+                max_lanes(most, zero), h1,
+                neg_mul_add(min_lanes(most, zero), h0, Floats(lo[axes[i]] - point_hi_[i])));
+            const Floats below = neg_mul_add(
+                max_lanes(least, zero), h0,
+                neg_mul_add(min_lanes(least, zero), h1, Floats(hi[axes[i]] - point_lo_[i])));
+            missed = missed | (above > zero) | (below < zero);
+        }
+        return ((1u << group_count) - 1) & ~bits_of(missed);
+    }
+
+    /// The groups of which a ray may meet a ball. With C its center from P, m the middle slope of
+    /// a group, q the distance of C from the line P + h (m, 1) and w the length by which slopes
+    /// of the group differ from m: a ray that meets the ball does so where h is at most C_h + r,
+    /// so q <= r + w (C_h + r). What is computed in float is off by less than 34 e R and, as for a
+    /// box, by delta and by how far rays pass P.
+    HWY_INLINE std::uint32_t meet_ball(const float (&center)[3], float radius) const {
+        const float along = sign_ * center[kz] - depth_of_point_;
+        const float deep = from_start_ ? along : -along;
+        const float beside[2] = {center[kx] - point[0], center[ky] - point[1]};
+        const Floats x(beside[0]), y(beside[1]), h(deep);
+        const Floats mx = load_lanes(group_middle[0]), my = load_lanes(group_middle[1]);
+        const Floats a = neg_mul_add(h, my, y), b = neg_mul_add(h, mx, x);
+        const Floats c = mul_sub(x, my, y * mx);
+        const Floats reach =
+            mul_add(load_lanes(group_spread), Floats(std::max(deep + radius, 0.0f)),
+                    Floats(radius + ball_slack_));
+        const Floats squared = mul_add(a, a, mul_add(b, b, c * c));
+        const Floats scale = mul_add(mx, mx, mul_add(my, my, Floats(1.0f)));
+        return ((1u << group_count) - 1) & ~bits_of(squared > scale * (reach * reach));
+    }
+
+    /// Ray i need not go farther than that.
+    HWY_INLINE void limit(std::size_t i, float s) {
+        float& s_max = groups[i / kGroupRays].s_max[i % kGroupRays];
+        s_max = std::min(s_max, s);
+    }
+    /// Nor do the rays of a group beyond their t_max, which has shrunk; `scale` is that of the
+    /// frame.
+    HWY_INLINE void limit_group(std::size_t g, double scale) {
+        if (scale == 0) return;
+        // As LocalParameter::above.
+        const Doubles t = load_lanes(rays[g].t_max) * Doubles(scale);
+        const Doubles s = t + Doubles(kLocalSlack) * abs(t);
+        const Floats above = as_floats(s + (abs(s) * Doubles(0x1p-23) + Doubles(0x1p-100)));
+        const Floats s_max = load_lanes(groups[g].s_max);
+        // A NaN, of a ray that is not used, changes nothing.
+        store_lanes(select_lanes(above < s_max, above, s_max), groups[g].s_max);
+    }
+    void shrink_all() { shrink((1u << group_count) - 1); }
+    /// After groups have changed: bits of those that have.
+    HWY_INLINE void shrink(std::uint32_t changed) {
+        for (; changed != 0; changed &= changed - 1) {
+            const auto g = static_cast<std::size_t>(std::countr_zero(changed));
+            group_k_max[g] = groups[g].deepest(k_slack_);
+        }
+        k_max = RayGroup::most_of(load_lanes(group_k_max));
+    }
+    /// Along z, upwards where rays go.
+    [[nodiscard]] HWY_INLINE float sign() const { return sign_; }
+
+  private:
+    static constexpr float kUnit = 0x1p-24f;
+    /// Wider pyramids meet too many boxes that no ray meets.
+    static constexpr float kWidest = 0.5f;
+    static constexpr float kFarthest = 0.25f;
+
+    std::uint64_t load(const LocalFrame& frame, std::span<const Ray> given);
+    bool keep_one_way(std::uint64_t& used);
+    HWY_INLINE void make_slopes(std::size_t g);
+    bool find_point();
+    bool find_planes();
+
+    float sign_ = 1, depth_of_point_ = 0, k_min_ = 0, k_slack_ = 0, reach_ = 0, delta_ = 0;
+    std::size_t near_row_ = 0, far_row_ = 0, lateral_row_[2];
+    bool from_start_ = true;
+    float point_lo_[2], point_hi_[2];  ///< P with the slack
+    float ball_slack_ = 0;
+    /// Parts of the largest and the smallest slope that are positive and negative.
+    float hi_up_[2], hi_down_[2], lo_up_[2], lo_down_[2];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

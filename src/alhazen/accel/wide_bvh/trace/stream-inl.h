@@ -1,0 +1,235 @@
+/// The stream kernel of the wide BVH: any rays, several of them interleaved, so that one ray's
+/// arithmetic hides the latency of the others' memory and branches.
+///
+/// Source: Kocberber, Falsafi and Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015
+/// (slots refilled one by one); Fuetterling, Lojewski, Pfreundt, Hamann and Ebert, "Accelerated
+/// Single Ray Tracing for Wide Vector Units", HPG 2017 (children sorted by the octant of the ray
+/// and compressed onto the stack).
+/// Differs: the order of an octant is that of the centers of the boxes along its diagonal; queries
+/// for any hit have one order for all (collapse.h).
+/// Conventions: included once per target (see simd/lanes-inl.h).
+///
+/// What a turn of a ray decides was stored the turn before, so that a wrongly predicted branch is
+/// found out at once and throws little of the other rays' work away.
+/// `Query`: `visit(NodeRef, stats)` tests a leaf, true to stop, as for NodeRef::none();
+/// `finish_step(stats)` after the last, again and again until it is true; `slabs`, the ray;
+/// `s_max`, how far it still needs to go. `Source`: `start(void* place)` makes the query of the
+/// next ray there, false when there is none.
+
+#if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_
+#undef ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_
+#else
+#define ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <array>
+#include <new>
+
+#include "alhazen/accel/wide_bvh/build/build_types.h"
+#include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Rays on their way at a time.
+inline constexpr std::size_t kStreamSlots = 8;
+
+/// Where in memory a node or a leaf lies, computed without a branch.
+class PrefetchTable {
+  public:
+    /// Leaf i of kind k is at leaves[k] + i * sizes[k].
+    template <std::size_t W>
+    HWY_INLINE PrefetchTable(const WideNodeOf<W>* nodes, const void* const (&leaves)[kLeafKinds],
+                             const std::size_t (&sizes)[kLeafKinds]) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            place_[i] = {nodes, sizeof(WideNodeOf<W>), ~0u, W > 8 ? std::size_t{256} : 0};
+            // Nothing is to be fetched for NodeRef::none().
+            place_[8 + i] = {nodes, 0, 0, 0};
+        }
+        for (std::size_t i = 0; i < kLeafKinds; ++i) {
+            place_[8 + i] = {leaves[i], sizes[i], NodeRef::kMaxOffset,
+                             sizes[i] > 256 ? std::size_t{256} : 0};
+        }
+    }
+    /// Five lines, or what there is.
+    HWY_INLINE void prefetch(std::uint32_t ref) const {
+        const Place& place = place_[ref >> 28];
+        const char* lines = static_cast<const char*>(place.base) + (ref & place.mask) * place.size;
+        hwy::Prefetch(lines);
+        hwy::Prefetch(lines + 64);
+        hwy::Prefetch(lines + 128);
+        hwy::Prefetch(lines + 192);
+        hwy::Prefetch(lines + place.fifth);
+    }
+
+  private:
+    struct Place {
+        const void* base;
+        std::size_t size;
+        std::uint32_t mask;
+        std::size_t fifth;
+    };
+    Place place_[16];
+};
+
+/// Subtrees yet to visit, entries and references apart so that both are stored by lanes. Its height
+/// is kept outside: in a register. The lowest says that there are no more.
+template <std::size_t W>
+struct StreamStack {
+    static constexpr std::size_t kSize = 1 + kTraversalStackSize<W> + W;
+    float entry[kSize];
+    std::uint32_t child[kSize];
+
+    HWY_INLINE void clear() {
+        entry[0] = -std::numeric_limits<float>::infinity();
+        child[0] = NodeRef::none().bits();
+    }
+
+    /// Puts the children that are hit on top: the farthest first by the order of the octant, or
+    /// those of the highest slots first.
+    template <bool kOrdered, std::size_t kRegisters = kParts<float, W>>
+    [[nodiscard]] HWY_INLINE std::size_t push(std::size_t height, const WideNodeOf<W>& node,
+                                              const Lanes<float, W>& entries,
+                                              const LaneMask<float, W>& hit, std::uint32_t octant) {
+        if constexpr (kRegisters == 1) {
+            return push_lanes<kOrdered>(height, node, entries, hit, octant);
+        } else {
+            HWY_ALIGN float near[W];
+            store_lanes(entries, near);
+            const std::uint32_t bits = bits_of(hit);
+            auto order = node.order[octant];
+            for (std::size_t i = 0; i < W; ++i) {
+                const std::size_t slot = kOrdered ? order & (W - 1) : W - 1 - i;
+                order = static_cast<decltype(order)>(order >> WideNodeOf<W>::kSlotBits);
+                entry[height] = near[slot];
+                child[height] = node.child[slot].bits();
+                height += bits >> slot & 1;
+            }
+            return height;
+        }
+    }
+
+  private:
+    using Tag = LaneTag<float, W>;
+
+    /// [lane] the slot that is to be there.
+    static HWY_INLINE auto slots_of(const WideNodeOf<W>& node, std::uint32_t octant) {
+        const hn::RebindToUnsigned<Tag> du;
+        constexpr std::uint32_t kBits = WideNodeOf<W>::kSlotBits;
+        constexpr std::uint32_t kInWord = 32 / kBits;  // slots of which 32 bits of an order tell
+        HWY_ALIGN static constexpr auto kShifts = [] {
+            std::array<std::uint32_t, W> shifts{};
+            for (std::uint32_t i = 0; i < W; ++i) shifts[i] = i % kInWord * kBits;
+            return shifts;
+        }();
+        const auto order = node.order[octant];
+        auto word = hn::Set(du, static_cast<std::uint32_t>(order));
+        if constexpr (W > kInWord) {
+            const auto rest = hn::Set(du, static_cast<std::uint32_t>(order >> 32));
+            word = hn::IfThenElse(hn::FirstN(du, kInWord), word, rest);
+        }
+        return hn::And(hn::Shr(word, hn::Load(du, kShifts.data())), hn::Set(du, W - 1));
+    }
+
+    template <bool kOrdered>
+    HWY_INLINE std::size_t push_lanes(std::size_t height, const WideNodeOf<W>& node,
+                                      const Lanes<float, W>& entries, const LaneMask<float, W>& hit,
+                                      std::uint32_t octant) {
+        const Tag d;
+        const auto missed = hn::Set(d, std::numeric_limits<float>::infinity());
+        const auto entries_hit = hn::IfThenElse(hit.part[0], entries.part[0], missed);
+        const auto children = hn::Load(d, reinterpret_cast<const float*>(node.child));
+        const auto in_order = [&](const auto& values) HWY_ATTR {
+            if constexpr (kOrdered) {
+                const hn::RebindToSigned<Tag> di;
+                return hn::TableLookupLanes(
+                    values, hn::IndicesFromVec(d, hn::BitCast(di, slots_of(node, octant))));
+            } else {
+                return hn::Reverse(d, values);
+            }
+        };
+        const auto near = in_order(entries_hit);
+        const auto mask = hn::Lt(near, missed);
+        hn::StoreU(hn::Compress(near, mask), d, entry + height);
+        hn::StoreU(hn::Compress(in_order(children), mask), d,
+                   reinterpret_cast<float*>(child + height));
+        return height + hn::CountTrue(d, mask);
+    }
+};
+
+template <class Query, std::size_t W>
+struct StreamSlot {
+    alignas(64) std::byte place[sizeof(Query)];
+    std::size_t height;
+    StreamStack<W> stack;
+
+    [[nodiscard]] HWY_INLINE Query& query() {
+        return *std::launder(reinterpret_cast<Query*>(place));
+    }
+};
+
+/// One node or leaf of one ray; false when the ray is done.
+template <class Query, std::size_t W, class Stats>
+HWY_INLINE bool advance(StreamSlot<Query, W>& slot, const WideNodeOf<W>* nodes,
+                        const PrefetchTable& prefetch_table, Stats stats) {
+    Query& query = slot.query();
+    StreamStack<W>& stack = slot.stack;
+    std::size_t height = slot.height;
+    do {
+        --height;
+    } while (stack.entry[height] > query.s_max);
+    const NodeRef ref = NodeRef::from_bits(stack.child[height]);
+    if (ref.is_leaf()) {
+        if (query.visit(ref, stats)) return false;
+    } else {
+        const WideNodeOf<W>& node = nodes[ref.index()];
+        stats.nodes(1);
+        stats.boxes(node.child_count());
+        Lanes<float, W> entries;
+        const LaneMask<float, W> hit = meet_children(node, query.slabs, query.s_max, entries);
+        height = stack.template push<Query::kOrdered>(height, node, entries, hit,
+                                                      query.slabs.near.octant);
+    }
+    slot.height = height;
+    prefetch_table.prefetch(stack.child[height - 1]);
+    return true;
+}
+
+/// Takes every ray of `source` through the tree.
+template <class Query, std::size_t W, class Source, class Stats>
+HWY_INLINE void traverse_stream(const WideNodeOf<W>* nodes, NodeRef root,
+                                const PrefetchTable& prefetch_table, Source& source, Stats stats) {
+    StreamSlot<Query, W> slots[kStreamSlots];
+    StreamSlot<Query, W>* active[kStreamSlots];
+    const auto start = [&](StreamSlot<Query, W>& slot) HWY_ATTR {
+        if (!source.start(slot.place)) return false;
+        slot.stack.clear();
+        slot.stack.entry[1] = -std::numeric_limits<float>::infinity();
+        slot.stack.child[1] = root.bits();
+        slot.height = 2;
+        return true;
+    };
+    std::size_t count = 0;
+    while (count < kStreamSlots && start(slots[count])) {
+        active[count] = &slots[count];
+        ++count;
+    }
+    while (count > 0) {
+        for (std::size_t i = 0; i < count; ++i) {
+            StreamSlot<Query, W>& slot = *active[i];
+            if (advance(slot, nodes, prefetch_table, stats)) continue;
+            source.finish(slot.query(), stats);
+            if (!start(slot)) active[i--] = active[--count];
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

@@ -1,0 +1,134 @@
+/// The traversal kernel of the wide BVH: one ray, the children of a node at a time, compiled once
+/// per instruction set and width of the nodes.
+///
+/// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008.
+/// Differs: slab test with all slack in the ray's constants (`SlabRay`); ways of their own for
+/// one and two children hit.
+/// Conventions: included once per target (see simd/lanes-inl.h). `Leaf` offers `bool
+/// visit(NodeRef, stats)`, true to stop, and `float s_max`, how far the ray still needs to go:
+/// boxes that begin at exactly that are visited.
+
+#if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
+#undef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
+#else
+#define ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_INL_H_
+#endif
+
+#include "alhazen/accel/wide_bvh/nodes/wide_node.h"
+#include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// The children whose boxes the ray meets; `entry` is where.
+template <std::size_t W>
+HWY_INLINE LaneMask<float, W> meet_children(const WideNodeOf<W>& node, const SlabRay& ray,
+                                            float s_max, Lanes<float, W>& entry) {
+    using F = Lanes<float, W>;
+    const float* planes = node.planes[0];
+    F near[3], far[3];
+    HWY_UNROLL(3)
+    for (std::size_t k = 0; k < 3; ++k) {
+        const F reciprocal(ray.reciprocal[k]);
+        near[k] = mul_add(load_lanes<W>(planes + W / 4 * ray.near.row[k]), reciprocal,
+                          F(ray.near_offset[k]));
+        far[k] = mul_add(load_lanes<W>(planes + W / 4 * ray.near.far_row(k)), reciprocal,
+                         F(ray.far_offset[k]));
+    }
+    // s_min is not negative: what lies behind it may be compared as it comes.
+    entry = larger_by_bits(larger_by_bits(near[0], near[1]), larger_by_bits(near[2], F(ray.s_min)));
+    const F exit =
+        smaller_by_bits(smaller_by_bits(far[0], far[1]), smaller_by_bits(far[2], F(s_max)));
+    return entry <= exit;
+}
+
+struct StackEntry {
+    float entry;
+    NodeRef ref;
+};
+
+/// Puts the children that are hit on the stack, the nearest on top; returns the new height.
+template <std::size_t W>
+HWY_INLINE std::size_t push_sorted(const WideNodeOf<W>& node, std::uint32_t hit, const float* entry,
+                                   StackEntry* stack, std::size_t height) {
+    const std::size_t base = height;
+    for (; hit != 0; hit &= hit - 1) {
+        const auto slot = static_cast<std::size_t>(std::countr_zero(hit));
+        const StackEntry child{entry[slot], node.child[slot]};
+        std::size_t place = height++;
+        while (place > base && stack[place - 1].entry < child.entry) {
+            stack[place] = stack[place - 1];
+            --place;
+        }
+        stack[place] = child;
+    }
+    return height;
+}
+
+/// Visits the leaves the ray meets, nearest first if `kOrdered`, else from slot 0 on, until `leaf`
+/// says stop; true when it did.
+template <bool kOrdered, std::size_t W, class Leaf, class Stats>
+HWY_INLINE bool traverse(const WideNodeOf<W>* nodes, NodeRef root, const SlabRay& ray, Leaf& leaf,
+                         Stats stats) {
+    StackEntry stack[kTraversalStackSize<W>];
+    std::size_t height = 0;
+    NodeRef ref = root;
+    while (true) {
+        if (ref.is_leaf()) {
+            if (leaf.visit(ref, stats)) return true;
+        } else {
+            const WideNodeOf<W>& node = nodes[ref.index()];
+            stats.nodes(1);
+            stats.boxes(node.child_count());
+            Lanes<float, W> entries;
+            std::uint32_t hit = bits_of(meet_children(node, ray, leaf.s_max, entries));
+            if (hit != 0) {
+                const auto first = static_cast<std::size_t>(std::countr_zero(hit));
+                hit &= hit - 1;
+                if (hit == 0) {
+                    ref = node.child[first];
+                    continue;
+                }
+                HWY_ALIGN float entry[W];
+                store_lanes(entries, entry);
+                const auto second = static_cast<std::size_t>(std::countr_zero(hit));
+                hit &= hit - 1;
+                if (hit == 0) {
+                    const bool swap = kOrdered && entry[second] < entry[first];
+                    const std::size_t later = swap ? first : second;
+                    stack[height++] = {entry[later], node.child[later]};
+                    ref = node.child[swap ? second : first];
+                    continue;
+                }
+                if constexpr (kOrdered) {
+                    hit |= 1u << first | 1u << second;
+                    height = push_sorted(node, hit, entry, stack, height);
+                    ref = stack[--height].ref;
+                } else {
+                    hit |= 1u << second;
+                    for (; hit != 0; hit &= ~(0x80000000u >> std::countl_zero(hit))) {
+                        const auto slot = static_cast<std::size_t>(31 - std::countl_zero(hit));
+                        stack[height++] = {entry[slot], node.child[slot]};
+                    }
+                    ref = node.child[first];
+                }
+                continue;
+            }
+        }
+        // Written so that a NaN is not passed over.
+        do {
+            if (height == 0) return false;
+            --height;
+        } while (stack[height].entry > leaf.s_max);
+        ref = stack[height].ref;
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

@@ -1,0 +1,35 @@
+#pragma once
+/// Makes aggregates of the accelerators of accel/accel_list.h; each list of accelerators in a file
+/// of its own, because every traversal is compiled for every query.
+
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/aggregate_of.h"
+
+namespace alhazen {
+
+template <class A>
+std::shared_ptr<const Aggregate> make_aggregate_of(PrimitiveTable table,
+                                                   const AcceleratorSettings& settings,
+                                                   const BuildOptions&) {
+    SettingsReader reader(A::kName, settings);
+    const typename A::Config config = A::configure(reader);
+    reader.finish();
+    return std::make_shared<const AggregateOf<A>>(std::move(table), config);
+}
+
+template <class... A>
+std::vector<MakeAggregate> makers_of(std::tuple<A...>*) {
+    return {&make_aggregate_of<A>...};
+}
+
+/// In the order of accel/accel_list.h.
+[[nodiscard]] std::vector<MakeAggregate> bound_accelerators();
+[[nodiscard]] std::vector<MakeAggregate> cell_accelerators();
+[[nodiscard]] std::vector<MakeAggregate> direction_accelerators();
+
+}  // namespace alhazen

@@ -1,0 +1,35 @@
+#pragma once
+/// Builds any accelerator by its name: accel/accelerator_names.h with what makes an aggregate of
+/// each.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "alhazen/accel/accelerator_names.h"
+#include "alhazen/accel/wide_bvh/build/build_options.h"
+#include "alhazen/primitives/aggregate.h"
+#include "alhazen/primitives/primitive_table.h"
+
+namespace alhazen {
+
+/// Throws Error (Usage) for settings that the accelerator does not have.
+using MakeAggregate = std::shared_ptr<const Aggregate> (*)(PrimitiveTable table,
+                                                           const AcceleratorSettings& settings,
+                                                           const BuildOptions& options);
+
+struct AcceleratorEntry : AcceleratorInfo {
+    MakeAggregate make;
+};
+
+/// In the order of `accelerator_names`.
+[[nodiscard]] std::span<const AcceleratorEntry> accelerator_table();
+
+/// Builds the accelerator ("NAME" or "NAME:SETTING=VALUE,...") over a finished table. Throws as
+/// `check_accelerator` does. Build options concern the wide BVH only.
+[[nodiscard]] std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator,
+                                                              PrimitiveTable table,
+                                                              const BuildOptions& options = {});
+
+}  // namespace alhazen

@@ -1,0 +1,10 @@
+#include "alhazen/accel/accel_list.h"
+#include "alhazen/aggregates/accelerator_entries.h"
+
+namespace alhazen {
+
+std::vector<MakeAggregate> cell_accelerators() {
+    return makers_of(static_cast<CellAccelerators*>(nullptr));
+}
+
+}  // namespace alhazen

@@ -1,0 +1,171 @@
+#pragma once
+/// Makes an aggregate of a primitive table and any accelerator that visits primitives one at a
+/// time.
+///
+/// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside
+/// the accelerator.
+/// Complexity and threads: one virtual call per ray; the traversal is instantiated for each query
+/// with the visitor in it. Const functions may be called from many threads.
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+
+#include "alhazen/accel/core/accelerator.h"
+#include "alhazen/accel/core/reentrant_stack.h"
+#include "alhazen/primitives/aggregate.h"
+#include "alhazen/primitives/bounded_primitives.h"
+#include "alhazen/primitives/primitive_table.h"
+
+namespace alhazen {
+
+template <Accelerator A>
+class AggregateOf final : public Aggregate {
+  public:
+    explicit AggregateOf(PrimitiveTable table, const typename A::Config& config = {})
+        : table_(std::move(table)), accelerator_(build(config)) {}
+
+    [[nodiscard]] Box3 box() const override { return box_; }
+    [[nodiscard]] std::size_t memory_bytes() const override {
+        return accelerator_.memory_bytes() + unbounded_.capacity() * sizeof(PrimitiveId) +
+               bounded_.capacity() * sizeof(std::uint32_t);
+    }
+    [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
+
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override {
+        hit = Hit{};
+        if (!is_valid(ray)) return false;
+        Ray shrinking = ray;
+        const RayShear shear(ray.direction);
+        with_stats(query.stats, [&](auto policy) {
+            each<AsksFor::Closest>(shrinking, policy, [&](PrimitiveId id) {
+                table_.closest(id, shrinking, shear, hit, policy, query.mask);
+                return false;
+            });
+        });
+        return hit.found();
+    }
+
+    [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override {
+        if (!is_valid(ray)) return false;
+        const RayShear shear(ray.direction);
+        return with_stats(query.stats, [&](auto policy) {
+            return each<AsksFor::AnyHit>(ray, policy, [&](PrimitiveId id) {
+                return table_.occluded(id, ray, shear, policy, query.mask);
+            });
+        });
+    }
+
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override {
+        if (!is_valid(ray)) return;
+        const RayShear shear(ray.direction);
+        const std::size_t before = hits.size();
+        with_stats(query.stats, [&](auto policy) {
+            OnlyOnce once(hits);
+            each<AsksFor::AllHits>(ray, policy, [&](PrimitiveId id) {
+                const std::size_t known = hits.size();
+                table_.all_hits(id, ray, shear, hits, policy, query.mask);
+                once.keep(id, known);
+                return false;
+            });
+        });
+        sort_appended(hits, before);
+    }
+
+    [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                RayQuery query) const override {
+        if (!is_valid(ray)) return false;
+        const RayShear shear(ray.direction);
+        const std::size_t before = crossings.size();
+        const bool opaque = with_stats(query.stats, [&](auto policy) {
+            OnlyOnce once(crossings);
+            return each<AsksFor::AnyBlocker>(ray, policy, [&](PrimitiveId id) {
+                const std::size_t known = crossings.size();
+                if (table_.shadowed(id, ray, shear, crossings, policy, query.mask)) return true;
+                once.keep(id, known);
+                return false;
+            });
+        });
+        if (!opaque) sort_appended(crossings, before);
+        return opaque;
+    }
+
+  private:
+    /// Where primitives lie in many cells: the crossings of one that is visited again are dropped.
+    class OnlyOnce {
+      public:
+        explicit OnlyOnce(std::vector<Hit>& hits) : hits_(hits) {}
+        /// What was appended beyond `known` came from `id`.
+        void keep(PrimitiveId id, std::size_t known) {
+            if constexpr (visits_repeatedly<A>()) {
+                if (hits_.size() == known) return;
+                if (std::find(seen_.begin(), seen_.end(), id) == seen_.end()) {
+                    seen_.push(id);
+                } else {
+                    hits_.resize(known);
+                }
+            }
+        }
+
+      private:
+        std::vector<Hit>& hits_;
+        ReentrantStack<PrimitiveId> seen_;
+    };
+
+    /// The reciprocal of what is smaller may be infinite, and so may be t where something is hit:
+    /// such a ray is tested against everything.
+    static constexpr double kLeastDirection = 0x1p-960;
+
+    A build(const typename A::Config& config) {
+        BoundedPrimitives bounded(table_);
+        A accelerator = A::build(bounded, config);
+        box_ = bounded.all();
+        unbounded_ = bounded.unbounded();
+        bounded_count_ = static_cast<std::uint32_t>(bounded.size());
+        bounded_ = bounded.take_bounded();
+        return accelerator;
+    }
+
+    template <AsksFor kWanted, class Test>
+    struct Visitor {
+        static constexpr AsksFor kAsksFor = kWanted;
+        const Ray& ray;
+        const std::uint32_t* ids;  ///< null: the accelerator's numbers are the table's ids
+        Test& test;
+        bool stopped = false;
+        [[nodiscard]] double t_max() const { return ray.t_max; }
+        bool visit(std::uint32_t i) {
+            stopped = test(PrimitiveId{ids != nullptr ? ids[i] : i});
+            return stopped;
+        }
+    };
+
+    /// Calls `test(id)` for every primitive the ray may meet until it returns true; true when it
+    /// did.
+    template <AsksFor kWanted, class Stats, class Test>
+    bool each(const Ray& ray, Stats stats, Test&& test) const {
+        for (const PrimitiveId id : unbounded_) {
+            if (test(id)) return true;
+        }
+        Visitor<kWanted, std::remove_reference_t<Test>> visitor{
+            ray, bounded_.empty() ? nullptr : bounded_.data(), test};
+        if (max_component(abs(ray.direction)) < kLeastDirection) {
+            for (std::uint32_t i = 0; i < bounded_count_; ++i) {
+                if (visitor.visit(i)) return true;
+            }
+            return false;
+        }
+        accelerator_.traverse(ray, visitor, stats);
+        return visitor.stopped;
+    }
+
+    PrimitiveTable table_;
+    // Set by `build`, so declared before the accelerator.
+    Box3 box_;
+    std::vector<PrimitiveId> unbounded_;
+    std::vector<std::uint32_t> bounded_;
+    std::uint32_t bounded_count_ = 0;
+    A accelerator_;
+};
+
+}  // namespace alhazen

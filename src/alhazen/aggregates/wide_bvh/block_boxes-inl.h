@@ -1,0 +1,109 @@
+/// Boxes along the axes and balls around the eight shapes of a block, in float.
+///
+/// Source: none. Differs: nothing. Of slabs |d_k . (p - c)| <= h_k whose directions are of length 1
+/// and lean by at most e = |d_i . d_j|, p - c is the sum of (d_k . (p - c)) d_k but for terms of e
+/// times the widths: along an axis a it reaches sum h_k |d_k a| + 1.8 e (h_0 + h_1 + h_2), of which
+/// 4 e are taken.
+/// Conventions: in the frame of the tree, with room for the rounding of all that makes them:
+/// coordinates are at most about 1 there. Included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_
+#endif
+
+#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+class BlockBoxes {
+  public:
+    HWY_INLINE explicit BlockBoxes(const SphereBlock& block) {
+        const Floats radius = load_lanes(block.radius);
+        const Floats half[3] = {radius, radius, radius};
+        set(block.center, half, radius);
+    }
+    /// Of each frustum the ball around it.
+    HWY_INLINE explicit BlockBoxes(const FrustumBlock& block) {
+        const Floats radius = load_lanes(block.half_height) + load_lanes(block.radius);
+        const Floats half[3] = {radius, radius, radius};
+        set(block.center, half, radius);
+    }
+    /// Of slabs that do not stand across each other (of what is sheared) the box around the ball.
+    HWY_INLINE explicit BlockBoxes(const BoxBlock& block) {
+        constexpr float kAcross = 0x1p-19f;
+        Floats direction[3][3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                direction[k][axis] = load_lanes(block.direction[k][axis]);
+            }
+        }
+        const auto leaning = [&](std::size_t i, std::size_t j) HWY_ATTR {
+            return abs(direction[i][0] * direction[j][0] + direction[i][1] * direction[j][1] +
+                       direction[i][2] * direction[j][2]);
+        };
+        const LaneMask<float> across =
+            max_lanes(max_lanes(leaning(0, 1), leaning(1, 2)), leaning(2, 0)) < Floats(kAcross);
+        const Floats room =
+            Floats(4.0f * kAcross) *
+            (load_lanes(block.half[0]) + load_lanes(block.half[1]) + load_lanes(block.half[2]));
+        const Floats radius = load_lanes(block.radius);
+        Floats half[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            half[axis] = room;
+            for (std::size_t k = 0; k < 3; ++k) {
+                half[axis] = half[axis] + load_lanes(block.half[k]) * abs(direction[k][axis]);
+            }
+            half[axis] = select_lanes(across, min_lanes(half[axis], radius), radius);
+        }
+        set(block.center, half, radius);
+    }
+
+    /// What is around one shape.
+    struct Bounds {
+        float lo[3], hi[3];       ///< the box
+        float center[3], radius;  ///< the ball
+    };
+    [[nodiscard]] HWY_INLINE Bounds bounds(std::size_t lane) const {
+        Bounds b;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            b.lo[axis] = rows_[axis][lane];
+            b.hi[axis] = rows_[3 + axis][lane];
+            b.center[axis] = (*center_)[axis][lane];
+        }
+        b.radius = radius_[lane];
+        return b;
+    }
+    /// [lower x, y, z, upper x, y, z][lane], as the planes of a node.
+    using Rows = float[6][kBlockWidth];
+    [[nodiscard]] HWY_INLINE const Rows& rows() const { return rows_; }
+
+  private:
+    HWY_INLINE void set(const float (&center)[3][kBlockWidth], const Floats (&half)[3],
+                        const Floats& radius) {
+        // Some roundings of numbers up to 2.
+        const Floats room(0x1p-20f);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Floats c = load_lanes(center[axis]), h = half[axis] + room;
+            store_lanes(c - h, rows_[axis]);
+            store_lanes(c + h, rows_[3 + axis]);
+        }
+        store_lanes(radius, radius_);
+        center_ = &center;
+    }
+
+    HWY_ALIGN Rows rows_;
+    HWY_ALIGN float radius_[kBlockWidth];
+    const float (*center_)[3][kBlockWidth];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

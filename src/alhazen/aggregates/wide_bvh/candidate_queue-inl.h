@@ -1,0 +1,112 @@
+/// What rays of a packet may hit, kept until it is decided.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_CANDIDATE_QUEUE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_CANDIDATE_QUEUE_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_CANDIDATE_QUEUE_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_CANDIDATE_QUEUE_INL_H_
+#endif
+
+#include <bit>
+#include <limits>
+
+#include "alhazen/accel/wide_bvh/trace/packet-inl.h"
+#include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Triangles that rays of a packet may hit, until the test in double decides. Most rays have one:
+/// that is kept in lanes, and others beside it in a list.
+class CandidateQueue {
+  public:
+    static constexpr float kNone = std::numeric_limits<float>::infinity();
+
+    HWY_INLINE explicit CandidateQueue(const RayPacket& packet) : packet_(packet) {
+        const GroupFloats none(kNone);
+        for (std::size_t g = 0; g < packet.group_count; ++g) store_lanes(none, kept_[g].lo);
+    }
+
+    /// Remembers a triangle for the rays of `candidates`; one that lies behind what a ray still
+    /// needs is forgotten. False when the list is full: then nothing is done.
+    [[nodiscard]] HWY_INLINE bool add(std::size_t g, TrianglePlace place,
+                                      const LaneMask<float, kGroupRays>& candidates,
+                                      const GroupFloats& begin) {
+        const RayGroup& group = packet_.groups[g];
+        Kept& kept = kept_[g];
+        const GroupFloats lo = load_lanes<kGroupRays>(kept.lo), none(kNone);
+        // A NaN is put beside, so that it is never forgotten.
+        const auto keep = candidates & (begin < none) &
+                          ((lo > load_lanes<kGroupRays>(group.s_max)) | (lo >= none));
+        std::uint32_t rest = bits_of(candidates) & ~bits_of(keep) & group.used;
+        if (HWY_UNLIKELY(rest != 0)) {
+            if (beside_count_ + kGroupRays > kMaxBeside) return false;
+            HWY_ALIGN float begins[kGroupRays];
+            store_lanes(begin, begins);
+            for (; rest != 0; rest &= rest - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+                beside_[beside_count_++] = {g * kGroupRays + i, place, begins[i]};
+            }
+        }
+        store_lanes(select_lanes(keep, begin, lo), kept.lo);
+        store_lanes(select_lanes(keep, GroupFloats(std::bit_cast<float>(place)),
+                                 load_lanes<kGroupRays>(kept.place)),
+                    kept.place);
+        return true;
+    }
+
+    /// Calls `decide(ray, place)` for all, or only those beside, and forgets them.
+    template <class Decide>
+    HWY_INLINE void take_all(Decide&& decide) {
+        for (std::size_t g = 0; g < packet_.group_count; ++g) {
+            const RayGroup& group = packet_.groups[g];
+            const GroupFloats lo = load_lanes<kGroupRays>(kept_[g].lo);
+            std::uint32_t rest =
+                bits_of((lo < GroupFloats(kNone)) & (lo <= load_lanes<kGroupRays>(group.s_max))) &
+                group.used;
+            for (; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                decide(g * kGroupRays + lane, std::bit_cast<TrianglePlace>(kept_[g].place[lane]));
+            }
+            store_lanes(GroupFloats(kNone), kept_[g].lo);
+        }
+        take_beside(decide);
+    }
+    template <class Decide>
+    HWY_INLINE void take_beside(Decide&& decide) {
+        for (std::size_t n = 0; n < beside_count_; ++n) {
+            const Beside& b = beside_[n];
+            const RayGroup& group = packet_.groups[b.ray / kGroupRays];
+            const std::size_t lane = b.ray % kGroupRays;
+            // Written so that a NaN is not passed over.
+            if ((group.used >> lane & 1) == 0 || b.lo > group.s_max[lane]) continue;
+            decide(b.ray, b.place);
+        }
+        beside_count_ = 0;
+    }
+
+  private:
+    static constexpr std::size_t kMaxBeside = 64;
+    struct alignas(64) Kept {
+        GroupRow lo;     ///< kNone: none
+        GroupRow place;  ///< bits of a TrianglePlace
+    };
+    struct Beside {
+        std::size_t ray;
+        TrianglePlace place;
+        float lo;
+    };
+    const RayPacket& packet_;
+    Kept kept_[kPacketGroups];
+    std::size_t beside_count_ = 0;
+    Beside beside_[kMaxBeside];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

@@ -1,0 +1,118 @@
+/// Takes queries through the tree of their scene: one ray, or a batch.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_DISPATCH_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <new>
+#include <span>
+
+#include "alhazen/accel/wide_bvh/trace/stream-inl.h"
+#include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
+#include "alhazen/aggregates/wide_bvh/triangle_resolution-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Calls `body(policy)` with the policy that counts into `stats`, or the one that does not.
+template <class Body>
+HWY_INLINE auto with_policy(TraversalStats* stats, Body&& body) {
+    return stats != nullptr ? body(CountingStats{stats}) : body(NoStats{});
+}
+
+template <std::size_t W, class Query>
+HWY_INLINE bool run(Query& query, TraversalStats* stats) {
+    if (!query.valid) return false;
+    const WideBvh& tree = query.scene.layout->tree;
+    return with_policy(stats, [&](auto policy) HWY_ATTR {
+        const bool stopped = traverse<Query::kOrdered>(nodes_of<W>(tree).data(), tree.root,
+                                                       query.slabs, query, policy);
+        if constexpr (requires { query.finish(policy); }) query.finish(policy);
+        return stopped;
+    });
+}
+
+/// The rays of a batch one after the other; those that cannot be traced, or need not be, are left
+/// out.
+template <class Query, class Result>
+class BatchSource {
+  public:
+    HWY_INLINE BatchSource(const WideBvhScene& scene, std::span<const Ray> rays,
+                           std::span<Result> results)
+        : scene_(scene), rays_(rays), results_(results), resolution_(scene) {}
+
+    HWY_INLINE bool start(void* place) {
+        while (next_ < rays_.size()) {
+            const std::size_t i = next_++;
+            const std::size_t soon = std::min(i + kSoon, rays_.size() - 1);
+            hwy::Prefetch(&rays_[soon]);
+            hwy::Prefetch(&results_[soon]);
+            if (done(results_[i])) continue;
+            if ((new (place) Query(scene_, rays_[i], results_[i]))->valid) return true;
+        }
+        return false;
+    }
+
+    /// The query has seen all of its leaves.
+    template <class Stats>
+    HWY_INLINE void finish(Query& query, Stats stats) {
+        if constexpr (requires { query.finish_later(resolution_, stats); }) {
+            query.finish_later(resolution_, stats);
+        } else if constexpr (requires { query.finish(stats); }) {
+            query.finish(stats);
+        }
+    }
+    /// After the last ray.
+    template <class Stats>
+    HWY_INLINE void finish_all(Stats stats) {
+        resolution_.flush(stats);
+    }
+
+  private:
+    /// Rays so far ahead are fetched.
+    static constexpr std::size_t kSoon = 6;
+
+    static bool done(const Hit&) { return false; }
+    static bool done(bool occluded) { return occluded; }
+
+    const WideBvhScene& scene_;
+    std::span<const Ray> rays_;
+    std::span<Result> results_;
+    std::size_t next_ = 0;
+    TriangleResolution resolution_;
+};
+
+template <class Query, std::size_t W, class Result>
+HWY_INLINE void run_batch(const WideBvhScene& scene, std::span<const Ray> rays,
+                          std::span<Result> results, TraversalStats* stats) {
+    BatchSource<Query, Result> source(scene, rays, results);
+    const WideBvhLayout& layout = *scene.layout;
+    const NodeRef root = layout.tree.root;
+    const WideNodeOf<W>* nodes = nodes_of<W>(layout.tree).data();
+    const bool indexed = layout.is_indexed();
+    const void* triangles = layout.triangles.data();
+    if (indexed) triangles = layout.indices.data();
+    const PrefetchTable prefetch_table(
+        nodes, {triangles, layout.spheres.data(), layout.frustums.data(), layout.others.data()},
+        {indexed ? sizeof(IndexBlock) : sizeof(TriangleBlock), sizeof(SphereBlock),
+         sizeof(FrustumBlock), sizeof(BoxBlock)});
+    with_policy(stats, [&](auto policy) HWY_ATTR {
+        traverse_stream<Query>(nodes, root, prefetch_table, source, policy);
+        source.finish_all(policy);
+    });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

@@ -1,0 +1,24 @@
+#pragma once
+/// Writes primitives into the blocks of leaves.
+
+#include <span>
+
+#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+
+namespace alhazen {
+
+/// Up to kBlockWidth primitives, in the order of their ids; the other lanes are left free.
+void fill_block(TriangleBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+/// The lanes are not exact: the mesh is asked.
+void fill_block(IndexBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+/// The bodies are rounded outward to what float holds.
+void fill_block(SphereBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+void fill_block(FrustumBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+void fill_block(BoxBlock& block, std::span<const PrimitiveId> ids, const PrimitiveTable& table,
+                const LocalFrame& frame);
+
+}  // namespace alhazen

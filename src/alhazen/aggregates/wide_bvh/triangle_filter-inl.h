@@ -1,0 +1,134 @@
+/// The triangle filter on a block: see triangle_filter.h.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes the filter and is
+/// never sure.
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_
+#endif
+
+#include <cstddef>
+#include <cstring>
+
+#include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/triangle_filter.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Bits of the lanes that may be hit, and of those that are for sure; where, in local parameters.
+struct FilteredTriangles {
+    std::uint32_t candidates, sure;
+    HWY_ALIGN float lo[kBlockWidth];
+    HWY_ALIGN float hi[kBlockWidth];
+};
+
+/// `slabs` and `local` are of the same ray.
+HWY_INLINE void make_triangle_filter_ray(const SlabRay& slabs, const LocalRay& local,
+                                         TriangleFilterRay& filter) {
+    // Slots of the axes x, y, z when the main one is 0, 1, 2, and one more that means nothing.
+    HWY_ALIGN static constexpr std::int32_t kTurned[3][4] = {
+        {1, 2, 0, 3}, {2, 0, 1, 3}, {0, 1, 2, 3}};
+    const std::uint32_t kz = local.main_axis;
+    const float sz = slabs.reciprocal[kz];
+    const auto turned = [&](const float* axes) HWY_ATTR { return permuted(axes, kTurned[kz]); };
+    // The fourth of each is set below. Addressed as parts of the whole, of which they are not the
+    // end: where lanes are stored one by one, compilers see it.
+    static_assert(offsetof(TriangleFilterRay, sx) == offsetof(TriangleFilterRay, origin) + 16);
+    float* origin = reinterpret_cast<float*>(&filter);
+    store_lanes(turned(local.origin), origin);
+    store_lanes(turned(local.direction) * AxisLanes::F(sz), origin + 4);
+    std::memcpy(&filter.kx, kTurned[kz], sizeof(kTurned[kz]));
+    filter.sz = sz;
+    constexpr float e = 0x1p-24f;
+    const float error = 13.2f * e * local.reach + 4.0f * local.delta;
+    filter.near_error = 2.2f * e * local.reach + 4.0f * local.delta;
+    filter.edge_slack = 5.12f * error;
+    filter.edge_slack_min = 2.12f * error * error;
+    filter.s_slack = (14.2f * e * local.reach + 4.0f * local.delta) * std::abs(sz);
+    filter.sure_min = local.above[0];
+    filter.sure_max = local.below[1];
+    if (HWY_UNLIKELY(!local.regular)) {
+        filter.edge_slack = filter.near_error = std::numeric_limits<float>::infinity();
+    }
+}
+
+/// The corners of the triangles of a block, sheared so that the ray is the z axis.
+struct ShearedCorners {
+    struct {
+        Floats x, y, z;
+    } corner[3];
+};
+HWY_INLINE ShearedCorners sheared_corners(const TriangleBlock& block,
+                                          const TriangleFilterRay& ray) {
+    ShearedCorners v;
+    const Floats ox(ray.origin[0]), oy(ray.origin[1]), oz(ray.origin[2]);
+    const Floats sx(ray.sx), sy(ray.sy);
+    const std::size_t kx = ray.kx, ky = ray.ky, kz = ray.kz;
+    HWY_UNROLL(3)
+    for (int i = 0; i < 3; ++i) {
+        auto& p = v.corner[i];
+        p.z = load_lanes(block.vertex[i][kz]) - oz;
+        p.x = neg_mul_add(sx, p.z, load_lanes(block.vertex[i][kx]) - ox);
+        p.y = neg_mul_add(sy, p.z, load_lanes(block.vertex[i][ky]) - oy);
+    }
+    return v;
+}
+/// The edge function of two of them.
+template <class Corner>
+HWY_INLINE Floats edge_of(const Corner& a, const Corner& b) {
+    return mul_sub(a.x, b.y, a.y * b.x);
+}
+
+/// False when no triangle of the block is hit up to `s_max`: then `out` is not set.
+HWY_INLINE bool filter_triangles(const TriangleBlock& block, const TriangleFilterRay& ray,
+                                 float s_min, float s_max, FilteredTriangles& out) {
+    const ShearedCorners sheared = sheared_corners(block, ray);
+    const auto& v = sheared.corner;
+    const Floats eu = edge_of(v[1], v[2]), ev = edge_of(v[2], v[0]), ew = edge_of(v[0], v[1]);
+    const auto reach = [](const auto& a) HWY_ATTR { return max_lanes(abs(a.x), abs(a.y)); };
+    const Floats far = max_lanes(max_lanes(reach(v[0]), reach(v[1])), reach(v[2]));
+    const Floats error = mul_add(far, Floats(ray.edge_slack), Floats(ray.edge_slack_min));
+    const Floats least = min_lanes(min_lanes(eu, ev), ew);
+    const Floats most = max_lanes(max_lanes(eu, ev), ew);
+    std::uint32_t candidates = kAllLanes & ~bits_of((least < -error) & (most > error));
+    if (candidates == 0) return false;
+
+    // Few blocks come so far: here it pays to know how far off the triangles are.
+    const Floats depth = max_lanes(max_lanes(abs(v[0].z), abs(v[1].z)), abs(v[2].z));
+    const Floats off = mul_add(far + depth, Floats(7.3f * 0x1p-24f), Floats(ray.near_error));
+    const Floats fine = off * mul_add(far, Floats(5.12f), off * Floats(2.12f));
+    const Floats sz(ray.sz);
+    const Floats sa = v[0].z * sz, sb = v[1].z * sz, sc = v[2].z * sz;
+    const Floats det = eu + ev + ew;
+    const Floats first = min_lanes(min_lanes(sa, sb), sc);
+    const Floats last = max_lanes(max_lanes(sa, sb), sc);
+    // Over the sum of the weights, the place and the weight of its error.
+    const Floats inverse = Floats(1.0f) / det;
+    const Floats place = mul_add(eu, sa, mul_add(ev, sb, ew * sc)) * inverse;
+    const Floats s = min_lanes(max_lanes(place, first), last);
+    const Floats slack =
+        mul_add(Floats(25.0f) * fine * (last - first), abs(inverse), off * Floats(1.6f) * abs(sz));
+    const Floats lo = s - slack, hi = s + slack;
+    candidates &=
+        ~bits_of(((least < -fine) & (most > fine)) | (lo > Floats(s_max)) | (hi < Floats(s_min)));
+    if (candidates == 0) return false;
+    out.candidates = candidates;
+    out.sure = candidates & bits_of(((least > fine) | (most < -fine)) &
+                                    (lo >= Floats(ray.sure_min)) & (hi <= Floats(ray.sure_max)));
+    store_lanes(lo, out.lo);
+    store_lanes(hi, out.hi);
+    return true;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

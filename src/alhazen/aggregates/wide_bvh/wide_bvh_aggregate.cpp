@@ -1,0 +1,240 @@
+#include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "alhazen/aggregates/wide_bvh/wide_bvh_file.h"
+#include "alhazen/base/error.h"
+#include "alhazen/base/huge_pages.h"
+#include "alhazen/primitives/bounded_primitives.h"
+#include "alhazen/primitives/primitive_lanes.h"
+
+namespace alhazen {
+
+WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& options)
+    : table_(std::move(table)),
+      kernels_(options.precision == Precision::Fast ? &wide_bvh_fast_kernels()
+                                                    : &wide_bvh_kernels(options.width)) {
+    const BoundedPrimitives bounded(table_);
+    box_ = bounded.all();
+    unbounded_ = bounded.unbounded();
+    treeless_ = TreelessPackets(table_, unbounded_);
+    layout_ = build_wide_bvh(table_, bounded, options);
+    built_cost_ = layout_.sah_cost();
+    packets_pay_ = packets_pay();
+    prepare_meshes();
+}
+
+WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file)
+    : table_(std::move(table)) {
+    StoredWideBvh stored = load_wide_bvh(file, table_);
+    box_ = stored.box;
+    unbounded_ = std::move(stored.unbounded);
+    treeless_ = TreelessPackets(table_, unbounded_);
+    layout_ = std::move(stored.layout);
+    kernels_ = &wide_bvh_kernels(layout_.tree.width);
+    built_cost_ = layout_.sah_cost();
+    packets_pay_ = packets_pay();
+    prepare_meshes();
+}
+
+std::shared_ptr<const WideBvhAggregate> WideBvhAggregate::load(PrimitiveTable table,
+                                                               const std::filesystem::path& file) {
+    return std::shared_ptr<const WideBvhAggregate>(new WideBvhAggregate(std::move(table), file));
+}
+
+void WideBvhAggregate::save(const std::filesystem::path& file) const {
+    save_wide_bvh(file, layout_, box_, unbounded_, table_);
+}
+
+RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
+    const BoundedPrimitives bounded(moved);
+    if (moved.size() != table_.size() || bounded.unbounded() != unbounded_) {
+        throw Error(ErrorKind::Usage, "the tree was built over other primitives");
+    }
+    alhazen::refit(layout_, moved, bounded);
+    box_ = bounded.all();
+    table_ = std::move(moved);
+    packets_pay_ = packets_pay();
+    prepare_meshes();
+    RefitReport report;
+    report.cost = layout_.sah_cost();
+    if (built_cost_ > 0) report.growth = report.cost / built_cost_;
+    return report;
+}
+
+// Measured: in trees that lie near the core. Where primitives are finer than the rays lie apart a
+// packet gives up.
+bool WideBvhAggregate::packets_pay() const {
+    constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
+    if (layout_.memory_bytes() > kCachedBytes) return false;
+    std::size_t in_lanes = 0, alone = 0;
+    for (std::uint32_t i = 0; i < table_.size(); ++i) {
+        if (i == table_.first(kTriangleKind)) {
+            const std::uint32_t end = table_.first(kTriangleKind + 1);
+            in_lanes += end - i;
+            i = end;
+            if (i == table_.size()) break;
+        }
+        const PrimitiveId id{i};
+        if (std::binary_search(unbounded_.begin(), unbounded_.end(), id)) continue;
+        ++(alhazen::takes_lanes(table_, id) ? in_lanes : alone);
+    }
+    return 64 * alone <= in_lanes;
+}
+
+void WideBvhAggregate::prepare_meshes() const {
+    for (const PlacedMesh& placed : table_.meshes) {
+        collapse_to_huge_pages(std::span(placed.mesh->triangles));
+        collapse_to_huge_pages(std::span(placed.mesh->positions));
+    }
+}
+
+std::size_t WideBvhAggregate::memory_bytes() const {
+    return layout_.memory_bytes() + unbounded_.capacity() * sizeof(PrimitiveId);
+}
+
+template <class Test>
+bool WideBvhAggregate::any_unbounded(TraversalStats* stats, Test&& test) const {
+    if (unbounded_.empty()) return false;
+    return with_stats(stats, [&](auto policy) {
+        for (const PrimitiveId id : unbounded_) {
+            if (test(id, policy)) return true;
+        }
+        return false;
+    });
+}
+
+void WideBvhAggregate::finish_hits(std::vector<Hit>& hits, std::size_t before) const {
+    sort_appended(hits, before);
+    // A triangle may lie in several leaves (accel/wide_bvh/build/spatial_split.h), and is hit once.
+    const auto is_triangle = [&](const Hit& hit) {
+        const auto id = static_cast<std::uint32_t>(hit.primitive);
+        return hit.path.empty() && table_.first(kTriangleKind) <= id &&
+               id < table_.first(kTriangleKind + 1);
+    };
+    const auto last =
+        std::unique(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
+                    [&](const Hit& a, const Hit& b) {
+                        return a.primitive == b.primitive && is_triangle(a) && is_triangle(b);
+                    });
+    hits.erase(last, hits.end());
+}
+
+bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
+    hit = Hit{};
+    if (!unbounded_.empty() && is_valid(ray)) {
+        Ray shrinking = ray;
+        const RayShear shear(ray.direction);
+        any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            table_.closest(id, shrinking, shear, hit, policy, query.mask);
+            return false;
+        });
+    }
+    if (!layout_.tree.empty) kernels_->closest(scene(query.mask), ray, hit, query.stats);
+    return hit.found();
+}
+
+bool WideBvhAggregate::occluded(const Ray& ray, RayQuery query) const {
+    if (!unbounded_.empty() && is_valid(ray)) {
+        const RayShear shear(ray.direction);
+        const bool found = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            return table_.occluded(id, ray, shear, policy, query.mask);
+        });
+        if (found) return true;
+    }
+    return !layout_.tree.empty && kernels_->occluded(scene(query.mask), ray, query.stats);
+}
+
+void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
+    if (!is_valid(ray)) return;
+    const RayShear shear(ray.direction);
+    const std::size_t before = hits.size();
+    any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+        table_.all_hits(id, ray, shear, hits, policy, query.mask);
+        return false;
+    });
+    if (!layout_.tree.empty) (void)kernels_->all_hits(scene(query.mask), ray, hits, query.stats);
+    finish_hits(hits, before);
+}
+
+bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
+    if (!is_valid(ray)) return false;
+    const RayShear shear(ray.direction);
+    const std::size_t before = crossings.size();
+    const bool opaque = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+        return table_.shadowed(id, ray, shear, crossings, policy, query.mask);
+    });
+    if (opaque) return true;
+    if (!layout_.tree.empty && kernels_->shadowed(scene(query.mask), ray, crossings, query.stats))
+        return true;
+    finish_hits(crossings, before);
+    return false;
+}
+
+namespace {
+
+/// Whether coherent rays are faster one by one than in the stream, which hides the way to memory:
+/// in trees that lie in the caches what neighbours do is predicted well.
+bool goes_one_by_one(const WideBvhLayout& layout, Coherence coherence) {
+    constexpr std::size_t kCachedBytes = std::size_t{64} << 20;
+    return coherence == Coherence::Coherent && layout.memory_bytes() <= kCachedBytes;
+}
+
+}  // namespace
+
+void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                                     Coherence coherence) const {
+    for (Hit& hit : hits) hit = Hit{};
+    for (std::size_t i = 0; i < rays.size() && !unbounded_.empty(); ++i) {
+        if (!is_valid(rays[i])) continue;
+        Ray shrinking = rays[i];
+        const RayShear shear(shrinking.direction);
+        any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            table_.closest(id, shrinking, shear, hits[i], policy, query.mask);
+            return false;
+        });
+    }
+    if (layout_.tree.empty) return;
+    if (!treeless_.empty()) return treeless_.closest(table_, rays, hits, query);
+    const WideBvhScene seen = scene(query.mask);
+    if (coherence == Coherence::Coherent && packets_pay_) {
+        kernels_->closest_coherent(seen, rays, hits, query.stats);
+    } else if (goes_one_by_one(layout_, coherence)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            kernels_->closest(seen, rays[i], hits[i], query.stats);
+        }
+    } else {
+        kernels_->closest_batch(seen, rays, hits, query.stats);
+    }
+}
+
+void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> occluded,
+                                      RayQuery query, Coherence coherence) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        occluded[i] = false;
+        if (unbounded_.empty() || !is_valid(rays[i])) continue;
+        const RayShear shear(rays[i].direction);
+        occluded[i] = any_unbounded(query.stats, [&](PrimitiveId id, auto policy) {
+            return table_.occluded(id, rays[i], shear, policy, query.mask);
+        });
+    }
+    if (layout_.tree.empty) return;
+    if (!treeless_.empty()) return treeless_.occluded(table_, rays, occluded, query);
+    const WideBvhScene seen = scene(query.mask);
+    if (goes_one_by_one(layout_, coherence)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (!occluded[i]) occluded[i] = kernels_->occluded(seen, rays[i], query.stats);
+        }
+    } else {
+        kernels_->occluded_batch(seen, rays, occluded, query.stats);
+    }
+}
+
+void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id) {
+    Hit& appended = hits.emplace_back();
+    static_cast<ShapeHit&>(appended) = hit;
+    appended.primitive = id;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,81 @@
+#pragma once
+/// The production accelerator: a wide bounding volume hierarchy, traversed with SIMD, its leaves
+/// blocks of eight triangles, spheres, cylinders or boxes around whatever else there is.
+///
+/// Source: see the headers of accel/wide_bvh/.
+/// Differs: boxes and the triangle filter are float but conservative with respect to tests in
+/// double (aggregates/wide_bvh/triangle_filter.h), so the hits are
+/// those of brute force, bit for bit.
+/// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside
+/// the tree.
+/// Complexity and threads: built in parallel; const functions may be called from many threads; no
+/// allocation per ray, except for the hits that are asked for.
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/refit.h"
+#include "alhazen/aggregates/wide_bvh/treeless_packets.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#include "alhazen/primitives/aggregate.h"
+#include "alhazen/primitives/primitive_table.h"
+
+namespace alhazen {
+
+class WideBvhAggregate final : public Aggregate {
+  public:
+    explicit WideBvhAggregate(PrimitiveTable table, const BuildOptions& options = {});
+    /// With a tree that was stored (aggregates/wide_bvh/wide_bvh_file.h) over a table like this
+    /// one, which is finished. Throws Error (File) where the tree does not fit, saying why.
+    [[nodiscard]] static std::shared_ptr<const WideBvhAggregate> load(
+        PrimitiveTable table, const std::filesystem::path& file);
+    /// Stores the tree. Throws Error (File) when that fails.
+    void save(const std::filesystem::path& file) const;
+
+    /// Fits the tree to the same primitives in other places (aggregates/wide_bvh/refit.h): no query
+    /// may run meanwhile. Throws Error(Usage) where it must be built anew, and changes nothing
+    /// then.
+    RefitReport refit(PrimitiveTable moved);
+
+    [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
+    [[nodiscard]] Box3 box() const override { return box_; }
+    [[nodiscard]] std::size_t memory_bytes() const override;
+    [[nodiscard]] const WideBvhLayout& layout() const { return layout_; }
+
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override;
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
+    [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                RayQuery query) const override;
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                       Coherence coherence = Coherence::Any) const override;
+    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
+                        Coherence coherence = Coherence::Any) const override;
+
+  private:
+    WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file);
+
+    /// Whether packets of coherent rays are faster than single rays.
+    [[nodiscard]] bool packets_pay() const;
+    /// What nobody else prepares for rays that come from everywhere.
+    void prepare_meshes() const;
+    [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
+    /// Sorts what a query appended, and drops what it found twice.
+    void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
+    /// Calls test(id, policy) for the primitives outside the tree until it returns true.
+    template <class Test>
+    bool any_unbounded(TraversalStats* stats, Test&& test) const;
+
+    PrimitiveTable table_;
+    Box3 box_;
+    std::vector<PrimitiveId> unbounded_;
+    TreelessPackets treeless_;  ///< all that is in the tree, or nothing
+    WideBvhLayout layout_;
+    double built_cost_ = 0;  ///< of the tree before any refit
+    bool packets_pay_ = false;
+    const WideBvhKernels* kernels_ = nullptr;
+};
+
+}  // namespace alhazen

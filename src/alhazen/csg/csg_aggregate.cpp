@@ -1,0 +1,175 @@
+#include "alhazen/csg/csg_aggregate.h"
+
+#include "alhazen/math/constants.h"
+
+#include <utility>
+
+namespace alhazen {
+
+namespace {
+
+/// The innermost table of a hit's path.
+const PrimitiveTable& table_of(const PrimitiveTable& outer, const Hit& hit) {
+    const PrimitiveTable* table = &outer;
+    for (std::size_t i = hit.path.size(); i-- > 0;) {
+        table = &table->instances[table->index(hit.path[i])].aggregate->primitives();
+    }
+    return *table;
+}
+
+/// Whether a closed mesh is wound so that its normals point inward.
+bool wound_inward(const Aggregate& meshes) {
+    double volume = 0.0;
+    for (const PlacedMesh& placed : meshes.primitives().meshes) {
+        volume += signed_volume(*placed.mesh);
+    }
+    return volume < 0.0;
+}
+
+}  // namespace
+
+CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
+                           const std::string& evaluator)
+    : solid_(std::move(table), std::move(expression)),
+      sphere_(find_sphere()),
+      evaluator_(find_csg_evaluator(evaluator).make(solid_)),
+      turned_(solid_.table().size(), false) {
+    if (!solid_.expression().shows_minuend.empty()) {
+        shows_minuend_.resize(solid_.table().size(), false);
+        for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
+            shows_minuend_[static_cast<std::size_t>(solid_.expression().leaves[i])] =
+                solid_.expression().shows_minuend[i];
+        }
+    }
+    const std::vector<CsgTree::Leaf>& leaves = solid_.tree().leaves();
+    const std::uint32_t first_instance = primitives().first(kInstanceKind);
+    for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
+        const auto primitive = static_cast<std::uint32_t>(solid_.expression().leaves[i]);
+        turned_[primitive] = leaves[i].complement;
+        if (primitive < first_instance) continue;
+        const Instance& instance = primitives().instances[primitive - first_instance];
+        if (instance.of_shared_mesh && wound_inward(*instance.aggregate)) {
+            turned_[primitive] = !turned_[primitive];
+        }
+    }
+}
+
+Box3 CsgAggregate::box() const {
+    // Leaves that coincide with the bound may be met a little outside it.
+    return padded(solid_.tree().box(), 1e-15);
+}
+
+/// The smallest that is known: of the box, or of a leaf that holds the solid.
+BoundingSphere CsgAggregate::find_sphere() const {
+    BoundingSphere smallest = bounding_sphere(box());
+    for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
+        if (!solid_.tree().leaves()[i].holds) continue;
+        const auto primitive = static_cast<std::size_t>(solid_.expression().leaves[i]);
+        const BoundingSphere sphere = primitives().sphere(primitive);
+        if (sphere.radius < smallest.radius) smallest = sphere;
+    }
+    // A transition is where one of the crossings is that lie together.
+    smallest.radius += 4.0 * solid_.tolerance();
+    return smallest;
+}
+
+std::size_t CsgAggregate::memory_bytes() const {
+    return solid_.memory_bytes() + evaluator_->memory_bytes() + turned_.size() / 8;
+}
+
+bool CsgAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
+    hit = Hit{};
+    return is_valid(ray) && evaluator_->first(solid_.prepare(ray, query.mask), hit, query.stats);
+}
+
+bool CsgAggregate::occluded(const Ray& ray, RayQuery query) const {
+    Hit hit;
+    return is_valid(ray) && evaluator_->first(solid_.prepare(ray, query.mask), hit, query.stats);
+}
+
+void CsgAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
+    if (is_valid(ray)) evaluator_->all(solid_.prepare(ray, query.mask), hits, query.stats);
+}
+
+bool CsgAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
+    if (!is_valid(ray)) return false;
+    const std::size_t before = crossings.size();
+    const CsgRay prepared = solid_.prepare(ray, query.mask);
+    bool leaves = evaluator_->all(prepared, crossings, query.stats);
+    std::size_t kept = before;
+    for (std::size_t i = before; i < crossings.size(); ++i, leaves = !leaves) {
+        switch (opacity(prepared, crossings[i])) {
+            case Opacity::Opaque:
+                return true;
+            case Opacity::OpaqueFromFront:
+                // The front of a solid is its outside, whichever way its parts are wound.
+                if (leaves) return true;
+                break;
+            case Opacity::Transparent:
+                if (kept != i) crossings[kept] = crossings[i];
+                ++kept;
+        }
+    }
+    crossings.resize(kept);
+    return false;
+}
+
+bool CsgAggregate::inside_at_minus_infinity(const Ray& ray) const {
+    if (box().bounded()) return false;
+    std::vector<Hit> none;
+    return evaluator_->all(solid_.prepare({ray.origin, ray.direction, -kInfinity, -kInfinity}),
+                           none, nullptr);
+}
+
+CsgAggregate::Look CsgAggregate::look(const CsgRay& ray, double t, PrimitiveId primitive) const {
+    Look look;
+    const bool of_minuend =
+        !shows_minuend_.empty() && shows_minuend_[static_cast<std::size_t>(primitive)];
+    if (!solid_.has_media() && !of_minuend) return look;
+    const CsgSides sides = evaluator_->sides(ray, t);
+    const auto material_of = [&](std::uint32_t leaf) -> std::optional<MaterialId> {
+        if (leaf == CsgTree::kNone) return std::nullopt;
+        return solid_.material(leaf);
+    };
+    look.media = {solid_.has_media(), material_of(sides.before), material_of(sides.after)};
+    const bool is_wall = look.media.before && look.media.after;
+    if (of_minuend) {
+        look.material = look.media.after ? look.media.after : look.media.before;
+    } else if (is_wall && solid_.medium(sides.after) != CsgSolid::kMixture) {
+        // What is entered is seen, and nothing from inside of what is opaque.
+        const bool opaque_before = solid_.medium(sides.before) == CsgSolid::kOpaque;
+        look.material = opaque_before ? look.media.before : look.media.after;
+    }
+    return look;
+}
+
+Opacity CsgAggregate::opacity(const CsgRay& ray, const Hit& hit) const {
+    const PrimitiveId own = hit.path.empty() ? hit.primitive : hit.path.back();
+    if (const auto material = look(ray, hit.t, own).material) {
+        return primitives().material_opacity[static_cast<std::size_t>(*material)];
+    }
+    return table_of(primitives(), hit).opacity(hit.primitive);
+}
+
+void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
+                            Surface& surface) const {
+    const Look seen = changes_materials() ? look(solid_.prepare(ray), t, primitive) : Look{};
+    if (seen.media.known) {
+        surface.media = seen.media;
+        surface.has_extras = true;
+    }
+    if (seen.material) {
+        surface.materials[0] = *seen.material;
+        surface.material_count = 1;
+        surface.weights = {1, 0, 0};
+    }
+    if (turned_[static_cast<std::size_t>(primitive)]) {
+        surface.normal = -surface.normal;
+        surface.shading_normal = -surface.shading_normal;
+    }
+    // Rays that leave the surface begin where all that coincides with it is left behind.
+    const double error = 0x1p-4 * solid_.tolerance();
+    surface.error += Vec3{error, error, error};
+}
+
+}  // namespace alhazen

@@ -1,0 +1,56 @@
+#pragma once
+/// A solid made of others (constructive solid geometry) as an aggregate: its hits are where a ray
+/// enters and leaves the solid, in turn.
+///
+/// Conventions: those of `Aggregate`; hits carry the primitive whose surface is seen, which for a
+/// subtracted one is turned over (`complete`). Any evaluator (csg_evaluator.h) gives the same hits.
+/// Threads: const functions may be called from many threads.
+
+#include "alhazen/csg/csg_evaluator.h"
+#include "alhazen/primitives/surface.h"
+
+namespace alhazen {
+
+class CsgAggregate final : public SolidAggregate {
+  public:
+    /// Throws Error: Usage for an unknown evaluator, Resource for too many leaves.
+    CsgAggregate(PrimitiveTable table, CsgExpression expression, const std::string& evaluator);
+
+    [[nodiscard]] const CsgSolid& solid() const { return solid_; }
+
+    [[nodiscard]] const PrimitiveTable& primitives() const override { return solid_.table(); }
+    [[nodiscard]] Box3 box() const override;
+    [[nodiscard]] BoundingSphere sphere() const override { return sphere_; }
+    [[nodiscard]] std::size_t memory_bytes() const override;
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override;
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
+    [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                RayQuery query) const override;
+    [[nodiscard]] const LaneSolid* lane_solid() const override { return evaluator_->lane_solid(); }
+    [[nodiscard]] bool inside_at_minus_infinity(const Ray& ray) const override;
+    void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const override;
+    [[nodiscard]] bool changes_materials() const override {
+        return solid_.has_media() || !shows_minuend_.empty();
+    }
+
+  private:
+    /// What lies on both sides of the hit, and the material that is seen where that is not the
+    /// primitive's own.
+    struct Look {
+        SurfaceMedia media;
+        std::optional<MaterialId> material;
+    };
+    [[nodiscard]] Look look(const CsgRay& ray, double t, PrimitiveId primitive) const;
+    [[nodiscard]] Opacity opacity(const CsgRay& ray, const Hit& hit) const;
+
+    [[nodiscard]] BoundingSphere find_sphere() const;
+
+    CsgSolid solid_;
+    BoundingSphere sphere_;
+    std::unique_ptr<const CsgEvaluator> evaluator_;
+    std::vector<bool> shows_minuend_;  ///< [primitive], or empty: none does
+    std::vector<bool> turned_;         ///< [primitive] its normal points into the solid
+};
+
+}  // namespace alhazen

@@ -1,0 +1,86 @@
+#pragma once
+/// A tree of boxes around the leaves of a solid, eight to a node, each child with the range of t in
+/// which a ray passes its box.
+///
+/// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for single
+/// rays); Kay and Kajiya, SIGGRAPH 1986 (slabs).
+/// Differs: built by the binary builder of wide_bvh, then eight descendants to a node; each leaf
+/// holds one box. What is computed of a ray is double, what is stored of boxes float; the boxes of
+/// a node are tested together, with the same bits on every instruction set. Conventions: ranges
+/// hold the true ones with `pad` to spare on every side. Boxes that are not finite are listed
+/// apart.
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/accel/wide_bvh/nodes/local_frame.h"
+#include "alhazen/base/huge_pages.h"
+#include "alhazen/geometry/ray.h"
+
+namespace alhazen {
+
+class CsgBvh {
+  public:
+    static constexpr std::size_t kWidth = 8;
+    /// A child: a node, or a leaf (its number with this bit).
+    static constexpr std::uint32_t kLeafBit = 1u << 31;
+
+    struct alignas(64) Node {
+        float lo[3][kWidth];
+        float hi[3][kWidth];
+        std::uint32_t child[kWidth];  ///< those that are not used have an empty box
+    };
+
+    /// A ray in the frame of the tree, its origin moved by the pad for either side of the slabs.
+    struct RaySlabs {
+        double near_origin[3], far_origin[3], inverse[3];
+        bool negative[3];
+    };
+
+    /// Where the line is in the box of each child of a node, and which of them it passes: bit i for
+    /// child i.
+    struct alignas(64) Ranges {
+        double enter[kWidth], exit[kWidth];
+    };
+    using RangesKernel = std::uint32_t (*)(const Node&, const RaySlabs&, Ranges&);
+
+    CsgBvh() = default;
+    /// Empty boxes are left out.
+    explicit CsgBvh(std::span<const Box3> boxes);
+
+    [[nodiscard]] bool empty() const { return nodes_.empty(); }
+    [[nodiscard]] const std::vector<std::uint32_t>& unbounded() const { return unbounded_; }
+    [[nodiscard]] std::size_t memory_bytes() const {
+        return nodes_.capacity() * sizeof(Node) + unbounded_.capacity() * sizeof(std::uint32_t);
+    }
+
+    /// `pad` in the units of the boxes.
+    [[nodiscard]] RaySlabs slabs(const Ray& ray, double pad) const;
+    /// Calls visit(child, enter, exit) for each child of the node (0: the root) that the line
+    /// passes.
+    template <class Visit>
+    void children(std::uint32_t node, const RaySlabs& ray, Visit&& visit) const;
+
+  private:
+    HugeVector<Node> nodes_;
+    RangesKernel ranges_ = nullptr;
+    std::vector<std::uint32_t> unbounded_;
+    LocalFrame frame_;
+};
+
+template <class Visit>
+void CsgBvh::children(std::uint32_t index, const RaySlabs& ray, Visit&& visit) const {
+    const Node& node = nodes_[index];
+    Ranges ranges;
+    for (std::uint32_t passed = ranges_(node, ray, ranges); passed != 0; passed &= passed - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(passed));
+        visit(node.child[i], ranges.enter[i], ranges.exit[i]);
+    }
+}
+
+/// The kernel for the instruction set that was chosen.
+[[nodiscard]] CsgBvh::RangesKernel csg_ranges_kernel();
+
+}  // namespace alhazen

@@ -1,0 +1,44 @@
+#pragma once
+/// A solid as its description says it: operators over operands, the leaves of which are primitives
+/// of a table.
+///
+/// Conventions: leaves are numbered in the order of the description; where surfaces of several
+/// leaves coincide, that of the leaf with the lowest number is seen.
+
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/geometry/hit.h"
+#include "alhazen/scene_model/scene_description.h"
+
+namespace alhazen {
+
+/// A leaf or a node of an expression, as an operand.
+class CsgOperand {
+  public:
+    [[nodiscard]] static CsgOperand leaf(std::uint32_t index) { return CsgOperand(~index); }
+    [[nodiscard]] static CsgOperand node(std::uint32_t index) { return CsgOperand(index); }
+    [[nodiscard]] bool is_leaf() const { return (bits_ & kLeafBit) != 0; }
+    [[nodiscard]] std::uint32_t index() const { return is_leaf() ? ~bits_ : bits_; }
+
+  private:
+    static constexpr std::uint32_t kLeafBit = 1u << 31;
+    explicit CsgOperand(std::uint32_t bits) : bits_(bits) {}
+    std::uint32_t bits_;
+};
+
+struct CsgExpression {
+    struct Node {
+        Combine combine = Combine::Union;  ///< never Group
+        std::vector<CsgOperand> operands;
+    };
+    std::vector<Node> nodes;  ///< [0] is the root; operands come after their node
+    /// [leaf] its surface shows the material of what it is taken away from; or empty: none does.
+    std::vector<bool> shows_minuend;
+    std::vector<PrimitiveId> leaves;  ///< [leaf] primitive of the table
+};
+
+/// Leaves have 31 bits for their number, one of which tells them from nodes.
+inline constexpr std::uint32_t kMaxCsgLeaves = (1u << 30) - 1;
+
+}  // namespace alhazen

@@ -1,0 +1,128 @@
+#include "alhazen/csg/csg_solid.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "alhazen/base/error.h"
+#include "alhazen/csg/csg_aggregate.h"
+#include "alhazen/primitives/unused_shear.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Coordinates are rounded by an ulp of themselves: far from the origin that counts.
+constexpr double kOffsetShare = 0x1p-8;
+
+}  // namespace
+
+CsgSolid::CsgSolid(PrimitiveTable table, CsgExpression expression)
+    : table_(std::move(table)), expression_(std::move(expression)) {
+    if (expression_.leaves.size() > kMaxCsgLeaves) {
+        throw Error(ErrorKind::Resource, "more than 1073741823 leaves in one solid");
+    }
+    std::vector<Box3> boxes;
+    boxes.reserve(leaf_count());
+    for (std::uint32_t i = 0; i < leaf_count(); ++i) boxes.push_back(leaf_box(i));
+    tree_ = CsgTree(expression_, boxes);
+    for (const Instance& instance : table_.instances) {
+        solids_.push_back(dynamic_cast<const SolidAggregate*>(instance.aggregate.get()));
+    }
+    find_media();
+    unbounded_ = std::any_of(boxes.begin(), boxes.end(),
+                             [](const Box3& box) { return !box.empty() && !box.bounded(); });
+    Box3 finite;
+    for (const Box3& bound : tree_.bounds()) {
+        if (!bound.empty() && bound.bounded()) finite.include(bound);
+    }
+    if (finite.empty()) return;
+    center_ = finite.center();
+    half_ = 0.5 * max_component(finite.size());
+    offset_ = kOffsetShare * max_component(abs(center_));
+}
+
+void CsgSolid::find_media() {
+    const std::uint32_t first_instance = table_.first(kInstanceKind);
+    bool any = false;
+    for (std::uint32_t leaf = 0; leaf < leaf_count(); ++leaf) {
+        const PrimitiveId id = expression_.leaves[leaf];
+        MaterialId material{};
+        const CsgSolid* inner = nullptr;
+        if (static_cast<std::uint32_t>(id) < first_instance) {
+            material = table_.shape_material(id);
+        } else {
+            const Instance& instance =
+                table_.instances[static_cast<std::uint32_t>(id) - first_instance];
+            if (const auto* solid = dynamic_cast<const CsgAggregate*>(instance.aggregate.get())) {
+                inner = &solid->solid();
+                if (inner->leaf_count() > 0) material = inner->material(0);
+            } else {
+                material = instance.aggregate->primitives().meshes.front().material;
+            }
+        }
+        const bool clear =
+            table_.material_opacity[static_cast<std::size_t>(material)] == Opacity::Transparent;
+        media_.push_back(inner != nullptr ? inner->only_medium()
+                         : clear          ? static_cast<std::uint32_t>(material)
+                                          : kOpaque);
+        materials_.push_back(material);
+        if (tree_.leaves()[leaf].complement) continue;
+        if (any && media_.back() != only_medium_) has_media_ = true;
+        only_medium_ = has_media_ ? kMixture : media_.back();
+        any = true;
+    }
+}
+
+bool CsgSolid::cross(std::uint32_t leaf, const CsgRay& ray, std::vector<CsgCrossing>& crossings,
+                     std::vector<Hit>& hits, TraversalStats* stats) const {
+    const PrimitiveId id = expression_.leaves[leaf];
+    if (!table_.is_seen(id, ray.mask)) return false;
+    const std::uint32_t first_instance = table_.first(kInstanceKind);
+    if (static_cast<std::uint32_t>(id) < first_instance) {
+        ShapeHits found;
+        table_.intersect(id, ray.line, kUnusedShear, found);
+        if (stats != nullptr) {
+            ++stats->primitive_tests;
+            stats->primitive_hits += !found.empty();
+        }
+        for (const ShapeHit& hit : found) {
+            crossings.push_back({hit.t, hit.u, hit.v, hit.part, leaf});
+        }
+        return unbounded_ && table_.inside_at_minus_infinity(id, ray.line);
+    }
+    const std::uint32_t index = static_cast<std::uint32_t>(id) - first_instance;
+    const Instance& instance = table_.instances[index];
+    const Ray inner = inner_ray(instance, ray.line);
+    const std::size_t before = hits.size();
+    instance.aggregate->all_hits(inner, hits, {stats, ray.mask});
+    for (std::size_t i = before; i < hits.size(); ++i) {
+        hits[i].path.push_back(id);
+        crossings.push_back({hits[i].t, 0, 0, static_cast<std::uint32_t>(i), leaf});
+    }
+    return solids_[index] != nullptr && solids_[index]->inside_at_minus_infinity(inner);
+}
+
+void CsgSolid::fill(const CsgCrossing& crossing, const std::vector<Hit>& hits, Hit& hit) const {
+    const PrimitiveId id = expression_.leaves[crossing.leaf];
+    if (static_cast<std::uint32_t>(id) >= table_.first(kInstanceKind)) {
+        hit = hits[crossing.part];
+        return;
+    }
+    static_cast<ShapeHit&>(hit) = {crossing.t, crossing.u, crossing.v, crossing.part};
+    hit.primitive = id;
+    hit.path.clear();
+}
+
+std::size_t CsgSolid::memory_bytes() const {
+    std::size_t bytes = tree_.memory_bytes() + materials_.capacity() * sizeof(MaterialId) +
+                        media_.capacity() * sizeof(std::uint32_t) +
+                        expression_.leaves.capacity() * sizeof(PrimitiveId) +
+                        expression_.nodes.capacity() * sizeof(CsgExpression::Node) +
+                        solids_.capacity() * sizeof(void*);
+    for (const CsgExpression::Node& node : expression_.nodes) {
+        bytes += node.operands.capacity() * sizeof(CsgOperand);
+    }
+    return bytes;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,125 @@
+#include "alhazen/csg/csg_tree.h"
+
+#include "alhazen/math/constants.h"
+
+#include <limits>
+
+namespace alhazen {
+
+namespace {
+
+/// Bounds hardly shrink any more after these.
+constexpr int kMostSweeps = 4;
+
+}  // namespace
+
+struct CsgTree::Draft {
+    std::vector<bool> is_union;                ///< [node]
+    std::vector<std::uint32_t> operand_count;  ///< [node]
+};
+
+CsgTree::CsgTree(const CsgExpression& expression, std::span<const Box3> boxes) {
+    Draft draft;
+    flatten(expression, draft);
+    for (Leaf& leaf : leaves_) {
+        leaf.decides = leaf.parent == 0 && draft.is_union.front() != leaf.complement;
+        leaf.holds = leaf.parent == 0 && !draft.is_union.front() && !leaf.complement;
+    }
+    set_needs(draft);
+    tighten(draft, boxes);
+}
+
+void CsgTree::flatten(const CsgExpression& expression, Draft& draft) {
+    leaves_.resize(expression.leaves.size());
+    struct Open {
+        std::uint32_t node;    ///< of the expression
+        std::uint32_t parent;  ///< here
+        bool complement;
+    };
+    const auto is_union = [&](std::uint32_t node, bool complement) {
+        return (expression.nodes[node].combine == Combine::Union) != complement;
+    };
+    std::vector<Open> open{{0, kNone, false}};
+    while (!open.empty()) {
+        const Open next = open.back();
+        open.pop_back();
+        const bool joins = is_union(next.node, next.complement);
+        std::uint32_t here = next.parent;
+        if (here == kNone || draft.is_union[here] != joins) {
+            if (here != kNone) ++draft.operand_count[here];
+            nodes_.push_back({here, 0});
+            draft.is_union.push_back(joins);
+            draft.operand_count.push_back(0);
+            here = static_cast<std::uint32_t>(nodes_.size() - 1);
+        }
+        const CsgExpression::Node& node = expression.nodes[next.node];
+        bool first = true;
+        for (const CsgOperand operand : node.operands) {
+            const bool subtracted = node.combine == Combine::Difference && !first;
+            const bool complement = next.complement != subtracted;
+            first = false;
+            if (operand.is_leaf()) {
+                leaves_[operand.index()] = {here, complement, false};
+                ++draft.operand_count[here];
+            } else {
+                open.push_back({operand.index(), here, complement});
+            }
+        }
+    }
+}
+
+void CsgTree::set_needs(const Draft& draft) {
+    std::vector<std::int32_t> usual(nodes_.size(), 0);  // operands that are true outside
+    for (const Leaf& leaf : leaves_) usual[leaf.parent] += leaf.complement;
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        const auto threshold =
+            draft.is_union[i] ? 1 : static_cast<std::int32_t>(draft.operand_count[i]);
+        nodes_[i].need = threshold - usual[i];
+        if (nodes_[i].parent != kNone) usual[nodes_[i].parent] += nodes_[i].need <= 0;
+    }
+}
+
+void CsgTree::tighten(const Draft& draft, std::span<const Box3> boxes) {
+    std::vector<Box3> of_node(nodes_.size(), kAllSpace);
+    std::vector<Box3> from_below(nodes_.size());
+    bounds_.assign(boxes.begin(), boxes.end());
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+        // Up: a union lies in the hull of its operands, an intersection in all of them.
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            from_below[i] = draft.is_union[i] ? Box3{} : kAllSpace;
+        }
+        const auto add = [&](std::uint32_t node, const Box3& box) {
+            if (draft.is_union[node]) {
+                from_below[node].include(box);
+            } else {
+                from_below[node] = intersection(from_below[node], box);
+            }
+        };
+        for (std::size_t i = 0; i < leaves_.size(); ++i) {
+            add(leaves_[i].parent, leaves_[i].complement ? kAllSpace : bounds_[i]);
+        }
+        for (std::size_t i = nodes_.size(); i-- > 0;) {
+            of_node[i] = intersection(of_node[i], from_below[i]);
+            if (nodes_[i].parent != kNone) add(nodes_[i].parent, of_node[i]);
+        }
+        // Down: nothing of an operand counts outside its parent.
+        bool shrunk = false;
+        for (std::size_t i = 1; i < nodes_.size(); ++i) {
+            of_node[i] = intersection(of_node[i], of_node[nodes_[i].parent]);
+        }
+        for (std::size_t i = 0; i < leaves_.size(); ++i) {
+            const Box3 bound = intersection(bounds_[i], of_node[leaves_[i].parent]);
+            shrunk |= bound != bounds_[i];
+            bounds_[i] = bound;
+        }
+        if (!shrunk) break;
+    }
+    box_ = of_node.front();
+}
+
+std::size_t CsgTree::memory_bytes() const {
+    return nodes_.capacity() * sizeof(Node) + leaves_.capacity() * sizeof(Leaf) +
+           bounds_.capacity() * sizeof(Box3);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,67 @@
+#pragma once
+/// A solid in positive form: unions and intersections of any number of operands over leaves, some
+/// of which are taken as their complement; with the S-bound of every leaf.
+///
+/// Source: Cameron, "Efficient Bounds in Constructive Solid Geometry", IEEE CG&A 11(3), 1991
+/// (S-bounds); Goldfeather, Monar, Turk and Fuchs, "Near Real-Time CSG Rendering Using Tree
+/// Normalization and Geometric Pruning", IEEE CG&A 9(3), 1989 (positive form).
+/// Differs: operators in a row that are the same become one; a complement never bounds its
+/// parent, but is itself bounded by its primitive.
+/// Conventions: what lies outside the S-bound of a leaf may be evaluated as if it lay outside the
+/// leaf's primitive: the value of the root is the same.
+/// Complexity and threads: O(n) per sweep, at most four sweeps. Immutable when built.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/csg/csg_expression.h"
+#include "alhazen/geometry/box.h"
+
+namespace alhazen {
+
+class CsgTree {
+  public:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    /// A node is true when the number of its operands that are true is at least `need` above what
+    /// it is where all leaves are outside their primitives.
+    struct Node {
+        std::uint32_t parent = kNone;
+        std::int32_t need = 0;
+    };
+    struct Leaf {
+        std::uint32_t parent = kNone;
+        bool complement = false;
+        /// Inside its primitive the root has one value, whatever the others are: an operand of a
+        /// union, or one that is taken away, at the root itself.
+        bool decides = false;
+        /// The solid lies inside of its primitive: an operand of an intersection at the root.
+        bool holds = false;
+    };
+
+    CsgTree() = default;
+    /// `boxes` hold the primitives of the leaves; infinite where these are.
+    CsgTree(const CsgExpression& expression, std::span<const Box3> boxes);
+
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+    [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
+    /// S-bounds; empty for a leaf that has no part in the solid.
+    [[nodiscard]] const std::vector<Box3>& bounds() const { return bounds_; }
+    /// Holds the solid.
+    [[nodiscard]] const Box3& box() const { return box_; }
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+  private:
+    struct Draft;
+    void flatten(const CsgExpression& expression, Draft& draft);
+    void set_needs(const Draft& draft);
+    void tighten(const Draft& draft, std::span<const Box3> boxes);
+
+    std::vector<Node> nodes_;  ///< parents before their children; [0] is the root
+    std::vector<Leaf> leaves_;
+    std::vector<Box3> bounds_;
+    Box3 box_;
+};
+
+}  // namespace alhazen

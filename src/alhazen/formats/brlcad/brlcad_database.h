@@ -1,0 +1,90 @@
+#pragma once
+/// A BRL-CAD database as its text says it: solids and combinations by name.
+///
+/// Source: BRL-CAD, "MGED User's Manual", and the text that its program `g2asc` writes. Differs:
+/// what only other programs use is not kept (materials of the ballistic codes, lines of sight).
+/// Conventions: millimetres.
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <variant>
+#include <vector>
+
+#include "alhazen/base/diagnostics.h"
+#include "alhazen/formats/brlcad/brlcad_solid.h"
+#include "alhazen/formats/brlcad/brlcad_tree.h"
+#include "alhazen/imaging/image/rgb.h"
+
+namespace alhazen {
+
+struct BrlcadCombination {
+    bool region = false;  ///< one solid thing of one material; else a group of such, or a part
+    int region_id = 0;
+    int air = 0;               ///< not 0: filled with air, which is not drawn
+    std::optional<Rgb> color;  ///< 0..1
+    std::string shader;        ///< with its parameters; empty: none
+    bool inherit = false;      ///< colour and shader hold for all below, whatever they say
+    BrlcadTree tree;
+};
+
+struct BrlcadObject {
+    std::string name;
+    std::variant<BrlcadSolid, BrlcadCombination> what;
+    BrlcadPlace place;
+};
+
+/// Regions of these numbers have this colour.
+struct BrlcadRegionColor {
+    int first = 0, last = 0;
+    Rgb color;
+};
+
+struct BrlcadDatabase {
+    std::string file;  ///< for locations
+    std::string title;
+    std::vector<BrlcadObject> objects;
+    std::unordered_map<std::string, std::size_t> by_name;
+    std::vector<BrlcadRegionColor> region_colors;
+
+    [[nodiscard]] FileLocation at(const BrlcadPlace& place) const {
+        return {file, place.line, place.column};
+    }
+    [[nodiscard]] const BrlcadObject* find(const std::string& name) const {
+        const auto found = by_name.find(name);
+        return found == by_name.end() ? nullptr : &objects[found->second];
+    }
+    [[nodiscard]] BrlcadObject* find(const std::string& name) {
+        const auto found = by_name.find(name);
+        return found == by_name.end() ? nullptr : &objects[found->second];
+    }
+    /// Adds an object; one of the same name is an error, and the first one stays.
+    void add(BrlcadObject object, Diagnostics& diagnostics) {
+        const auto [entry, fresh] = by_name.try_emplace(object.name, objects.size());
+        if (!fresh) {
+            diagnostics.error(at(object.place),
+                              "'" + object.name + "' is defined again; first in line " +
+                                  std::to_string(objects[entry->second].place.line));
+            return;
+        }
+        objects.push_back(std::move(object));
+    }
+};
+
+/// A colour of three numbers 0 to 255.
+[[nodiscard]] inline Rgb brlcad_color(double r, double g, double b) {
+    const auto part = [](double c) { return (c < 0.0 ? 0.0 : c > 255.0 ? 255.0 : c) / 255.0; };
+    return {part(r), part(g), part(b)};
+}
+
+/// The transform of the sixteen numbers of a matrix, row by row; the last one divides all others.
+/// None for one that is no affine transform.
+[[nodiscard]] inline std::optional<Affine> brlcad_transform(const std::array<double, 16>& m) {
+    if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] == 0.0) return std::nullopt;
+    const double s = 1.0 / m[15];
+    return Affine{
+        {s * Vec3{m[0], m[4], m[8]}, s * Vec3{m[1], m[5], m[9]}, s * Vec3{m[2], m[6], m[10]}},
+        s * Vec3{m[3], m[7], m[11]}};
+}
+
+}  // namespace alhazen

@@ -1,0 +1,81 @@
+#include "alhazen/formats/brlcad/brlcad_importer.h"
+
+#include "alhazen/base/file.h"
+#include "alhazen/formats/brlcad/brlcad_builder.h"
+#include "alhazen/formats/brlcad/brlcad_lights.h"
+#include "alhazen/formats/brlcad/brlcad_v4_reader.h"
+#include "alhazen/formats/brlcad/brlcad_v5_reader.h"
+#include "alhazen/formats/brlcad/brlcad_view.h"
+#include "alhazen/formats/mesh/mesh_scene.h"
+
+namespace alhazen {
+
+namespace {
+
+/// What BRL-CAD's pictures mean.
+ShadingConventions brlcad_conventions() {
+    ShadingConventions c;
+    c.highlight = ShadingConventions::Highlight::Phong;
+    c.air_index = 1.0;
+    c.pixel_sample = ShadingConventions::PixelSample::LowerLeftCorner;
+    return c;
+}
+
+/// Larger scripts are none.
+constexpr std::uint64_t kMaxScriptBytes = std::uint64_t{16} << 20;
+
+void add_cameras(const ImportSource& source, SceneDescription& scene, const Box3& box,
+                 Diagnostics& diagnostics) {
+    const std::filesystem::path& script = source.options.view_script;
+    if (!script.empty()) {
+        diagnostics.note_file(script);
+        const std::string text = read_file(script, kMaxScriptBytes);
+        scene.cameras = read_brlcad_views(text, script.string(), box, diagnostics);
+    }
+    for (CameraDescription& camera : brlcad_cameras(box, {source.path.string(), 0, 0})) {
+        scene.cameras.push_back(std::move(camera));
+    }
+}
+
+}  // namespace
+
+const char* BrlcadImporter::description() const {
+    return "BRL-CAD text databases (g2asc), versions 4 and 5, as exact solids";
+}
+
+int BrlcadImporter::recognise(const ImportSource& source) const {
+    if (BrlcadV4Reader::recognise(source.bytes) || BrlcadV5Reader::recognise(source.bytes)) {
+        return 2;
+    }
+    return has_suffix(source.path, ".asc") || has_suffix(source.path, ".g") ? 1 : 0;
+}
+
+SceneDescription BrlcadImporter::import(const ImportSource& source,
+                                        Diagnostics& diagnostics) const {
+    SceneDescription scene;
+    scene.format = name();
+    scene.path = source.path;
+    scene.conventions = brlcad_conventions();
+    scene.up_axis = UpAxis::Z;
+    scene.picture = {.width = 512, .height = 512, .background = Rgb{0, 0, 0}};
+    BrlcadDatabase database;
+    database.file = source.path.string();
+    if (BrlcadV4Reader::recognise(source.bytes)) {
+        BrlcadV4Reader(source, database, diagnostics).read();
+    } else if (source.bytes.find('\0') != std::string_view::npos) {
+        diagnostics.error({database.file, 0, 0},
+                          "not the text of a database; BRL-CAD's g2asc makes it of a binary one");
+    } else {
+        BrlcadV5Reader(source, database, diagnostics).read();
+    }
+    BrlcadMaterials materials(database, scene, diagnostics);
+    BrlcadBuilder(database, source, scene, materials, diagnostics).build(source.options.objects);
+    if (diagnostics.error_count() != 0) return scene;
+    BrlcadBounds bounds(scene);
+    const Box3 box = bounds.of(scene.root);
+    add_brlcad_lights(scene, materials, bounds, diagnostics);
+    add_cameras(source, scene, box, diagnostics);
+    return scene;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,164 @@
+#include "alhazen/formats/brlcad/brlcad_shapes.h"
+
+#include <cmath>
+
+#include "alhazen/formats/brlcad/brlcad_quadrics.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Adds a piece, when its shape says that it is one.
+template <class S>
+void add(BrlcadPieces& pieces, S shape, const Affine& solid_from_shape = {}) {
+    Diagnostics findings;
+    shape.validate({}, findings);
+    if (findings.error_count() != 0) {
+        pieces.refused = "is no solid: " + findings.all().front().message;
+        return;
+    }
+    pieces.pieces.push_back({AnyShape(std::move(shape)), solid_from_shape});
+}
+
+/// The direction of one vector with the length of another.
+Vec3 as_long_as(const Vec3& direction, const Vec3& other) {
+    return (length(other) / length(direction)) * direction;
+}
+
+/// In the plane of a half space, nearest to the origin.
+OrientedPlane plane_of(const BrlcadHalfSpace& half) {
+    return {(half.distance / dot(half.normal, half.normal)) * half.normal, half.normal};
+}
+
+struct Maker {
+    BrlcadPieces made;
+
+    void operator()(const BrlcadUnsupported& /*solid*/) {
+        made.refused = "is of a type that is not read";
+    }
+    void operator()(const BrlcadArb8& arb) { add(made, hexahedron(arb.corners)); }
+    void operator()(const BrlcadEllipsoid& given) {
+        Ellipsoid ellipsoid;
+        ellipsoid.center = given.center;
+        ellipsoid.axis_a = given.a;
+        ellipsoid.axis_b = given.b;
+        ellipsoid.axis_c = given.c;
+        add(made, ellipsoid);
+    }
+    void operator()(const BrlcadTgc& given) {
+        Tgc tgc;
+        tgc.base = given.base;
+        tgc.height = given.height;
+        tgc.axis_a = given.a;
+        tgc.axis_b = given.b;
+        tgc.axis_c = given.c;
+        tgc.axis_d = given.d;
+        // The upper end says how long its semi-axes are; they are parallel to those of the base.
+        if (length(given.a) > 0.0) tgc.axis_c = as_long_as(given.a, given.c);
+        if (length(given.b) > 0.0) tgc.axis_d = as_long_as(given.b, given.d);
+        add(made, tgc);
+    }
+    void operator()(const BrlcadTorus& given) {
+        Torus torus;
+        torus.center = given.center;
+        torus.axis = given.axis;
+        torus.major_radius = given.major;
+        torus.minor_radius = given.minor;
+        add(made, torus);
+    }
+    void operator()(const BrlcadHalfSpace& given) {
+        const OrientedPlane plane = plane_of(given);
+        HalfSpace half;
+        half.point = plane.point;
+        half.normal = plane.normal;
+        add(made, half);
+    }
+    void operator()(const BrlcadPolyhedron& given) {
+        Polyhedron polyhedron;
+        for (const BrlcadHalfSpace& half : given.planes) {
+            polyhedron.planes.push_back(plane_of(half));
+        }
+        add(made, polyhedron);
+    }
+    void operator()(const BrlcadParticle& particle) {
+        const double height = length(particle.height);
+        const double shrink = particle.base_radius - particle.top_radius;
+        // Where one sphere holds the other it is all that there is.
+        const bool base = height > -shrink;
+        const bool top = height > shrink;
+        const auto add_sphere = [&](const Vec3& center, double radius) {
+            if (radius == 0.0 && base && top) return;  // the apex of a cone
+            Sphere sphere;
+            sphere.center = center;
+            sphere.radius = radius;
+            add(made, sphere);
+        };
+        const Vec3 end = particle.base + particle.height;
+        if (base) add_sphere(particle.base, particle.base_radius);
+        if (top) add_sphere(end, particle.top_radius);
+        if (!base || !top) return;
+        // The cone touches the spheres in circles; s is the sine of its half angle.
+        const double s = shrink / height;
+        const double c = std::sqrt((1.0 - s) * (1.0 + s));
+        const Vec3 along = particle.height / height;
+        Cone cone;
+        cone.base = particle.base + (s * particle.base_radius) * along;
+        cone.top = end + (s * particle.top_radius) * along;
+        cone.base_radius = c * particle.base_radius;
+        cone.top_radius = c * particle.top_radius;
+        add(made, cone);
+    }
+    void operator()(const BrlcadConicCylinder& given) { add_quadric(brlcad_quadric(given)); }
+    void operator()(const BrlcadConicDome& given) { add_quadric(brlcad_quadric(given)); }
+    void operator()(const BrlcadHyperboloid& given) {
+        if (!(given.neck > 0.0 && given.neck < 1.0)) {
+            made.refused = "is no solid: the ratio of its neck must lie between 0 and 1";
+            return;
+        }
+        add_quadric(brlcad_quadric(given));
+    }
+    void operator()(const BrlcadSuperellipsoid& given) {
+        Superellipsoid super;
+        super.center = given.center;
+        super.axis_a = given.a;
+        super.axis_b = given.b;
+        super.axis_c = given.c;
+        super.north = given.north;
+        super.east = given.east;
+        add(made, super);
+    }
+    void operator()(const BrlcadEllipticTorus& given) {
+        if (const std::optional<BrlcadQuartic> quartic = brlcad_quartic(given)) {
+            add(made, quartic->shape, quartic->solid_from_shape);
+        } else {
+            made.refused = "is no solid: its ellipse has no area or reaches the axis";
+        }
+    }
+    void operator()(const BrlcadMesh& mesh) {
+        if (mesh.mesh->triangles.empty()) {
+            made.refused = "has no faces";
+            return;
+        }
+        made.closed = mesh.solid && mesh.mesh->closed();
+        made.pieces.push_back({mesh.mesh, {}});
+    }
+
+  private:
+    void add_quadric(const BrlcadQuadric& quadric) {
+        if (!is_invertible(quadric.solid_from_shape)) {
+            made.refused = "is no solid: its axes have no length or lie in a plane";
+            return;
+        }
+        add(made, quadric.shape, quadric.solid_from_shape);
+    }
+};
+
+}  // namespace
+
+BrlcadPieces brlcad_pieces(const BrlcadSolid& solid) {
+    Maker maker;
+    std::visit(maker, solid.form);
+    return std::move(maker.made);
+}
+
+}  // namespace alhazen

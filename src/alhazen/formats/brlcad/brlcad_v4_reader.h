@@ -1,0 +1,72 @@
+#pragma once
+/// Reads the text of version 4: one record a line, each kind by the letter it begins with.
+///
+/// Source: BRL-CAD, the text that its program `g2asc` writes of databases of version 4. Differs:
+/// numbers in the records that are documented as unused may be missing. Conventions: faults of a
+/// record are errors, and the reader goes on behind it.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "alhazen/formats/brlcad/brlcad_database.h"
+#include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/text/text_cursor.h"
+
+namespace alhazen {
+
+class BrlcadV4Reader {
+  public:
+    BrlcadV4Reader(const ImportSource& source, BrlcadDatabase& database, Diagnostics& diagnostics);
+    void read();
+
+    /// True when the text begins as such a file does.
+    [[nodiscard]] static bool recognise(std::string_view text);
+
+  private:
+    void read_record();
+    void read_ident();
+    void read_solid();
+    void read_combination();
+    void read_member();
+    void read_region_color();
+    void read_particle();
+    void read_planes();
+    void read_ars();
+    void read_bot();
+    void read_polygons();
+    void read_unsupported(const char* type);
+    void read_string_solid();
+    void read_nmg();
+    void read_pipe();
+    void read_spline();
+
+    void finish_combination();
+    void add_solid(std::string name, BrlcadSolid solid, const BrlcadPlace& place);
+    bool read_ars_points(std::size_t count, std::vector<Vec3>& points);
+    bool read_bot_faces(bool thick, std::size_t count, TriangleMesh& mesh);
+    /// Into the next line, behind its first word, if that is this one; else stays.
+    bool go_to_next(std::string_view kind);
+    /// Spends `count` of the elements that a file may have.
+    void check_room(std::int64_t count);
+
+    bool name(std::string& value);
+    bool numbers(std::span<double> values);
+    bool integer(std::int64_t& value, std::int64_t least, std::int64_t most);
+    /// The integer at the cursor, or what it is by default at the end of the line.
+    std::int64_t optional_integer(std::int64_t missing);
+    [[nodiscard]] BrlcadPlace place() const;
+    bool fail(const std::string& message);
+
+    TextCursor cursor_;
+    const ImportOptions& options_;
+    BrlcadDatabase& database_;
+    Diagnostics& diagnostics_;
+    std::uint64_t elements_ = 0;
+    BrlcadPlace record_;  ///< where the record begins
+    BrlcadObject combination_;
+    BrlcadMemberList members_;
+    bool in_combination_ = false;
+};
+
+}  // namespace alhazen

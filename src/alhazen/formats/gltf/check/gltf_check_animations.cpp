@@ -1,0 +1,154 @@
+// Skins and animations refer to nodes and accessors that suit them.
+#include <map>
+
+#include "alhazen/formats/gltf/document/gltf_accessors.h"
+#include "alhazen/formats/gltf/document/gltf_readers.h"
+#include "alhazen/formats/gltf/scene/gltf_node_tree.h"
+
+namespace alhazen::gltf {
+
+namespace {
+
+void check_bind_matrices(const Loading& loading, const Skin& skin, const std::string& place) {
+    if (!skin.inverse_bind_matrices) return;
+    const Accessor& matrices = loading.document.accessors[*skin.inverse_bind_matrices];
+    if (matrices.type != ElementType::Mat4 || matrices.component != ComponentType::Float) {
+        loading.error(place, "the accessor must be MAT4 of FLOAT");
+    }
+    if (matrices.count < skin.joints.size()) {
+        loading.error(place, std::to_string(matrices.count) + " matrices for " +
+                                 std::to_string(skin.joints.size()) + " joints");
+    }
+}
+
+/// Which nodes are at the top of the scene that is shown.
+std::vector<bool> scene_roots(const Document& document) {
+    std::vector<bool> roots(document.nodes.size(), false);
+    if (document.scenes.empty()) return roots;
+    for (const Index node : document.scenes[document.scene.value_or(0)].nodes) roots[node] = true;
+    return roots;
+}
+
+void check_joints(const Loading& loading, const NodeTree& tree, const std::vector<bool>& roots,
+                  const Skin& skin, const std::string& place) {
+    for (const Index joint : skin.joints) {
+        if (tree.is_in_loop(joint)) return;  // reported already
+    }
+    bool one_root = true, in_scene = true;
+    for (const Index joint : skin.joints) {
+        one_root = one_root && tree.root_of(joint) == tree.root_of(skin.joints.front());
+        in_scene = in_scene && roots[tree.root_of(joint)];
+        if (skin.skeleton && !tree.contains(*skin.skeleton, joint)) {
+            loading.error(place + "/skeleton",
+                          "node " + std::to_string(*skin.skeleton) + " is not above all joints");
+            return;
+        }
+    }
+    if (one_root) return;
+    // Some programs write skeletons of several trees; where all of them are shown nothing is
+    // missing.
+    const char* message = "the joints have no common root";
+    in_scene ? loading.warning(place + "/joints", message)
+             : loading.error(place + "/joints", message);
+}
+
+bool is_number(const Accessor& accessor, bool integers) {
+    if (accessor.component == ComponentType::Float) return true;
+    return integers && accessor.normalized;
+}
+
+class AnimationChecker {
+  public:
+    AnimationChecker(const Loading& loading, const Animation& animation, std::string place)
+        : loading_(loading),
+          document_(loading.document),
+          animation_(animation),
+          place_(std::move(place)) {}
+
+    void run() {
+        for (std::size_t i = 0; i < animation_.samplers.size(); ++i) {
+            const Accessor& input = document_.accessors[animation_.samplers[i].input];
+            if (input.type == ElementType::Scalar && input.component == ComponentType::Float) {
+                continue;
+            }
+            loading_.error(place_ + "/samplers/" + std::to_string(i) + "/input",
+                           "times must be SCALAR of FLOAT");
+        }
+        for (std::size_t i = 0; i < animation_.channels.size(); ++i) {
+            channel(i, place_ + "/channels/" + std::to_string(i));
+        }
+    }
+
+  private:
+    void channel(std::size_t position, const std::string& place) {
+        const AnimationChannel& channel = animation_.channels[position];
+        if (!channel.node) return;
+        const auto [other, fresh] = targets_.try_emplace({*channel.node, channel.path}, position);
+        if (!fresh) {
+            loading_.error(place + "/target",
+                           "the same target as channel " + std::to_string(other->second));
+        }
+        const Node& node = document_.nodes[*channel.node];
+        std::uint64_t per_key = 1;
+        if (channel.path == AnimationPath::Weights) {
+            per_key =
+                node.mesh ? document_.meshes[*node.mesh].primitives.front().targets.size() : 0;
+            if (per_key == 0) {
+                loading_.error(place + "/target", "the node has no mesh with morph targets");
+                return;
+            }
+        } else if (node.matrix) {
+            loading_.error(place + "/target", "a node with a matrix cannot be animated");
+        }
+        output(animation_.samplers[channel.sampler], channel.path, per_key, place + "/sampler");
+    }
+
+    void output(const AnimationSampler& sampler, AnimationPath path, std::uint64_t per_key,
+                const std::string& place) const {
+        const Accessor& output = document_.accessors[sampler.output];
+        const std::uint64_t keys = document_.accessors[sampler.input].count;
+        const bool quaternion = path == AnimationPath::Rotation;
+        const ElementType type = quaternion                       ? ElementType::Vec4
+                                 : path == AnimationPath::Weights ? ElementType::Scalar
+                                                                  : ElementType::Vec3;
+        const bool integers = quaternion || path == AnimationPath::Weights;
+        if (output.type != type || !is_number(output, integers)) {
+            loading_.error(place, std::string("the output must be ") + name_of(type) + " of FLOAT" +
+                                      (integers ? " or of normalised integers" : ""));
+        }
+        const bool cubic = sampler.interpolation == Interpolation::CubicSpline;
+        // Counts are below 2^53 and an accessor of so many elements was refused: no overflow.
+        const std::uint64_t each = per_key * (cubic ? 3 : 1);
+        if (output.count % each == 0 && output.count / each == keys) return;
+        loading_.error(place, "the output has " + std::to_string(output.count) +
+                                  " elements, expected " + std::to_string(each) + " for each of " +
+                                  std::to_string(keys) + " times");
+    }
+
+    const Loading& loading_;
+    const Document& document_;
+    const Animation& animation_;
+    std::string place_;
+    std::map<std::pair<Index, AnimationPath>, std::size_t> targets_;  ///< to the channel
+};
+
+}  // namespace
+
+void check_skins_and_animations(const Loading& loading) {
+    const Document& document = loading.document;
+    if (!document.skins.empty()) {
+        const NodeTree tree(document.nodes);
+        const std::vector<bool> roots = scene_roots(document);
+        for (std::size_t i = 0; i < document.skins.size(); ++i) {
+            const Skin& skin = document.skins[i];
+            const std::string place = pointer_to("skins", i);
+            check_bind_matrices(loading, skin, place + "/inverseBindMatrices");
+            check_joints(loading, tree, roots, skin, place);
+        }
+    }
+    for (std::size_t i = 0; i < document.animations.size(); ++i) {
+        AnimationChecker(loading, document.animations[i], pointer_to("animations", i)).run();
+    }
+}
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,131 @@
+// Images: what their bytes say they are.
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "alhazen/base/file.h"
+#include "alhazen/formats/gltf/document/gltf_readers.h"
+
+namespace alhazen::gltf {
+
+namespace {
+
+unsigned byte_at(std::string_view bytes, std::size_t i) {
+    return static_cast<unsigned char>(bytes[i]);
+}
+
+bool begins_with(std::string_view bytes, std::string_view start) {
+    return bytes.substr(0, start.size()) == start;
+}
+
+/// "image/png" and the like; empty when the first bytes are of no format that glTF knows.
+std::string media_type_of(std::string_view bytes) {
+    if (begins_with(bytes, "\x89PNG\r\n\x1a\n")) return "image/png";
+    if (begins_with(bytes, "\xff\xd8\xff")) return "image/jpeg";
+    if (begins_with(bytes, "RIFF") && bytes.substr(8, 4) == "WEBP") return "image/webp";
+    return "";
+}
+
+/// Of a larger picture only so much is looked at; where that does not tell, decoding it will.
+constexpr std::size_t kHeadBytes = std::size_t{1} << 20;
+
+/// Walks the segments up to the one with the picture's size: why that fails, or nothing.
+std::string jpeg_refusal(std::string_view bytes) {
+    constexpr int kMaxSegments = 10'000;
+    std::size_t position = 2;
+    for (int segment = 0; segment < kMaxSegments; ++segment) {
+        if (bytes.size() - position < 4) return "the JPEG data ends within its header";
+        if (byte_at(bytes, position) != 0xFF) return "malformed JPEG data";
+        const unsigned marker = byte_at(bytes, position + 1);
+        if (marker == 0xFF) {  // padding
+            ++position;
+            continue;
+        }
+        const bool is_frame =
+            marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+        const std::size_t length =
+            256 * byte_at(bytes, position + 2) + byte_at(bytes, position + 3);
+        if (length < 2) return "a segment of the JPEG data has an invalid length";
+        if (bytes.size() - position - 2 < length) return "the JPEG data ends within its header";
+        if (is_frame) return length < 8 ? "malformed JPEG data" : "";
+        if (marker == 0xD9 || marker == 0xDA) return "the JPEG data has no frame";
+        position += 2 + length;
+    }
+    return "";
+}
+
+std::string png_refusal(std::string_view bytes) {
+    constexpr std::size_t kHeader = 8 + 8 + 13 + 4;
+    if (bytes.size() < kHeader) return "the PNG data ends within its header";
+    return bytes.substr(12, 4) == "IHDR" ? "" : "the PNG data does not begin with IHDR";
+}
+
+void check_bytes(const Loading& loading, const Image& image, const std::string& place,
+                 std::string_view bytes) {
+    const std::string type = media_type_of(bytes);
+    if (type.empty()) {
+        loading.warning(place, "the image is neither PNG nor JPEG");
+        return;
+    }
+    if (!image.mime_type.empty() && image.mime_type != type &&
+        begins_with(image.mime_type, "image/")) {
+        loading.error(place, "the image is " + type + ", declared is " + image.mime_type);
+        return;
+    }
+    const std::string refusal = bytes.size() == kHeadBytes ? ""
+                                : type == "image/png"      ? png_refusal(bytes)
+                                : type == "image/jpeg"     ? jpeg_refusal(bytes)
+                                                           : "";
+    if (!refusal.empty()) loading.error(place, refusal);
+}
+
+/// The beginning of a regular file.
+std::string head_of(const std::filesystem::path& path) {
+    // Nothing that opening would wait for, as a FIFO.
+    if (!std::filesystem::is_regular_file(path)) {
+        throw Error(ErrorKind::File, path.string() + ": there is no such file");
+    }
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes(kHeadBytes, '\0');
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return bytes;
+}
+
+void check_file(const Loading& loading, const Image& image, const std::string& place) {
+    try {
+        const auto path = resolve_inside(loading.roots, loading.folder, image.uri);
+        check_bytes(loading, image, place, head_of(path));
+    } catch (const Error& error) {
+        loading.error(place + "/uri", error.what());
+    } catch (const std::filesystem::filesystem_error& error) {
+        loading.error(place + "/uri", error.what());
+    }
+}
+
+}  // namespace
+
+void check_images(const Loading& loading) {
+    const Document& document = loading.document;
+    std::set<std::string> checked;  // a file that many images name need not be read for each
+    for (std::size_t i = 0; i < document.images.size(); ++i) {
+        const Image& image = document.images[i];
+        const std::string place = pointer_to("images", i);
+        if (!image.data.empty()) {
+            check_bytes(loading, image, place, std::string_view(image.data).substr(0, kHeadBytes));
+        } else if (image.view) {
+            const BufferView& view = document.views[*image.view];
+            const std::size_t size = document.buffers[view.buffer].bytes.size();
+            // A view that leaves its buffer was reported already.
+            if (view.offset <= size && view.length <= size - view.offset) {
+                check_bytes(loading, image, place, bytes_of(document, view).substr(0, kHeadBytes));
+            }
+            if (view.stride != 0) loading.error(place, "the buffer view must not have a stride");
+        } else if (checked.insert(image.uri).second) {
+            check_file(loading, image, place);
+        }
+    }
+}
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,235 @@
+#pragma once
+/// A glTF 2.0 file as it stands: parsed, its buffers loaded, everything that refers to something
+/// checked. What comes out of `read_gltf_document` can be used without looking again: indices are
+/// in range, accessors lie in their buffers, the nodes are a forest.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022); extensions by their names.
+/// Differs: see docs/formats/gltf.md.
+/// Conventions: names and units are those of the specification (angles in radians, right-handed, Y
+/// up, texture coordinates from the upper left corner).
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "alhazen/formats/core/importer.h"
+
+namespace alhazen::gltf {
+
+using Index = std::uint32_t;
+
+struct Buffer {
+    std::shared_ptr<const std::string>
+        owned;               ///< null for the chunk of a GLB, which the source holds
+    std::string_view bytes;  ///< byteLength of them; empty for a buffer that nothing refers to
+};
+struct BufferView {
+    Index buffer = 0;
+    std::uint64_t offset = 0, length = 0;
+    std::uint32_t stride = 0;  ///< 0: tightly packed
+};
+
+enum class ComponentType : std::uint16_t {
+    Byte = 5120,
+    UnsignedByte = 5121,
+    Short = 5122,
+    UnsignedShort = 5123,
+    UnsignedInt = 5125,
+    Float = 5126,
+};
+enum class ElementType : std::uint8_t { Scalar, Vec2, Vec3, Vec4, Mat2, Mat3, Mat4 };
+
+struct SparseAccessor {
+    std::uint64_t count = 0;
+    Index indices_view = 0;
+    std::uint64_t indices_offset = 0;
+    ComponentType indices_type = ComponentType::UnsignedInt;
+    Index values_view = 0;
+    std::uint64_t values_offset = 0;
+};
+struct Accessor {
+    std::string name;
+    std::optional<Index> view;  ///< none: zeros
+    std::uint64_t offset = 0, count = 0;
+    ComponentType component = ComponentType::Float;
+    ElementType type = ElementType::Scalar;
+    bool normalized = false;
+    std::optional<SparseAccessor> sparse;
+    std::vector<double> min, max;  ///< as declared, of the stored values; empty: not declared
+};
+
+struct Image {
+    std::string name;
+    std::string uri;            ///< decoded name of a file, relative to the document; or empty
+    std::optional<Index> view;  ///< the encoded picture
+    std::string data;           ///< the encoded picture of a data: URI
+    std::string mime_type;      ///< as declared; empty: not
+};
+enum class Filter { Unset, Nearest, Linear, NearestMipmap, LinearMipmap };  ///< Mipmap: any of them
+struct Sampler {
+    Filter magnify = Filter::Unset, minify = Filter::Unset;
+    Wrap wrap_s = Wrap::Repeat, wrap_t = Wrap::Repeat;
+};
+struct Texture {
+    std::optional<Index> sampler;
+    std::optional<Index> source;  ///< none: no picture that can be read (an extension's)
+};
+struct TextureInfo {
+    Index texture = 0;
+    Index tex_coord = 0;  ///< KHR_texture_transform's own one where it has one
+    std::array<double, 2> offset{0, 0}, scale{1, 1};  ///< KHR_texture_transform
+    double rotation = 0;                              ///< KHR_texture_transform, radians
+    double strength = 1;  ///< scale of a normal texture, strength of an occlusion texture
+};
+struct Material {
+    std::string name;
+    std::array<double, 4> base_color{1, 1, 1, 1};
+    std::optional<TextureInfo> base_color_texture;
+    double metallic = 1, roughness = 1;
+    std::optional<TextureInfo> metallic_roughness_texture, normal_texture, occlusion_texture,
+        emissive_texture;
+    std::array<double, 3> emissive{0, 0, 0};
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    double alpha_cutoff = 0.5;
+    bool double_sided = false;
+    bool unlit = false;            ///< KHR_materials_unlit
+    double emissive_strength = 1;  ///< KHR_materials_emissive_strength
+    double ior = 1.5;              ///< KHR_materials_ior
+    double transmission = 0;       ///< KHR_materials_transmission
+    std::optional<TextureInfo> transmission_texture;
+    double thickness = 0;  ///< KHR_materials_volume
+    std::optional<TextureInfo> thickness_texture;
+    std::optional<double> attenuation_distance;
+    std::array<double, 3> attenuation_color{1, 1, 1};
+    double specular = 1;  ///< KHR_materials_specular
+    std::array<double, 3> specular_color{1, 1, 1};
+    std::optional<TextureInfo> specular_texture, specular_color_texture;
+};
+
+using Attributes = std::map<std::string, Index>;  ///< semantic -> accessor
+enum class PrimitiveMode : std::uint8_t {
+    Points = 0,
+    Lines = 1,
+    LineLoop = 2,
+    LineStrip = 3,
+    Triangles = 4,
+    TriangleStrip = 5,
+    TriangleFan = 6,
+};
+struct Primitive {
+    PrimitiveMode mode = PrimitiveMode::Triangles;
+    Attributes attributes;
+    std::optional<Index> indices, material;
+    std::vector<Attributes> targets;  ///< morph targets
+};
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+    std::vector<double> weights;  ///< of the morph targets; empty: zero
+};
+
+struct Skin {
+    std::string name;
+    std::optional<Index> inverse_bind_matrices;
+    std::vector<Index> joints;
+    std::optional<Index> skeleton;
+};
+struct Node {
+    std::string name;
+    std::vector<Index> children;
+    std::optional<Index> mesh, skin, camera, light;
+    std::vector<double> weights;
+    std::optional<std::array<double, 16>> matrix;  ///< column-major; then the three are unset
+    std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
+    std::array<double, 4> rotation{0, 0, 0, 1};  ///< quaternion x, y, z, w
+    Attributes instances;                        ///< EXT_mesh_gpu_instancing; empty: none
+};
+struct Scene {
+    std::string name;
+    std::vector<Index> nodes;
+};
+
+struct Camera {
+    std::string name;
+    bool perspective = true;
+    std::optional<double> aspect;  ///< perspective
+    double yfov = 0;               ///< perspective
+    double xmag = 1, ymag = 1;     ///< orthographic
+    double near = 0;
+    std::optional<double> far;
+};
+struct PunctualLight {  ///< KHR_lights_punctual
+    enum class Type { Directional, Point, Spot };
+    std::string name;
+    Type type = Type::Point;
+    std::array<double, 3> color{1, 1, 1};
+    double intensity = 1;  ///< candela, or lux for a directional light
+    std::optional<double> range;
+    double inner_cone = 0, outer_cone = 0.7853981633974483;
+};
+
+enum class Interpolation { Linear, Step, CubicSpline };
+struct AnimationSampler {
+    Index input = 0, output = 0;
+    Interpolation interpolation = Interpolation::Linear;
+};
+enum class AnimationPath { Translation, Rotation, Scale, Weights };
+struct AnimationChannel {
+    Index sampler = 0;
+    std::optional<Index> node;  ///< none: nothing of this document (an extension's)
+    AnimationPath path = AnimationPath::Translation;
+};
+struct Animation {
+    std::string name;
+    std::vector<AnimationChannel> channels;
+    std::vector<AnimationSampler> samplers;
+};
+
+struct Document {
+    std::vector<Buffer> buffers;
+    std::vector<BufferView> views;
+    std::vector<Accessor> accessors;
+    std::vector<Image> images;
+    std::vector<Sampler> samplers;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Skin> skins;
+    std::vector<Node> nodes;
+    std::vector<Camera> cameras;
+    std::vector<PunctualLight> lights;
+    std::vector<Animation> animations;
+    std::vector<Scene> scenes;
+    std::optional<Index> scene;  ///< the default one
+    std::vector<std::string> extensions_used, extensions_required;
+};
+
+/// Parses JSON or GLB, loads the buffers (not the images) and checks all of it. Findings go to
+/// `diagnostics`, each beginning with the JSON pointer of its place ("#/meshes/0/primitives/1:
+/// ..."); after an error the document must not be used. A required extension that is not supported
+/// is an error that names it; one that is only used, a warning. Throws Error (Resource) for limits.
+/// The document refers to `source.bytes` (the chunk of a GLB is not copied) and must not outlive
+/// it.
+[[nodiscard]] Document read_gltf_document(const ImportSource& source, Diagnostics& diagnostics);
+
+/// Numbers in an element of this type: 1, 2, 3, 4, 4, 9, 16.
+[[nodiscard]] std::size_t component_count(ElementType type);
+
+/// All numbers of an accessor, element after element, [count * component_count]; normalised
+/// integers as -1..1 or 0..1, matrices column-major without padding, sparse values put in place.
+[[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor);
+/// The same of its first elements, at most `most` of them; costs no more than these.
+[[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor,
+                                               std::uint64_t most);
+/// The same for unsigned integers (indices, joints).
+[[nodiscard]] std::vector<std::uint32_t> read_integers(const Document& document, Index accessor);
+/// The bytes of a buffer view.
+[[nodiscard]] std::string_view bytes_of(const Document& document, const BufferView& view);
+
+}  // namespace alhazen::gltf

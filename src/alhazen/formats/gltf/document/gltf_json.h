@@ -1,0 +1,194 @@
+#pragma once
+/// Checked reading of the JSON part of a glTF file: every member is asked for by its type and
+/// range, and what is wrong is reported with the JSON pointer of its place.
+///
+/// Source: IETF RFC 8259 (JSON), RFC 6901 (JSON pointer); "glTF 2.0 Specification", 2021, sections
+/// 2.7 and 3.1.
+/// Differs: pointers are written in URI form ("#/meshes/0"). Integers may be written as 3.0.
+/// Conventions: a reading function returns nothing (or the default) after it has reported an error;
+/// members that nobody asks for are ignored, as extensions and newer versions may add them.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "alhazen/base/diagnostics.h"
+#include "alhazen/formats/gltf/document/gltf_document.h"
+
+namespace alhazen::gltf {
+
+/// Whether an extension is read.
+[[nodiscard]] bool is_supported(std::string_view extension);
+
+/// A number in as few digits as tell it from all others, for messages.
+[[nodiscard]] std::string written(double x);
+
+/// A place in the JSON tree: a link to the place around it and its own key or position. Lives on
+/// the stack of the reader, so that a pointer costs nothing until it is written.
+class Place {
+  public:
+    Place() = default;
+    Place(const Place& parent, std::string_view key) : parent_(&parent), key_(key) {}
+    Place(const Place& parent, std::size_t position)
+        : parent_(&parent), position_(position), is_position_(true) {}
+
+    [[nodiscard]] std::string pointer() const;
+
+  private:
+    const Place* parent_ = nullptr;
+    std::string_view key_;
+    std::size_t position_ = 0;
+    bool is_position_ = false;
+};
+
+/// The top-level arrays that something can refer to by an index.
+enum class Collection {
+    Accessors,
+    Buffers,
+    BufferViews,
+    Cameras,
+    Images,
+    Lights,
+    Materials,
+    Meshes,
+    Nodes,
+    Samplers,
+    Scenes,
+    Skins,
+    Textures,
+};
+inline constexpr std::size_t kCollectionCount = 13;
+
+/// What all readers of one document share.
+struct JsonContext {
+    Diagnostics& diagnostics;
+    std::string file;
+    std::array<std::size_t, kCollectionCount> sizes{};  ///< of the top-level arrays
+    std::set<std::string, std::less<>> extensions_used;
+
+    void error(const Place& place, const std::string& message) const;
+    void warning(const Place& place, const std::string& message) const;
+    /// For checks after the JSON is gone: `pointer` as in "#/meshes/0".
+    void error(const std::string& pointer, const std::string& message) const;
+    void warning(const std::string& pointer, const std::string& message) const;
+    [[nodiscard]] std::size_t size_of(Collection collection) const {
+        return sizes[static_cast<std::size_t>(collection)];
+    }
+};
+
+struct Range {
+    double lo = -std::numeric_limits<double>::infinity();
+    double hi = std::numeric_limits<double>::infinity();
+    bool above_lo = false;  ///< lo itself is not allowed
+};
+inline constexpr Range kUnitRange{0, 1};
+inline constexpr Range kNotNegative{0};
+inline constexpr Range kPositive{.lo = 0, .above_lo = true};
+
+/// One JSON object that is being read.
+class JsonObject {
+  public:
+    /// Reports extensions on the object that the file does not declare: an error when they are not
+    /// known, else a warning.
+    JsonObject(nlohmann::json& value, const Place& place, const JsonContext& context);
+
+    [[nodiscard]] const Place& place() const { return place_; }
+    [[nodiscard]] const JsonContext& context() const { return context_; }
+    [[nodiscard]] bool has(std::string_view key) const;
+    /// Any member, without a check.
+    [[nodiscard]] nlohmann::json* find(std::string_view key) const;
+    [[nodiscard]] std::vector<std::string> keys() const;
+
+    std::optional<std::uint64_t> integer(std::string_view key, std::uint64_t lo = 0,
+                                         std::uint64_t hi = kMaxInteger) const;
+    std::optional<double> number(std::string_view key, Range range = {}) const;
+    [[nodiscard]] bool flag(std::string_view key, bool otherwise = false) const;
+    std::optional<std::string> text(std::string_view key) const;
+    /// The same; the tree gives its own text away, as it may be large.
+    std::optional<std::string> take_text(std::string_view key) const;
+    /// A list of numbers; `size` of them unless that is 0. Not empty.
+    std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size,
+                                               Range range = {}) const;
+    template <std::size_t n>
+    void numbers_into(std::string_view key, std::array<double, n>& out, Range range = {}) const {
+        if (const auto list = numbers(key, n, range)) std::copy_n(list->begin(), n, out.begin());
+    }
+    void number_into(std::string_view key, double& out, Range range = {}) const {
+        out = number(key, range).value_or(out);
+    }
+    /// A position in a top-level array that is there.
+    std::optional<Index> index(std::string_view key, Collection collection) const;
+    /// A list of them, not empty and without repetitions.
+    [[nodiscard]] std::vector<Index> indices(std::string_view key, Collection collection) const;
+    /// Reports that a member is missing; the way to demand one.
+    void require(std::string_view key) const;
+
+    /// Calls f(JsonObject&) for a member that is an object.
+    template <class F>
+    void with_object(std::string_view key, F&& f) const {
+        nlohmann::json* value = find(key);
+        if (value == nullptr) return;
+        const Place place(place_, key);
+        if (!is_object(*value, place)) return;
+        JsonObject object(*value, place, context_);
+        f(object);
+    }
+    /// The same for an extension of this object.
+    template <class F>
+    void with_extension(std::string_view name, F&& f) const {
+        if (find("extensions") == nullptr) return;
+        with_object("extensions", [&](JsonObject& extensions) { extensions.with_object(name, f); });
+    }
+    /// Calls f(JsonObject&, position) for each object of a list, which must not be empty.
+    template <class F>
+    void each_object(std::string_view key, F&& f) const {
+        nlohmann::json* value = find(key);
+        if (value == nullptr) return;
+        const Place list(place_, key);
+        if (!is_list(*value, list)) return;
+        std::size_t position = 0;
+        for (nlohmann::json& element : *value) {
+            const Place place(list, position);
+            if (is_object(element, place)) {
+                JsonObject object(element, place, context_);
+                f(object, position);
+            }
+            ++position;
+        }
+    }
+    /// Reports at the member `key`, or at the object when it is empty.
+    void error(std::string_view key, const std::string& message) const;
+    void warning(std::string_view key, const std::string& message) const;
+
+    /// Largest integer that a double holds exactly, 2^53 - 1.
+    static constexpr std::uint64_t kMaxInteger = (std::uint64_t{1} << 53) - 1;
+
+  private:
+    bool is_object(const nlohmann::json& value, const Place& place) const;
+    bool is_list(const nlohmann::json& value, const Place& place) const;
+    std::optional<std::uint64_t> integer_at(const nlohmann::json& value, const Place& place,
+                                            std::uint64_t lo, std::uint64_t hi) const;
+    std::optional<Index> index_at(const nlohmann::json& value, const Place& place,
+                                  Collection collection) const;
+
+    nlohmann::json& value_;
+    const Place& place_;
+    const JsonContext& context_;
+};
+
+/// The tree of a JSON text. Reports (and returns nothing for) a syntax error with its line and
+/// column, a key that occurs twice in an object and nesting beyond 64. Throws Error (Resource) for
+/// more than `most` values, of which strings and keys count as 4, objects and arrays as 8: what
+/// they need of memory (about 20 bytes each).
+[[nodiscard]] std::optional<nlohmann::json> parse_json(std::string_view text,
+                                                       const std::string& file, std::uint64_t most,
+                                                       Diagnostics& diagnostics);
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,91 @@
+// Nodes and scenes.
+#include <cmath>
+
+#include "alhazen/formats/gltf/document/gltf_readers.h"
+
+namespace alhazen::gltf {
+
+namespace {
+
+void read_matrix(const JsonObject& object, Node& node) {
+    std::array<double, 16> matrix{};
+    if (!object.has("matrix")) return;
+    object.numbers_into("matrix", matrix);
+    node.matrix = matrix;
+    for (const char* other : {"translation", "rotation", "scale"}) {
+        if (object.has(other)) object.error(other, "a node with a matrix must not have it");
+    }
+    constexpr double kRounding = 1e-5;
+    if (std::abs(matrix[3]) > kRounding || std::abs(matrix[7]) > kRounding ||
+        std::abs(matrix[11]) > kRounding || std::abs(matrix[15] - 1) > kRounding) {
+        object.error("matrix", "the last row must be 0, 0, 0, 1");
+    }
+}
+
+void read_rotation(const JsonObject& object, Node& node) {
+    constexpr double kTolerance = 0.00769;  // of quaternions written with few digits
+    object.numbers_into("rotation", node.rotation, {-1 - kTolerance, 1 + kTolerance});
+    double squared = 0;
+    for (const double q : node.rotation) squared += q * q;
+    const double length = std::sqrt(squared);
+    if (length < kTolerance) {
+        object.error("rotation", "a quaternion of length 0 is no rotation");
+        return;
+    }
+    if (std::abs(length - 1) > kTolerance) {
+        object.warning("rotation", "the quaternion is not of unit length; it is normalised");
+    }
+    for (double& q : node.rotation) q /= length;
+}
+
+void read_instances(const JsonObject& object, Node& node) {
+    object.with_extension("EXT_mesh_gpu_instancing", [&](const JsonObject& extension) {
+        extension.require("attributes");
+        extension.with_object("attributes", [&](const JsonObject& attributes) {
+            for (const std::string& name : attributes.keys()) {
+                const auto accessor = attributes.index(name, Collection::Accessors);
+                if (accessor) node.instances[name] = *accessor;
+            }
+            if (attributes.keys().empty()) attributes.error({}, "there is no attribute");
+        });
+        if (!object.has("mesh")) object.error({}, "there are instances but no mesh");
+    });
+}
+
+Node read_node(const JsonObject& object) {
+    Node node;
+    node.name = object.text("name").value_or("");
+    node.children = object.indices("children", Collection::Nodes);
+    node.mesh = object.index("mesh", Collection::Meshes);
+    node.skin = object.index("skin", Collection::Skins);
+    node.camera = object.index("camera", Collection::Cameras);
+    object.with_extension("KHR_lights_punctual", [&](const JsonObject& extension) {
+        extension.require("light");
+        node.light = extension.index("light", Collection::Lights);
+    });
+    node.weights = object.numbers("weights", 0).value_or(std::vector<double>());
+    for (const char* key : {"skin", "weights"}) {
+        if (object.has(key) && !object.has("mesh")) object.error(key, "there is no mesh for it");
+    }
+    read_matrix(object, node);
+    object.numbers_into("translation", node.translation);
+    object.numbers_into("scale", node.scale);
+    read_rotation(object, node);
+    read_instances(object, node);
+    return node;
+}
+
+}  // namespace
+
+void read_nodes(const JsonObject& root, Loading& loading) {
+    root.each_object("nodes", [&](const JsonObject& object, std::size_t) {
+        loading.document.nodes.push_back(read_node(object));
+    });
+    root.each_object("scenes", [&](const JsonObject& object, std::size_t) {
+        loading.document.scenes.push_back(
+            {object.text("name").value_or(""), object.indices("nodes", Collection::Nodes)});
+    });
+    loading.document.scene = root.index("scene", Collection::Scenes);
+}
+
+}  // namespace alhazen::gltf

@@ -1,0 +1,100 @@
+// Cameras and lights.
+#include <numbers>
+
+#include "alhazen/formats/gltf/document/gltf_readers.h"
+
+namespace alhazen::gltf {
+
+namespace {
+
+void read_perspective(const JsonObject& object, Camera& camera) {
+    object.require("yfov");
+    object.require("znear");
+    camera.aspect = object.number("aspectRatio", kPositive);
+    camera.yfov = object.number("yfov", kPositive).value_or(1);
+    if (camera.yfov >= std::numbers::pi) object.error("yfov", "expected an angle below pi");
+    camera.near = object.number("znear", kPositive).value_or(1);
+    camera.far = object.number("zfar", kPositive);
+    if (camera.far && *camera.far <= camera.near) {
+        object.error("zfar", "expected a distance beyond znear");
+    }
+}
+
+void read_orthographic(const JsonObject& object, Camera& camera) {
+    for (const char* key : {"xmag", "ymag", "znear", "zfar"}) object.require(key);
+    camera.xmag = object.number("xmag").value_or(1);
+    camera.ymag = object.number("ymag").value_or(1);
+    if (camera.xmag == 0) object.error("xmag", "must not be 0");
+    if (camera.ymag == 0) object.error("ymag", "must not be 0");
+    camera.near = object.number("znear", kNotNegative).value_or(0);
+    camera.far = object.number("zfar", kPositive);
+    if (camera.far && *camera.far <= camera.near) {
+        object.error("zfar", "expected a distance beyond znear");
+    }
+}
+
+Camera read_camera(const JsonObject& object) {
+    Camera camera;
+    camera.name = object.text("name").value_or("");
+    object.require("type");
+    const std::string type = object.text("type").value_or("perspective");
+    if (type != "perspective" && type != "orthographic") {
+        object.error("type", "expected perspective or orthographic");
+        return camera;
+    }
+    camera.perspective = type == "perspective";
+    object.require(type);
+    object.with_object(type, [&](const JsonObject& lens) {
+        camera.perspective ? read_perspective(lens, camera) : read_orthographic(lens, camera);
+    });
+    return camera;
+}
+
+void read_spot(const JsonObject& object, PunctualLight& light) {
+    object.number_into("innerConeAngle", light.inner_cone, {0, std::numbers::pi / 2});
+    object.number_into("outerConeAngle", light.outer_cone, {0, std::numbers::pi / 2 + 1e-6});
+    if (light.inner_cone >= light.outer_cone) {
+        object.error("outerConeAngle", "expected an angle above innerConeAngle");
+    }
+}
+
+PunctualLight read_light(const JsonObject& object) {
+    PunctualLight light;
+    light.name = object.text("name").value_or("");
+    object.require("type");
+    const std::string type = object.text("type").value_or("point");
+    if (type == "directional") {
+        light.type = PunctualLight::Type::Directional;
+    } else if (type == "spot") {
+        light.type = PunctualLight::Type::Spot;
+    } else if (type != "point") {
+        object.error("type", "expected directional, point or spot");
+    }
+    object.numbers_into("color", light.color, kNotNegative);
+    object.number_into("intensity", light.intensity, kNotNegative);
+    light.range = object.number("range", kPositive);
+    if (light.type == PunctualLight::Type::Spot) {
+        object.require("spot");
+        object.with_object("spot", [&](const JsonObject& spot) { read_spot(spot, light); });
+    }
+    return light;
+}
+
+}  // namespace
+
+void read_cameras(const JsonObject& root, Loading& loading) {
+    root.each_object("cameras", [&](const JsonObject& object, std::size_t) {
+        loading.document.cameras.push_back(read_camera(object));
+    });
+}
+
+void read_lights(const JsonObject& root, Loading& loading) {
+    root.with_extension("KHR_lights_punctual", [&](const JsonObject& extension) {
+        extension.require("lights");
+        extension.each_object("lights", [&](const JsonObject& object, std::size_t) {
+            loading.document.lights.push_back(read_light(object));
+        });
+    });
+}
+
+}  // namespace alhazen::gltf

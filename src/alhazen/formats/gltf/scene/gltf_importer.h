@@ -1,0 +1,21 @@
+#pragma once
+/// glTF 2.0 scenes: .gltf with its files or with data URIs, and .glb.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021, and the extensions listed in
+/// docs/formats/gltf.md.
+/// Differs: points and lines make no surface and are left out; see docs/formats/gltf.md.
+
+#include "alhazen/formats/core/importer.h"
+
+namespace alhazen {
+
+class GltfImporter final : public Importer {
+  public:
+    [[nodiscard]] const char* name() const override { return "gltf"; }
+    [[nodiscard]] const char* description() const override;
+    [[nodiscard]] int recognise(const ImportSource& source) const override;
+    [[nodiscard]] SceneDescription import(const ImportSource& source,
+                                          Diagnostics& diagnostics) const override;
+};
+
+}  // namespace alhazen

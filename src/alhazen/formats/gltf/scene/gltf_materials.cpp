@@ -1,0 +1,91 @@
+#include "alhazen/formats/gltf/scene/gltf_materials.h"
+
+#include <fmt/format.h>
+
+namespace alhazen::gltf {
+
+namespace {
+
+Rgb rgb(const std::array<double, 3>& c) {
+    return {c[0], c[1], c[2]};
+}
+
+class MaterialMaker {
+  public:
+    explicit MaterialMaker(Textures& textures) : textures_(textures) {}
+
+    alhazen::Material make(const Material& m, std::string name) {
+        alhazen::Material out;
+        out.name = std::move(name);
+        out.emission = color(m.emissive_strength * rgb(m.emissive), m.emissive_texture);
+        out.index.value = m.ior;
+        out.alpha_mode = m.alpha_mode;
+        out.alpha_cutoff = m.alpha_cutoff;
+        out.double_sided = m.double_sided;
+        if (m.normal_texture) {
+            out.normal_map = {textures_.use(m.normal_texture, ColorSpace::Linear),
+                              m.normal_texture->strength};
+        }
+        MetallicRoughness parameters = metallic_roughness(m);
+        out.alpha = {m.base_color[3], parameters.base_color.texture, Channel::Alpha};
+        out.metallic_roughness = parameters;
+        return out;
+    }
+
+  private:
+    MetallicRoughness metallic_roughness(const Material& m) {
+        MetallicRoughness p;
+        p.base_color =
+            color({m.base_color[0], m.base_color[1], m.base_color[2]}, m.base_color_texture);
+        p.metallic = scalar(m.metallic, m.metallic_roughness_texture, Channel::Blue);
+        p.roughness = scalar(m.roughness, m.metallic_roughness_texture, Channel::Green);
+        const double occlusion = m.occlusion_texture ? m.occlusion_texture->strength : 1.0;
+        p.occlusion = scalar(occlusion, m.occlusion_texture, Channel::Red);
+        p.specular = scalar(m.specular, m.specular_texture, Channel::Alpha);
+        p.specular_color = color(rgb(m.specular_color), m.specular_color_texture);
+        p.transmission = scalar(m.transmission, m.transmission_texture, Channel::Red);
+        p.thickness = scalar(m.thickness, m.thickness_texture, Channel::Green);
+        if (m.attenuation_distance) p.attenuation_distance = *m.attenuation_distance;
+        p.attenuation_color = rgb(m.attenuation_color);
+        p.unlit = m.unlit;
+        return p;
+    }
+
+    ColorInput color(const Rgb& factor, const std::optional<TextureInfo>& info) {
+        return {factor, textures_.use(info, ColorSpace::Srgb)};
+    }
+    ScalarInput scalar(double factor, const std::optional<TextureInfo>& info, Channel channel) {
+        return {factor, textures_.use(info, ColorSpace::Linear), channel};
+    }
+
+    Textures& textures_;
+};
+
+}  // namespace
+
+void add_materials(const Document& document, const ImportSource& source, SceneDescription& scene,
+                   Diagnostics& diagnostics) {
+    Textures textures(document, source, scene, diagnostics);
+    MaterialMaker maker(textures);
+    for (std::size_t i = 0; i < document.materials.size(); ++i) {
+        const Material& material = document.materials[i];
+        std::string name = material.name.empty() ? fmt::format("material {}", i) : material.name;
+        scene.materials.push_back(
+            {maker.make(material, std::move(name)), {source.path.string(), 0, 0}});
+    }
+}
+
+MaterialId DefaultMaterial::id() {
+    if (!id_) {
+        id_ = MaterialId{std::uint32_t(scene_.materials.size())};
+        alhazen::Material material;
+        material.name = "default";
+        material.index.value = Material{}.ior;
+        material.double_sided = Material{}.double_sided;
+        material.metallic_roughness = MetallicRoughness{};
+        scene_.materials.push_back({std::move(material), {scene_.path.string(), 0, 0}});
+    }
+    return *id_;
+}
+
+}  // namespace alhazen::gltf

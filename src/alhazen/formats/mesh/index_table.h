@@ -1,0 +1,69 @@
+#pragma once
+/// Numbers keys in the order of their first use: a hash table with linear probing whose keys are
+/// kept by the caller, in a list.
+///
+/// Conventions: hashes begin at a number that differs from run to run and from table to table, so
+/// that no file can be made whose keys all fall on one slot. The numbering does not depend on it.
+/// Complexity: O(1) expected a call; two to four slots of 4 bytes a key.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "alhazen/sampling/random.h"
+
+namespace alhazen {
+
+class IndexTable {
+  public:
+    /// For about `expected` keys.
+    explicit IndexTable(std::size_t expected = 0)
+        : slots_(std::bit_ceil(2 * expected + 16), kNone), seed_(new_seed()) {}
+
+    /// The hash of a key of these words.
+    [[nodiscard]] std::uint64_t hash(std::initializer_list<std::uint64_t> words) const {
+        std::uint64_t hash = seed_;
+        for (const std::uint64_t word : words) hash = mix64(hash ^ word);
+        return hash;
+    }
+
+    /// The number of the key with this hash: the one of the `count` numbers given out so far for
+    /// which `is_key(number)`, else `count`, which the caller must then add to its list.
+    /// `hash_of(number)` are the hashes of those.
+    template <class IsKey, class HashOf>
+    std::uint32_t find_or_add(std::uint64_t hash, std::size_t count, const IsKey& is_key,
+                              const HashOf& hash_of) {
+        // Before the key is added: its hash cannot be asked for yet.
+        if (2 * (count + 1) > slots_.size()) grow(count, hash_of);
+        std::size_t slot = slot_of(hash);
+        for (; slots_[slot] != kNone; slot = slot_of(slot + 1)) {
+            if (is_key(slots_[slot])) return slots_[slot];
+        }
+        slots_[slot] = std::uint32_t(count);
+        return slots_[slot];
+    }
+
+  private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    [[nodiscard]] static std::uint64_t new_seed();
+    [[nodiscard]] std::size_t slot_of(std::uint64_t hash) const {
+        return std::size_t(hash) & (slots_.size() - 1);
+    }
+    template <class HashOf>
+    void grow(std::size_t count, const HashOf& hash_of) {
+        slots_.assign(2 * slots_.size(), kNone);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::size_t slot = slot_of(hash_of(std::uint32_t(i)));
+            while (slots_[slot] != kNone) slot = slot_of(slot + 1);
+            slots_[slot] = std::uint32_t(i);
+        }
+    }
+
+    std::vector<std::uint32_t> slots_;  ///< a power of two of them
+    std::uint64_t seed_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,221 @@
+#include "alhazen/formats/mesh_files/mesh_export.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+
+#include "alhazen/formats/mesh_files/mesh_export_text.h"
+#include "alhazen/imaging/image/encoding.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::uint64_t kMaxIndex = 0xFFFFFFFFu;
+
+bool mirrors(const Affine& placement) {
+    return determinant(placement.linear) < 0.0;
+}
+
+/// The vertices of a triangle, turned around where the placement mirrors.
+std::array<std::uint32_t, 3> placed(const std::array<std::uint32_t, 3>& t, bool mirrored) {
+    return mirrored ? std::array{t[0], t[2], t[1]} : t;
+}
+
+/// n of a placed mesh; zero where it has no direction.
+Vec3 placed_normal(const Mat3& mesh_from_file, const Vec3& normal) {
+    const Vec3 n = transpose_times(mesh_from_file, normal);
+    const double size = length(n);
+    return size > 0.0 && std::isfinite(size) ? n / size : Vec3{};
+}
+
+// --- Many meshes as one.
+
+struct Arrays {
+    bool normals = false, uvs = false, uvs2 = false, colors = false;
+};
+
+/// Adds one vertex of a placed mesh.
+void add_vertex(const NamedMesh& from, const Mat3& mesh_from_file, std::uint32_t i,
+                const Arrays& arrays, const Vec3& flat_normal, TriangleMesh& out) {
+    const TriangleMesh& mesh = *from.mesh;
+    out.positions.push_back(from.placement.point(mesh.positions[i]));
+    if (arrays.normals) {
+        out.normals.push_back(
+            mesh.normals.empty() ? flat_normal : placed_normal(mesh_from_file, mesh.normals[i]));
+    }
+    if (arrays.uvs) out.uvs.push_back(mesh.uvs.empty() ? Vec2{} : mesh.uvs[i]);
+    if (arrays.uvs2) out.uvs2.push_back(mesh.uvs2.empty() ? Vec2{} : mesh.uvs2[i]);
+    if (arrays.colors) out.colors.push_back(mesh.colors.empty() ? VertexColor{} : mesh.colors[i]);
+}
+
+void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
+    const TriangleMesh& mesh = *from.mesh;
+    const Mat3 mesh_from_file = inverse(from.placement.linear);
+    const bool mirrored = mirrors(from.placement);
+    if (!arrays.normals || !mesh.normals.empty()) {
+        const std::uint32_t first = std::uint32_t(out.positions.size());
+        for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+            add_vertex(from, mesh_from_file, i, arrays, {}, out);
+        }
+        for (const auto& t : mesh.triangles) {
+            const auto [a, b, c] = placed(t, mirrored);
+            out.triangles.push_back({first + a, first + b, first + c});
+        }
+        return;
+    }
+    // Flat among smooth ones: each triangle gets vertices of its own.
+    for (const auto& t : mesh.triangles) {
+        const std::uint32_t first = std::uint32_t(out.positions.size());
+        const Vec3& p = mesh.positions[t[0]];
+        const Vec3 normal = placed_normal(
+            mesh_from_file, cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p));
+        for (const std::uint32_t i : placed(t, mirrored)) {
+            add_vertex(from, mesh_from_file, i, arrays, normal, out);
+        }
+        out.triangles.push_back({first, first + 1, first + 2});
+    }
+}
+
+// --- Text.
+
+void append_index(std::string& out, std::uint64_t value) {
+    std::array<char, 24> buffer;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    out.append(buffer.data(), end);
+}
+void append_vector(std::string& out, const char* word, const Vec3& v) {
+    out += word;
+    for (const double c : {v.x, v.y, v.z}) append_number(out, c);
+}
+
+/// How many vertices, texture coordinates and normals were written before.
+struct ObjOffsets {
+    std::uint64_t positions = 1, uvs = 1, normals = 1;
+};
+
+void append_vertices(const NamedMesh& from, std::string& out) {
+    const TriangleMesh& mesh = *from.mesh;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        append_vector(out, "v", from.placement.point(mesh.positions[i]));
+        if (!mesh.colors.empty()) {
+            const VertexColor& c = mesh.colors[i];
+            for (const float channel : {c.r, c.g, c.b}) {
+                const double code = srgb_from_linear(std::fmin(std::fmax(channel, 0.0), 1.0));
+                append_number(out, std::fmin(code, 1.0));
+            }
+        }
+        out += '\n';
+    }
+    for (const Vec2& uv : mesh.uvs) {
+        out += "vt";
+        append_number(out, uv.x);
+        append_number(out, uv.y);
+        out += '\n';
+    }
+    const Mat3 mesh_from_file = inverse(from.placement.linear);
+    for (const Vec3& normal : mesh.normals) {
+        append_vector(out, "vn", placed_normal(mesh_from_file, normal));
+        out += '\n';
+    }
+}
+
+void append_object(const NamedMesh& from, ObjOffsets& offsets, std::string& out) {
+    const TriangleMesh& mesh = *from.mesh;
+    out += "o " + one_line(from.name) + '\n';
+    append_vertices(from, out);
+    if (const std::string material = one_line(from.material); !material.empty()) {
+        out += "usemtl " + material + '\n';
+    }
+    const bool mirrored = mirrors(from.placement);
+    for (const auto& t : mesh.triangles) {
+        out += 'f';
+        for (const std::uint32_t i : placed(t, mirrored)) {
+            out += ' ';
+            append_index(out, offsets.positions + i);
+            if (!mesh.uvs.empty() || !mesh.normals.empty()) out += '/';
+            if (!mesh.uvs.empty()) append_index(out, offsets.uvs + i);
+            if (!mesh.normals.empty()) {
+                out += '/';
+                append_index(out, offsets.normals + i);
+            }
+        }
+        out += '\n';
+    }
+    offsets.positions += mesh.positions.size();
+    offsets.uvs += mesh.uvs.size();
+    offsets.normals += mesh.normals.size();
+}
+
+// --- STL.
+
+void append_float(std::string& out, double value) {
+    const std::uint32_t bits = std::bit_cast<std::uint32_t>(float(value));
+    for (int shift = 0; shift < 32; shift += 8) out += char(bits >> shift & 0xFFu);
+}
+
+}  // namespace
+
+std::string ply_bytes(std::span<const NamedMesh> meshes) {
+    Arrays arrays;
+    std::uint64_t vertices = 0, triangles = 0;
+    for (const NamedMesh& from : meshes) {
+        arrays.normals = arrays.normals || !from.mesh->normals.empty();
+        arrays.uvs = arrays.uvs || !from.mesh->uvs.empty();
+        arrays.uvs2 = arrays.uvs2 || !from.mesh->uvs2.empty();
+        arrays.colors = arrays.colors || !from.mesh->colors.empty();
+    }
+    for (const NamedMesh& from : meshes) {
+        const bool split = arrays.normals && from.mesh->normals.empty();
+        vertices += split ? 3 * from.mesh->triangles.size() : from.mesh->positions.size();
+        triangles += from.mesh->triangles.size();
+    }
+    if (vertices > kMaxIndex || triangles > kMaxIndex) {
+        throw Error(ErrorKind::Resource, "more than 4294967295 vertices for one PLY file");
+    }
+    TriangleMesh whole;
+    whole.positions.reserve(vertices);
+    whole.triangles.reserve(triangles);
+    for (const NamedMesh& from : meshes) add_mesh(from, arrays, whole);
+    return ply_bytes(whole);
+}
+
+std::string obj_text(std::span<const NamedMesh> meshes, const std::string& mtllib) {
+    std::string out = "# Alhazen\n";
+    if (!mtllib.empty()) out += "mtllib " + one_line(mtllib) + '\n';
+    ObjOffsets offsets;
+    for (const NamedMesh& from : meshes) append_object(from, offsets, out);
+    return out;
+}
+
+std::string stl_bytes(std::span<const NamedMesh> meshes) {
+    std::uint64_t count = 0;
+    for (const NamedMesh& from : meshes) count += from.mesh->triangles.size();
+    if (count > kMaxIndex) {
+        throw Error(ErrorKind::Resource, "more than 4294967295 triangles for one STL file");
+    }
+    std::string out = "binary STL by Alhazen";
+    out.reserve(84 + 50 * count);
+    out.resize(80, ' ');
+    for (int shift = 0; shift < 32; shift += 8) out += char(count >> shift & 0xFFu);
+    for (const NamedMesh& from : meshes) {
+        const bool mirrored = mirrors(from.placement);
+        for (const auto& t : from.mesh->triangles) {
+            std::array<Vec3, 4> v;
+            for (std::size_t k = 0; k < 3; ++k) {
+                v[k + 1] = from.placement.point(from.mesh->positions[placed(t, mirrored)[k]]);
+            }
+            const Vec3 area = cross(v[2] - v[1], v[3] - v[1]);
+            const double size = length(area);
+            if (size > 0.0 && std::isfinite(size)) v[0] = area / size;
+            for (const Vec3& p : v) {
+                for (const double c : {p.x, p.y, p.z}) append_float(out, c);
+            }
+            out.append(2, '\0');
+        }
+    }
+    return out;
+}
+
+}  // namespace alhazen

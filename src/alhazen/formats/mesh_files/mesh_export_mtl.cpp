@@ -1,0 +1,205 @@
+// Materials as MTL: what the format can say of them, and a line about each kind of thing that it
+// cannot.
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/formats/mesh_files/mesh_export.h"
+#include "alhazen/formats/mesh_files/mesh_export_text.h"
+
+namespace alhazen {
+
+namespace {
+
+/// What was lost: each kind once, with how often and where first.
+class Losses {
+  public:
+    void add(const std::string& what, const std::string& material) {
+        const auto known = std::find_if(all_.begin(), all_.end(),
+                                        [&](const Loss& loss) { return loss.what == what; });
+        if (known == all_.end()) {
+            all_.push_back({what, material, 1});
+        } else {
+            ++known->count;
+        }
+    }
+    void list(std::vector<std::string>& lines) const {
+        for (const Loss& loss : all_) {
+            std::string line = loss.what + " (material '" + loss.material.substr(0, 200) + "'";
+            if (loss.count > 1) line += ", " + std::to_string(loss.count) + " times in all";
+            lines.push_back(line + ")");
+        }
+    }
+
+  private:
+    struct Loss {
+        std::string what, material;
+        std::size_t count = 0;
+    };
+    std::vector<Loss> all_;
+};
+
+class MtlWriter {
+  public:
+    MtlWriter(std::span<const MtlTexture> textures, Losses& losses)
+        : textures_(textures), losses_(losses) {}
+
+    std::string write(std::span<const Material> materials) {
+        out_ = "# Alhazen\n";
+        for (const Material& m : materials) {
+            name_ = one_line(m.name);
+            out_ += "newmtl " + name_ + '\n';
+            m.metallic_roughness ? metallic_roughness(m, *m.metallic_roughness) : whitted(m);
+            color("Ke", "map_Ke", m.emission);
+            if (m.alpha_mode == AlphaMode::Mask) lose("the threshold of alpha");
+            if (m.alpha_mode != AlphaMode::Opaque) scalar("d", "map_d", m.alpha);
+            if (!m.double_sided) lose("that only the front is seen");
+            if (m.index.texture != kNoTexture) lose("the picture of the index of refraction");
+            map("norm", m.normal_map.texture, false, bump_option(m.normal_map.scale));
+        }
+        return std::move(out_);
+    }
+
+  private:
+    void lose(const std::string& what) { losses_.add(what, name_); }
+
+    void whitted(const Material& m) {
+        const bool glass = !is_black(m.transmissive);
+        const bool mirror = !is_black(m.reflective);
+        color("Ka", "map_Ka", m.ambient);
+        color("Kd", "map_Kd", m.diffuse);
+        // One colour stands for the highlight and the reflection.
+        const bool highlight = !is_black(m.specular);
+        if (mirror && highlight &&
+            (m.specular.color != m.reflective.color ||
+             m.specular.texture != m.reflective.texture)) {
+            lose("that highlight and reflection differ in colour");
+        }
+        color("Ks", "map_Ks", highlight ? m.specular : m.reflective);
+        // An exponent would make a highlight of the colour of the reflection.
+        scalar("Ns", "map_Ns", highlight || !mirror ? m.shininess : ScalarInput{});
+        number("Ni", m.index.value);
+        if (glass) {
+            color("Tf", nullptr, m.transmissive);
+            if (!mirror && highlight) lose("that glass with a highlight does not reflect");
+        }
+        out_ += glass ? "illum 7\n" : mirror ? "illum 3\n" : "illum 2\n";
+    }
+    void metallic_roughness(const Material& m, const MetallicRoughness& mr) {
+        color("Kd", "map_Kd", mr.base_color);
+        scalar("Pm", "map_Pm", mr.metallic);
+        scalar("Pr", "map_Pr", mr.roughness);
+        number("Ni", m.index.value);
+        if (mr.transmission.value > 0.0) {
+            color("Tf", nullptr, {mr.transmission.value * Rgb{1, 1, 1}, mr.transmission.texture});
+            out_ += "illum 7\n";
+        } else {
+            out_ += "illum 2\n";
+        }
+        if (mr.occlusion.texture != kNoTexture) lose("the picture of occlusion");
+        if (mr.specular.value != 1.0 || mr.specular.texture != kNoTexture ||
+            mr.specular_color.color != Rgb{1, 1, 1} || mr.specular_color.texture != kNoTexture) {
+            lose("strength and colour of the dielectric reflection");
+        }
+        if (mr.unlit) lose("that it is not lit");
+        if (mr.transmission.value > 0.0 && mr.thickness.value == 0.0) lose("that it is thin");
+        if (std::isfinite(mr.attenuation_distance) && mr.attenuation_color != Rgb{1, 1, 1}) {
+            lose("the colour of its inside");
+        }
+    }
+
+    static bool is_black(const ColorInput& c) {
+        return c.texture == kNoTexture && c.color.is_black();
+    }
+    /// `map_word` null: there is no such statement.
+    void color(const char* word, const char* map_word, const ColorInput& input) {
+        out_ += word;
+        for (const double c : {input.color.r, input.color.g, input.color.b}) {
+            append_number(out_, c);
+        }
+        out_ += '\n';
+        if (input.texture == kNoTexture) return;
+        if (map_word == nullptr) return lose("a picture beside " + std::string(word));
+        // Black beside a picture is read as white.
+        if (!input.color.is_black()) map(map_word, input.texture, true);
+    }
+    void scalar(const char* word, const char* map_word, const ScalarInput& input) {
+        number(word, input.value);
+        static constexpr std::array<const char*, 5> kChannels{"l", "r", "g", "b", "m"};
+        const char* channel = kChannels[std::size_t(input.channel)];
+        map(map_word, input.texture, false, std::string(" -imfchan ") + channel);
+    }
+    void number(const char* word, double value) {
+        out_ += word;
+        append_number(out_, value);
+        out_ += '\n';
+    }
+    static std::string bump_option(double scale) {
+        std::string option;
+        if (scale != 1.0) {
+            option = " -bm";
+            append_number(option, scale);
+        }
+        return option;
+    }
+
+    void map(const char* word, TextureId id, bool is_color, const std::string& options = {}) {
+        if (id == kNoTexture || std::size_t(id) >= textures_.size()) return;
+        const MtlTexture& texture = textures_[std::size_t(id)];
+        if (texture.file.empty()) return;
+        out_ += word + options;
+        placement(texture.settings);
+        wrap(texture.settings);
+        out_ += ' ' + one_line(texture.file) + '\n';
+        lookup(texture.settings, is_color);
+    }
+    void placement(const Texture& t) {
+        const UvTransform& uv = t.uv_transform;
+        if (uv.uu != 1.0 || uv.vv != 1.0) three_numbers(" -s", uv.uu, uv.vv, 1.0);
+        if (uv.offset.x != 0.0 || uv.offset.y != 0.0) {
+            three_numbers(" -o", uv.offset.x, uv.offset.y, 0.0);
+        }
+        if (uv.uv != 0.0 || uv.vu != 0.0) lose("the rotation of texture coordinates");
+    }
+    void wrap(const Texture& t) {
+        if (t.wrap_u == Wrap::Mirror || t.wrap_v == Wrap::Mirror) {
+            lose("the mirrored repeat of a picture");
+        } else if (t.wrap_u != t.wrap_v) {
+            lose("that a picture is repeated along one axis only");
+        } else if (t.wrap_u == Wrap::Clamp) {
+            out_ += " -clamp on";
+        }
+    }
+    void lookup(const Texture& t, bool is_color) {
+        if (t.uv_set != 0) lose("the second set of texture coordinates");
+        if (t.filter != TextureFilter::Mipmapped) lose("the filter of a picture");
+        if (t.corner_texels) lose("that texels lie at the corners of a picture");
+        // Colours of 8 and 16 bits are read as sRGB, all else as it is.
+        const bool codes = t.image && !std::holds_alternative<std::vector<float>>(t.image->samples);
+        if (t.image && t.decode_srgb != (is_color && codes)) {
+            lose(t.decode_srgb ? "that a picture of numbers is sRGB"
+                               : "that the colours of a picture are linear");
+        }
+    }
+    void three_numbers(const char* word, double a, double b, double c) {
+        out_ += word;
+        for (const double number : {a, b, c}) append_number(out_, number);
+    }
+
+    std::span<const MtlTexture> textures_;
+    Losses& losses_;
+    std::string name_;  ///< of the material that is being written
+    std::string out_;
+};
+
+}  // namespace
+
+std::string mtl_text(std::span<const Material> materials, std::span<const MtlTexture> textures,
+                     std::vector<std::string>& lost) {
+    Losses losses;
+    std::string text = MtlWriter(textures, losses).write(materials);
+    losses.list(lost);
+    return text;
+}
+
+}  // namespace alhazen

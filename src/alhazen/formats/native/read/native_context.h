@@ -1,0 +1,104 @@
+#pragma once
+/// What the parts of the native importer share while one scene is read, and where in it they are.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/pictures/texture_table.h"
+#include "alhazen/formats/text/block_reader.h"
+
+namespace alhazen {
+
+struct NativeContext {
+    NativeContext(SceneDescription& scene_, Diagnostics& diagnostics_,
+                  const ImportOptions& options_);
+
+    SceneDescription& scene;
+    Diagnostics& diagnostics;
+    const ImportOptions& options;
+    std::vector<std::filesystem::path> roots;  ///< files the scene names must lie inside of one
+    TextureTable textures;
+
+    // Names defined so far; a name must be defined before it is used.
+    std::map<std::string, MaterialId, std::less<>> material_names;
+    std::map<std::string, TextureId, std::less<>> texture_names;
+    std::map<std::string, MeshIndex, std::less<>> geometry_names;
+    std::map<std::string, ObjectIndex, std::less<>> object_names;
+    /// Objects that have a number and no definition yet, and where they are listed.
+    std::map<std::string, FileLocation, std::less<>> listed_objects;
+    std::optional<MaterialId> built_in_material;
+
+    std::vector<std::size_t> cameras_without_aspect;  ///< they take that of the picture
+    std::vector<std::filesystem::path>
+        open_files;  ///< the file being read and those that include it
+    std::uint64_t included_bytes = 0;
+    std::uint64_t included_files = 0;
+    std::uint64_t elements = 0;  ///< vertices, triangles and parts
+
+    [[nodiscard]] BlockReader reader(TextNode block, std::string what) const {
+        return {block, std::move(what), BlockReader::Strictness::Strict, diagnostics};
+    }
+    /// Throws Error (Resource) beyond options.max_elements.
+    void count_elements(std::uint64_t more, const FileLocation& where);
+};
+
+/// The place of an item: what it is added to, and what holds there.
+struct NativeScope {
+    std::vector<Part>& parts;
+    Affine object_from_here;
+    std::optional<MaterialId> material;  ///< default for parts without one
+    std::filesystem::path folder;        ///< of the file that is being read
+    int nesting = 0;                     ///< objects and groups around, through all included files
+    RayMask visible_to = kAllRays;       ///< rays that the groups around let through
+
+    [[nodiscard]] bool top_level() const { return nesting == 0; }
+    /// Where a transform that is written here leads. One that stands alone is kept bit for bit:
+    /// multiplication by the identity turns -0 into 0.
+    [[nodiscard]] Affine placed(const Affine& here_from_part) const {
+        return object_from_here == Affine{} ? here_from_part : object_from_here * here_from_part;
+    }
+};
+
+/// `type "name" { ... }`, taken apart.
+struct NativeBlock {
+    std::string type, name;
+    std::optional<TextNode> block;
+    FileLocation location;
+};
+/// Reports an error when the entry has no block; never throws.
+[[nodiscard]] NativeBlock take_apart(TextNode entry, Diagnostics& diagnostics);
+
+/// Defines `name` in `names`, or reports that it is taken.
+template <class Id>
+void define_name(const std::string& name, Id id, const char* kind, const FileLocation& where,
+                 std::map<std::string, Id, std::less<>>& names, Diagnostics& diagnostics) {
+    if (!names.emplace(name, id).second) {
+        diagnostics.error(where,
+                          std::string(kind) + " \"" + printable(name) + "\" is already defined");
+    }
+}
+
+/// The id of the name that `value` is, or an error that lists the names there are.
+template <class Id>
+std::optional<Id> look_up(TextNode value, const char* kind,
+                          const std::map<std::string, Id, std::less<>>& names,
+                          Diagnostics& diagnostics) {
+    const auto found = names.find(value.text());
+    if (found != names.end()) return found->second;
+    constexpr std::size_t kMostListed = 20;
+    std::vector<std::string_view> known;
+    for (const auto& [name, id] : names) {
+        if (known.size() < kMostListed) known.push_back(name);
+    }
+    diagnostics.error(value.location(),
+                      std::string(kind) + " \"" + printable(value.text()) + "\" is not defined" +
+                          (known.empty() ? " before its use" : "; defined are " + joined(known)) +
+                          (names.size() > known.size() ? ", ..." : ""));
+    return std::nullopt;
+}
+
+}  // namespace alhazen

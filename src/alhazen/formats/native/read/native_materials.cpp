@@ -1,0 +1,291 @@
+#include "alhazen/formats/native/read/native_materials.h"
+
+#include "alhazen/formats/native/native_words.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The arguments of texture("NAME", factor, channel); the last two may be left out.
+struct TextureCall {
+    TextureId texture = kNoTexture;
+    std::optional<TextNode> factor;
+    std::optional<Channel> channel;
+};
+std::optional<TextureCall> read_texture_call(TextNode value, std::string_view key,
+                                             NativeContext& context) {
+    const auto fail = [&] {
+        ValueReader{context.diagnostics}.fail(
+            value, key,
+            "texture(\"NAME\"), texture(\"NAME\", factor) or, for a number, texture(\"NAME\", "
+            "factor, "
+            "channel) with channel mean, red, green, blue or alpha");
+        return std::nullopt;
+    };
+    const TextNode list = value.empty() ? value : value.first();
+    const std::size_t count = list.is(NodeKind::List) ? list.size() : 0;
+    if (value.broken()) return std::nullopt;
+    if (count < 1 || count > 3 || !list.first().is(NodeKind::String)) return fail();
+    const auto id = look_up(list.first(), "texture", context.texture_names, context.diagnostics);
+    if (!id) return std::nullopt;
+    TextureCall call{*id, std::nullopt, std::nullopt};
+    auto argument = list.begin();
+    if (count >= 2) call.factor = *++argument;
+    if (count == 3) {
+        const TextNode word = *++argument;
+        for (const auto& [name, channel] : native_words<Channel>()) {
+            if (word.is(NodeKind::Word, name)) call.channel = channel;
+        }
+        if (!call.channel) return fail();
+    }
+    return call;
+}
+
+/// For colours, which have no channel.
+std::optional<TextureCall> read_whole_texture_call(TextNode value, std::string_view key,
+                                                   NativeContext& context) {
+    auto call = read_texture_call(value, key, context);
+    if (!call || !call->channel) return call;
+    ValueReader{context.diagnostics}.fail(value, key,
+                                          "texture(\"NAME\") or texture(\"NAME\", factor)");
+    return std::nullopt;
+}
+
+bool read_color(BlockReader& reader, std::string_view key, NativeContext& context,
+                ColorInput& out) {
+    const auto value = reader.find(key);
+    if (!value) return false;
+    if (!value->is(NodeKind::Entry, "texture")) {
+        return read_native_color(*value, key, reader.values(), out.color);
+    }
+    const auto call = read_whole_texture_call(*value, key, context);
+    if (!call) return false;
+    ColorInput input{{1, 1, 1}, call->texture};
+    if (call->factor && !read_native_color(*call->factor, key, reader.values(), input.color)) {
+        return false;
+    }
+    out = input;
+    return true;
+}
+
+void read_scalar(BlockReader& reader, std::string_view key, NativeContext& context,
+                 ScalarInput& out) {
+    const auto value = reader.find(key);
+    if (!value) return;
+    if (!value->is(NodeKind::Entry, "texture")) {
+        reader.values().read(*value, key, out.value);
+        return;
+    }
+    const auto call = read_texture_call(*value, key, context);
+    if (!call) return;
+    ScalarInput input{1, call->texture, call->channel.value_or(out.channel)};
+    if (call->factor) reader.values().read(*call->factor, key, input.value);
+    out = input;
+}
+
+void read_normal_map(BlockReader& reader, NativeContext& context, NormalMap& out) {
+    constexpr std::string_view kKey = "normal_map";
+    const auto value = reader.find(kKey);
+    if (!value) return;
+    if (!value->is(NodeKind::Entry, "texture")) {
+        reader.values().fail(*value, kKey, "texture(\"NAME\") or texture(\"NAME\", scale)");
+        return;
+    }
+    const auto call = read_whole_texture_call(*value, kKey, context);
+    if (!call) return;
+    out.texture = call->texture;
+    if (call->factor) reader.values().read(*call->factor, kKey, out.scale);
+}
+
+void read_alpha(BlockReader& reader, NativeContext& context, Material& m) {
+    reader.read_word("alpha_mode", native_words<AlphaMode>(), m.alpha_mode);
+    read_scalar(reader, "alpha", context, m.alpha);
+    reader.read("alpha_cutoff", m.alpha_cutoff);
+    reader.read("double_sided", m.double_sided);
+}
+
+void read_metallic_roughness(BlockReader& outer, NativeContext& context, Material& m) {
+    constexpr std::string_view kKey = "metallic_roughness";
+    const auto value = outer.find(kKey);
+    if (!value) return;
+    if (!value->is(NodeKind::Block)) {
+        outer.values().fail(*value, kKey, "a block { }");
+        return;
+    }
+    BlockReader reader = context.reader(*value, std::string(kKey));
+    MetallicRoughness& p = m.metallic_roughness.emplace();
+    read_color(reader, "base_color", context, p.base_color);
+    read_scalar(reader, "metallic", context, p.metallic);
+    read_scalar(reader, "roughness", context, p.roughness);
+    read_scalar(reader, "occlusion", context, p.occlusion);
+    read_scalar(reader, "specular", context, p.specular);
+    read_color(reader, "specular_color", context, p.specular_color);
+    read_scalar(reader, "transmission", context, p.transmission);
+    read_scalar(reader, "thickness", context, p.thickness);
+    if (reader.read("attenuation_distance", p.attenuation_distance) &&
+        !(p.attenuation_distance > 0)) {
+        reader.error(*reader.find("attenuation_distance"),
+                     "'attenuation_distance' must be greater than 0");
+    }
+    if (const auto color = reader.find("attenuation_color")) {
+        read_native_color(*color, "attenuation_color", reader.values(), p.attenuation_color);
+    }
+    reader.read("unlit", p.unlit);
+    reader.finish();
+}
+
+MaterialId add_material(TextNode block, std::string name, NativeContext& context) {
+    BlockReader reader = context.reader(block, "material");
+    Material m;
+    m.name = std::move(name);
+    reader.read("name", m.name);
+    read_color(reader, "emission", context, m.emission);
+    const bool has_ambient = reader.has("ambient");
+    read_color(reader, "ambient", context, m.ambient);
+    read_color(reader, "diffuse", context, m.diffuse);
+    read_color(reader, "specular", context, m.specular);
+    read_color(reader, "reflective", context, m.reflective);
+    read_color(reader, "transmissive", context, m.transmissive);
+    read_scalar(reader, "shininess", context, m.shininess);
+    read_scalar(reader, "index", context, m.index);
+    if (double density = 0; reader.read("density", density)) m.density = density;
+    if (!has_ambient) m.ambient = m.diffuse;
+    read_alpha(reader, context, m);
+    read_normal_map(reader, context, m.normal_map);
+    read_metallic_roughness(reader, context, m);
+    reader.finish();
+    context.scene.materials.push_back({std::move(m), block.location()});
+    return static_cast<MaterialId>(context.scene.materials.size() - 1);
+}
+
+/// What parts are made of when the file says nothing: a matt grey.
+MaterialId built_in_material(NativeContext& context) {
+    if (!context.built_in_material) {
+        Material grey;
+        grey.name = "default";
+        grey.diffuse.color = grey.ambient.color = {0.7, 0.7, 0.7};
+        context.scene.materials.push_back({grey, {}});
+        context.built_in_material = static_cast<MaterialId>(context.scene.materials.size() - 1);
+    }
+    return *context.built_in_material;
+}
+
+}  // namespace
+
+void read_native_material(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    if (block.name.empty()) {
+        context.diagnostics.error(block.location,
+                                  "material: expected a name, as in material \"red\" { }");
+    }
+    const MaterialId id = add_material(*block.block, block.name, context);
+    if (!block.name.empty()) {
+        define_name(block.name, id, "material", block.location, context.material_names,
+                    context.diagnostics);
+    }
+}
+
+namespace {
+
+/// `filter`, or `bilinear` of the first files.
+void read_filter(BlockReader& reader, TextureFilter& out) {
+    bool bilinear = true;
+    if (reader.has("filter") && reader.has("bilinear")) {
+        reader.error(reader.block(), "'filter' and 'bilinear' say the same; expected one of them");
+    }
+    reader.read_word("filter", native_words<TextureFilter>(), out);
+    if (reader.read("bilinear", bilinear)) {
+        out = bilinear ? TextureFilter::Bilinear : TextureFilter::Nearest;
+    }
+}
+
+/// Two rows of three numbers that act on the column (u, v, 1).
+void read_uv_transform(BlockReader& reader, UvTransform& out) {
+    constexpr std::string_view kKey = "uv_transform";
+    const auto value = reader.find(kKey);
+    if (!value) return;
+    if (!value->is(NodeKind::List) || value->size() != 2) {
+        reader.values().fail(*value, kKey, "two rows of three numbers");
+        return;
+    }
+    double row[2][3];
+    int i = 0;
+    for (const TextNode numbers : *value) {
+        if (!reader.values().read_numbers(numbers, kKey, 3, row[i++])) return;
+    }
+    out = {row[0][0], row[0][1], row[1][0], row[1][1], {row[0][2], row[1][2]}};
+}
+
+void read_uv_set(BlockReader& reader, int& out) {
+    int set = 0;
+    if (!reader.read("uv_set", set)) return;
+    if (set == 0 || set == 1) {
+        out = set;
+    } else {
+        reader.error(*reader.find("uv_set"), "'uv_set' must be 0 or 1");
+    }
+}
+
+}  // namespace
+
+bool read_native_color(TextNode value, std::string_view key, const ValueReader& values, Rgb& out) {
+    if (value.is(NodeKind::Number)) {
+        out = {value.number(), value.number(), value.number()};
+        return true;
+    }
+    if (value.is(NodeKind::List)) return values.read(value, key, out);
+    return values.fail(value, key, "a colour (r, g, b), a number or texture(\"NAME\")");
+}
+
+void read_native_texture(const NativeBlock& block, NativeContext& context,
+                         const NativeScope& scope) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, "texture");
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    std::string file, name = block.name;
+    bool srgb = false;
+    if (block.name.empty()) {
+        context.diagnostics.error(block.location,
+                                  "texture: expected a name, as in texture \"wood\" { }");
+    }
+    reader.require("file");
+    const bool has_file = reader.read("file", file);
+    reader.read("name", name);
+    reader.read_word("wrap_u", native_words<Wrap>(), settings.wrap_u);
+    reader.read_word("wrap_v", native_words<Wrap>(), settings.wrap_v);
+    read_filter(reader, settings.filter);
+    reader.read("corner_texels", settings.corner_texels);
+    read_uv_set(reader, settings.uv_set);
+    read_uv_transform(reader, settings.uv_transform);
+    const bool has_srgb = reader.read("srgb", srgb);
+    reader.finish();
+    if (!has_file) return;
+    const auto id = context.textures.load(file, scope.folder, settings, name, block.location);
+    if (!id) return;
+    Texture& texture = context.scene.textures.back().texture;
+    texture.decode_srgb = has_srgb ? srgb : !texture.image->linear;
+    define_name(block.name, *id, "texture", block.location, context.texture_names,
+                context.diagnostics);
+}
+
+std::optional<MaterialId> read_material_value(TextNode value, NativeContext& context) {
+    if (value.broken()) return std::nullopt;
+    if (value.is(NodeKind::Block)) return add_material(value, "", context);
+    if (value.is(NodeKind::String) || value.is(NodeKind::Word)) {
+        return look_up(value, "material", context.material_names, context.diagnostics);
+    }
+    ValueReader{context.diagnostics}.fail(value, "material",
+                                          "the name of a material or a block { }");
+    return std::nullopt;
+}
+
+MaterialId read_part_material(BlockReader& reader, NativeContext& context,
+                              const NativeScope& scope) {
+    std::optional<MaterialId> id;
+    if (const auto value = reader.find("material")) id = read_material_value(*value, context);
+    if (!id) id = scope.material;
+    return id ? *id : built_in_material(context);
+}
+
+}  // namespace alhazen

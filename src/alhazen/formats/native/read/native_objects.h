@@ -1,0 +1,20 @@
+#pragma once
+/// Objects of the native format, the list that numbers them, and their instances.
+
+#include "alhazen/formats/native/read/native_context.h"
+
+namespace alhazen {
+
+/// `objects { names = [...]; root = "..." }`: the objects in the order of their numbers.
+void read_native_object_list(const NativeBlock& block, NativeContext& context, NativeScope& scope);
+void read_native_object(const NativeBlock& block, NativeContext& context, NativeScope& scope);
+/// `union { ... }`, `intersection { ... }`, `difference { ... }`: an object that is one solid, and
+/// the part that places it.
+void read_native_solid(const NativeBlock& block, NativeContext& context, NativeScope& scope);
+/// `instance "object" { transform = ... }` or `instance "object";`
+void read_native_instance(TextNode entry, NativeContext& context, NativeScope& scope);
+
+/// Reports objects that are listed and not defined. Call when all is read.
+void check_listed_objects(NativeContext& context);
+
+}  // namespace alhazen

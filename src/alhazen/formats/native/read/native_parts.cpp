@@ -1,0 +1,211 @@
+#include "alhazen/formats/native/read/native_parts.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "alhazen/formats/native/read/native_height_picture.h"
+#include "alhazen/formats/native/read/native_include.h"
+#include "alhazen/formats/native/read/native_materials.h"
+#include "alhazen/formats/native/read/native_meshes.h"
+#include "alhazen/formats/native/read/native_objects.h"
+#include "alhazen/formats/native/read/native_settings.h"
+#include "alhazen/formats/native/read/native_shapes.h"
+#include "alhazen/formats/native/read/native_transform.h"
+#include "alhazen/formats/native/read/native_view.h"
+#include "alhazen/formats/native/read/native_visibility.h"
+
+namespace alhazen {
+
+namespace {
+
+Part placed_part(BlockReader& reader, const NativeBlock& block, const NativeScope& scope) {
+    Part part;
+    part.name = block.name;
+    part.location = block.location;
+    part.object_from_part = scope.placed(read_native_transform(reader));
+    part.visible_to = scope.visible_to & read_native_visibility(reader);
+    return part;
+}
+
+void read_shape(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    Part part = placed_part(reader, block, scope);
+    AnyShape shape = read_native_shape(block.type, reader);
+    read_native_height_picture(reader, context, scope, shape);
+    part.what = std::move(shape);
+    part.material = read_part_material(reader, context, scope);
+    reader.finish();
+    context.count_elements(1, block.location);
+    scope.parts.push_back(std::move(part));
+}
+
+void read_mesh_part(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    Part part = placed_part(reader, block, scope);
+    const std::optional<MeshIndex> mesh = read_native_mesh(reader, block, context, scope);
+    part.material = read_part_material(reader, context, scope);
+    reader.finish();
+    if (!mesh) return;
+    context.count_elements(1, block.location);
+    part.what = *mesh;
+    scope.parts.push_back(std::move(part));
+}
+
+// What holds parts.
+
+void read_group(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    NativeScope inner{scope.parts,       scope.placed(read_native_transform(reader)),
+                      scope.material,    scope.folder,
+                      scope.nesting + 1, scope.visible_to & read_native_visibility(reader)};
+    if (const auto value = reader.find("material")) {
+        if (const auto id = read_material_value(*value, context)) inner.material = id;
+    }
+    reader.finish(true);
+    read_native_items(*block.block, context, inner);
+}
+
+void read_defaults(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
+    BlockReader reader = context.reader(*block.block, block.type);
+    if (const auto value = reader.find("material")) {
+        if (const auto id = read_material_value(*value, context)) scope.material = id;
+    }
+    reader.finish();
+}
+
+// Which block goes where.
+
+using ReadTop = void (*)(const NativeBlock&, NativeContext&);
+constexpr std::pair<std::string_view, ReadTop> kTopLevelBlocks[] = {
+    {"picture", read_picture},
+    {"conventions", read_conventions},
+    {"perspective_camera", read_perspective_camera},
+    {"sheared_camera", read_sheared_camera},
+    {"orthographic_camera", read_orthographic_camera},
+    {"sheared_orthographic_camera", read_sheared_orthographic_camera},
+    {"ambient_light", read_ambient_light},
+    {"directional_light", read_directional_light},
+    {"point_light", read_point_light},
+    {"spot_light", read_spot_light},
+};
+
+using ReadPart = void (*)(const NativeBlock&, NativeContext&, NativeScope&);
+constexpr std::pair<std::string_view, ReadPart> kPartBlocks[] = {
+    {"geometry", read_native_geometry},
+    {"mesh", read_mesh_part},
+    {"group", read_group},
+    {"union", read_native_solid},
+    {"intersection", read_native_solid},
+    {"difference", read_native_solid},
+    {"objects", read_native_object_list},
+    {"object", read_native_object},
+    {"defaults", read_defaults},
+};
+
+std::string known_blocks() {
+    std::vector<std::string_view> names;
+    for (const auto& [name, read] : kTopLevelBlocks) names.push_back(name);
+    names.insert(names.end(), {"material", "texture", "instance", "include"});
+    for (const auto& [name, read] : kPartBlocks) names.push_back(name);
+    for (const std::string_view name : native_shape_names()) names.push_back(name);
+    return joined(names);
+}
+
+/// True when `type` is a block of the top level; reads it, or reports that it stands too deep.
+bool read_top_level_block(const NativeBlock& block, NativeContext& context,
+                          const NativeScope& scope) {
+    for (const auto& [name, read] : kTopLevelBlocks) {
+        if (name != block.type) continue;
+        if (scope.top_level()) {
+            read(block, context);
+        } else {
+            context.diagnostics.error(block.location,
+                                      block.type + " belongs at the top level of the file");
+        }
+        return true;
+    }
+    return false;
+}
+
+void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
+    if (entry.text() == "include") return read_native_include(entry, context, scope);
+    if (entry.text() == "instance") return read_native_instance(entry, context, scope);
+    const NativeBlock block = take_apart(entry, context.diagnostics);
+    if (block.block && block.block->broken()) return;
+    if (read_top_level_block(block, context, scope)) return;
+    if (block.type == "material") return read_native_material(block, context);
+    if (block.type == "texture") return read_native_texture(block, context, scope);
+    if (is_native_shape(block.type)) {
+        if (block.block) read_shape(block, context, scope);
+        return;
+    }
+    for (const auto& [name, read] : kPartBlocks) {
+        if (name != block.type) continue;
+        if (block.block) read(block, context, scope);
+        return;
+    }
+    context.diagnostics.error(block.location, "unknown block '" + printable(block.type) +
+                                                  "'; known are " + known_blocks());
+}
+
+}  // namespace
+
+NativeContext::NativeContext(SceneDescription& scene_, Diagnostics& diagnostics_,
+                             const ImportOptions& options_)
+    : scene(scene_),
+      diagnostics(diagnostics_),
+      options(options_),
+      roots(scene_roots(options_, folder_of(scene_.path))),
+      textures(scene_, diagnostics_, roots, options_.image_limits) {}
+
+void NativeContext::count_elements(std::uint64_t more, const FileLocation& where) {
+    elements += more;
+    if (elements > options.max_elements) {
+        throw Error(
+            ErrorKind::Resource,
+            "more than " + std::to_string(options.max_elements) + " vertices, triangles and parts",
+            where);
+    }
+}
+
+NativeBlock take_apart(TextNode entry, Diagnostics& diagnostics) {
+    NativeBlock block;
+    block.type = entry.text();
+    block.location = entry.location();
+    for (const TextNode argument : entry) {
+        if (argument.is(NodeKind::String)) block.name = argument.text();
+        if (argument.is(NodeKind::Block)) block.block = argument;
+    }
+    if (!block.block) {
+        diagnostics.error(block.location, printable(block.type) + ": expected a block { }");
+    }
+    return block;
+}
+
+void read_native_items(TextNode block, NativeContext& context, NativeScope& scope,
+                       std::size_t skip) {
+    // Each file is bounded by its tree; this bounds what files nest in each other.
+    const int max_nesting = std::min(context.options.max_nesting, TextTree::kMaxNesting);
+    if (scope.nesting > max_nesting) {
+        context.diagnostics.error(block.location(),
+                                  "blocks are nested deeper than " + std::to_string(max_nesting));
+        return;
+    }
+    for (const TextNode item : block) {
+        if (skip > 0) {
+            --skip;
+            continue;
+        }
+        if (item.broken()) continue;
+        if (item.is(NodeKind::Entry)) {
+            read_entry(item, context, scope);
+        } else if (item.is(NodeKind::Pair) && !scope.top_level()) {
+            continue;  // belongs to the group or object, which has read it
+        } else {
+            context.diagnostics.error(
+                item.location(), "expected a block such as sphere { }, found " + item.describe());
+        }
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,19 @@
+#pragma once
+/// The analytic shapes of the native format. ADD A SHAPE in native_shapes.cpp: one entry of its
+/// table.
+
+#include <string>
+
+#include "alhazen/formats/text/block_reader.h"
+#include "alhazen/shapes/shape_list.h"
+
+namespace alhazen {
+
+/// Makes the shape whose block type is `type` from the keys of its block.
+/// Precondition: is_native_shape(type).
+[[nodiscard]] AnyShape read_native_shape(std::string_view type, BlockReader& reader);
+[[nodiscard]] bool is_native_shape(std::string_view type);
+/// All block types that are shapes.
+[[nodiscard]] std::vector<std::string_view> native_shape_names();
+
+}  // namespace alhazen

@@ -1,0 +1,70 @@
+#pragma once
+/// Values and blocks as text of the native format.
+///
+/// Conventions: numbers are the shortest decimals that read back to the same double, -0 included;
+/// strings are escaped so that any bytes come back. Numbers that are not finite cannot be written.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/math/affine.h"
+
+namespace alhazen {
+
+/// Throws Error (Scene) when the number is not finite.
+[[nodiscard]] std::string native_value(double number);
+[[nodiscard]] std::string native_value(int number);
+[[nodiscard]] std::string native_value(bool truth);
+std::string native_value(const char*) = delete;  // would become a bool
+[[nodiscard]] std::string native_value(const Vec2& v);
+[[nodiscard]] std::string native_value(const Vec3& v);
+[[nodiscard]] std::string native_value(const Rgb& color);
+/// As matrix(row, row, row).
+[[nodiscard]] std::string native_value(const Affine& transform);
+/// In quotes, escaped.
+[[nodiscard]] std::string native_string(std::string_view text);
+/// [a, b, c].
+[[nodiscard]] std::string native_list(const std::vector<std::string>& values);
+/// The list of the texts of all values.
+template <class Values, class TextOf>
+[[nodiscard]] std::string native_list_of(const Values& values, TextOf text_of) {
+    std::vector<std::string> texts;
+    texts.reserve(values.size());
+    for (const auto& value : values) texts.push_back(text_of(value));
+    return native_list(texts);
+}
+
+/// One block: `head { key = value; ... }`.
+class NativeBlockText {
+  public:
+    /// `type "label"`, or `type` alone when the label is empty; neither for a block that is a
+    /// value.
+    explicit NativeBlockText(std::string_view type = {}, std::string_view label = {});
+
+    void add(std::string_view key, std::string value) {
+        pairs_.emplace_back(key, std::move(value));
+    }
+    /// Leaves out what the reader assumes anyway.
+    template <class T>
+    void add_unless(std::string_view key, const T& value, const T& usual) {
+        std::string text = native_value(value);
+        if (text != native_value(usual)) add(key, std::move(text));
+    }
+
+    [[nodiscard]] bool empty() const { return pairs_.empty(); }
+    /// On one line when it is short. Ends without a line end.
+    [[nodiscard]] std::string text(int indent = 0) const;
+    /// The same where the first line has begun already.
+    [[nodiscard]] std::string value(int indent) const {
+        return text(indent).substr(static_cast<std::size_t>(indent));
+    }
+
+  private:
+    std::string head_;
+    std::vector<std::pair<std::string, std::string>> pairs_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,261 @@
+#include "alhazen/formats/native/read/native_view.h"
+
+#include <utility>
+
+#include "alhazen/formats/native/read/native_materials.h"
+#include "alhazen/math/constants.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Exactly one of the keys must be there; returns the one that is.
+std::string_view require_one_of(BlockReader& reader, std::string_view a, std::string_view b) {
+    if (reader.has(a) == reader.has(b)) {
+        reader.error(reader.block(), "expected either '" + std::string(a) + " = ...' or '" +
+                                         std::string(b) + " = ...'");
+    }
+    return reader.has(a) ? a : b;
+}
+
+/// The vector from `origin` to a point, or a direction; nothing, after an error, when it is zero.
+std::optional<Vec3> read_direction(BlockReader& reader, const Vec3& origin,
+                                   std::string_view point_key, std::string_view direction_key) {
+    Vec3 point, direction;
+    reader.ignore(point_key);
+    reader.ignore(direction_key);
+    const std::string_view key = require_one_of(reader, point_key, direction_key);
+    if (key == point_key) {
+        if (!reader.read(key, point)) return std::nullopt;
+        direction = point - origin;
+    } else if (!reader.read(key, direction)) {
+        return std::nullopt;
+    }
+    if (length_squared(direction) > 0) return direction;
+    reader.error(reader.block(), "'" + std::string(key) + "' gives no direction");
+    return std::nullopt;
+}
+
+bool read_positive(BlockReader& reader, std::string_view key, double& out) {
+    double value = 0;
+    if (!reader.read(key, value)) return false;
+    if (value > 0) {
+        out = value;
+        return true;
+    }
+    reader.error(reader.block(), "'" + std::string(key) + "' must be greater than 0");
+    return false;
+}
+
+struct View {
+    Vec3 eye, look{0, 0, -1}, up{0, 1, 0};
+    double aspect = 1;
+};
+
+View read_view(BlockReader& reader, NativeContext& context) {
+    View view;
+    reader.require("eye");
+    reader.read("eye", view.eye);
+    if (const auto look = read_direction(reader, view.eye, "look_at", "direction")) {
+        view.look = *look;
+    }
+    reader.read("up", view.up);
+    const Vec3 side = cross(normalize(view.look), view.up);
+    if (!(length_squared(side) > 0)) {
+        reader.error(reader.block(), "'up' must not be zero or along the view");
+        view.up = perpendicular(normalize(view.look));
+    }
+    if (!read_positive(reader, "aspect", view.aspect)) {
+        context.cameras_without_aspect.push_back(context.scene.cameras.size());
+    }
+    return view;
+}
+
+void add_camera(const NativeBlock& block, NativeContext& context, const Camera& camera,
+                double aspect) {
+    context.scene.cameras.push_back({block.name, camera, aspect, block.location});
+}
+
+void read_emission(BlockReader& reader, Rgb& color, Rgb& ambient) {
+    for (const auto& [key, out] : {std::pair{"color", &color}, std::pair{"ambient", &ambient}}) {
+        if (const auto value = reader.find(key)) {
+            read_native_color(*value, key, reader.values(), *out);
+        }
+    }
+}
+
+void read_attenuation(BlockReader& reader, Attenuation& attenuation) {
+    double v[3];
+    const auto value = reader.find("attenuation");
+    if (!value || !reader.values().read_numbers(*value, "attenuation", 3, v)) return;
+    if (v[0] < 0 || v[1] < 0 || v[2] < 0) {
+        reader.error(*value, "attenuation: expected (constant, linear, quadratic), none negative");
+        return;
+    }
+    attenuation = {v[0], v[1], v[2]};
+}
+
+/// An angle in degrees or, to give it exactly, in radians; true when it is written.
+bool read_angle(BlockReader& reader, std::string_view degrees_key, std::string_view radians_key,
+                double& radians) {
+    double degrees = 0;
+    if (reader.has(degrees_key) && reader.has(radians_key)) {
+        reader.error(reader.block(), "'" + std::string(degrees_key) + "' and '" +
+                                         std::string(radians_key) +
+                                         "' say the same; expected one of them");
+    }
+    if (reader.read(degrees_key, degrees)) radians = degrees * kRadiansPerDegree;
+    reader.read(radians_key, radians);
+    return reader.has(degrees_key) || reader.has(radians_key);
+}
+
+void read_cone(BlockReader& reader, SpotLight& light) {
+    const bool has_inner =
+        read_angle(reader, "inner_angle_deg", "inner_angle_rad", light.inner_angle);
+    const bool has_outer =
+        read_angle(reader, "outer_angle_deg", "outer_angle_rad", light.outer_angle);
+    if (has_outer && !has_inner) light.inner_angle = light.outer_angle;
+    constexpr double kHalfTurn = 3.1415926535897936;  // as `validate`: one rounding beyond pi
+    if (!(light.inner_angle >= 0 && light.inner_angle <= light.outer_angle &&
+          light.outer_angle <= kHalfTurn)) {
+        reader.error(reader.block(), "expected 0 <= inner angle <= outer angle <= 180 degrees");
+    }
+}
+
+void add_light(const NativeBlock& block, NativeContext& context, Light light) {
+    context.scene.lights.push_back({block.name, std::move(light), block.location});
+}
+
+}  // namespace
+
+void read_perspective_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    const View view = read_view(reader, context);
+    double fov_deg = 45;
+    if (reader.read("fov_deg", fov_deg) && !(fov_deg > 0 && fov_deg < 180)) {
+        reader.error(reader.block(), "'fov_deg' must be between 0 and 180");
+        fov_deg = 45;
+    }
+    reader.finish();
+    add_camera(block, context,
+               look_along(view.eye, view.look, view.up, fov_deg * kRadiansPerDegree, view.aspect),
+               view.aspect);
+}
+
+void read_sheared_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    PerspectiveCamera camera;
+    double aspect = 1;
+    for (const char* key : {"eye", "look", "right", "up", "aspect"}) reader.require(key);
+    reader.read("eye", camera.eye);
+    reader.read("look", camera.look);
+    reader.read("right", camera.right);
+    reader.read("up", camera.up);
+    read_positive(reader, "aspect", aspect);
+    reader.finish();
+    add_camera(block, context, camera, aspect);
+}
+
+void read_sheared_orthographic_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    OrthographicCamera camera;
+    double aspect = 1;
+    for (const char* key : {"eye", "direction", "right", "up", "aspect"}) reader.require(key);
+    reader.read("eye", camera.origin);
+    reader.read("direction", camera.direction);
+    reader.read("right", camera.right);
+    reader.read("up", camera.up);
+    read_positive(reader, "aspect", aspect);
+    reader.finish();
+    add_camera(block, context, camera, aspect);
+}
+
+void read_orthographic_camera(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    const View view = read_view(reader, context);
+    double height = 1;
+    reader.require("height");
+    read_positive(reader, "height", height);
+    reader.finish();
+    add_camera(block, context,
+               look_along_parallel(view.eye, view.look, view.up, height, view.aspect), view.aspect);
+}
+
+void read_ambient_light(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    AmbientLight light;
+    reader.require("color");
+    if (const auto value = reader.find("color")) {
+        read_native_color(*value, "color", reader.values(), light.ambient);
+    }
+    reader.finish();
+    add_light(block, context, light);
+}
+
+void read_directional_light(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    DirectionalLight light;
+    Vec3 vector;
+    reader.ignore("direction");
+    reader.ignore("to_light");
+    const std::string_view key = require_one_of(reader, "direction", "to_light");
+    if (reader.read(key, vector)) {
+        if (length_squared(vector) > 0) {
+            light.to_light = key == "to_light" ? vector : -vector;  // `compile` normalises
+        } else {
+            reader.error(reader.block(), "'" + std::string(key) + "' must not be zero");
+        }
+    }
+    read_emission(reader, light.color, light.ambient);
+    reader.finish();
+    add_light(block, context, light);
+}
+
+void read_point_light(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    PointLight light;
+    reader.require("position");
+    reader.read("position", light.position);
+    read_emission(reader, light.color, light.ambient);
+    read_attenuation(reader, light.attenuation);
+    read_positive(reader, "range", light.range);
+    reader.finish();
+    add_light(block, context, light);
+}
+
+void read_spot_light(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    SpotLight light;
+    reader.require("position");
+    reader.read("position", light.position);
+    if (const auto axis = read_direction(reader, light.position, "look_at", "direction")) {
+        light.direction = *axis;  // `compile` normalises
+    }
+    read_cone(reader, light);
+    read_emission(reader, light.color, light.ambient);
+    read_attenuation(reader, light.attenuation);
+    read_positive(reader, "range", light.range);
+    reader.finish();
+    add_light(block, context, light);
+}
+
+void complete_cameras(NativeContext& context) {
+    const PictureSettings& picture = context.scene.picture;
+    if (!picture.width || !picture.height) return;
+    const double aspect = static_cast<double>(*picture.width) / *picture.height;
+    for (const std::size_t i : context.cameras_without_aspect) {
+        CameraDescription& camera = context.scene.cameras[i];
+        camera.camera = with_aspect(camera.camera, camera.aspect, aspect);
+        camera.aspect = aspect;
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,17 @@
+#pragma once
+/// `visible_to` of parts: which kinds of rays see them.
+
+#include <string>
+
+#include "alhazen/formats/text/block_reader.h"
+#include "alhazen/geometry/ray_mask.h"
+
+namespace alhazen {
+
+/// Asks for the key; kAllRays where it is not written.
+[[nodiscard]] RayMask read_native_visibility(BlockReader& reader);
+
+/// The value that reads back to the same mask: `all`, `none` or a list of kinds.
+[[nodiscard]] std::string native_visibility(RayMask mask);
+
+}  // namespace alhazen

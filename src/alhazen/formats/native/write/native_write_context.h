@@ -1,0 +1,47 @@
+#pragma once
+/// What the parts of the native writer share while one scene is written.
+
+#include <string>
+#include <vector>
+
+#include "alhazen/formats/core/default_conventions.h"
+#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/native/write/native_writer.h"
+
+namespace alhazen {
+
+struct NativeWriteContext {
+    const SceneDescription& scene;
+    const std::string& folder;
+    const NativeFileSink& write_beside;
+    std::string text = {};
+
+    // What blocks are called, one for each material and so on, unique.
+    std::vector<std::string> material_labels = {}, texture_labels = {}, geometry_labels = {},
+                             object_labels = {};
+
+    /// Hands over a file of the folder and returns how the scene names it.
+    std::string write_file(const std::string& file_name, std::span<const std::byte> bytes) const {
+        return write_beside(folder + "/" + file_name, bytes);
+    }
+    void append(const NativeBlockText& block, int indent = 0) {
+        text += block.text(indent);
+        text += '\n';
+    }
+};
+
+/// Adds the real name of a thing where its label had to differ.
+inline void add_name(NativeBlockText& block, const std::string& label, const std::string& name) {
+    if (label != name) block.add("name", native_string(name));
+}
+
+void write_native_picture(NativeWriteContext& context);
+void write_native_conventions(NativeWriteContext& context);
+void write_native_cameras(NativeWriteContext& context);
+void write_native_lights(NativeWriteContext& context);
+void write_native_textures(NativeWriteContext& context);
+void write_native_materials(NativeWriteContext& context);
+void write_native_geometries(NativeWriteContext& context);
+void write_native_objects(NativeWriteContext& context);
+
+}  // namespace alhazen

@@ -1,0 +1,149 @@
+#include <cmath>
+#include <map>
+
+#include "alhazen/formats/native/native_words.h"
+#include "alhazen/formats/native/write/native_write_context.h"
+#include "alhazen/formats/pictures/picture_export.h"
+
+namespace alhazen {
+
+namespace {
+
+class MaterialText {
+  public:
+    MaterialText(const NativeWriteContext& context, NativeBlockText& block)
+        : context_(context), block_(block) {}
+
+    /// Leaves out what equals `usual`.
+    void add(std::string_view key, const ColorInput& input, const ColorInput& usual) {
+        const std::string value = text_of(input);
+        if (value != text_of(usual)) block_.add(key, value);
+    }
+    void add(std::string_view key, const ScalarInput& input, const ScalarInput& usual) {
+        const std::string value = text_of(input, usual.channel);
+        if (value != text_of(usual, usual.channel)) block_.add(key, value);
+    }
+    void add(std::string_view key, const NormalMap& map) {
+        if (map.texture != kNoTexture) {
+            block_.add(key, call(map.texture, map.scale != 1 ? native_value(map.scale) : "", ""));
+        }
+    }
+
+  private:
+    [[nodiscard]] std::string call(TextureId texture, const std::string& factor,
+                                   const std::string& channel) const {
+        const auto& label = context_.texture_labels[static_cast<std::size_t>(texture)];
+        std::string text = "texture(" + native_string(label);
+        if (!factor.empty()) text += ", " + factor;
+        if (!channel.empty()) text += ", " + channel;
+        return text + ")";
+    }
+    [[nodiscard]] std::string text_of(const ColorInput& input) const {
+        const std::string color = native_value(input.color);
+        if (input.texture == kNoTexture) return color;
+        return call(input.texture, color == native_value(Rgb{1, 1, 1}) ? "" : color, "");
+    }
+    [[nodiscard]] std::string text_of(const ScalarInput& input, Channel usual) const {
+        const std::string value = native_value(input.value);
+        if (input.texture == kNoTexture) return value;
+        if (input.channel != usual) {
+            return call(input.texture, value, std::string(native_word(input.channel)));
+        }
+        return call(input.texture, value == "1" ? "" : value, "");
+    }
+
+    const NativeWriteContext& context_;
+    NativeBlockText& block_;
+};
+
+void add_metallic_roughness(const NativeWriteContext& context, const MetallicRoughness& p,
+                            NativeBlockText& material) {
+    const MetallicRoughness usual;
+    NativeBlockText block;
+    MaterialText inputs(context, block);
+    inputs.add("base_color", p.base_color, usual.base_color);
+    inputs.add("metallic", p.metallic, usual.metallic);
+    inputs.add("roughness", p.roughness, usual.roughness);
+    inputs.add("occlusion", p.occlusion, usual.occlusion);
+    inputs.add("specular", p.specular, usual.specular);
+    inputs.add("specular_color", p.specular_color, usual.specular_color);
+    inputs.add("transmission", p.transmission, usual.transmission);
+    inputs.add("thickness", p.thickness, usual.thickness);
+    if (std::isfinite(p.attenuation_distance)) {
+        block.add("attenuation_distance", native_value(p.attenuation_distance));
+    }
+    block.add_unless("attenuation_color", p.attenuation_color, usual.attenuation_color);
+    block.add_unless("unlit", p.unlit, usual.unlit);
+    material.add("metallic_roughness", block.value(4));
+}
+
+// Pictures.
+
+std::string write_picture(const NativeWriteContext& context, const StoredImage& image,
+                          std::size_t number) {
+    const PictureFile file = picture_file(image);
+    return context.write_file("texture_" + std::to_string(number) + "." + file.suffix, file.bytes);
+}
+
+std::string uv_rows(const UvTransform& t) {
+    return "(" + native_value(Vec3{t.uu, t.uv, t.offset.x}) + ", " +
+           native_value(Vec3{t.vu, t.vv, t.offset.y}) + ")";
+}
+
+}  // namespace
+
+void write_native_textures(NativeWriteContext& context) {
+    std::map<const StoredImage*, std::string> files;  // pictures are often shared
+    for (std::size_t i = 0; i < context.scene.textures.size(); ++i) {
+        const TextureDescription& description = context.scene.textures[i];
+        const Texture& texture = description.texture;
+        std::string& file = files[texture.image.get()];
+        if (file.empty()) file = write_picture(context, *texture.image, i);
+        NativeBlockText block("texture", context.texture_labels[i]);
+        add_name(block, context.texture_labels[i], description.name);
+        block.add("file", native_string(file));
+        if (texture.wrap_u != Wrap::Repeat) {
+            block.add("wrap_u", std::string(native_word(texture.wrap_u)));
+        }
+        if (texture.wrap_v != Wrap::Repeat) {
+            block.add("wrap_v", std::string(native_word(texture.wrap_v)));
+        }
+        block.add("filter", std::string(native_word(texture.filter)));
+        block.add_unless("corner_texels", texture.corner_texels, false);
+        block.add("srgb", native_value(texture.decode_srgb));
+        block.add_unless("uv_set", texture.uv_set, 0);
+        const std::string rows = uv_rows(texture.uv_transform);
+        if (rows != uv_rows({})) block.add("uv_transform", rows);
+        context.append(block);
+    }
+}
+
+void write_native_materials(NativeWriteContext& context) {
+    for (std::size_t i = 0; i < context.scene.materials.size(); ++i) {
+        const Material& m = context.scene.materials[i].material;
+        const Material usual;
+        NativeBlockText block("material", context.material_labels[i]);
+        add_name(block, context.material_labels[i], m.name);
+        MaterialText inputs(context, block);
+        inputs.add("emission", m.emission, usual.emission);
+        inputs.add("diffuse", m.diffuse, usual.diffuse);
+        inputs.add("ambient", m.ambient, m.diffuse);  // what the reader takes it for
+        inputs.add("specular", m.specular, usual.specular);
+        inputs.add("reflective", m.reflective, usual.reflective);
+        inputs.add("transmissive", m.transmissive, usual.transmissive);
+        inputs.add("shininess", m.shininess, usual.shininess);
+        inputs.add("index", m.index, usual.index);
+        if (m.density) block.add("density", native_value(*m.density));
+        if (m.alpha_mode != usual.alpha_mode) {
+            block.add("alpha_mode", std::string(native_word(m.alpha_mode)));
+        }
+        inputs.add("alpha", m.alpha, usual.alpha);
+        block.add_unless("alpha_cutoff", m.alpha_cutoff, usual.alpha_cutoff);
+        block.add_unless("double_sided", m.double_sided, usual.double_sided);
+        inputs.add("normal_map", m.normal_map);
+        if (m.metallic_roughness) add_metallic_roughness(context, *m.metallic_roughness, block);
+        context.append(block);
+    }
+}
+
+}  // namespace alhazen

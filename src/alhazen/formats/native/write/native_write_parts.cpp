@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "alhazen/formats/mesh_files/mesh_export.h"
+#include "alhazen/formats/native/native_words.h"
+#include "alhazen/formats/native/read/native_visibility.h"
+#include "alhazen/formats/native/write/native_write_context.h"
+#include "alhazen/formats/native/write/native_write_shapes.h"
+
+namespace alhazen {
+
+namespace {
+
+// Meshes.
+
+/// Meshes up to this size are written out where nothing speaks against it.
+constexpr std::size_t kInlineTriangles = 16;
+
+bool can_stand_in_text(const TriangleMesh& mesh) {
+    const auto finite = [](const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); };
+    // Normals in the text are made unit again when they are read, which may change a last bit.
+    return mesh.triangles.size() <= kInlineTriangles &&
+           mesh.positions.size() <= 3 * kInlineTriangles && mesh.normals.empty() &&
+           mesh.uvs2.empty() && mesh.colors.empty() && mesh.tangents.empty() &&
+           std::all_of(mesh.uvs.begin(), mesh.uvs.end(), finite);
+}
+
+void add_arrays(NativeBlockText& block, const NativeWriteContext& context,
+                const TriangleMesh& mesh) {
+    const auto face = [](const std::array<std::uint32_t, 3>& t) {
+        return "(" + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " +
+               std::to_string(t[2]) + ")";
+    };
+    block.add("points",
+              native_list_of(mesh.positions, [](const Vec3& p) { return native_value(p); }));
+    block.add("faces", native_list_of(mesh.triangles, face));
+    if (!mesh.uvs.empty()) {
+        block.add("uvs", native_list_of(mesh.uvs, [](const Vec2& p) { return native_value(p); }));
+    }
+    if (!mesh.vertex_materials.empty()) {
+        block.add("vertex_materials", native_list_of(mesh.vertex_materials, [&](std::uint32_t id) {
+                      return native_string(context.material_labels[id]);
+                  }));
+    }
+}
+
+std::string write_ply(const NativeWriteContext& context, const TriangleMesh& mesh,
+                      std::size_t number) {
+    const std::string bytes = ply_bytes(mesh);
+    return context.write_file("mesh_" + std::to_string(number) + ".ply",
+                              std::as_bytes(std::span(bytes)));
+}
+
+/// In the file materials are numbered by their first use; `materials` names them.
+void add_file(NativeBlockText& block, const NativeWriteContext& context, const TriangleMesh& mesh,
+              std::size_t number) {
+    if (mesh.vertex_materials.empty()) {
+        block.add("file", native_string(write_ply(context, mesh, number)));
+        return;
+    }
+    TriangleMesh renumbered = mesh;
+    std::map<std::uint32_t, std::uint32_t> numbers;
+    std::vector<std::string> labels;
+    for (std::uint32_t& id : renumbered.vertex_materials) {
+        const auto [entry, fresh] =
+            numbers.try_emplace(id, static_cast<std::uint32_t>(numbers.size()));
+        if (fresh) labels.push_back(native_string(context.material_labels[id]));
+        id = entry->second;
+    }
+    block.add("file", native_string(write_ply(context, renumbered, number)));
+    block.add("materials", native_list(labels));
+}
+
+void write_part(NativeWriteContext& context, const Part& part, int indent) {
+    const auto add_placement = [&](NativeBlockText& block) {
+        block.add_unless("transform", part.object_from_part, Affine{});
+        if (part.visible_to != kAllRays)
+            block.add("visible_to", native_visibility(part.visible_to));
+    };
+    if (const auto* object = std::get_if<ObjectIndex>(&part.what)) {
+        const auto index = static_cast<std::size_t>(*object);
+        NativeBlockText block("instance", context.object_labels[index]);
+        add_placement(block);
+        if (!part.name.empty()) block.add("name", native_string(part.name));
+        context.append(block, indent);
+        return;
+    }
+    const std::string material =
+        native_string(context.material_labels[static_cast<std::size_t>(part.material)]);
+    if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+        NativeBlockText block("mesh", part.name);
+        const auto& label = context.geometry_labels[static_cast<std::size_t>(*mesh)];
+        block.add("geometry", native_string(label));
+        add_placement(block);
+        block.add("material", material);
+        context.append(block, indent);
+        return;
+    }
+    std::visit(
+        [&]<class S>(const S& shape) {
+            NativeBlockText block(S::kName, part.name);
+            add_shape_fields(block, shape);
+            add_placement(block);
+            block.add("material", material);
+            context.append(block, indent);
+        },
+        std::get<AnyShape>(part.what));
+}
+
+/// How the object combines its parts, where it does not as usual.
+std::vector<std::pair<std::string, std::string>> combination_of(const ObjectDescription& object) {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    if (object.combine != Combine::Group) {
+        pairs.emplace_back("combine", native_word(object.combine));
+    }
+    if (object.cut_material != CutMaterial::Own) {
+        pairs.emplace_back("cut_material", native_word(object.cut_material));
+    }
+    return pairs;
+}
+
+/// Without a list, objects are numbered as they are defined, after the scene itself, and must be
+/// defined before they are placed.
+bool needs_object_list(const SceneDescription& scene) {
+    if (scene.root != ObjectIndex{0} || scene.objects.front().name != "scene") return true;
+    if (!combination_of(scene.objects.front()).empty()) return true;
+    for (std::size_t i = 1; i < scene.objects.size(); ++i) {
+        for (const Part& part : scene.objects[i].parts) {
+            const auto* child = std::get_if<ObjectIndex>(&part.what);
+            if (child != nullptr && static_cast<std::size_t>(*child) >= i) return true;
+        }
+    }
+    return false;
+}
+
+void write_object_list(NativeWriteContext& context) {
+    const SceneDescription& scene = context.scene;
+    const auto root = static_cast<std::size_t>(scene.root);
+    const std::string& root_label = context.object_labels[root];
+    NativeBlockText block("objects");
+    block.add("names", native_list_of(context.object_labels, [](const std::string& label) {
+                  return native_string(label);
+              }));
+    block.add("root", native_string(root_label));
+    if (root_label != scene.objects[root].name) {
+        block.add("root_name", native_string(scene.objects[root].name));
+    }
+    for (const auto& [key, word] : combination_of(scene.objects[root])) block.add(key, word);
+    context.append(block);
+}
+
+}  // namespace
+
+void write_native_geometries(NativeWriteContext& context) {
+    for (std::size_t i = 0; i < context.scene.meshes.size(); ++i) {
+        const MeshDescription& description = context.scene.meshes[i];
+        NativeBlockText block("geometry", context.geometry_labels[i]);
+        add_name(block, context.geometry_labels[i], description.name);
+        if (can_stand_in_text(*description.mesh)) {
+            add_arrays(block, context, *description.mesh);
+        } else {
+            add_file(block, context, *description.mesh, i);
+        }
+        context.append(block);
+    }
+}
+
+void write_native_objects(NativeWriteContext& context) {
+    const SceneDescription& scene = context.scene;
+    if (needs_object_list(scene)) write_object_list(context);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (i == static_cast<std::size_t>(scene.root)) continue;
+        const std::string& label = context.object_labels[i];
+        context.text += "object " + native_string(label) + " {\n";
+        if (label != scene.objects[i].name) {
+            context.text += "    name = " + native_string(scene.objects[i].name) + "\n";
+        }
+        for (const auto& [key, word] : combination_of(scene.objects[i])) {
+            context.text += "    " + key + " = " + word + "\n";
+        }
+        if (!scene.objects[i].accelerator.empty()) {
+            context.text +=
+                "    accelerator = " + native_string(scene.objects[i].accelerator) + "\n";
+        }
+        for (const Part& part : scene.objects[i].parts) write_part(context, part, 4);
+        context.text += "}\n";
+    }
+    for (const Part& part : scene.objects[static_cast<std::size_t>(scene.root)].parts) {
+        write_part(context, part, 0);
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,146 @@
+#include <string_view>
+
+#include "alhazen/formats/core/default_conventions.h"
+#include "alhazen/formats/native/native_words.h"
+#include "alhazen/formats/native/read/native_settings.h"
+#include "alhazen/formats/native/write/native_write_context.h"
+#include "alhazen/math/constants.h"
+
+namespace alhazen {
+
+namespace {
+
+void add_light_colors(NativeBlockText& block, const Rgb& color, const Rgb& ambient) {
+    block.add_unless("color", color, Rgb{1, 1, 1});
+    block.add_unless("ambient", ambient, Rgb{});
+}
+
+/// What point and spot lights have in common.
+template <class L>
+void add_falloff(NativeBlockText& block, const L& light) {
+    const auto [constant, linear, quadratic] = light.attenuation;
+    block.add_unless("attenuation", Vec3{constant, linear, quadratic}, Vec3{1, 0, 0});
+    if (light.range != kNoRange) block.add("range", native_value(light.range));
+}
+
+/// In degrees where they give the same radians, which not all do.
+void add_angle(NativeBlockText& block, const std::string& key, double radians) {
+    const double degrees = radians / kRadiansPerDegree;
+    if (degrees * kRadiansPerDegree == radians) {
+        block.add(key + "_deg", native_value(degrees));
+    } else {
+        block.add(key + "_rad", native_value(radians));
+    }
+}
+
+NativeBlockText block_of(const std::string& name, const AmbientLight& light) {
+    NativeBlockText block("ambient_light", name);
+    block.add("color", native_value(light.ambient));
+    return block;
+}
+
+NativeBlockText block_of(const std::string& name, const DirectionalLight& light) {
+    NativeBlockText block("directional_light", name);
+    block.add("to_light", native_value(light.to_light));
+    add_light_colors(block, light.color, light.ambient);
+    return block;
+}
+
+NativeBlockText block_of(const std::string& name, const PointLight& light) {
+    NativeBlockText block("point_light", name);
+    block.add("position", native_value(light.position));
+    add_light_colors(block, light.color, light.ambient);
+    add_falloff(block, light);
+    return block;
+}
+
+NativeBlockText block_of(const std::string& name, const SpotLight& light) {
+    NativeBlockText block("spot_light", name);
+    block.add("position", native_value(light.position));
+    block.add("direction", native_value(light.direction));
+    add_angle(block, "inner_angle", light.inner_angle);
+    add_angle(block, "outer_angle", light.outer_angle);
+    add_light_colors(block, light.color, light.ambient);
+    add_falloff(block, light);
+    return block;
+}
+
+/// The forms without a field of view say everything that a camera can be.
+NativeBlockText block_of(const std::string& name, const PerspectiveCamera& camera) {
+    NativeBlockText block("sheared_camera", name);
+    block.add("eye", native_value(camera.eye));
+    block.add("look", native_value(camera.look));
+    block.add("right", native_value(camera.right));
+    block.add("up", native_value(camera.up));
+    return block;
+}
+
+NativeBlockText block_of(const std::string& name, const OrthographicCamera& camera) {
+    NativeBlockText block("sheared_orthographic_camera", name);
+    block.add("eye", native_value(camera.origin));
+    block.add("direction", native_value(camera.direction));
+    block.add("right", native_value(camera.right));
+    block.add("up", native_value(camera.up));
+    return block;
+}
+
+}  // namespace
+
+void write_native_picture(NativeWriteContext& context) {
+    const PictureSettings& picture = context.scene.picture;
+    NativeBlockText block("picture");
+    if (picture.width) block.add("width", native_value(*picture.width));
+    if (picture.height) block.add("height", native_value(*picture.height));
+    if (picture.background) block.add("background", native_value(*picture.background));
+    if (context.scene.up_axis == UpAxis::Z) block.add("up_axis", "z");
+    if (!block.empty()) context.append(block);
+}
+
+void write_native_conventions(NativeWriteContext& context) {
+    const ShadingConventions& c = context.scene.conventions;
+    const ShadingConventions usual = default_conventions();
+    NativeBlockText block("conventions");
+    const auto add_word = [&](std::string_view key, auto value, auto usual_value) {
+        if (value != usual_value) block.add(key, std::string(native_word(value)));
+    };
+    add_word("highlight", c.highlight, usual.highlight);
+    add_word("shadow_tint", c.shadow_tint, usual.shadow_tint);
+    add_word("refraction_tint", c.refraction_tint, usual.refraction_tint);
+    add_word("ambient_factor", c.ambient_factor, usual.ambient_factor);
+    block.add_unless("ambient_inside_times_kt", c.ambient_inside_times_kt,
+                     usual.ambient_inside_times_kt);
+    block.add_unless("clamp_attenuation", c.clamp_attenuation, usual.clamp_attenuation);
+    block.add_unless("truncate_material_colors", c.truncate_material_colors,
+                     usual.truncate_material_colors);
+    block.add_unless("transmitting_surfaces_reflect", c.transmitting_surfaces_reflect,
+                     usual.transmitting_surfaces_reflect);
+    block.add_unless("trace_reflections", c.trace_reflections, usual.trace_reflections);
+    block.add_unless("trace_refractions", c.trace_refractions, usual.trace_refractions);
+    block.add_unless("correct_interpolated_normals", c.correct_interpolated_normals,
+                     usual.correct_interpolated_normals);
+    block.add_unless("headlight", c.headlight, usual.headlight);
+    block.add_unless("air_index", c.air_index, usual.air_index);
+    add_word("pixel_sample", c.pixel_sample, usual.pixel_sample);
+    block.add_unless("linear_output", c.linear_output, usual.linear_output);
+    block.add_unless("max_depth", c.max_depth, usual.max_depth);
+    block.add_unless("min_contribution", c.min_contribution, usual.min_contribution);
+    if (!block.empty()) context.append(block);
+}
+
+void write_native_cameras(NativeWriteContext& context) {
+    for (const CameraDescription& camera : context.scene.cameras) {
+        NativeBlockText block =
+            std::visit([&](const auto& c) { return block_of(camera.name, c); }, camera.camera);
+        block.add("aspect", native_value(camera.aspect));
+        context.append(block);
+    }
+}
+
+void write_native_lights(NativeWriteContext& context) {
+    for (const LightDescription& light : context.scene.lights) {
+        context.append(
+            std::visit([&](const auto& l) { return block_of(light.name, l); }, light.light));
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,271 @@
+#include "alhazen/formats/obj/mtl_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "alhazen/formats/text/text_cursor.h"
+
+namespace alhazen {
+
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string copy(text);
+    std::transform(copy.begin(), copy.end(), copy.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return copy;
+}
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && TextCursor::is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && TextCursor::is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+/// Reads the options in front of a picture's name, and those that some programs write behind it.
+class MapReader {
+  public:
+    explicit MapReader(MtlMap& map) : map_(map) {}
+
+    /// False when an option cannot be kept.
+    bool read(std::string_view line) {
+        TextCursor cursor(line);
+        read_options(cursor);
+        std::string_view name = trimmed(cursor.rest_of_line());
+        const std::size_t behind = options_behind(name);
+        if (behind != std::string_view::npos) {
+            TextCursor late(name.substr(behind));
+            read_options(late);
+            name = trimmed(name.substr(0, behind));
+        }
+        if (name.size() > 1 && name.front() == '"' && name.back() == '"') {
+            name = name.substr(1, name.size() - 2);
+        }
+        map_.file = std::string(name);
+        return kept_;
+    }
+
+  private:
+    static constexpr std::array<std::string_view, 16> kOptions{
+        "-s",      "-o",       "-t",     "-mm", "-bm",   "-boost",      "-texres", "-blendu",
+        "-blendv", "-imfchan", "-clamp", "-cc", "-type", "-colorspace", "-texopt", "-threshold"};
+
+    void read_options(TextCursor& cursor) {
+        while (cursor.skip_blanks() && cursor.peek() == '-') {
+            TextCursor ahead = cursor;
+            const std::string option = lower(ahead.word());
+            if (std::find(kOptions.begin(), kOptions.end(), option) == kOptions.end()) return;
+            cursor = ahead;
+            read_option(option, cursor);
+        }
+    }
+    void read_option(const std::string& option, TextCursor& cursor) {
+        if (option == "-s" || option == "-o" || option == "-t") {
+            Vec2& target = option == "-s" ? map_.scale : option == "-o" ? map_.offset : unused_;
+            const Vec2 rest = option == "-s" ? Vec2{1, 1} : Vec2{0, 0};
+            std::array<double, 3> v{};
+            const int count = numbers(cursor, v);
+            target = {count > 0 ? v[0] : rest.x, count > 1 ? v[1] : rest.y};
+        } else if (option == "-mm") {
+            std::array<double, 3> v{0, 1, 0};
+            numbers(cursor, v, 2);
+            kept_ = kept_ && v[0] == 0.0;
+            map_.gain = v[1];
+        } else if (option == "-bm") {
+            one(cursor, map_.bump);
+        } else if (option == "-boost" || option == "-texres" || option == "-threshold") {
+            double unused = 0;
+            one(cursor, unused);
+        } else {
+            cursor.skip_blanks();
+            const std::string value = lower(cursor.word());
+            if (option == "-clamp") map_.clamp = value == "on";
+            if (option == "-imfchan") set_channel(value);
+        }
+    }
+    void set_channel(const std::string& name) {
+        if (name == "r") map_.channel = Channel::Red;
+        if (name == "g") map_.channel = Channel::Green;
+        if (name == "b") map_.channel = Channel::Blue;
+        if (name == "m") map_.channel = Channel::Alpha;
+        if (name == "l") map_.channel = Channel::Mean;
+        kept_ = kept_ && name != "z";
+    }
+    static int numbers(TextCursor& cursor, std::array<double, 3>& v, int most = 3) {
+        int count = 0;
+        while (count < most && cursor.skip_blanks() && cursor.number(v[std::size_t(count)])) {
+            ++count;
+        }
+        return count;
+    }
+    static void one(TextCursor& cursor, double& value) {
+        std::array<double, 3> v{};
+        if (numbers(cursor, v, 1) == 1) value = v[0];
+    }
+    /// Where the first option behind the name begins.
+    static std::size_t options_behind(std::string_view name) {
+        for (std::size_t at = name.find(" -"); at != std::string_view::npos;
+             at = name.find(" -", at + 1)) {
+            const std::string_view word = name.substr(at + 1, name.find(' ', at + 1) - at - 1);
+            if (std::find(kOptions.begin(), kOptions.end(), lower(word)) != kOptions.end()) {
+                return at;
+            }
+        }
+        return std::string_view::npos;
+    }
+
+    MtlMap& map_;
+    Vec2 unused_;
+    bool kept_ = true;
+};
+
+class MtlReader {
+  public:
+    MtlReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics)
+        : cursor_(bytes), file_(file), diagnostics_(diagnostics) {}
+
+    std::vector<MtlMaterial> read() {
+        for (; !cursor_.at_end(); cursor_.skip_line()) {
+            if (!cursor_.skip_blanks() || cursor_.peek() == '#') continue;
+            start_ = cursor_.location(file_);
+            const std::string keyword = lower(cursor_.word().substr(0, 32));
+            if (keyword == "newmtl") {
+                if (materials_.size() == kMaxMtlMaterials) {
+                    diagnostics_.warning(start_, "more than " + std::to_string(kMaxMtlMaterials) +
+                                                     " materials; the rest is ignored");
+                    break;
+                }
+                cursor_.skip_blanks();
+                materials_.emplace_back();
+                materials_.back().name = std::string(trimmed(cursor_.rest_of_line()));
+                materials_.back().location = start_;
+            } else if (materials_.empty()) {
+                warn_once(0, "a statement before the first newmtl is ignored");
+            } else {
+                read_statement(keyword, materials_.back());
+            }
+        }
+        return std::move(materials_);
+    }
+
+  private:
+    void read_statement(const std::string& keyword, MtlMaterial& m) {
+        struct Color {
+            std::string_view keyword;
+            std::optional<Rgb> MtlMaterial::*field;
+        };
+        static constexpr std::array<Color, 6> kColors{{{"ka", &MtlMaterial::ka},
+                                                       {"kd", &MtlMaterial::kd},
+                                                       {"ks", &MtlMaterial::ks},
+                                                       {"ke", &MtlMaterial::ke},
+                                                       {"tf", &MtlMaterial::tf},
+                                                       {"kt", &MtlMaterial::tf}}};
+        struct Number {
+            std::string_view keyword;
+            std::optional<double> MtlMaterial::*field;
+        };
+        static constexpr std::array<Number, 6> kNumbers{{{"ns", &MtlMaterial::ns},
+                                                         {"ni", &MtlMaterial::ni},
+                                                         {"d", &MtlMaterial::d},
+                                                         {"tr", &MtlMaterial::tr},
+                                                         {"pr", &MtlMaterial::pr},
+                                                         {"pm", &MtlMaterial::pm}}};
+        struct Map {
+            std::string_view keyword;
+            MtlMap MtlMaterial::*field;
+        };
+        static constexpr std::array<Map, 13> kMaps{{{"map_ka", &MtlMaterial::map_ka},
+                                                    {"map_kd", &MtlMaterial::map_kd},
+                                                    {"map_ks", &MtlMaterial::map_ks},
+                                                    {"map_ke", &MtlMaterial::map_ke},
+                                                    {"map_ns", &MtlMaterial::map_ns},
+                                                    {"map_d", &MtlMaterial::map_d},
+                                                    {"map_opacity", &MtlMaterial::map_d},
+                                                    {"map_pr", &MtlMaterial::map_pr},
+                                                    {"map_pm", &MtlMaterial::map_pm},
+                                                    {"norm", &MtlMaterial::normal},
+                                                    {"map_norm", &MtlMaterial::normal},
+                                                    {"bump", &MtlMaterial::map_bump},
+                                                    {"map_bump", &MtlMaterial::map_bump}}};
+        for (const Color& color : kColors) {
+            if (color.keyword == keyword) return read_color(m.*color.field);
+        }
+        for (const Number& number : kNumbers) {
+            if (number.keyword == keyword) return read_number(m.*number.field);
+        }
+        for (const Map& map : kMaps) {
+            if (map.keyword == keyword) return read_map(m.*map.field);
+        }
+        if (keyword == "illum") {
+            std::optional<double> model;
+            read_number(model);
+            if (model && *model >= 0 && *model <= 10) m.illum = int(*model);
+        } else if (keyword == "disp" || keyword == "map_disp" || keyword == "decal" ||
+                   keyword == "refl" || keyword == "map_tr" || keyword == "map_ps") {
+            warn_once(1, "displacement, decals, reflection maps, map_Tr and map_Ps are ignored");
+        }
+    }
+
+    void read_color(std::optional<Rgb>& color) {
+        cursor_.skip_blanks();
+        if (std::isalpha(static_cast<unsigned char>(cursor_.peek()))) {
+            return warn_once(2, "spectral and XYZ colours are not supported and ignored");
+        }
+        Rgb value;
+        int count = 0;
+        while (count < 3 && cursor_.skip_blanks() && cursor_.number(value[count])) ++count;
+        if (count == 0) return bad_number();
+        // One number is grey; two are taken as if the third were the second.
+        for (; count < 3; ++count) value[count] = value[count - 1];
+        color = value;
+    }
+    void read_number(std::optional<double>& number) {
+        cursor_.skip_blanks();
+        // "d -halo 0.5": the halo is not for surfaces that are triangles.
+        if (cursor_.peek() == '-') {
+            TextCursor ahead = cursor_;
+            if (ahead.word() == "-halo") {
+                cursor_ = ahead;
+                cursor_.skip_blanks();
+            }
+        }
+        double value = 0;
+        if (!cursor_.number(value)) return bad_number();
+        number = value;
+    }
+    void read_map(MtlMap& map) {
+        map = {};
+        map.location = start_;
+        cursor_.skip_blanks();
+        if (!MapReader(map).read(cursor_.rest_of_line())) {
+            warn_once(3, "the base of -mm and the channel z of -imfchan are ignored");
+        }
+    }
+
+    void bad_number() {
+        diagnostics_.warning(cursor_.location(file_),
+                             "expected a number, found " + cursor_.shown_word() + "; ignored");
+    }
+    void warn_once(std::size_t which, const char* message) {
+        if (warned_[which]) return;
+        warned_[which] = true;
+        diagnostics_.warning(start_, message);
+    }
+
+    TextCursor cursor_;
+    const std::string& file_;
+    Diagnostics& diagnostics_;
+    FileLocation start_;
+    std::vector<MtlMaterial> materials_;
+    std::array<bool, 4> warned_{};
+};
+
+}  // namespace
+
+std::vector<MtlMaterial> read_mtl(std::string_view bytes, const std::string& file,
+                                  Diagnostics& diagnostics) {
+    return MtlReader(bytes, file, diagnostics).read();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,76 @@
+#include "alhazen/formats/obj/obj_importer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "alhazen/formats/mesh/mesh_scene.h"
+#include "alhazen/formats/obj/obj_materials.h"
+#include "alhazen/formats/obj/obj_reader.h"
+#include "alhazen/formats/text/text_cursor.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Statements that other formats may begin with too (NFF has `v`, `f`, `s`): numbers must follow.
+bool begins_with_numbers(std::string_view word, TextCursor cursor) {
+    static constexpr std::array<std::string_view, 3> kVectors{"v", "vn", "vt"};
+    if (std::find(kVectors.begin(), kVectors.end(), word) == kVectors.end()) return false;
+    double number = 0;
+    return cursor.skip_blanks() && cursor.number(number);
+}
+
+}  // namespace
+
+bool looks_like_obj(std::string_view bytes) {
+    static constexpr std::array<std::string_view, 6> kFirst{"mtllib", "usemtl", "o",
+                                                            "g",      "s",      "vp"};
+    TextCursor cursor(bytes.substr(0, 65536));
+    // Up to the first statement that only OBJ can mean.
+    while (cursor.skip_to_word("#")) {
+        const std::string_view word = cursor.word();
+        if (begins_with_numbers(word, cursor)) return true;
+        if (std::find(kFirst.begin(), kFirst.end(), word) == kFirst.end()) return false;
+        if (word == "mtllib" || word == "usemtl") return true;
+        cursor.skip_line();
+    }
+    return false;
+}
+
+const char* ObjImporter::description() const {
+    return "Wavefront meshes with materials (.obj, .mtl), docs/formats/obj.md";
+}
+
+int ObjImporter::recognise(const ImportSource& source) const {
+    if (looks_like_obj(source.bytes)) return 2;
+    return has_suffix(source.path, ".obj") ? 1 : 0;
+}
+
+SceneDescription ObjImporter::import(const ImportSource& source, Diagnostics& diagnostics) const {
+    SceneDescription scene = make_mesh_scene(source, name(), UpAxis::Y);
+    if (!is_plain_text(source, diagnostics)) return scene;
+    const std::string file = source.path.string();
+    const std::size_t errors_before = diagnostics.error_count();
+    ObjStatements statements = read_obj_statements(source.bytes, file, source.options, diagnostics);
+    if (diagnostics.error_count() != errors_before) return scene;
+    const bool colored = !statements.colors.empty();
+    const std::size_t points = statements.positions.size();
+    std::vector<ObjPart> parts = make_obj_parts(statements, file, diagnostics);
+    if (diagnostics.error_count() != errors_before) return scene;
+    if (parts.empty()) {
+        report_no_faces(source, points, diagnostics);
+        return scene;
+    }
+    ObjMaterials materials(source, scene, diagnostics, colored);
+    materials.load(statements.libraries);
+    for (ObjPart& part : parts) {
+        const std::string& material = statements.materials[part.material];
+        std::string part_name = part.name.empty() ? material : part.name;
+        if (part_name.empty()) part_name = source.path.stem().string();
+        add_mesh(scene, std::move(part.mesh), std::move(part_name), materials.use(material),
+                 {file, int(std::min<std::uint32_t>(part.line, 0x7FFFFFFF)), 0});
+    }
+    return scene;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,20 @@
+#pragma once
+/// Wavefront OBJ with its material libraries as a scene: docs/formats/obj.md.
+
+#include "alhazen/formats/core/importer.h"
+
+namespace alhazen {
+
+class ObjImporter final : public Importer {
+  public:
+    [[nodiscard]] const char* name() const override { return "obj"; }
+    [[nodiscard]] const char* description() const override;
+    [[nodiscard]] int recognise(const ImportSource& source) const override;
+    [[nodiscard]] SceneDescription import(const ImportSource& source,
+                                          Diagnostics& diagnostics) const override;
+};
+
+/// Whether the first statement of the text is one of OBJ, with what belongs to it.
+[[nodiscard]] bool looks_like_obj(std::string_view bytes);
+
+}  // namespace alhazen

@@ -1,0 +1,273 @@
+#include "alhazen/formats/obj/obj_materials.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "alhazen/base/file.h"
+#include "alhazen/formats/mesh/mesh_scene.h"
+#include "alhazen/formats/obj/bump_map.h"
+#include "alhazen/formats/text/text_cursor.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Illumination models in which light passes through: glass, refraction.
+bool is_glass(const MtlMaterial& m) {
+    return m.illum && (*m.illum == 4 || *m.illum == 6 || *m.illum == 7 || *m.illum == 9);
+}
+
+Rgb white() {
+    return {1, 1, 1};
+}
+
+/// The value of a coefficient beside a picture: exporters often write black, or nothing, where the
+/// picture alone is meant.
+Rgb beside(const std::optional<Rgb>& value, const MtlMap& map, const Rgb& missing = {}) {
+    if (!map.file.empty() && (!value || value->is_black())) return white();
+    return value.value_or(missing);
+}
+
+/// The words of a line; a backslash keeps a blank within a word.
+std::vector<std::string> words_of(const std::string& line) {
+    std::vector<std::string> words(1);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool blank = TextCursor::is_blank(line[i]);
+        if (line[i] == '\\' && i + 1 < line.size() && TextCursor::is_blank(line[i + 1])) {
+            words.back() += line[++i];
+        } else if (!blank) {
+            words.back() += line[i];
+        } else if (!words.back().empty()) {
+            words.emplace_back();
+        }
+    }
+    if (words.back().empty()) words.pop_back();
+    return words;
+}
+
+}  // namespace
+
+ObjMaterials::ObjMaterials(const ImportSource& source, SceneDescription& scene,
+                           Diagnostics& diagnostics, bool colored)
+    : source_(source),
+      scene_(scene),
+      diagnostics_(diagnostics),
+      colored_(colored),
+      folder_(folder_of(source.path)),
+      roots_(scene_roots(source.options, folder_)),
+      textures_(scene, picture_findings_, roots_, source.options.image_limits),
+      finder_(roots_, folder_) {}
+
+void ObjMaterials::load(const std::vector<ObjLibrary>& libraries) {
+    for (const ObjLibrary& library : libraries) {
+        const FileLocation where{source_.path.string(), int(library.line), 0};
+        // One name with blanks in it, or several.
+        if (load_library(library.names, where)) continue;
+        const std::vector<std::string> names = words_of(library.names);
+        std::string missing;
+        for (const std::string& name : names) {
+            if (load_library(name, where)) continue;
+            missing += (missing.empty() ? "'" : ", '") + name.substr(0, 200) + "'";
+        }
+        if (missing.empty()) continue;
+        diagnostics_.warning(where, "the material file " + missing.substr(0, 1000) +
+                                        " is not there or lies outside of the scene's folder");
+    }
+}
+
+bool ObjMaterials::load_library(const std::string& name, const FileLocation& where) {
+    const auto [known, fresh] = loaded_.try_emplace(name, false);
+    if (!fresh) return known->second;
+    const std::optional<std::string> found = finder_.find(name);
+    if (!found) return false;
+    known->second = true;
+    try {
+        const std::filesystem::path path = resolve_inside(roots_, folder_, *found);
+        diagnostics_.note_file(path);
+        const std::string bytes = read_file(path, source_.options.max_included_bytes);
+        std::string_view text = bytes;
+        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+        std::vector<MtlMaterial> materials = read_mtl(text, path.string(), diagnostics_);
+        for (MtlMaterial& material : materials) {
+            if (!entry_of_.try_emplace(material.name, entries_.size()).second) continue;
+            entries_.push_back(std::move(material));
+            entry_folders_.push_back(std::filesystem::path(*found).parent_path().string());
+        }
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::Resource) throw;
+        diagnostics_.warning(where,
+                             std::string("the material file cannot be read: ") + error.what());
+    }
+    return true;
+}
+
+MaterialId ObjMaterials::use(const std::string& name) {
+    if (name.empty()) return grey();
+    const auto [entry, fresh] = used_.try_emplace(name);
+    if (!fresh) return entry->second;
+    const auto found = entry_of_.find(name);
+    if (found == entry_of_.end()) {
+        diagnostics_.warning({source_.path.string(), 0, 0},
+                             "no material library has '" + name.substr(0, 200) + "'; it is grey");
+        entry->second = grey();
+    } else {
+        current_folder_ = entry_folders_[found->second];
+        entry->second = add(entries_[found->second]);
+    }
+    return entry->second;
+}
+
+MaterialId ObjMaterials::grey() {
+    if (!grey_) {
+        grey_ = MaterialId(scene_.materials.size());
+        scene_.materials.push_back(
+            {default_mesh_material(colored_), {source_.path.string(), 0, 0}});
+    }
+    return *grey_;
+}
+
+MaterialId ObjMaterials::add(const MtlMaterial& m) {
+    Material out;
+    out.name = m.name;
+    const bool says_nothing = !m.ka && !m.ks && !m.ke && !m.tf;
+    const Rgb missing = says_nothing ? default_mesh_material(colored_).diffuse.color : Rgb{};
+    out.diffuse = color(beside(m.kd, m.map_kd, missing), m.map_kd);
+    out.ambient = out.diffuse;
+    if (m.ka && !m.ka->is_black()) {
+        out.ambient.color = *m.ka;
+        if (!m.map_ka.file.empty()) out.ambient = color(*m.ka, m.map_ka);
+    }
+    out.emission = color(beside(m.ke, m.map_ke), m.map_ke);
+    out.index.value = m.ni && *m.ni > 0 ? *m.ni : 1.0;
+    set_reflection(m, out);
+    set_light_through(m, out);
+    out.normal_map = normal_map(m);
+    if (m.pr || m.pm || !m.map_pr.file.empty() || !m.map_pm.file.empty()) {
+        set_metallic_roughness(m, out);
+    }
+    scene_.materials.push_back({std::move(out), m.location});
+    return MaterialId(scene_.materials.size() - 1);
+}
+
+void ObjMaterials::set_reflection(const MtlMaterial& m, Material& out) {
+    const int illum = m.illum.value_or(2);
+    const bool reflects = illum == 3 || illum == 4 || illum == 5 || illum == 6 || illum == 7;
+    if (illum < 2) return;
+    const ColorInput ks = color(beside(m.ks, m.map_ks), m.map_ks);
+    if (reflects) out.reflective = ks;
+    // An exponent of 0 would light the whole side: exporters that write it mean no highlight.
+    const double ns = m.ns.value_or(0.0);
+    if (!(ns > 0.0)) return;
+    out.specular = ks;
+    out.shininess = scalar(ns, m.map_ns);
+}
+
+double ObjMaterials::dissolve_of(const MtlMaterial& m) {
+    double d = m.d.value_or(1.0);
+    if (!m.d && m.tr) {
+        d = 1.0 - *m.tr;
+        if (d <= 0.0) {
+            diagnostics_.warning(m.location, "'Tr' alone makes the material '" +
+                                                 m.name.substr(0, 200) +
+                                                 "' invisible; it is taken as opaque");
+            d = 1.0;
+        }
+    }
+    return std::clamp(d, 0.0, 1.0);
+}
+
+void ObjMaterials::set_light_through(const MtlMaterial& m, Material& out) {
+    const double d = dissolve_of(m);
+    if (is_glass(m)) {
+        const double passes = d < 1.0 ? 1.0 - d : m.tf || !(m.d || m.tr) ? 1.0 : 0.0;
+        out.transmissive.color = passes * m.tf.value_or(white());
+        return;
+    }
+    const TextureId map = texture(m.map_d, false);
+    if (d >= 1.0 && map == kNoTexture) return;
+    out.alpha_mode = AlphaMode::Blend;
+    out.alpha = {d * m.map_d.gain, map, Channel::Mean};
+    if (map == kNoTexture) return;
+    // Coverage in an alpha channel, else as a grey.
+    const bool used = !scene_.textures[std::size_t(map)].texture.image->is_opaque();
+    out.alpha.channel = m.map_d.channel.value_or(used ? Channel::Alpha : Channel::Mean);
+}
+
+void ObjMaterials::set_metallic_roughness(const MtlMaterial& m, Material& out) {
+    MetallicRoughness mr;
+    mr.base_color = out.diffuse;
+    mr.metallic = scalar(m.pm.value_or(m.map_pm.file.empty() ? 0.0 : 1.0), m.map_pm);
+    mr.roughness = scalar(m.pr.value_or(1.0), m.map_pr);
+    mr.transmission.value = out.transmissive.color.max();
+    mr.thickness.value = mr.transmission.value > 0.0 ? 1.0 : 0.0;
+    if (!m.ni || !(*m.ni >= 1.0)) out.index.value = 1.5;
+    out.metallic_roughness = mr;
+}
+
+NormalMap ObjMaterials::normal_map(const MtlMaterial& m) {
+    if (const TextureId id = texture(m.normal, false); id != kNoTexture) {
+        return {id, m.normal.bump};
+    }
+    const MtlMap& map = m.map_bump;
+    if (map.bump == 0.0) return {};
+    const TextureId id = texture(map, false);
+    if (id == kNoTexture) return {};
+    // A channel is only chosen where one number is meant.
+    if (!map.channel && is_normal_map(scene_.textures[std::size_t(id)].texture.image)) {
+        return {id, map.bump};
+    }
+    const HeightMap heights{map.bump * map.gain, map.channel.value_or(Channel::Mean),
+                            map.clamp ? Wrap::Clamp : Wrap::Repeat};
+    const std::string key = std::to_string(std::bit_cast<std::uint64_t>(heights.strength)) + ' ' +
+                            std::to_string(int(heights.channel)) + (map.clamp ? " clamp" : "");
+    textures_.derive(id, key, [&](const StoredImage& picture) {
+        return normals_from_heights(picture, heights);
+    });
+    return {id, 1.0};
+}
+
+bool ObjMaterials::is_normal_map(const std::shared_ptr<const StoredImage>& picture) {
+    const auto [known, fresh] = is_normal_map_.try_emplace(picture, false);
+    if (fresh) known->second = looks_like_normal_map(*picture);
+    return known->second;
+}
+
+TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
+    if (map.file.empty()) return kNoTexture;
+    std::optional<std::string> found;
+    if (!current_folder_.empty()) found = finder_.find(current_folder_ + "/" + map.file);
+    if (!found) found = finder_.find(map.file);
+    if (!found) {
+        diagnostics_.warning(map.location, "the picture '" + map.file.substr(0, 200) +
+                                               "' is not there or lies outside of the scene's "
+                                               "folder; it is left out");
+        return kNoTexture;
+    }
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    settings.wrap_u = settings.wrap_v = map.clamp ? Wrap::Clamp : Wrap::Repeat;
+    settings.uv_transform = {map.scale.x, 0, 0, map.scale.y, map.offset};
+    const std::size_t errors = picture_findings_.error_count();
+    diagnostics_.note_file(folder_ / *found);
+    const auto id = textures_.load(*found, folder_, settings, map.file, map.location);
+    if (picture_findings_.error_count() != errors && !picture_findings_.all().empty()) {
+        diagnostics_.warning(map.location,
+                             picture_findings_.all().back().message + "; it is left out");
+    }
+    if (!id) return kNoTexture;
+    Texture& texture = scene_.textures[std::size_t(*id)].texture;
+    texture.decode_srgb = is_color && !texture.image->linear;
+    return *id;
+}
+
+ColorInput ObjMaterials::color(const Rgb& value, const MtlMap& map) {
+    const TextureId id = texture(map, true);
+    return {id == kNoTexture ? value : map.gain * value, id};
+}
+
+ScalarInput ObjMaterials::scalar(double value, const MtlMap& map) {
+    const TextureId id = texture(map, false);
+    return {id == kNoTexture ? value : map.gain * value, id, map.channel.value_or(Channel::Mean)};
+}
+
+}  // namespace alhazen

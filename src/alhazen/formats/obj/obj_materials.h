@@ -1,0 +1,69 @@
+#pragma once
+/// The materials of an OBJ scene: finds its libraries and pictures and makes a Material of each
+/// entry that is used.
+///
+/// Source: see mtl_reader.h. Differs: docs/formats/obj.md says how each statement and each
+/// illumination model is understood.
+/// Conventions: a library or picture that is missing or cannot be read is a warning; a name that no
+/// library has is the grey material, with one warning.
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/obj/mtl_reader.h"
+#include "alhazen/formats/obj/obj_statements.h"
+#include "alhazen/formats/pictures/picture_finder.h"
+#include "alhazen/formats/pictures/texture_table.h"
+
+namespace alhazen {
+
+class ObjMaterials {
+  public:
+    ObjMaterials(const ImportSource& source, SceneDescription& scene, Diagnostics& diagnostics,
+                 bool colored);
+
+    /// Reads the files of the `mtllib` lines.
+    void load(const std::vector<ObjLibrary>& libraries);
+    /// The material of this `usemtl` name, added to the scene at its first use.
+    MaterialId use(const std::string& name);
+
+  private:
+    /// False when there is no such file.
+    bool load_library(const std::string& name, const FileLocation& where);
+    MaterialId grey();
+    MaterialId add(const MtlMaterial& m);
+    void set_reflection(const MtlMaterial& m, Material& out);
+    void set_light_through(const MtlMaterial& m, Material& out);
+    void set_metallic_roughness(const MtlMaterial& m, Material& out);
+    [[nodiscard]] double dissolve_of(const MtlMaterial& m);
+    /// Of a `norm` picture, else of a bump map: one of directions as it is, one of heights as the
+    /// normals made of it.
+    NormalMap normal_map(const MtlMaterial& m);
+    bool is_normal_map(const std::shared_ptr<const StoredImage>& picture);
+    TextureId texture(const MtlMap& map, bool is_color);
+    ColorInput color(const Rgb& value, const MtlMap& map);
+    ScalarInput scalar(double value, const MtlMap& map);
+
+    const ImportSource& source_;
+    SceneDescription& scene_;
+    Diagnostics& diagnostics_;
+    bool colored_;  ///< the vertices have colours
+    Diagnostics picture_findings_;
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> roots_;
+    TextureTable textures_;
+    PictureFinder finder_;
+    std::vector<MtlMaterial> entries_;
+    std::vector<std::string> entry_folders_;  ///< [entry] of its library, relative to the scene
+    std::string current_folder_;              ///< of the entry that is being added
+    std::unordered_map<std::string, std::size_t> entry_of_;
+    std::unordered_map<std::string, MaterialId> used_;
+    std::unordered_map<std::string, bool> loaded_;
+    std::unordered_map<std::shared_ptr<const StoredImage>, bool> is_normal_map_;
+    std::optional<MaterialId> grey_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,344 @@
+#include "alhazen/formats/obj/obj_statements.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <unordered_map>
+
+#include "alhazen/formats/text/text_cursor.h"
+#include "alhazen/imaging/image/encoding.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr int kMaxObjErrors = 50;
+constexpr std::int64_t kMaxIndex = 0x7FFFFFFE;
+constexpr std::size_t kMaxLibraries = 1000;
+
+/// Statements that have no part in the picture.
+constexpr std::array<std::string_view, 26> kIgnored{
+    "l",    "p",      "mg",     "vp",         "t",        "bevel",     "c_interp",
+    "lod",  "usemap", "maplib", "shadow_obj", "d_interp", "trace_obj", "parm",
+    "end",  "con",    "cstype", "deg",        "bmat",     "step",      "hole",
+    "trim", "scrv",   "sp",     "stech",      "ctech"};
+
+/// Numbers of different strings.
+class NameTable {
+  public:
+    explicit NameTable(std::vector<std::string>& names) : names_(names) {
+        names_.emplace_back();
+        numbers_.emplace("", 0);
+    }
+    std::uint32_t number_of(const std::string& name) {
+        const auto [entry, fresh] = numbers_.try_emplace(name, std::uint32_t(names_.size()));
+        if (fresh) names_.push_back(name);
+        return entry->second;
+    }
+
+  private:
+    std::vector<std::string>& names_;
+    std::unordered_map<std::string, std::uint32_t> numbers_;
+};
+
+class StatementReader {
+  public:
+    StatementReader(std::string_view bytes, const std::string& file, const ImportOptions& options,
+                    Diagnostics& diagnostics)
+        : bytes_(bytes),
+          cursor_(bytes),
+          file_(file),
+          options_(options),
+          diagnostics_(diagnostics),
+          names_(result_.names),
+          materials_(result_.materials) {}
+
+    ObjStatements read() {
+        reserve();
+        for (; !cursor_.at_end() && errors_ < kMaxObjErrors; cursor_.skip_line()) {
+            if (!cursor_.skip_blanks() || cursor_.peek() == '#') continue;
+            read_statement();
+        }
+        if (errors_ == kMaxObjErrors) error("too many errors; the rest of the file is not read");
+        if (!known_ && errors_ == 0) {
+            diagnostics_.error({file_, 0, 0}, "no statement of an OBJ file in it");
+        }
+        finish_colors();
+        return std::move(result_);
+    }
+
+  private:
+    /// Growing arrays would take twice their room: the lines are counted first. What is reserved is
+    /// bounded by the bytes that the numbers must take.
+    void reserve() {
+        std::size_t positions = 0, uvs = 0, normals = 0, faces = 0;
+        const char* at = bytes_.data();
+        const char* const end = at + bytes_.size();
+        while (at != end) {
+            if (*at == 'v' && end - at > 1) {
+                ++(at[1] == 't' ? uvs : at[1] == 'n' ? normals : positions);
+            } else if (*at == 'f') {
+                ++faces;
+            }
+            const void* newline = std::memchr(at, '\n', std::size_t(end - at));
+            if (newline == nullptr) break;
+            at = static_cast<const char*>(newline) + 1;
+        }
+        const std::size_t most = bytes_.size() / 7 + 1;  // "v 0 0 0"
+        result_.positions.reserve(std::min(positions, most));
+        result_.uvs.reserve(std::min(uvs, most));
+        result_.normals.reserve(std::min(normals, most));
+        result_.faces.reserve(std::min(faces, most));
+        result_.corners.position.reserve(3 * std::min(faces, most));
+        if (uvs != 0) result_.corners.uv.reserve(3 * std::min(faces, most));
+        if (normals != 0) result_.corners.normal.reserve(3 * std::min(faces, most));
+    }
+
+    void read_statement() {
+        const TextCursor start = cursor_;
+        const std::string_view keyword = cursor_.word();
+        bool known = true;
+        if (keyword == "v") {
+            read_position();
+        } else if (keyword == "vn") {
+            read_normal();
+        } else if (keyword == "vt") {
+            read_uv();
+        } else if (keyword == "f" || keyword == "fo") {
+            read_face();
+        } else if (keyword == "o" || keyword == "g") {
+            read_name(keyword == "o");
+        } else if (keyword == "s") {
+            read_smoothing();
+        } else if (keyword == "usemtl") {
+            run_.material = materials_.number_of(rest_of_line());
+        } else if (keyword == "mtllib") {
+            read_library();
+        } else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end()) {
+            known = false;
+            unknown(start);
+        }
+        known_ = known_ || known;
+    }
+
+    void read_position() {
+        const int count = read_numbers(3);
+        if (count == 0 || !room_in(result_.positions.size())) return;
+        result_.positions.push_back({numbers_[0], numbers_[1], numbers_[2]});
+        // Four numbers: the fourth is a weight. Six: a colour.
+        if (count < 6) {
+            if (!result_.colors.empty()) result_.colors.emplace_back();
+            return;
+        }
+        if (result_.colors.empty()) result_.colors.reserve(result_.positions.capacity());
+        result_.colors.resize(result_.positions.size() - 1);
+        result_.colors.push_back({float(numbers_[3]), float(numbers_[4]), float(numbers_[5]), 1});
+        brightest_ = std::max({brightest_, numbers_[3], numbers_[4], numbers_[5]});
+    }
+    /// Colours are those of a display, 0..1 or (where any is above 1) 0..255.
+    void finish_colors() {
+        const double scale = brightest_ > 1.0 ? 1.0 / 255.0 : 1.0;
+        for (VertexColor& c : result_.colors) {
+            for (float* channel : {&c.r, &c.g, &c.b}) {
+                *channel = float(linear_from_srgb(std::max(0.0, double(*channel) * scale)));
+            }
+        }
+    }
+    void read_normal() {
+        if (read_numbers(3) == 0 || !room_in(result_.normals.size())) return;
+        result_.normals.push_back({numbers_[0], numbers_[1], numbers_[2]});
+    }
+    void read_uv() {
+        const int count = read_numbers(1);
+        if (count == 0 || !room_in(result_.uvs.size())) return;
+        result_.uvs.push_back({numbers_[0], count > 1 ? numbers_[1] : 0.0});
+    }
+    /// Reads at least `least` numbers, keeps the first six, and wants nothing but numbers on the
+    /// line. Returns how many there are; 0 after an error.
+    int read_numbers(int least) {
+        int count = 0;
+        for (; cursor_.skip_blanks() && cursor_.peek() != '#'; ++count) {
+            double value = 0.0;
+            if (!cursor_.number(value)) {
+                error("expected a number, found " + cursor_.shown_word());
+                return 0;
+            }
+            if (count < 6) numbers_[std::size_t(count)] = value;
+        }
+        if (count >= least) return count;
+        error("expected " + std::to_string(least) + " numbers, found " + std::to_string(count));
+        return 0;
+    }
+
+    void read_face() {
+        const std::size_t begin = result_.corners.size();
+        const TextCursor start = cursor_;
+        while (cursor_.skip_blanks() && cursor_.peek() != '#') {
+            ObjCorner corner;
+            if (!room_in(result_.corners.size()) || !read_corner(corner)) {
+                result_.corners.resize(begin);
+                return;
+            }
+            result_.corners.push_back(corner);
+        }
+        if (result_.corners.size() - begin < 3) {
+            error("a face needs at least three vertices, found " +
+                  std::to_string(result_.corners.size() - begin));
+            result_.corners.resize(begin);
+            return;
+        }
+        begin_run();
+        const std::int64_t line = std::min<std::int64_t>(start.line(), 0xFFFFFFFFll);
+        result_.faces.push_back({std::uint32_t(result_.corners.size()), std::uint32_t(line)});
+    }
+    void begin_run() {
+        run_.first_face = std::uint32_t(result_.faces.size());
+        if (!result_.runs.empty()) {
+            const ObjRun& last = result_.runs.back();
+            if (last.name == run_.name && last.material == run_.material &&
+                last.smoothing == run_.smoothing) {
+                return;
+            }
+        }
+        result_.runs.push_back(run_);
+    }
+    /// v, v/vt, v//vn or v/vt/vn.
+    bool read_corner(ObjCorner& corner) {
+        if (!read_index(corner.position, result_.positions.size())) return false;
+        if (cursor_.take('/')) {
+            const bool has_uv = cursor_.peek() != '/' && !at_word_end();
+            if (has_uv && !read_index(corner.uv, result_.uvs.size())) return false;
+            if (cursor_.take('/') && !at_word_end() &&
+                !read_index(corner.normal, result_.normals.size())) {
+                return false;
+            }
+        }
+        if (at_word_end()) return true;
+        error("expected a vertex as v, v/vt, v//vn or v/vt/vn, found " + cursor_.shown_word());
+        return false;
+    }
+    bool read_index(std::int32_t& index, std::size_t count) {
+        std::int64_t value = 0;
+        const TextCursor start = cursor_;
+        if (!cursor_.leading_integer(value)) {
+            error("expected a vertex as v, v/vt, v//vn or v/vt/vn, found " + cursor_.shown_word());
+            return false;
+        }
+        const std::int64_t resolved = value < 0 ? std::int64_t(count) + value : value - 1;
+        if (value == 0 || resolved < 0 || resolved > kMaxIndex) {
+            cursor_ = start;
+            error("the index " + std::to_string(value) +
+                  (value == 0 ? "; indices count from 1" : " is out of range"));
+            return false;
+        }
+        index = std::int32_t(resolved);
+        return true;
+    }
+    [[nodiscard]] bool at_word_end() const {
+        return cursor_.at_end() || TextCursor::is_space(cursor_.peek());
+    }
+
+    /// An object ends the group before it; a group within an object is named after both.
+    void read_name(bool object) {
+        std::string name = rest_of_line();
+        if (object) object_ = name;
+        if (!object && !object_.empty() && name != object_) {
+            name = name.empty() ? object_ : object_ + "/" + name;
+        }
+        run_.name = names_.number_of(name);
+    }
+    void read_smoothing() {
+        std::int64_t group = 0;
+        if (cursor_.skip_blanks() && cursor_.leading_integer(group)) {
+            run_.smoothing = std::uint32_t(group);
+        } else {
+            run_.smoothing = cursor_.word() == "on" ? 1 : 0;
+        }
+    }
+    void read_library() {
+        const std::uint32_t line = std::uint32_t(std::min<std::int64_t>(cursor_.line(), INT_MAX));
+        std::string names = rest_of_line();
+        if (names.empty()) return;
+        if (result_.libraries.size() < kMaxLibraries) {
+            result_.libraries.push_back({std::move(names), line});
+        } else if (!too_many_libraries_) {
+            too_many_libraries_ = true;
+            diagnostics_.warning({file_, int(line), 0}, "more than " +
+                                                            std::to_string(kMaxLibraries) +
+                                                            " mtllib lines; the rest is ignored");
+        }
+    }
+    /// Without the blanks at both ends; a comment belongs to it (# may be part of a name).
+    std::string rest_of_line() {
+        cursor_.skip_blanks();
+        std::string_view rest = cursor_.rest_of_line();
+        while (!rest.empty() && TextCursor::is_blank(rest.back())) rest.remove_suffix(1);
+        return std::string(rest);
+    }
+
+    bool room_in(std::size_t count) {
+        if (count < options_.max_elements && count < std::size_t(kMaxIndex)) return true;
+        throw Error(ErrorKind::Resource,
+                    "more than " +
+                        std::to_string(std::min<std::uint64_t>(options_.max_elements,
+                                                               std::uint64_t(kMaxIndex))) +
+                        " elements of a kind",
+                    cursor_.location(file_));
+    }
+    void unknown(const TextCursor& start) {
+        if (warned_) return;
+        warned_ = true;
+        diagnostics_.warning(start.location(file_), "the statement " + start.shown_word() +
+                                                        " is not known; it and others are ignored");
+    }
+    void error(const std::string& message) {
+        diagnostics_.error(cursor_.location(file_), message);
+        ++errors_;
+    }
+
+    std::string_view bytes_;
+    TextCursor cursor_;
+    const std::string& file_;
+    const ImportOptions& options_;
+    Diagnostics& diagnostics_;
+    ObjStatements result_;
+    NameTable names_, materials_;
+    ObjRun run_;
+    std::string object_;
+    std::array<double, 6> numbers_{};
+    double brightest_ = 0.0;
+    int errors_ = 0;
+    bool known_ = false;
+    bool warned_ = false;
+    bool too_many_libraries_ = false;
+};
+
+}  // namespace
+
+void ObjCorners::push_back(const ObjCorner& corner) {
+    const auto push = [&](std::vector<std::int32_t>& list, std::int32_t index) {
+        if (index < 0 && list.empty()) return;
+        list.resize(position.size(), -1);
+        list.push_back(index);
+    };
+    push(uv, corner.uv);
+    push(normal, corner.normal);
+    position.push_back(corner.position);
+}
+
+void ObjCorners::resize(std::size_t size) {
+    position.resize(size);
+    if (uv.size() > size) uv.resize(size);
+    if (normal.size() > size) normal.resize(size);
+}
+
+void ObjCorners::need_normals() {
+    normal.resize(position.size(), -1);
+}
+
+ObjStatements read_obj_statements(std::string_view bytes, const std::string& file,
+                                  const ImportOptions& options, Diagnostics& diagnostics) {
+    return StatementReader(bytes, file, options, diagnostics).read();
+}
+
+}  // namespace alhazen

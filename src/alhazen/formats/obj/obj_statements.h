@@ -1,0 +1,100 @@
+#pragma once
+/// The statements of an OBJ file as they stand: lists of positions, texture coordinates, normals
+/// and faces, and what was switched on for each face.
+///
+/// Source: see obj_reader.h. Differs: nothing.
+/// Conventions: indices count from 0; -1 = not given. Texture coordinate and normal indices, and
+/// positions given before their vertex, are only checked when meshes are made.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/formats/core/importer.h"
+
+namespace alhazen {
+
+struct ObjCorner {
+    std::int32_t position = -1, uv = -1, normal = -1;
+    friend bool operator==(const ObjCorner&, const ObjCorner&) = default;
+};
+
+/// The corners of all faces, one after the other; an array that no face uses takes no room.
+class ObjCorners {
+  public:
+    [[nodiscard]] std::size_t size() const { return position.size(); }
+    [[nodiscard]] ObjCorner operator[](std::size_t i) const {
+        return {position[i], uv.empty() ? -1 : uv[i], normal.empty() ? -1 : normal[i]};
+    }
+    void push_back(const ObjCorner& corner);
+    void resize(std::size_t size);
+    /// Makes room for a normal at every corner.
+    void need_normals();
+
+    std::vector<std::int32_t> position;  ///< [corner]
+    std::vector<std::int32_t> uv;        ///< [corner], or empty
+    std::vector<std::int32_t> normal;    ///< [corner], or empty
+};
+
+struct ObjFace {
+    std::uint32_t end = 0;   ///< one past its last corner; it begins where the face before ends
+    std::uint32_t line = 0;  ///< in the file, from 1
+};
+
+/// What holds from `first_face` to that of the next run.
+struct ObjRun {
+    std::uint32_t first_face = 0;
+    std::uint32_t name = 0;       ///< of the object and group, in `names`
+    std::uint32_t material = 0;   ///< in `materials`
+    std::uint32_t smoothing = 0;  ///< group; 0: flat
+};
+
+struct ObjLibrary {
+    std::string names;  ///< the rest of the `mtllib` line
+    std::uint32_t line = 0;
+};
+
+struct ObjStatements {
+    std::vector<Vec3> positions;
+    std::vector<VertexColor> colors;  ///< [position], linear; empty where no vertex has one
+    std::vector<Vec2> uvs;
+    std::vector<Vec3> normals;
+    ObjCorners corners;
+    std::vector<ObjFace> faces;
+    std::vector<ObjRun> runs;            ///< of at least one face each
+    std::vector<std::string> names;      ///< the first is empty
+    std::vector<std::string> materials;  ///< the first is empty
+    std::vector<ObjLibrary> libraries;
+
+    /// Calls use(run, first corner, end corner, line) for each face.
+    template <class Use>
+    void for_each_face(const Use& use) const {
+        for (std::size_t r = 0; r < runs.size(); ++r) {
+            const std::size_t end = r + 1 < runs.size() ? runs[r + 1].first_face : faces.size();
+            for_each_face_of(r, end, use);
+        }
+    }
+    /// The same for one run.
+    template <class Use>
+    void for_each_face_in(std::size_t run, const Use& use) const {
+        const std::size_t end = run + 1 < runs.size() ? runs[run + 1].first_face : faces.size();
+        for_each_face_of(run, end, use);
+    }
+
+  private:
+    template <class Use>
+    void for_each_face_of(std::size_t run, std::size_t end, const Use& use) const {
+        for (std::size_t f = runs[run].first_face; f < end; ++f) {
+            use(runs[run], f == 0 ? 0u : faces[f - 1].end, faces[f].end, faces[f].line);
+        }
+    }
+};
+
+/// Reads all statements. Stops after some errors; text without any statement of OBJ is an error.
+/// Throws Error (Resource) beyond options.max_elements.
+[[nodiscard]] ObjStatements read_obj_statements(std::string_view bytes, const std::string& file,
+                                                const ImportOptions& options,
+                                                Diagnostics& diagnostics);
+
+}  // namespace alhazen

@@ -1,0 +1,20 @@
+#pragma once
+/// A PLY mesh as a scene: docs/formats/ply.md.
+
+#include "alhazen/formats/core/importer.h"
+
+namespace alhazen {
+
+class PlyImporter final : public Importer {
+  public:
+    [[nodiscard]] const char* name() const override { return "ply"; }
+    [[nodiscard]] const char* description() const override;
+    [[nodiscard]] int recognise(const ImportSource& source) const override;
+    [[nodiscard]] SceneDescription import(const ImportSource& source,
+                                          Diagnostics& diagnostics) const override;
+};
+
+/// Whether the bytes begin as a PLY file does.
+[[nodiscard]] bool looks_like_ply(std::string_view bytes);
+
+}  // namespace alhazen

@@ -1,0 +1,291 @@
+#include "alhazen/formats/ply/ply_reader.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "alhazen/formats/mesh/mesh_normals.h"
+#include "alhazen/formats/ply/ply_header.h"
+#include "alhazen/formats/ply/ply_values.h"
+#include "alhazen/formats/ply/ply_vertices.h"
+#include "alhazen/geometry/polygon/triangulate.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr int kMaxErrors = 20;
+
+template <class Values>
+class BodyReader {
+  public:
+    BodyReader(std::string_view bytes, const PlyHeader& header, const std::string& file,
+               const ImportOptions& options, Diagnostics& diagnostics)
+        : header_(header),
+          values_(bytes, header),
+          file_(file),
+          options_(options),
+          diagnostics_(diagnostics) {}
+
+    TriangleMesh read() {
+        // Where faces start that come before the vertices.
+        std::vector<std::pair<const PlyElement*, Values>> early;
+        bool has_vertices = false;
+        for (const PlyElement& element : header_.elements) {
+            if (!fits(element)) return {};
+            const bool faces = element.name == "face" || element.name == "tristrips";
+            bool good = true;
+            if (element.name == "vertex" && !has_vertices) {
+                good = read_vertices(element);
+                has_vertices = true;
+            } else if (faces && has_vertices) {
+                good = read_faces(element);
+            } else {
+                if (faces) early.emplace_back(&element, values_);
+                good = skip(element);
+            }
+            if (!good) return {};
+        }
+        for (const auto& [element, start] : early) {
+            if (!has_vertices) break;
+            values_ = start;
+            if (!read_faces(*element)) return {};
+        }
+        return errors_ == 0 ? finish(has_vertices) : TriangleMesh{};
+    }
+
+  private:
+    /// The counts of the header are believed only as far as there are bytes.
+    bool fits(const PlyElement& element) {
+        const std::size_t least = element.min_bytes(header_.format);
+        if (least != 0 && element.count > values_.bytes_left() / least) {
+            diagnostics_.error(element.location, "element " + element.name + ": " +
+                                                     std::to_string(element.count) +
+                                                     " items need more bytes than the file has");
+            return false;
+        }
+        const bool kept =
+            element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+        if (kept && (element.count > options_.max_elements || element.count > 0xFFFFFFFFu)) {
+            throw Error(ErrorKind::Resource,
+                        "element " + element.name + ": more than " +
+                            std::to_string(options_.max_elements) + " items",
+                        element.location);
+        }
+        return true;
+    }
+
+    bool read_vertices(const PlyElement& element) {
+        PlyVertexLayout layout(element, header_.exact);
+        if (!layout.has_positions()) {
+            diagnostics_.error(element.location, "element vertex needs the properties x, y and z");
+            return false;
+        }
+        layout.reserve(mesh_, element.count);
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            if (!read_vertex(element, i, layout) && !recover()) return false;
+            layout.append(mesh_);
+        }
+        return true;
+    }
+    bool read_vertex(const PlyElement& element, std::uint64_t i, PlyVertexLayout& layout) {
+        for (std::size_t k = 0; k < element.properties.size(); ++k) {
+            if (!read_property(element, element.properties[k], i, layout.value(k))) return false;
+        }
+        if (is_finite(layout.position())) return true;
+        return fail(element, i, "a position that is not finite", values_);
+    }
+    /// Goes on behind a mistake when that can be done, so that more than one is told.
+    bool recover() { return errors_ < kMaxErrors && values_.recover(); }
+
+    /// The place of the list of vertices among the properties of a face or of strips.
+    [[nodiscard]] static std::size_t find_list(const PlyElement& element) {
+        std::size_t list = element.properties.size();
+        for (std::size_t k = 0; k < element.properties.size(); ++k) {
+            const PlyProperty& p = element.properties[k];
+            if (p.count_type && (p.name == "vertex_indices" || p.name == "vertex_index")) list = k;
+        }
+        return list;
+    }
+
+    bool read_faces(const PlyElement& element) {
+        const std::size_t list = find_list(element);
+        if (list == element.properties.size()) {
+            diagnostics_.error(element.location,
+                               "element " + element.name + " needs the list vertex_indices");
+            return false;
+        }
+        for (const PlyProperty& property : element.properties) {
+            if (property.name == "texcoord" || property.name == "red") {
+                diagnostics_.warning(element.location,
+                                     "'" + property.name + "' of a " + element.name +
+                                         " is ignored; only those of vertices are read");
+            }
+        }
+        const bool strips = element.name == "tristrips";
+        if (!strips) mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            if (!read_face(element, i, list, strips) && !recover()) return false;
+        }
+        return errors_ == 0;
+    }
+    bool read_face(const PlyElement& element, std::uint64_t i, std::size_t list, bool strips) {
+        double unused = 0.0;
+        for (std::size_t k = 0; k < element.properties.size(); ++k) {
+            const PlyProperty& property = element.properties[k];
+            const bool good = k != list ? read_property(element, property, i, unused)
+                              : strips  ? read_strips(element, property, i)
+                                        : read_polygon(element, property, i);
+            if (!good) return false;
+        }
+        return true;
+    }
+
+    /// One list of vertices; -1 ends a strip. Every other triangle of a strip is turned around.
+    bool read_strips(const PlyElement& element, const PlyProperty& property, std::uint64_t item) {
+        std::uint64_t count = 0;
+        if (!read_length(element, property, item, count)) return false;
+        std::array<std::uint32_t, 2> last{};
+        std::uint64_t in_strip = 0;
+        for (std::uint64_t k = 0; k < count; ++k) {
+            const Values start = values_;
+            double index = 0.0;
+            if (!read_value(element, property.type, item, index)) return false;
+            if (index == -1.0 || index == double(0xFFFFFFFFu)) {
+                in_strip = 0;
+                continue;
+            }
+            if (!is_vertex(index)) return bad_index(element, item, start);
+            const std::uint32_t vertex = std::uint32_t(index);
+            if (in_strip >= 2 && vertex != last[0] && vertex != last[1] && last[0] != last[1]) {
+                const bool odd = in_strip % 2 != 0;
+                mesh_.triangles.push_back({last[odd ? 1 : 0], last[odd ? 0 : 1], vertex});
+            }
+            last = {last[1], vertex};
+            ++in_strip;
+        }
+        return true;
+    }
+
+    bool read_polygon(const PlyElement& element, const PlyProperty& property, std::uint64_t item) {
+        const Values start = values_;
+        std::uint64_t count = 0;
+        if (!read_length(element, property, item, count)) return false;
+        polygon_.clear();
+        bool in_range = true;
+        for (std::uint64_t k = 0; k < count; ++k) {
+            double index = 0.0;
+            if (!read_value(element, property.type, item, index)) return false;
+            in_range = in_range && is_vertex(index);
+            polygon_.push_back(in_range ? std::uint32_t(index) : 0);
+        }
+        // The item is read to its end: the next one can be looked at.
+        if (!in_range) {
+            bad_index(element, item, start);
+            return errors_ < kMaxErrors;
+        }
+        if (count < 3) {
+            ++small_faces_;
+        } else {
+            triangulate(mesh_.positions, polygon_, mesh_.triangles);
+        }
+        return true;
+    }
+    [[nodiscard]] bool is_vertex(double index) const {
+        return index >= 0.0 && index < double(mesh_.positions.size()) && index == std::floor(index);
+    }
+    bool bad_index(const PlyElement& element, std::uint64_t item, const Values& at) {
+        return fail(element, item,
+                    "a vertex index that is not below the " +
+                        std::to_string(mesh_.positions.size()) + " vertices",
+                    at);
+    }
+
+    bool skip(const PlyElement& element) {
+        // Without properties there is nothing to read, however many there are.
+        if (element.properties.empty() || values_.skip(element)) return true;
+        double unused = 0.0;
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            for (const PlyProperty& property : element.properties) {
+                if (!read_property(element, property, i, unused)) return false;
+            }
+        }
+        return true;
+    }
+
+    /// Reads a value into `value`, or steps over a list.
+    bool read_property(const PlyElement& element, const PlyProperty& property, std::uint64_t item,
+                       double& value) {
+        if (!property.count_type) return read_value(element, property.type, item, value);
+        std::uint64_t count = 0;
+        if (!read_length(element, property, item, count)) return false;
+        double unused = 0.0;
+        for (std::uint64_t k = 0; k < count; ++k) {
+            if (!read_value(element, property.type, item, unused)) return false;
+        }
+        return true;
+    }
+    bool read_length(const PlyElement& element, const PlyProperty& property, std::uint64_t item,
+                     std::uint64_t& count) {
+        double length = 0.0;
+        const Values start = values_;
+        if (!read_value(element, *property.count_type, item, length)) return false;
+        if (!(length >= 0.0) || length != std::floor(length)) {
+            return fail(element, item, "a list whose length is no whole number", start);
+        }
+        if (length > double(values_.bytes_left() / Values::kListItemBytes)) {
+            return fail(element, item, "a list longer than the rest of the file", start);
+        }
+        count = std::uint64_t(length);
+        return true;
+    }
+    bool read_value(const PlyElement& element, PlyType type, std::uint64_t item, double& value) {
+        if (values_.read(type, value)) return true;
+        return fail(element, item, "expected a number, found " + values_.found(), values_);
+    }
+    bool fail(const PlyElement& element, std::uint64_t item, const std::string& message,
+              const Values& at) {
+        ++errors_;
+        diagnostics_.error(at.location(file_),
+                           element.name + " " + std::to_string(item) + ": " + message);
+        return false;
+    }
+
+    TriangleMesh finish(bool has_vertices) {
+        const FileLocation whole{file_, 0, 0};
+        if (!has_vertices) {
+            diagnostics_.error(whole, "the PLY file has no element vertex");
+            return {};
+        }
+        if (small_faces_ != 0) {
+            diagnostics_.warning(whole, std::to_string(small_faces_) +
+                                            " faces with fewer than three vertices are ignored");
+        }
+        if (!header_.exact) make_normals_unit(mesh_);
+        return std::move(mesh_);
+    }
+
+    const PlyHeader& header_;
+    Values values_;
+    const std::string& file_;
+    const ImportOptions& options_;
+    Diagnostics& diagnostics_;
+    TriangleMesh mesh_;
+    std::vector<std::uint32_t> polygon_;
+    std::uint64_t small_faces_ = 0;
+    int errors_ = 0;
+};
+
+}  // namespace
+
+TriangleMesh read_ply(std::string_view bytes, const std::string& file, const ImportOptions& options,
+                      Diagnostics& diagnostics) {
+    const std::optional<PlyHeader> header = read_ply_header(bytes, file, diagnostics);
+    if (!header) return {};
+    if (header->format == PlyFormat::Ascii) {
+        return BodyReader<AsciiValues>(bytes, *header, file, options, diagnostics).read();
+    }
+    return BodyReader<BinaryValues>(bytes, *header, file, options, diagnostics).read();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,47 @@
+#pragma once
+/// What the properties of a PLY vertex mean, and how they become the arrays of a mesh.
+///
+/// Conventions: names as in docs/formats/ply.md. Colours of an integer type are display-encoded and
+/// are made linear (IEC 61966-2-1); of a float type they are linear already.
+
+#include <array>
+#include <vector>
+
+#include "alhazen/formats/ply/ply_header.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
+
+namespace alhazen {
+
+/// The linear value of an 8-bit display code.
+[[nodiscard]] float linear_of_code(std::uint8_t code);
+
+class PlyVertexLayout {
+  public:
+    explicit PlyVertexLayout(const PlyElement& element, bool exact);
+
+    [[nodiscard]] bool has_positions() const { return has(kX, 3); }
+    /// Makes room in the arrays that there will be.
+    void reserve(TriangleMesh& mesh, std::uint64_t count) const;
+    /// Where the value of the k-th property goes.
+    [[nodiscard]] double& value(std::size_t k) { return values_[slots_[k]]; }
+    [[nodiscard]] Vec3 position() const { return {values_[kX], values_[kX + 1], values_[kX + 2]}; }
+    /// Appends the vertex whose values have been set.
+    void append(TriangleMesh& mesh) const;
+
+  private:
+    /// Places of the values; the last one is for what is not used.
+    static constexpr std::size_t kX = 0, kNormal = 3, kUv = 6, kUv2 = 8, kColor = 10, kAlpha = 13,
+                                 kTangent = 14, kMaterial = 18, kUnused = 19;
+
+    [[nodiscard]] bool has(std::size_t first, std::size_t count) const;
+    [[nodiscard]] static std::size_t slot_of(const PlyProperty& property, bool exact);
+    [[nodiscard]] float color(std::size_t slot) const;
+
+    std::vector<std::size_t> slots_;  ///< [property]
+    std::array<double, kUnused + 1> values_{};
+    std::array<bool, kUnused + 1> present_{};
+    std::array<PlyType, kUnused + 1> types_{};
+    bool normals_, uvs_, uvs2_, colors_, tangents_, materials_;
+};
+
+}  // namespace alhazen

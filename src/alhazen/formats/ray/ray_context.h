@@ -1,0 +1,30 @@
+#pragma once
+/// What the parts of the .ray importer share while one file is read.
+
+#include <filesystem>
+
+#include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/ray/ray_family.h"
+
+namespace alhazen {
+
+struct RayContext {
+    SceneDescription& scene;
+    Diagnostics& diagnostics;
+    const ImportOptions& options;
+    RayFamily family;
+    std::uint64_t elements = 0;  ///< vertices, triangles and parts so far
+
+    /// Throws Error (Resource) beyond options.max_elements.
+    void count_elements(std::uint64_t more, const FileLocation& where) {
+        elements += more;
+        if (elements > options.max_elements) {
+            throw Error(ErrorKind::Resource,
+                        "more than " + std::to_string(options.max_elements) +
+                            " vertices, triangles and objects",
+                        where);
+        }
+    }
+};
+
+}  // namespace alhazen

@@ -1,0 +1,56 @@
+#pragma once
+/// Materials of the SBT-raytracer format: defaults that nest, names, texture maps.
+///
+/// Source: docs/formats/ray.md.
+/// Differs: a reference to an undefined name is an error (the course's program silently takes the
+/// default).
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "alhazen/formats/pictures/texture_table.h"
+#include "alhazen/formats/ray/ray_context.h"
+#include "alhazen/formats/text/block_reader.h"
+
+namespace alhazen {
+
+/// A material value and its place in the scene's list, once something uses it.
+struct RayMaterial {
+    Material value;
+    std::optional<MaterialId> id;
+    FileLocation location;
+};
+
+class RayMaterials {
+  public:
+    explicit RayMaterials(RayContext& context);
+
+    /// The material written as `value`: a block (a copy of `enclosing` with changes), or a name.
+    RayMaterial read(TextNode value, const RayMaterial& enclosing);
+    /// A `material { name = "n"; ... }` item of the dictionary family: defines a name, changes no
+    /// default.
+    void define(TextNode entry, const RayMaterial& enclosing);
+
+    /// The material's id; adds it to the scene when it is used for the first time.
+    MaterialId use(RayMaterial& material);
+
+  private:
+    RayMaterial read_block(TextNode block, const RayMaterial& enclosing);
+    RayMaterial named(TextNode word, const RayMaterial& fallback);
+    void read_color(BlockReader& reader, std::string_view key, ColorInput& out);
+    void read_scalar(BlockReader& reader, std::string_view key, double scale, double map_scale,
+                     ScalarInput& out);
+    std::optional<TextureId> read_map(TextNode value, std::string_view key);
+    std::string read_name(BlockReader& reader);
+    void refuse_extensions(BlockReader& reader);
+    void add_name(const std::string& name, RayMaterial& material);
+
+    RayContext& context_;
+    std::filesystem::path folder_;
+    TextureTable textures_;
+    std::map<std::string, TextureId> maps_;
+    std::map<std::string, RayMaterial> by_name_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,67 @@
+#include "alhazen/formats/ray/ray_mesh.h"
+
+#include <cmath>
+#include <memory>
+
+#include "alhazen/formats/mesh/mesh_lists.h"
+
+namespace alhazen {
+
+namespace {
+
+bool wants_normals(BlockReader& reader) {
+    bool generate = false;
+    reader.read("gennormals", generate);
+    for (const TextNode item : reader.block()) {
+        if (item.is(NodeKind::Word, "gennormals")) generate = true;  // `gennormals;`
+    }
+    return generate;
+}
+
+void read_vertex_materials(BlockReader& reader, RayMaterials& materials,
+                           const RayMaterial& enclosing, TriangleMesh& mesh) {
+    const auto list = reader.find("materials");
+    if (!list || !reader.values().is_list(*list, "materials")) return;
+    if (!has_one_per_vertex(*list, "materials", mesh.positions.size(), reader.values())) return;
+    for (const TextNode value : *list) {
+        RayMaterial material = materials.read(value, enclosing);
+        mesh.vertex_materials.push_back(static_cast<std::uint32_t>(materials.use(material)));
+    }
+}
+
+void report_other_items(BlockReader& reader, Diagnostics& diagnostics) {
+    for (const TextNode item : reader.block()) {
+        if (item.is(NodeKind::Pair) || item.broken() || item.is(NodeKind::Word, "gennormals"))
+            continue;
+        diagnostics.warning(item.location(), reader.what() + ": unexpected " + item.describe());
+    }
+}
+
+}  // namespace
+
+std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
+                                       RayMaterials& materials, const RayMaterial& material) {
+    auto mesh = std::make_shared<TriangleMesh>();
+    reader.require("points");
+    reader.require("faces");
+    const auto points = reader.find("points");
+    const auto faces = reader.find("faces");
+    const auto normals = reader.find("normals");
+    const bool readable = points && read_points(*points, "points", reader.values(), *mesh) &&
+                          faces && read_faces(*faces, "faces", reader.values(), *mesh);
+    if (readable) {
+        context.count_elements(mesh->positions.size() + mesh->triangles.size(),
+                               reader.block().location());
+        if (normals) read_normals(*normals, "normals", reader.values(), *mesh);
+        read_vertex_materials(reader, materials, material, *mesh);
+    } else {
+        reader.ignore("materials");
+    }
+    if (wants_normals(reader) && readable) mesh->generate_normals();
+    report_other_items(reader, context.diagnostics);
+    if (!readable) return std::nullopt;
+    context.scene.meshes.push_back({"", std::move(mesh), reader.block().location()});
+    return static_cast<MeshIndex>(context.scene.meshes.size() - 1);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,15 @@
+#pragma once
+/// The `trimesh` / `polymesh` of the SBT-raytracer format.
+
+#include "alhazen/formats/ray/ray_context.h"
+#include "alhazen/formats/ray/ray_materials.h"
+#include "alhazen/formats/text/text_tree.h"
+
+namespace alhazen {
+
+/// Reads a mesh block: points, faces (fans from the first vertex), normals and materials at the
+/// vertices, gennormals. Adds it to the scene's meshes; nothing when it cannot be used.
+std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
+                                       RayMaterials& materials, const RayMaterial& material);
+
+}  // namespace alhazen

@@ -1,0 +1,223 @@
+#include "alhazen/formats/ray/ray_objects.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "alhazen/formats/ray/ray_extensions.h"
+#include "alhazen/formats/ray/ray_mesh.h"
+
+namespace alhazen {
+
+namespace {
+
+// The shapes of the format, each in its own frame.
+
+AnyShape read_sphere(BlockReader&) {
+    return Sphere{};
+}
+AnyShape read_box(BlockReader&) {
+    return BoxShape{};
+}
+AnyShape read_square(BlockReader&) {
+    return Rectangle{};
+}
+
+AnyShape read_cylinder(BlockReader& reader) {
+    Cylinder cylinder;
+    reader.read("capped", cylinder.capped);
+    return cylinder;
+}
+
+AnyShape read_cone(BlockReader& reader) {
+    Cone cone;
+    reader.read("height", cone.top.z);
+    reader.read("bottom_radius", cone.base_radius);
+    reader.read("top_radius", cone.top_radius);
+    reader.read("capped", cone.capped);
+    cone.base_radius = std::abs(cone.base_radius);
+    cone.top_radius = std::abs(cone.top_radius);
+    return cone;
+}
+
+using ReadShape = AnyShape (*)(BlockReader&);
+constexpr std::pair<std::string_view, ReadShape> kShapes[] = {
+    {"sphere", read_sphere},     {"box", read_box},   {"square", read_square},
+    {"cylinder", read_cylinder}, {"cone", read_cone},
+};
+
+bool is_mesh(std::string_view name) {
+    return name == "trimesh" || name == "polymesh";
+}
+
+constexpr std::array<std::string_view, 4> kTransforms{"translate", "rotate", "scale", "transform"};
+
+bool is_transform(std::string_view name) {
+    return std::find(kTransforms.begin(), kTransforms.end(), name) != kTransforms.end();
+}
+
+using Arguments = std::vector<TextNode>;
+
+bool read_numbers(const Arguments& arguments, std::string_view what, const ValueReader& values,
+                  double* out) {
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (!values.read(arguments[i], what, out[i])) return false;
+    }
+    return true;
+}
+
+/// Four rows of a matrix that acts on columns.
+std::optional<Affine> read_matrix(const Arguments& rows, const ValueReader& values) {
+    double m[4][4];
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (!values.read_numbers(rows[i], "transform", 4, m[i])) return std::nullopt;
+    }
+    if (m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0 || m[3][3] == 0) {
+        values.diagnostics.error(rows[3].location(),
+                                 "transform: the last row must be (0, 0, 0, 1)");
+        return std::nullopt;
+    }
+    const double w = m[3][3];
+    const auto column = [&](int j) { return Vec3{m[0][j] / w, m[1][j] / w, m[2][j] / w}; };
+    return Affine{{column(0), column(1), column(2)}, column(3)};
+}
+
+/// The transform that `name` makes of its arguments (those before the object).
+std::optional<Affine> read_affine(std::string_view name, TextNode list, const Arguments& arguments,
+                                  const ValueReader& values) {
+    const std::size_t count = arguments.size();
+    double v[4];
+    if (name == "transform" && count == 4) return read_matrix(arguments, values);
+    const bool fits = (name == "translate" && count == 3) || (name == "rotate" && count == 4) ||
+                      (name == "scale" && (count == 1 || count == 3));
+    if (!fits) {
+        values.diagnostics.error(list.location(),
+                                 std::string(name) + ": wrong number of arguments; expected " +
+                                     (name == "translate" ? "(x, y, z, object)"
+                                      : name == "rotate"  ? "(x, y, z, radians, object)"
+                                      : name == "scale"   ? "(s, object) or (x, y, z, object)"
+                                                          : "(row, row, row, row, object)"));
+        return std::nullopt;
+    }
+    if (!read_numbers(arguments, name, values, v)) return std::nullopt;
+    if (name == "translate") return Affine::translate({v[0], v[1], v[2]});
+    if (name == "scale")
+        return Affine::scale(count == 1 ? Vec3{v[0], v[0], v[0]} : Vec3{v[0], v[1], v[2]});
+    if (v[0] == 0 && v[1] == 0 && v[2] == 0) {
+        values.diagnostics.error(list.location(), "rotate: the axis must not be the zero vector");
+        return std::nullopt;
+    }
+    return Affine::rotate({v[0], v[1], v[2]}, v[3]);
+}
+
+}  // namespace
+
+std::string RayObjects::known() {
+    std::vector<std::string_view> names;
+    for (const auto& [name, read] : kShapes) names.push_back(name);
+    names.insert(names.end(), {"trimesh", "polymesh"});
+    names.insert(names.end(), kTransforms.begin(), kTransforms.end());
+    return joined(names);
+}
+
+void RayObjects::read(TextNode item, const Affine& object_from_part, RayMaterial& material) {
+    Affine transform = object_from_part;
+    std::optional<TextNode> object = item;
+    // A chain of transforms is walked, not recursed into: only groups cost stack.
+    while (object && object->is(NodeKind::Entry) && is_transform(object->text())) {
+        object = read_transform(*object, transform);
+    }
+    if (object && !object->broken()) read_untransformed(*object, transform, material);
+}
+
+void RayObjects::read_untransformed(TextNode item, const Affine& object_from_part,
+                                    RayMaterial& material) {
+    const std::string_view name = item.text();
+    if (item.is(NodeKind::Block)) return read_group(item, object_from_part, material);
+    if (item.is(NodeKind::Pair, "material")) {
+        if (!item.empty()) material = materials_.read(item.first(), material);
+        return;
+    }
+    if (!item.is(NodeKind::Entry)) {
+        context_.diagnostics.error(item.location(), "expected an object, found " + item.describe() +
+                                                        "; known are " + known());
+        return;
+    }
+    if (name == "material") return materials_.define(item, material);
+    const bool shape = std::any_of(std::begin(kShapes), std::end(kShapes),
+                                   [&](const auto& entry) { return entry.first == name; });
+    if (shape || is_mesh(name)) return read_shape(item, object_from_part, material);
+    refuse(item);
+}
+
+void RayObjects::refuse(TextNode entry) {
+    const std::string_view name = entry.text();
+    const bool light = name.ends_with("_light") || name == "skybox";
+    if (const auto extension = ray_extension(name)) {
+        context_.diagnostics.error(entry.location(),
+                                   refusal(light ? "light" : "object", name, *extension));
+    } else {
+        context_.diagnostics.error(
+            entry.location(), "unknown object '" + printable(name) + "'; known are " + known());
+    }
+}
+
+/// A default that is set inside a group ends with it: `material` is a copy.
+void RayObjects::read_group(TextNode block, const Affine& object_from_part, RayMaterial material) {
+    for (const TextNode item : block) read(item, object_from_part, material);
+}
+
+std::optional<TextNode> RayObjects::read_transform(TextNode entry, Affine& object_from_part) {
+    if (entry.broken() || entry.empty() || entry.first().broken()) return std::nullopt;
+    const TextNode list = entry.first();
+    if (!list.is(NodeKind::List) || list.empty()) {
+        context_.diagnostics.error(entry.location(),
+                                   std::string(entry.text()) + ": expected (..., object)");
+        return std::nullopt;
+    }
+    Arguments arguments;
+    for (const TextNode argument : list) {
+        if (arguments.size() > 5) break;  // too many already
+        arguments.push_back(argument);
+    }
+    const TextNode object = arguments.back();
+    arguments.pop_back();
+    const std::optional<Affine> transform =
+        read_affine(entry.text(), list, arguments, {context_.diagnostics});
+    // The object is read even under a bad transform: its own findings count too.
+    if (transform) object_from_part = object_from_part * *transform;
+    return object;
+}
+
+void RayObjects::read_shape(TextNode entry, const Affine& object_from_part,
+                            const RayMaterial& material) {
+    const std::string name(entry.text());
+    if (entry.empty() || !entry.first().is(NodeKind::Block)) {
+        context_.diagnostics.error(entry.location(), name + ": expected a block { }");
+        return;
+    }
+    BlockReader reader(entry.first(), name, BlockReader::Strictness::Tolerant,
+                       context_.diagnostics);
+    RayMaterial own = material;
+    if (const auto value = reader.find("material")) own = materials_.read(*value, material);
+    Part part;
+    reader.read("name", part.name);
+    part.object_from_part = object_from_part;
+    part.location = entry.location();
+    if (is_mesh(name)) {
+        const auto mesh = read_ray_mesh(reader, context_, materials_, own);
+        reader.finish(true);
+        if (!mesh) return;
+        part.what = *mesh;
+    } else {
+        for (const auto& [known_name, read] : kShapes) {
+            if (known_name == name) part.what = read(reader);
+        }
+        reader.finish();
+    }
+    part.material = materials_.use(own);
+    context_.count_elements(1, part.location);
+    context_.scene.objects.front().parts.push_back(std::move(part));
+}
+
+}  // namespace alhazen

@@ -1,0 +1,265 @@
+#include "alhazen/formats/ray/ray_view.h"
+
+#include <cmath>
+#include <utility>
+
+#include "alhazen/formats/ray/ray_extensions.h"
+#include "alhazen/formats/text/block_reader.h"
+#include "alhazen/math/constants.h"
+
+namespace alhazen {
+
+namespace {
+
+BlockReader reader_of(TextNode entry, RayContext& context) {
+    return {entry.first(), std::string(entry.text()), BlockReader::Strictness::Tolerant,
+            context.diagnostics};
+}
+
+/// False, after an error at the value, for a vector without a direction.
+bool has_direction(BlockReader& reader, std::string_view key, const Vec3& v) {
+    if (length_squared(v) > 0) return true;
+    reader.error(reader.find(key).value_or(reader.block()),
+                 std::string(key) + " must not be the zero vector");
+    return false;
+}
+
+/// The rotation of a unit quaternion with its vector part first.
+Mat3 rotation(double x, double y, double z, double w) {
+    return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+            {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+            {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+}
+
+/// The camera's axes: unit right, up and backward by default; the old programs keep the lengths and
+/// angles that the file gives them, and so do we.
+Mat3 read_axes(BlockReader& reader, bool normalise) {
+    Mat3 axes;
+    double q[4];
+    for (const char* key : {"quaternian", "quaternion"}) {  // the first spelling is the reference's
+        const auto value = reader.find(key);
+        if (!value || !reader.values().read_numbers(*value, key, 4, q)) continue;
+        const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        if (norm > 0) {
+            axes = rotation(q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm);
+        } else {
+            reader.error(*value, std::string(key) + " must not be zero");
+        }
+    }
+    Vec3 view, up;
+    const bool has_view = reader.read("viewdir", view), has_up = reader.read("updir", up);
+    if (reader.has("viewdir") != reader.has("updir")) {
+        reader.error(reader.block(), "viewdir and updir must be given together");
+    }
+    if (!has_view || !has_up || !has_direction(reader, "viewdir", view) ||
+        !has_direction(reader, "updir", up)) {
+        return axes;
+    }
+    if (normalise) {
+        view = normalize(view);
+        up = normalize(up);
+    }
+    return {cross(up, -view), up, -view};
+}
+
+void refuse_lens(BlockReader& reader) {
+    double aperture = 0;
+    bool motion_blur = false;
+    if (reader.read("aperture", aperture) && aperture != 0) {
+        reader.error(reader.block(), refusal("camera key", "aperture", "depth of field, HKUST"));
+    }
+    if (reader.read("enable_motion_blur", motion_blur) && motion_blur) {
+        reader.error(reader.block(),
+                     refusal("camera key", "enable_motion_blur", "motion blur, HKUST"));
+    }
+    for (const char* key : {"focaldistance", "time0", "time1"}) reader.ignore(key);
+}
+
+void read_camera(TextNode entry, RayContext& context) {
+    BlockReader reader = reader_of(entry, context);
+    PerspectiveCamera camera;
+    reader.read("position", camera.eye);
+    const Mat3 axes = read_axes(reader, context.family.dictionary);
+    double aspect = 1, fov_deg = 0;
+    if (reader.read("aspectratio", aspect) && !(aspect > 0)) {
+        reader.error(reader.block(), "aspectratio must be greater than 0");
+        aspect = 1;
+    }
+    double height = 1;  // of the picture at distance 1: 53.13 degrees
+    if (reader.read("fov", fov_deg)) {
+        if (fov_deg > 0 && fov_deg < 180) {
+            height = 2 * std::tan(0.5 * fov_deg * kRadiansPerDegree);
+        } else {
+            reader.error(reader.block(), "fov must be between 0 and 180 degrees");
+        }
+    }
+    refuse_lens(reader);
+    reader.finish();
+    camera.look = -axes.z_axis;
+    camera.right = height * aspect * axes.x_axis;
+    camera.up = height * axes.y_axis;
+    context.scene.cameras.push_back({"", camera, aspect, entry.location()});
+}
+
+Rgb read_color(BlockReader& reader) {
+    Rgb color;
+    reader.read("color", color);
+    reader.read("colour", color);
+    if (!reader.has("colour")) reader.require("color");
+    return color;
+}
+
+Attenuation read_attenuation(BlockReader& reader, bool dictionary) {
+    // The token parsers start from 1 / d^2, the dictionary parsers from no attenuation.
+    Attenuation a = dictionary ? Attenuation{1, 0, 0} : Attenuation{0, 0, 1};
+    reader.read("constant_attenuation_coeff", a.constant);
+    reader.read("linear_attenuation_coeff", a.linear);
+    reader.read("quadratic_attenuation_coeff", a.quadratic);
+    if (a.constant < 0 || a.linear < 0 || a.quadratic < 0) {
+        reader.error(reader.block(), "attenuation coefficients must not be negative");
+    }
+    return a;
+}
+
+void add_light(TextNode entry, RayContext& context, Light light) {
+    context.scene.lights.push_back({"", std::move(light), entry.location()});
+}
+
+void read_ambient_light(TextNode entry, RayContext& context) {
+    BlockReader reader = reader_of(entry, context);
+    const Rgb color = read_color(reader);
+    reader.finish();
+    add_light(entry, context, AmbientLight{color});
+}
+
+void read_directional_light(TextNode entry, RayContext& context) {
+    BlockReader reader = reader_of(entry, context);
+    DirectionalLight light;
+    light.color = read_color(reader);
+    reader.require("direction");
+    Vec3 direction;
+    if (reader.read("direction", direction) && has_direction(reader, "direction", direction)) {
+        light.to_light = normalize(-direction);
+    }
+    reader.finish();
+    add_light(entry, context, light);
+}
+
+PointLight read_point(BlockReader& reader, RayContext& context) {
+    PointLight light;
+    light.color = read_color(reader);
+    reader.require("position");
+    reader.read("position", light.position);
+    light.attenuation = read_attenuation(reader, context.family.dictionary);
+    return light;
+}
+
+void read_point_light(TextNode entry, RayContext& context) {
+    BlockReader reader = reader_of(entry, context);
+    const PointLight light = read_point(reader, context);
+    reader.finish();
+    add_light(entry, context, light);
+}
+
+/// A light of radius 0 is a point light; anything else needs soft shadows.
+void read_area_light(TextNode entry, RayContext& context) {
+    BlockReader reader = reader_of(entry, context);
+    double radius = 1;
+    if (reader.has("u") || reader.has("v") || !reader.read("light_radius", radius) || radius != 0) {
+        context.diagnostics.error(
+            entry.location(),
+            refusal("light", "area_light", "lights with an extent, UT Austin and HKUST students"));
+        return;
+    }
+    const PointLight light = read_point(reader, context);
+    reader.finish();
+    add_light(entry, context, light);
+}
+
+/// The half angles of the cone in degrees, by whichever spelling the file uses.
+std::pair<double, double> read_cone(BlockReader& reader) {
+    double full = 0, blend = 0, penumbra = 0, edge[3];
+    if (reader.read("size", full)) {
+        reader.read("blend", blend);
+        return {0.5 * full * (1 - blend), 0.5 * full};
+    }
+    if (reader.read("cone_angle", full)) {
+        reader.read("penumbra", penumbra);
+        return {0.5 * full, 0.5 * full + penumbra};
+    }
+    const auto value = reader.find("edgeplace");
+    if (value && reader.values().read_numbers(*value, "edgeplace", 3, edge)) {
+        if (edge[1] != 0 || edge[2] != 0) {
+            reader.error(*value, "edgeplace: only (degrees, 0, 0), a sharp edge, is supported");
+        }
+        return {edge[0], edge[0]};
+    }
+    for (const char* key : {"size", "cone_angle", "edgeplace"}) {
+        if (reader.has(key)) return {0, 45};  // its value has been reported
+    }
+    reader.error(reader.block(), "one of size, cone_angle, edgeplace is missing");
+    return {0, 45};
+}
+
+void read_spot_light(TextNode entry, RayContext& context) {
+    BlockReader reader = reader_of(entry, context);
+    const PointLight point = read_point(reader, context);
+    SpotLight light{.position = point.position,
+                    .color = point.color,
+                    .attenuation = point.attenuation,
+                    .ambient = {}};
+    Vec3 direction, target;
+    if (reader.read("direction", direction)) {
+        if (has_direction(reader, "direction", direction)) light.direction = normalize(direction);
+    } else if (reader.read("target", target)) {
+        direction = target - light.position;
+        if (has_direction(reader, "target", direction)) light.direction = normalize(direction);
+    } else if (!reader.has("direction") && !reader.has("target")) {
+        reader.error(reader.block(), "one of direction, target is missing");
+    }
+    const auto [inner, outer] = read_cone(reader);
+    if (inner < 0 || inner > outer || !(outer > 0) || outer > 180) {
+        reader.error(reader.block(), "the cone's angles must be in 0 <= inner <= outer <= 180");
+    }
+    if (reader.has("cutoff_distance")) {
+        reader.ignore("cutoff_distance");
+        reader.error(reader.block(),
+                     refusal("light key", "cutoff_distance", "lights that end, HKUST"));
+    }
+    light.inner_angle = inner * kRadiansPerDegree;
+    light.outer_angle = outer * kRadiansPerDegree;
+    reader.finish();
+    add_light(entry, context, light);
+}
+
+using Read = void (*)(TextNode, RayContext&);
+constexpr std::pair<std::string_view, Read> kReaders[] = {
+    {"camera", read_camera},
+    {"ambient_light", read_ambient_light},
+    {"directional_light", read_directional_light},
+    {"point_light", read_point_light},
+    {"area_light", read_area_light},
+    {"spot_light", read_spot_light},
+};
+
+}  // namespace
+
+bool is_ray_camera_or_light(std::string_view name) {
+    for (const auto& [known, read] : kReaders) {
+        if (known == name) return true;
+    }
+    return false;
+}
+
+void read_ray_camera_or_light(TextNode entry, RayContext& context) {
+    if (entry.empty() || !entry.first().is(NodeKind::Block)) {
+        context.diagnostics.error(entry.location(),
+                                  std::string(entry.text()) + ": expected a block { }");
+        return;
+    }
+    for (const auto& [name, read] : kReaders) {
+        if (name == entry.text()) read(entry, context);
+    }
+}
+
+}  // namespace alhazen

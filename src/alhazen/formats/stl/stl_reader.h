@@ -1,0 +1,35 @@
+#pragma once
+/// Reads an STL file, ascii or binary, into triangle meshes: one per solid.
+///
+/// Source: 3D Systems, "Stereolithography Interface Specification", 1989; the file layout as
+/// described in Marshall Burns, "Automated Fabrication", 1993, section 6.5.
+/// Differs: an ascii file may hold several solids; words in any capitals; endsolid may be missing.
+/// A file is binary when its size is that which its count asks for, even if it begins with "solid";
+/// one of another size that begins so is binary when zero bytes follow, and told of as such.
+/// Conventions: corners of exactly equal position (-0 = 0) are one vertex. The winding decides what
+/// is outside, not the normals of the file. Attribute bytes are ignored.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/formats/core/importer.h"
+
+namespace alhazen {
+
+struct StlSolid {
+    std::string name;
+    int line = 0;  ///< of an ascii file
+    TriangleMesh mesh;
+};
+
+/// Whether the bytes are surely STL: binary of the right size, or text with a solid and a facet.
+[[nodiscard]] bool looks_like_stl(std::string_view bytes);
+
+/// The solids of a file; empty after an error. With `as_one` there is at most one, of all facets.
+/// `file` is only used in messages. Throws Error (Resource).
+[[nodiscard]] std::vector<StlSolid> read_stl(std::string_view bytes, const std::string& file,
+                                             const ImportOptions& options, Diagnostics& diagnostics,
+                                             bool as_one = false);
+
+}  // namespace alhazen

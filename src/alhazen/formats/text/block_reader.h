@@ -1,0 +1,113 @@
+#pragma once
+/// Typed access to the parse tree: values converted and checked, keys that nobody asked for
+/// reported.
+///
+/// Conventions: every function reports what is wrong with the value it was given, with its place,
+/// and then returns false and leaves its output alone; values that a syntax error left incomplete
+/// fail silently, for they have been reported.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "alhazen/formats/text/text_tree.h"
+#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+/// Reads values; `what` names the value in messages ("radius").
+struct ValueReader {
+    Diagnostics& diagnostics;
+
+    bool read(TextNode value, std::string_view what, double& out) const;
+    bool read(TextNode value, std::string_view what, int& out) const;
+    bool read(TextNode value, std::string_view what, bool& out) const;
+    bool read(TextNode value, std::string_view what, Vec2& out) const;
+    bool read(TextNode value, std::string_view what, Vec3& out) const;
+    bool read(TextNode value, std::string_view what, Rgb& out) const;
+    /// A word or a string.
+    bool read(TextNode value, std::string_view what, std::string& out) const;
+    /// Exactly `count` numbers.
+    bool read_numbers(TextNode value, std::string_view what, int count, double* out) const;
+    /// A list of any length; `out` is the node itself.
+    bool is_list(TextNode value, std::string_view what) const;
+
+    /// False, after "WHAT: expected EXPECTED, found ..." unless the value is broken.
+    bool fail(TextNode value, std::string_view what, std::string_view expected) const;
+};
+
+/// "a, b, c".
+[[nodiscard]] std::string joined(const std::vector<std::string_view>& names);
+
+/// A word and what it stands for.
+template <class T>
+using Vocabulary = std::vector<std::pair<std::string_view, T>>;
+
+/// The pairs of one block. Ask for every key that is known, then call `finish`.
+class BlockReader {
+  public:
+    enum class Strictness {
+        Strict,    ///< unknown and repeated keys are errors
+        Tolerant,  ///< they are warnings; the last of a repeated key counts
+    };
+
+    /// `what` names the block in messages: "sphere".
+    BlockReader(TextNode block, std::string what, Strictness strictness, Diagnostics& diagnostics)
+        : block_(block), what_(std::move(what)), strictness_(strictness), values_{diagnostics} {}
+
+    /// The value of `key`, if it is there and not broken.
+    [[nodiscard]] std::optional<TextNode> find(std::string_view key);
+    /// The key is written, be its value good or not.
+    [[nodiscard]] bool has(std::string_view key) const;
+
+    /// True when the key is there and its value is good.
+    template <class T>
+    bool read(std::string_view key, T& out) {
+        const std::optional<TextNode> value = find(key);
+        return value && values_.read(*value, key, out);
+    }
+    template <class T>
+    bool read_word(std::string_view key, const Vocabulary<T>& words, T& out);
+
+    /// Reports an error unless the key is written.
+    void require(std::string_view key);
+    /// Makes a key known without reading it.
+    void ignore(std::string_view key) { (void)find(key); }
+
+    /// Reports pairs that nobody asked for, and items that are no pairs unless `allow_items`.
+    void finish(bool allow_items = false);
+
+    [[nodiscard]] TextNode block() const { return block_; }
+    [[nodiscard]] const ValueReader& values() const { return values_; }
+    [[nodiscard]] const std::string& what() const { return what_; }
+    void error(TextNode where, std::string message) const;
+
+  private:
+    void complain(TextNode where, std::string message) const;
+
+    TextNode block_;
+    std::string what_;
+    Strictness strictness_;
+    ValueReader values_;
+    std::vector<std::string_view> known_;
+};
+
+template <class T>
+bool BlockReader::read_word(std::string_view key, const Vocabulary<T>& words, T& out) {
+    const std::optional<TextNode> value = find(key);
+    if (!value) return false;
+    std::vector<std::string_view> names;
+    for (const auto& [word, meaning] : words) {
+        if (value->is(NodeKind::Word) && value->text() == word) {
+            out = meaning;
+            return true;
+        }
+        names.push_back(word);
+    }
+    return values_.fail(*value, key, "one of " + joined(names));
+}
+
+}  // namespace alhazen

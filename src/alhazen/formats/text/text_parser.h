@@ -1,0 +1,84 @@
+#pragma once
+/// The parser that fills a TextTree (text_tree.h): a stack of frames instead of recursion, so that
+/// nesting costs no stack. text_parser.cpp has the grammar, text_parser_errors.cpp what happens
+/// where a text leaves it.
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "alhazen/formats/text/text_tree.h"
+
+namespace alhazen {
+
+/// One frame for every node that is still open. A pair closes after one value, an entry after its
+/// arguments, lists and blocks at their bracket.
+class TextParser {
+  public:
+    TextParser(TextTree& tree, const TextTree::Limits& limits, Diagnostics& diagnostics)
+        : nodes_(tree.nodes_),
+          unescaped_(tree.unescaped_),
+          source_(*tree.source_),
+          diagnostics_(diagnostics),
+          string_escapes_(limits.string_escapes),
+          lexer_(source_, diagnostics, limits.string_escapes),
+          max_nesting_(std::min(limits.max_nesting, TextTree::kMaxNesting)),
+          max_nodes_(std::min<std::uint64_t>(limits.max_nodes,
+                                             std::numeric_limits<std::uint32_t>::max() - 1)),
+          token_(lexer_.next()),
+          ahead_(lexer_.next()) {}
+
+    void parse();
+
+  private:
+    struct Frame {
+        std::uint32_t node;
+        NodeKind kind;
+        char closer = 0;               ///< of a list or block; 0 for the file itself
+        bool has_value = false;        ///< a value has been read
+        bool wants_separator = false;  ///< of a list
+    };
+    static constexpr int kMaxSyntaxErrors = 50;
+
+    void item();
+    void list_step();
+    void entry_step();
+    void value();
+    void word_value();
+
+    Token take();
+    std::uint32_t add(NodeKind kind, const Token& token);
+    void add_leaf(NodeKind kind);
+    void unescape(Token& token);
+    void open(NodeKind kind, char closer = 0);
+    void open_bracket();
+    void close();
+    void close_to(std::size_t depth);
+    void value_done();
+
+    void syntax_error(const std::string& expected);
+    void mark_broken();
+    void mismatched_closer();
+    void recover_in_list();
+    void recover_in_block();
+    void end_of_file();
+
+    std::vector<TextTree::Node>& nodes_;
+    std::unordered_map<std::uint32_t, std::string>& unescaped_;
+    const SourceText& source_;
+    Diagnostics& diagnostics_;
+    bool string_escapes_;
+    Lexer lexer_;
+    int max_nesting_;
+    std::uint64_t max_nodes_;
+    Token token_, ahead_;
+    std::vector<Frame> stack_;
+    int nesting_ = 0;
+    int syntax_errors_ = 0;
+    bool stopped_ = false;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,167 @@
+#include "alhazen/formats/uw_yaml/uw_yaml_assets.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "alhazen/base/file.h"
+#include "alhazen/formats/mesh_files/mesh_io.h"
+
+namespace alhazen {
+
+namespace {
+
+/// "a, b, c" of the keys, in order, for messages.
+template <class Map>
+std::string names_of(const Map& map) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : map) names.push_back(name);
+    std::sort(names.begin(), names.end());
+    std::string text;
+    for (std::size_t i = 0; i < names.size() && i < 20; ++i) {
+        text += (i == 0 ? "" : ", ") + names[i].substr(0, 60);
+    }
+    return names.empty() ? "none is defined" : "expected one of " + text;
+}
+
+}  // namespace
+
+std::filesystem::path find_course_root(const std::filesystem::path& scene_folder) {
+    std::error_code ignored;
+    for (std::filesystem::path folder = scene_folder;; folder = folder.parent_path()) {
+        if (std::filesystem::is_directory(folder / "assets", ignored)) return folder;
+        if (folder == folder.parent_path()) return scene_folder;
+    }
+}
+
+UwAssets::UwAssets(const YAML::Node& document, const ImportSource& source, SceneDescription& scene,
+                   Diagnostics& diagnostics)
+    : values_(source.path.string(), diagnostics),
+      source_(source),
+      scene_(scene),
+      diagnostics_(diagnostics),
+      root_(find_course_root(folder_of(source.path))),
+      texture_files_(scene, diagnostics, scene_roots(source.options, root_),
+                     source.options.image_limits),
+      materials_(table_of(YamlValues::find(document, "Materials"))),
+      textures_(table_of(YamlValues::find(document, "Textures"))),
+      meshes_(table_of(YamlValues::find(document, "Meshes"))),
+      shaders_(table_of(YamlValues::find(document, "ShaderPrograms"))) {}
+
+UwAssets::Table UwAssets::table_of(const YAML::Node& map) {
+    Table table;
+    if (!map.IsDefined() || !map.IsMap()) return table;
+    for (const auto& entry : map) {
+        if (entry.first.IsScalar()) table.emplace(entry.first.Scalar(), entry.second);
+    }
+    return table;
+}
+
+MaterialId UwAssets::material(const YAML::Node& component) {
+    const std::string name = values_.text(component, "Material");
+    if (const auto made = made_materials_.find(name); made != made_materials_.end()) {
+        return made->second;
+    }
+    const auto found = materials_.find(name);
+    MaterialId id{std::uint32_t(scene_.materials.size())};
+    if (found != materials_.end()) {
+        id = make_material(name, found->second);
+    } else {
+        if (name.empty()) {
+            values_.warning(component, "no material is named; it is grey");
+        } else {
+            values_.error(component, "unknown material '" + name + "'; " + names_of(materials_));
+        }
+        Material grey;
+        grey.name = "grey";
+        grey.diffuse.color = grey.ambient.color = {0.5, 0.5, 0.5};
+        scene_.materials.push_back({grey, values_.location(component)});
+    }
+    made_materials_.emplace(name, id);
+    return id;
+}
+
+MaterialId UwAssets::make_material(const std::string& name, const YAML::Node& node) {
+    const std::string shader = values_.text(node, "Shader");
+    const auto program = shaders_.find(shader);
+    if (program != shaders_.end() && !values_.flag(program->second, "Trace Compatible", true)) {
+        values_.warning(node, "the material '" + name + "' has the shader '" + shader +
+                                  "', which is not made for tracing");
+    }
+    const YAML::Node uniforms = YamlValues::find(node, "Uniforms");
+    Material m;
+    m.name = name;
+    m.emission = color_input(uniforms, "Emissive");
+    m.diffuse = color_input(
+        uniforms, YamlValues::find(uniforms, "Diffuse").IsDefined() ? "Diffuse" : "DiffuseMap");
+    m.ambient = m.diffuse;
+    m.specular = color_input(uniforms, "Specular");
+    m.reflective = m.specular;
+    m.transmissive = color_input(uniforms, "Transmittence");  // spelt so
+    m.shininess.value = values_.number(uniforms, "Shininess", 0.0);
+    m.index.value = values_.number(uniforms, "IndexOfRefraction", 1.0);
+    const MaterialId id{std::uint32_t(scene_.materials.size())};
+    scene_.materials.push_back({std::move(m), values_.location(node)});
+    return id;
+}
+
+ColorInput UwAssets::color_input(const YAML::Node& uniforms, const char* name) {
+    const YAML::Node uniform = YamlValues::find(uniforms, name);
+    ColorInput input;
+    if (!uniform.IsDefined()) return input;
+    if (values_.flag(uniform, "Use Texture", false)) {
+        const std::string map = values_.text(uniform, "Color Map");
+        if (map.empty()) {
+            values_.warning(uniform, std::string("'") + name + "' uses a texture but names none");
+        } else if (const std::optional<TextureId> id = texture(map, uniform)) {
+            // The map stands in for the colour, it is not multiplied by it.
+            return {{1, 1, 1}, *id};
+        }
+    }
+    input.color = values_.color(uniform, "Color");
+    return input;
+}
+
+std::optional<TextureId> UwAssets::texture(const std::string& name, const YAML::Node& user) {
+    if (const auto made = made_textures_.find(name); made != made_textures_.end()) {
+        return made->second;
+    }
+    std::optional<TextureId> id;
+    if (const auto found = textures_.find(name); found != textures_.end()) {
+        Texture settings;
+        settings.filter = values_.flag(found->second, "Bilinear", true) ? TextureFilter::Bilinear
+                                                                        : TextureFilter::Nearest;
+        id = texture_files_.load(values_.text(found->second, "Path"), root_, settings, name,
+                                 values_.location(found->second));
+    } else {
+        values_.error(user, "unknown texture '" + name + "'; " + names_of(textures_));
+    }
+    made_textures_.emplace(name, id);
+    return id;
+}
+
+std::optional<MeshIndex> UwAssets::mesh(const std::string& name, const YAML::Node& component) {
+    if (const auto made = made_meshes_.find(name); made != made_meshes_.end()) return made->second;
+    std::optional<MeshIndex>& id = made_meshes_[name];
+    const auto found = meshes_.find(name);
+    if (found == meshes_.end()) {
+        values_.error(component, "unknown mesh '" + name + "'; " + names_of(meshes_));
+        return id;
+    }
+    const std::size_t errors_before = diagnostics_.error_count();
+    TriangleMesh mesh;
+    try {
+        const std::filesystem::path file = resolve_inside(
+            scene_roots(source_.options, root_), root_, values_.text(found->second, "Path"));
+        mesh = read_mesh(file, source_.options, diagnostics_);
+    } catch (const Error& e) {
+        if (e.kind() == ErrorKind::Resource) throw;
+        values_.error(found->second, "the mesh '" + name + "' cannot be read: " + e.what());
+    }
+    if (diagnostics_.error_count() != errors_before) return id;
+    id = MeshIndex(scene_.meshes.size());
+    scene_.meshes.push_back(
+        {name, std::make_shared<TriangleMesh>(std::move(mesh)), values_.location(found->second)});
+    return id;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,55 @@
+#pragma once
+/// Materials, textures and meshes of a course scene, read when a component first names them: the
+/// scenes list more than they use, and not all of it comes with them.
+///
+/// Source: the scenes of UW CSE 457, 2020 (docs/formats/uw_yaml.md).
+/// Differs: nothing.
+/// Conventions: paths are relative to the folder that holds the course's `assets`.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <unordered_map>
+
+#include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/pictures/texture_table.h"
+#include "alhazen/formats/uw_yaml/uw_yaml_document.h"
+
+namespace alhazen {
+
+/// The nearest folder above `scene_folder` (itself included) with a folder `assets`; `scene_folder`
+/// when there is none.
+[[nodiscard]] std::filesystem::path find_course_root(const std::filesystem::path& scene_folder);
+
+class UwAssets {
+  public:
+    UwAssets(const YAML::Node& document, const ImportSource& source, SceneDescription& scene,
+             Diagnostics& diagnostics);
+
+    /// The material that `component` names; a grey one (reported) when it cannot be had.
+    MaterialId material(const YAML::Node& component);
+    /// The mesh of that name, read from its file. Reports and returns nothing when it cannot be
+    /// had.
+    std::optional<MeshIndex> mesh(const std::string& name, const YAML::Node& component);
+    [[nodiscard]] bool has_mesh(const std::string& name) const { return meshes_.contains(name); }
+
+  private:
+    using Table = std::unordered_map<std::string, YAML::Node>;
+    static Table table_of(const YAML::Node& map);
+    MaterialId make_material(const std::string& name, const YAML::Node& node);
+    ColorInput color_input(const YAML::Node& uniforms, const char* name);
+    std::optional<TextureId> texture(const std::string& name, const YAML::Node& user);
+
+    YamlValues values_;
+    const ImportSource& source_;
+    SceneDescription& scene_;
+    Diagnostics& diagnostics_;
+    std::filesystem::path root_;
+    TextureTable texture_files_;
+    Table materials_, textures_, meshes_, shaders_;
+    std::unordered_map<std::string, MaterialId> made_materials_;
+    std::unordered_map<std::string, std::optional<TextureId>> made_textures_;
+    std::unordered_map<std::string, std::optional<MeshIndex>> made_meshes_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,153 @@
+#include "alhazen/formats/uw_yaml/uw_yaml_document.h"
+
+#include "alhazen/formats/text/text_cursor.h"
+
+#include <yaml-cpp/depthguard.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace alhazen {
+
+namespace {
+
+FileLocation place(const std::string& file, const YAML::Mark& mark) {
+    return mark.is_null() ? FileLocation{file, 0, 0}
+                          : FileLocation{file, mark.line + 1, mark.column + 1};
+}
+
+/// Follows the nesting of a text from line to line, before the parser, which recurses, sees it. The
+/// parser has a guard of its own, so a quote or bracket that this misreads does no harm.
+class NestingScan {
+  public:
+    /// The nesting at the deepest place of the line, seen after all lines before.
+    std::size_t depth_of(std::string_view line) {
+        const std::size_t indent = line.find_first_not_of(" \t\r");
+        if (indent == std::string_view::npos || line[indent] == '#') return 0;
+        std::size_t at = indent;
+        if (flow_ == 0) {
+            for (;; at = line.find_first_not_of(' ', at + 1)) {
+                if (at == std::string_view::npos) return columns_.size();
+                while (!columns_.empty() && columns_.back() >= at) columns_.pop_back();
+                columns_.push_back(at);
+                const bool indicator = line[at] == '-' || line[at] == '?' || line[at] == ':';
+                if (!indicator || (at + 1 < line.size() && line[at + 1] != ' ')) break;
+            }
+        }
+        std::size_t deepest = flow_;
+        for (; at < line.size(); ++at) {
+            if (line[at] == '[' || line[at] == '{') deepest = std::max(deepest, ++flow_);
+            if ((line[at] == ']' || line[at] == '}') && flow_ > 0) --flow_;
+        }
+        return columns_.size() + deepest;
+    }
+
+  private:
+    std::vector<std::size_t> columns_;
+    std::size_t flow_ = 0;
+};
+
+void check_nesting(std::string_view bytes, const std::string& file, int max_nesting) {
+    NestingScan scan;
+    int line = 1;
+    for (std::size_t at = 0; at < bytes.size(); ++line) {
+        const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+        if (scan.depth_of(bytes.substr(at, end - at)) > std::size_t(max_nesting)) {
+            throw Error(ErrorKind::Scene,
+                        "nested more than " + std::to_string(max_nesting) + " deep",
+                        {file, line, 0});
+        }
+        at = end + 1;
+    }
+}
+
+}  // namespace
+
+std::optional<YAML::Node> parse_yaml(std::string_view bytes, const std::string& file,
+                                     int max_nesting, Diagnostics& diagnostics) {
+    if (bytes.size() > kMaxYamlBytes) {
+        throw Error(ErrorKind::Resource,
+                    "YAML text of more than " + std::to_string(kMaxYamlBytes >> 20) + " MiB",
+                    {file, 0, 0});
+    }
+    check_nesting(bytes, file, max_nesting);
+    try {
+        return YAML::Load(std::string(bytes));
+    } catch (const YAML::DeepRecursion& e) {
+        throw Error(ErrorKind::Scene, "nested more than " + std::to_string(max_nesting) + " deep",
+                    place(file, e.mark));
+    } catch (const YAML::Exception& e) {
+        diagnostics.error(place(file, e.mark), "not valid YAML: " + e.msg);
+        return std::nullopt;
+    }
+}
+
+FileLocation YamlValues::location(const YAML::Node& node) const {
+    return node.IsDefined() ? place(file_, node.Mark()) : FileLocation{file_, 0, 0};
+}
+void YamlValues::error(const YAML::Node& node, const std::string& message) {
+    diagnostics_.error(location(node), message);
+}
+void YamlValues::warning(const YAML::Node& node, const std::string& message) {
+    diagnostics_.warning(location(node), message);
+}
+
+YAML::Node YamlValues::find(const YAML::Node& map, const char* key) {
+    if (!map.IsDefined() || !map.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+    // By hand: the operator of yaml-cpp would convert every key.
+    for (const auto& entry : map) {
+        if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
+    }
+    return YAML::Node(YAML::NodeType::Undefined);
+}
+
+double YamlValues::number(const YAML::Node& map, const char* key, double missing) {
+    const YAML::Node node = find(map, key);
+    if (!node.IsDefined()) return missing;
+    double value = 0.0;
+    if (node.IsScalar()) {
+        TextCursor cursor(node.Scalar());
+        if (cursor.number(value) && cursor.at_end()) return value;
+    }
+    error(node, std::string("'") + key + "' must be a finite number");
+    return missing;
+}
+
+bool YamlValues::flag(const YAML::Node& map, const char* key, bool missing) {
+    static constexpr std::array<std::string_view, 5> kTrue{"true", "True", "TRUE", "yes", "on"};
+    static constexpr std::array<std::string_view, 5> kFalse{"false", "False", "FALSE", "no", "off"};
+    const YAML::Node node = find(map, key);
+    if (!node.IsDefined()) return missing;
+    const std::string text = node.IsScalar() ? node.Scalar() : std::string();
+    if (std::find(kTrue.begin(), kTrue.end(), text) != kTrue.end()) return true;
+    if (std::find(kFalse.begin(), kFalse.end(), text) != kFalse.end()) return false;
+    error(node, std::string("'") + key + "' must be true or false");
+    return missing;
+}
+
+std::string YamlValues::text(const YAML::Node& map, const char* key) {
+    const YAML::Node node = find(map, key);
+    if (!node.IsDefined() || node.IsNull()) return {};
+    if (node.IsScalar()) return node.Scalar();
+    error(node, std::string("'") + key + "' must be a text");
+    return {};
+}
+
+Vec3 YamlValues::vector(const YAML::Node& map, const char* key, double missing) {
+    const YAML::Node node = find(map, key);
+    if (node.IsDefined() && !node.IsMap()) {
+        error(node, std::string("'") + key + "' must have X, Y and Z");
+    }
+    return {number(node, "X", missing), number(node, "Y", missing), number(node, "Z", missing)};
+}
+
+Rgb YamlValues::color(const YAML::Node& map, const char* key) {
+    const YAML::Node node = find(map, key);
+    if (node.IsDefined() && !node.IsMap()) {
+        error(node, std::string("'") + key + "' must have R, G and B");
+    }
+    return {number(node, "R", 0.0), number(node, "G", 0.0), number(node, "B", 0.0)};
+}
+
+}  // namespace alhazen

@@ -1,0 +1,61 @@
+#include "alhazen/formats/uw_yaml/uw_yaml_importer.h"
+
+#include "alhazen/formats/uw_yaml/uw_yaml_scene.h"
+
+namespace alhazen {
+
+namespace {
+
+/// What the course's own pictures were found to mean.
+ShadingConventions uw_conventions() {
+    ShadingConventions c;
+    c.highlight = ShadingConventions::Highlight::BlinnPhong;
+    c.shadow_tint = ShadingConventions::ShadowTint::PerCrossing;
+    c.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
+    c.ambient_factor = ShadingConventions::AmbientFactor::Diffuse;
+    c.ambient_inside_times_kt = false;
+    c.clamp_attenuation = true;
+    c.truncate_material_colors = true;
+    c.transmitting_surfaces_reflect = false;
+    c.air_index = 1.0003;
+    c.pixel_sample = ShadingConventions::PixelSample::Center;
+    c.headlight = false;
+    c.linear_output = true;
+    return c;
+}
+
+/// The text has a line that starts with `key`.
+bool has_key(std::string_view text, std::string_view key) {
+    for (std::size_t at = text.find(key); at != std::string_view::npos;
+         at = text.find(key, at + 1)) {
+        if (at == 0 || text[at - 1] == '\n') return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+const char* UwYamlImporter::description() const {
+    return "YAML scenes of the UW CSE 457 Trace project (2020)";
+}
+
+int UwYamlImporter::recognise(const ImportSource& source) const {
+    const std::string_view text = source.bytes.substr(0, kMaxYamlBytes);
+    if (has_key(text, "Root:") && has_key(text, "Materials:")) return 2;
+    const std::string suffix = source.path.extension().string();
+    return suffix == ".yaml" || suffix == ".yml" ? 1 : 0;
+}
+
+SceneDescription UwYamlImporter::import(const ImportSource& source,
+                                        Diagnostics& diagnostics) const {
+    SceneDescription scene;
+    scene.format = name();
+    scene.path = source.path;
+    scene.conventions = uw_conventions();
+    const std::optional<YAML::Node> document =
+        parse_yaml(source.bytes, source.path.string(), source.options.max_nesting, diagnostics);
+    if (document) UwSceneReader(*document, source, scene, diagnostics).read();
+    return scene;
+}
+
+}  // namespace alhazen

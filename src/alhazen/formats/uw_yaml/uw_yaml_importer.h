@@ -1,0 +1,16 @@
+#pragma once
+
+#include "alhazen/formats/core/importer.h"
+
+namespace alhazen {
+
+class UwYamlImporter final : public Importer {
+  public:
+    [[nodiscard]] const char* name() const override { return "uw_yaml"; }
+    [[nodiscard]] const char* description() const override;
+    [[nodiscard]] int recognise(const ImportSource& source) const override;
+    [[nodiscard]] SceneDescription import(const ImportSource& source,
+                                          Diagnostics& diagnostics) const override;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,128 @@
+#include "alhazen/geometry/polygon/ear_clipper.h"
+
+#include <algorithm>
+
+#include "alhazen/math/orientation.h"
+
+namespace alhazen {
+
+EarClipper::EarClipper(const std::vector<Vec2>& flat)
+    : flat_(flat),
+      corners_(flat.size()),
+      ears_(flat.size()),
+      straight_(flat.size()),
+      convex_(flat.size()),
+      left_(flat.size()) {
+    const std::size_t n = flat.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        corners_[i].previous = std::uint32_t(i == 0 ? n - 1 : i - 1);
+        corners_[i].next = std::uint32_t(i + 1 == n ? 0 : i + 1);
+    }
+    triangles_.reserve(n - 2);
+    renew_at_ = n;
+}
+
+std::vector<std::array<std::uint32_t, 3>> EarClipper::clip() {
+    merge_repeated();
+    rebuild();
+    renew_ears();
+    std::uint32_t at = 0;
+    while (corners_[at].gone) ++at;
+    while (left_ > 2) {
+        at = next_corner(at);
+        cut(at);
+        at = corners_[at].next;  // going on around keeps triangles from gathering at one vertex
+        while (corners_[at].gone) at = corners_[at].next;
+        if (left_ <= rebuild_at_) rebuild();
+    }
+    return std::move(triangles_);
+}
+
+/// Vertices that repeat the one before them have no angle: they go first.
+void EarClipper::merge_repeated() {
+    for (std::uint32_t i = 0; i < corners_.size() && left_ > 2; ++i) {
+        if (flat_[i] == flat_[corners_[i].next]) emit(i);
+    }
+}
+
+/// A tree of the vertices that are left: half of those of the last one at most.
+void EarClipper::rebuild() {
+    std::vector<std::uint32_t> ids;
+    ids.reserve(left_);
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+        if (!corners_[i].gone) ids.push_back(i);
+    }
+    if (reflex_) spent_ += reflex_->tests();
+    reflex_.emplace(flat_, ids);
+    for (const std::uint32_t i : ids) classify(i);
+    rebuild_at_ = left_ / 2;
+}
+
+void EarClipper::renew_ears() {
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+        if (!corners_[i].gone) update_ear(i);
+    }
+    renew_at_ = left_ - left_ / 8;
+}
+
+void EarClipper::classify(std::uint32_t i) {
+    const Corner& corner = corners_[i];
+    const int turn = orientation(flat_[corner.previous], flat_[i], flat_[corner.next]);
+    straight_.assign(i, turn == 0);
+    convex_.assign(i, turn >= 0);
+    reflex_->activate(i, turn < 0);
+}
+
+/// A corner that does not turn right is an ear when no reflex vertex is in its triangle.
+void EarClipper::update_ear(std::uint32_t i) {
+    const Corner& corner = corners_[i];
+    bool ear = convex_.contains(i);
+    const std::uint64_t most = std::max(kMostTests, kTestsPerVertex * flat_.size());
+    if (ear && spent_ + reflex_->tests() < most) {
+        ear = !reflex_->any_in(flat_[corner.previous], flat_[i], flat_[corner.next]);
+    }
+    ears_.assign(i, ear);
+}
+
+/// The first ear from `from` on around.
+std::uint32_t EarClipper::next_corner(std::uint32_t from) {
+    std::optional<std::uint32_t> found = ears_.next_around(from);
+    if (!found && left_ <= renew_at_) {
+        // Where the polygon touches itself, cutting may also have freed other corners than the two
+        // neighbours. Not more often than when an eighth is gone: O(n) looks altogether.
+        renew_ears();
+        found = ears_.next_around(from);
+    }
+    if (!found) found = straight_.next_around(from);
+    if (!found) found = convex_.next_around(from);
+    return found.value_or(from);
+}
+
+/// Makes the triangle of a corner and takes it out of the loop.
+void EarClipper::emit(std::uint32_t at) {
+    Corner& corner = corners_[at];
+    triangles_.push_back({corner.previous, at, corner.next});
+    corner.gone = true;
+    corners_[corner.previous].next = corner.next;
+    corners_[corner.next].previous = corner.previous;
+    --left_;
+    for (OrderedBits* bits : {&ears_, &straight_, &convex_}) bits->assign(at, false);
+    if (reflex_) reflex_->activate(at, false);
+}
+
+void EarClipper::cut(std::uint32_t at) {
+    emit(at);
+    const std::uint32_t next = corners_[at].next;
+    std::uint32_t previous = corners_[at].previous;
+    while (left_ > 2 && flat_[previous] == flat_[next]) {
+        emit(previous);
+        previous = corners_[previous].previous;
+    }
+    if (left_ <= 2) return;
+    classify(previous);
+    classify(next);
+    update_ear(previous);
+    update_ear(next);
+}
+
+}  // namespace alhazen

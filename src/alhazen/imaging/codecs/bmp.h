@@ -1,0 +1,22 @@
+#pragma once
+/// Windows and OS/2 bitmaps, reading only.
+///
+/// Source: Microsoft, "Bitmap Storage" (BITMAPCOREHEADER to BITMAPV5HEADER).
+/// Differs: run-length coded bitmaps and those that embed a JPEG or PNG are refused.
+/// Conventions: 1, 4 and 8-bit palettes, 16, 24 and 32 bit, bottom row or top row first. Samples
+/// are code / max. The fourth byte of a pixel is alpha only where a mask says so. A palette index
+/// beyond the palette is an error.
+
+#include <string>
+#include <string_view>
+
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/imaging/codecs/stored_image.h"
+
+namespace alhazen {
+
+/// Throws Error: Scene when malformed or not supported, Resource beyond the limits.
+[[nodiscard]] StoredImage decode_bmp(std::string_view bytes, const std::string& name,
+                                     const ImageLimits& limits);
+
+}  // namespace alhazen

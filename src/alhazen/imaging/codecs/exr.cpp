@@ -1,0 +1,225 @@
+#include "alhazen/imaging/codecs/exr.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <new>
+
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+
+#include "alhazen/imaging/codecs/exr_header.h"
+#include "alhazen/imaging/codecs/exr_memory.h"
+#include "alhazen/imaging/codecs/image_size.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The checked header in front of the rest of the file.
+class MemoryInput final : public Imf::IStream {
+  public:
+    MemoryInput(const std::string& header, std::string_view bytes, const std::string& name)
+        : Imf::IStream(name.c_str()), header_(header), bytes_(bytes) {}
+
+    bool read(char target[], int count) override {
+        if (count < 0 || std::uint64_t(count) > bytes_.size() - position_) {
+            throw std::runtime_error("the data end too early");
+        }
+        const auto end = position_ + std::size_t(count);
+        const std::size_t from_header =
+            std::min(end, header_.size()) - std::min(position_, header_.size());
+        std::memcpy(target, header_.data() + std::min(position_, header_.size()), from_header);
+        std::memcpy(target + from_header, bytes_.data() + position_ + from_header,
+                    std::size_t(count) - from_header);
+        position_ = end;
+        return position_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override {
+        if (position > bytes_.size()) throw std::runtime_error("the data end too early");
+        position_ = std::size_t(position);
+    }
+
+  private:
+    const std::string& header_;
+    std::string_view bytes_;
+    std::size_t position_ = 0;
+};
+
+std::vector<std::string> channel_names(const Imf::ChannelList& list, const std::string& name) {
+    std::vector<std::string> names;
+    for (auto it = list.begin(); it != list.end(); ++it) {
+        names.emplace_back(it.name());
+    }
+    const auto has = [&](const char* channel) { return list.findChannel(channel) != nullptr; };
+    std::vector<std::string> wanted;
+    if (has("R") || has("G") || has("B")) {
+        wanted = {"R", "G", "B"};
+    } else if (has("RY") || has("BY")) {
+        bad_image(name, "EXR pictures of luminance and chroma are not supported");
+    } else if (has("Y")) {
+        wanted = {"Y"};
+    } else if (names.size() == 1) {
+        return names;
+    } else {
+        std::string found;
+        for (const std::string& channel : names) found += " " + channel;
+        if (found.size() > 200) found = found.substr(0, 200) + "...";
+        bad_image(name,
+                  "expected an EXR with the channels R G B, or Y, or only one, found" + found);
+    }
+    if (has("A")) wanted.emplace_back("A");
+    return wanted;
+}
+
+int band_rows(int height) {
+    return std::min(height, 64);
+}
+
+/// Rows are decoded in bands, so that a file that ends early costs no more than what it holds.
+void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, Image& image) {
+    const Imath::Box2i window = file.header().dataWindow();
+    const std::size_t row_samples = std::size_t(image.width) * channels.size();
+    std::vector<float> band(row_samples * std::size_t(band_rows(image.height)));
+    for (int y = window.min.y; y <= window.max.y; y += band_rows(image.height)) {
+        const int last = std::min(y + band_rows(image.height) - 1, window.max.y);
+        const Imath::Box2i place(Imath::V2i(window.min.x, y), Imath::V2i(window.max.x, last));
+        Imf::FrameBuffer frame;
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            frame.insert(channels[i], Imf::Slice::Make(Imf::FLOAT, band.data() + i, place,
+                                                       sizeof(float) * channels.size(),
+                                                       sizeof(float) * row_samples));
+        }
+        file.setFrameBuffer(frame);
+        file.readPixels(y, last);
+        const std::size_t count = row_samples * std::size_t(last - y + 1);
+        image.samples.insert(image.samples.end(), band.begin(),
+                             band.begin() + std::ptrdiff_t(count));
+    }
+}
+
+Image read_exr(const ExrHeader& header, std::string_view bytes, const std::string& name,
+               const ImageLimits& limits) {
+    MemoryInput stream(header.bytes, bytes, name);
+    Imf::InputFile file(stream, 0);
+    const Imath::Box2i window = file.header().dataWindow();
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    check_image_size(width, height, limits, name);
+    const std::vector<std::string> channels = channel_names(file.header().channels(), name);
+    for (const std::string& channel : channels) {
+        const Imf::Channel* found = file.header().channels().findChannel(channel);
+        if (found == nullptr) continue;
+        if (found->xSampling != 1 || found->ySampling != 1) {
+            bad_image(name, "EXR pictures with subsampled channels are not supported");
+        }
+        if (found->type == Imf::UINT) {
+            bad_image(name,
+                      "the EXR channel " + channel + " holds integers, expected half or float");
+        }
+    }
+    // The decoder's buffers were checked with the header, but they are there at the same time.
+    const std::uint64_t all =
+        sample_bytes(width, height, channels.size(), sizeof(float)) + header.decoder_bytes +
+        sample_bytes(width, band_rows(int(height)), channels.size(), sizeof(float));
+    check_image_memory(all, limits, name);
+    Image image = reserved_image(int(width), int(height), int(channels.size()), true, limits, name);
+    read_bands(file, channels, image);
+    return image;
+}
+
+// ---- writing
+
+Imf::Header header_of(const Image& image, const ImageWriteOptions& options) {
+    const bool crop = options.full_width > 0 || options.full_height > 0;
+    const int x0 = crop ? options.crop_x0 : 0, y0 = crop ? options.crop_y0 : 0;
+    const int full_width = crop ? options.full_width : image.width;
+    const int full_height = crop ? options.full_height : image.height;
+    if (x0 < 0 || y0 < 0 || x0 > full_width - image.width || y0 > full_height - image.height) {
+        throw Error(ErrorKind::Usage, "cannot write an EXR: the crop leaves the full frame");
+    }
+    const Imath::Box2i display(Imath::V2i(0, 0), Imath::V2i(full_width - 1, full_height - 1));
+    const Imath::Box2i data(Imath::V2i(x0, y0),
+                            Imath::V2i(x0 + image.width - 1, y0 + image.height - 1));
+    Imf::Header header(display, data);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const auto& [key, value] : options.metadata) {
+        if (key.empty() || key.size() > 255 || key.find('\0') != std::string::npos) {
+            throw Error(ErrorKind::Usage, "cannot write the metadata key \"" + key + "\"");
+        }
+        header.insert(key, Imf::StringAttribute(value));
+    }
+    return header;
+}
+
+template <class Sample>
+void write_exr(ExrMemoryOutput& stream, const Image& image, Imf::Header header) {
+    constexpr auto kType = std::is_same_v<Sample, float> ? Imf::FLOAT : Imf::HALF;
+    static const std::array<std::vector<const char*>, 5> kNames{
+        {{}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
+    const auto channels = std::size_t(image.channels);
+    std::vector<Sample> halves;
+    const Sample* samples = nullptr;
+    if constexpr (std::is_same_v<Sample, float>) {
+        samples = image.samples.data();
+    } else {
+        halves.assign(image.samples.begin(), image.samples.end());
+        samples = halves.data();
+    }
+    Imf::FrameBuffer frame;
+    for (std::size_t i = 0; i < channels; ++i) {
+        const char* name = kNames[channels][i];
+        header.channels().insert(name, Imf::Channel(kType));
+        frame.insert(name, Imf::Slice::Make(kType, samples + i, header.dataWindow(),
+                                            sizeof(Sample) * channels,
+                                            sizeof(Sample) * channels * std::size_t(image.width)));
+    }
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+}
+
+}  // namespace
+
+Image decode_exr(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
+    const ExrHeader header = checked_exr_header(bytes, name, limits);
+    try {
+        return read_exr(header, bytes, name, limits);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        bad_image(name, std::string("damaged EXR: ") + error.what());
+    }
+}
+
+std::vector<std::byte> encode_exr(const Image& image, const ImageWriteOptions& options) {
+    ExrMemoryOutput stream;
+    try {
+        const Imf::Header header = header_of(image, options);
+        // Room that is not used costs nothing, and growing would need twice of it.
+        stream.reserve(image.samples.size() * (options.full_float ? 4 : 2) + (1 << 20));
+        if (options.full_float) {
+            write_exr<float>(stream, image, header);
+        } else {
+            write_exr<Imath::half>(stream, image, header);
+        }
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::Usage, std::string("cannot write an EXR: ") + error.what());
+    }
+    return stream.take();
+}
+
+}  // namespace alhazen

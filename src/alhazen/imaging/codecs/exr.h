@@ -1,0 +1,29 @@
+#pragma once
+/// OpenEXR, half and float, by the OpenEXR library.
+///
+/// Source: F. Kainz, R. Bogart, "Technical Introduction to OpenEXR", 2009.
+/// Differs: flat pictures only; the first part of a multi-part file; R, G, B (A), or Y (A), or a
+/// single channel of any name. Luminance with chroma and subsampled channels are refused.
+/// Conventions: the picture is the data window. A missing one of R, G, B is 0. Written files are
+/// ZIP-compressed scan lines, and the same picture gives the same bytes.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/imaging/codecs/image_io.h"
+
+namespace alhazen {
+
+/// Throws Error: Scene when malformed or not supported, Resource beyond the limits.
+[[nodiscard]] Image decode_exr(std::string_view bytes, const std::string& name,
+                               const ImageLimits& limits);
+
+/// `image` has valid sizes. Values beyond half's range become infinite unless `full_float`. Throws
+/// Error (Usage) when the crop does not lie in the full frame or a metadata key is empty or longer
+/// than 255.
+[[nodiscard]] std::vector<std::byte> encode_exr(const Image& image,
+                                                const ImageWriteOptions& options);
+
+}  // namespace alhazen

@@ -1,0 +1,203 @@
+#include "alhazen/imaging/codecs/exr_header.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "alhazen/imaging/codecs/byte_reader.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::uint32_t kTiledFlag = 0x200, kLongNamesFlag = 0x400, kDeepFlag = 0x800,
+                        kMultiPartFlag = 0x1000;
+constexpr std::uint32_t kKnownFlags = kTiledFlag | kLongNamesFlag | kDeepFlag | kMultiPartFlag;
+constexpr std::size_t kMaxName = 255;
+constexpr int kMaxParts = 1000;
+constexpr int kMaxAttributes = 10'000;
+constexpr std::uint32_t kMaxTileSide = 4096;
+/// Width times channels: the library decodes up to 256 rows at a time, of 4 bytes a sample.
+/// Bounds the products in `decoder_bytes`, too: 2^12 * 2^12 * 2^18 * 2^4 < 2^63.
+constexpr std::uint64_t kMaxRowSamples = std::uint64_t{1} << 18;
+
+struct PartHeader {
+    std::int64_t width = 0, height = 0;
+    std::uint64_t channels = 0;
+    bool has_window = false;
+    std::uint8_t compression = 0;
+    std::uint64_t tile_width = 0, tile_height = 0;  ///< 0: rows
+};
+
+/// Rows that are packed together, by the number of the compression.
+std::uint64_t rows_together(std::uint8_t compression) {
+    constexpr std::array<std::uint8_t, 9> kRows{1, 1, 1, 16, 32, 16, 32, 32, 32};
+    return compression < kRows.size() ? kRows[compression] : 256;
+}
+
+/// Precondition: width times channels is at most kMaxRowSamples.
+std::uint64_t decoder_bytes(const PartHeader& part) {
+    constexpr std::uint64_t kSampleBytes = 4, kCopies = 4;
+    const auto width = std::uint64_t(part.width), height = std::uint64_t(part.height);
+    if (part.tile_width == 0) {
+        const std::uint64_t rows = std::min(rows_together(part.compression), height);
+        return width * part.channels * rows * kSampleBytes * kCopies;
+    }
+    const std::uint64_t kept = std::min<std::uint64_t>(part.channels, 4);
+    return part.tile_width * part.tile_height * part.channels * kSampleBytes * kCopies +
+           width * part.tile_height * kept * kSampleBytes;
+}
+
+std::uint64_t count_channels(ByteReader list) {
+    std::uint64_t count = 0;
+    while (!list.until('\0', kMaxName).empty()) {
+        (void)list.take(16);  // pixel type, pLinear, reserved, xSampling, ySampling
+        ++count;
+    }
+    if (list.left() != 0) bad_image(list.name(), "damaged EXR: the list of channels is too long");
+    return count;
+}
+
+void read_window(ByteReader value, PartHeader& part) {
+    const std::int64_t x0 = value.i32_little(), y0 = value.i32_little();
+    const std::int64_t x1 = value.i32_little(), y1 = value.i32_little();
+    // The library computes with the corners in int.
+    constexpr std::int64_t kFar = std::int64_t{1} << 29;
+    if (x0 < -kFar || y0 < -kFar || x1 > kFar || y1 > kFar) {
+        bad_image(value.name(), "damaged EXR: the data window is out of range");
+    }
+    part.width = x1 - x0 + 1;
+    part.height = y1 - y0 + 1;
+    part.has_window = true;
+}
+
+void read_tiles(ByteReader value, PartHeader& part) {
+    const std::uint32_t width = value.u32_little(), height = value.u32_little();
+    if (width < 1 || height < 1 || width > kMaxTileSide || height > kMaxTileSide) {
+        bad_image(value.name(), "EXR tiles of " + std::to_string(width) + " x " +
+                                    std::to_string(height) + " pixels, expected sides of 1 to " +
+                                    std::to_string(kMaxTileSide));
+    }
+    part.tile_width = width;
+    part.tile_height = height;
+}
+
+/// The attributes that the library needs, and the bytes of their values (0: any).
+struct Needed {
+    std::string_view name, type;
+    std::uint32_t bytes;
+};
+constexpr std::array<Needed, 13> kNeeded{{{"channels", "chlist", 0},
+                                          {"chunkCount", "int", 4},
+                                          {"compression", "compression", 1},
+                                          {"dataWindow", "box2i", 16},
+                                          {"displayWindow", "box2i", 16},
+                                          {"lineOrder", "lineOrder", 1},
+                                          {"name", "string", 0},
+                                          {"pixelAspectRatio", "float", 4},
+                                          {"screenWindowCenter", "v2f", 8},
+                                          {"screenWindowWidth", "float", 4},
+                                          {"tiles", "tiledesc", 9},
+                                          {"type", "string", 0},
+                                          {"version", "int", 4}}};
+
+/// The library reads a value by its type and believes the type more than the size that is written
+/// beside it.
+bool is_needed(std::string_view attribute, std::string_view type, std::uint32_t size,
+               const std::string& name) {
+    for (const Needed& needed : kNeeded) {
+        if (attribute != needed.name) continue;
+        if (type != needed.type || (needed.bytes != 0 && size != needed.bytes)) {
+            bad_image(name, "damaged EXR: the attribute " + std::string(attribute) +
+                                " has a wrong type or size");
+        }
+        return true;
+    }
+    return false;
+}
+
+void read_value(std::string_view attribute, ByteReader value, PartHeader& part) {
+    if (attribute == "dataWindow") {
+        read_window(value, part);
+    } else if (attribute == "channels") {
+        part.channels = count_channels(value);
+    } else if (attribute == "tiles") {
+        read_tiles(value, part);
+    } else if (attribute == "compression") {
+        part.compression = value.u8();
+    } else if (attribute == "type" && value.take(value.left()).starts_with("deep")) {
+        bad_image(value.name(), "deep EXR pictures are not supported");
+    }
+}
+
+/// Reads one attribute and, in the copy, gives those that are not needed a type that no library
+/// knows.
+void read_attribute(std::string_view attribute, ByteReader& reader,
+                    std::vector<std::string_view>& ignored, PartHeader& part) {
+    const std::string& name = reader.name();
+    const std::string_view type = reader.until('\0', kMaxName);
+    const std::uint32_t size = reader.u32_little();
+    const std::string_view value = reader.take(size);
+    if (is_needed(attribute, type, size, name)) {
+        read_value(attribute, ByteReader(value, name), part);
+    } else {
+        ignored.push_back(type);
+    }
+}
+
+/// False at the empty header that ends a list of parts.
+bool read_part(ByteReader& reader, std::vector<std::string_view>& ignored,
+               const ImageLimits& limits, PartHeader& part) {
+    const std::string& name = reader.name();
+    for (int i = 0;; ++i) {
+        const std::string_view attribute = reader.until('\0', kMaxName);
+        if (attribute.empty() && i == 0) return false;
+        if (attribute.empty()) break;
+        if (i == kMaxAttributes) bad_image(name, "damaged EXR: too many attributes");
+        read_attribute(attribute, reader, ignored, part);
+    }
+    if (!part.has_window) bad_image(name, "damaged EXR: there is no dataWindow");
+    check_image_size(part.width, part.height, limits, name);
+    if (part.channels == 0) bad_image(name, "damaged EXR: there are no channels");
+    if (part.channels > kMaxRowSamples / std::uint64_t(part.width)) {
+        throw Error(ErrorKind::Resource,
+                    "the picture is too large: rows of " + std::to_string(part.width) + " x " +
+                        std::to_string(part.channels) + " samples",
+                    {name, 0, 0});
+    }
+    return true;
+}
+
+}  // namespace
+
+ExrHeader checked_exr_header(std::string_view bytes, const std::string& name,
+                             const ImageLimits& limits) {
+    ByteReader reader(bytes, name);
+    (void)reader.u32_little();
+    const std::uint32_t version = reader.u32_little();
+    if ((version & 0xff) != 2 || (version & ~(kKnownFlags | 0xffu)) != 0) {
+        bad_image(name, "EXR of an unknown version or kind");
+    }
+    if ((version & kDeepFlag) != 0) bad_image(name, "deep EXR pictures are not supported");
+    std::vector<std::string_view> ignored;
+    int parts = 0;
+    std::uint64_t first_part_bytes = 0;
+    for (PartHeader part; read_part(reader, ignored, limits, part); part = {}) {
+        if (++parts == 1) {
+            first_part_bytes = decoder_bytes(part);
+            check_image_memory(first_part_bytes, limits, name);
+        }
+        if ((version & kMultiPartFlag) == 0) break;
+        if (parts > kMaxParts) bad_image(name, "damaged EXR: too many parts");
+    }
+    if (parts == 0) bad_image(name, "damaged EXR: the header is empty");
+    std::string header(bytes.substr(0, reader.position()));
+    for (const std::string_view type : ignored) {
+        header.replace(std::size_t(type.data() - bytes.data()), type.size(), type.size(), '?');
+    }
+    return {std::move(header), first_part_bytes};
+}
+
+}  // namespace alhazen

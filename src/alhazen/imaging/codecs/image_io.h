@@ -1,0 +1,91 @@
+#pragma once
+/// Picture files in and out, chosen by name, recognised by content.
+///
+/// In: PNG (all colour types, 1 to 16 bit), JPEG, TGA, BMP (1, 4 and 8-bit palette, 16, 24, 32 bit,
+/// not RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Out: PNG, JPG, EXR, HDR, PFM.
+/// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes: the
+/// sizes, and the bytes that the samples and the buffers of the decoder will take. Memory grows
+/// with what is decoded, not with what the header claims. An EXR is read as its data window.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/codecs/stored_image.h"
+#include "alhazen/imaging/image/encoding.h"
+#include "alhazen/imaging/image/image.h"
+
+namespace alhazen {
+
+struct ImageLimits {
+    int max_side = 32768;                               ///< changed by --max-image-side
+    std::uint64_t max_pixels = std::uint64_t{1} << 26;  ///< changed by --max-image-pixels
+    /// Memory that reading a picture may take at its worst moment: the file, the samples, and what
+    /// the decoder needs beside them. The pictures of a scene share it (TextureTable). Changed by
+    /// --max-image-mib.
+    std::uint64_t max_bytes = std::uint64_t{640} << 20;
+};
+
+/// Reading a picture would take more than ImageLimits::max_bytes.
+class ImageMemoryExceeded : public Error {
+  public:
+    using Error::Error;
+};
+
+/// Reads a picture. Throws Error: File when it cannot be read, Scene when it is malformed or of an
+/// unknown kind, Resource when it exceeds the limits.
+[[nodiscard]] Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
+/// The same from bytes; `name` is used in messages.
+[[nodiscard]] Image decode_image(std::string_view bytes, const std::string& name,
+                                 const ImageLimits& limits = {});
+
+/// The same as the file's own codes, where it holds codes: a quarter of the memory.
+[[nodiscard]] StoredImage read_stored_image(const std::filesystem::path& path,
+                                            const ImageLimits& limits = {});
+[[nodiscard]] StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
+                                              const ImageLimits& limits = {});
+
+using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
+
+struct ImageWriteOptions {
+    Encoding encoding = Encoding::Srgb;
+    int bits = 8;             ///< PNG: 8 or 16
+    bool full_float = false;  ///< EXR: float instead of half
+    int jpeg_quality = 95;    ///< 1 to 100
+    /// Key and value in UTF-8, written as PNG text chunks and EXR string attributes.
+    ImageMetadata metadata = {};
+    /// EXR: displayWindow when the image is a crop of a larger frame (x0, y0 its place); 0 = no
+    /// crop.
+    int full_width = 0, full_height = 0, crop_x0 = 0, crop_y0 = 0;
+};
+
+/// Suffixes that `write_image` knows: png, jpg, jpeg, exr, hdr, pfm.
+[[nodiscard]] const std::vector<std::string>& image_suffixes();
+
+/// Throws Error (Usage) that lists the known suffixes when the suffix of `path` is not one of them:
+/// for callers that want to know before they render.
+void check_image_suffix(const std::filesystem::path& path);
+
+/// Writes by the suffix of `path`, as one step (see write_file_atomically). EXR, HDR and PFM hold
+/// linear values: a picture that is encoded is decoded from sRGB first. Throws Error: Usage for an
+/// unknown suffix, an empty picture or bad options, File when writing fails.
+void write_image(const std::filesystem::path& path, const Image& image,
+                 const ImageWriteOptions& options = {});
+
+/// The bytes that `write_image` would write to a file with this suffix (without the dot).
+[[nodiscard]] std::vector<std::byte> encode_image(const std::string& suffix, const Image& image,
+                                                  const ImageWriteOptions& options = {});
+
+/// Writes exactly these codes, as one step. Throws Error: Usage for codes that do not fit, File.
+void write_png(const std::filesystem::path& path, const EncodedImage& image,
+               const ImageMetadata& metadata = {});
+
+/// Writes 8-bit codes as a JPEG, as one step; alpha is dropped. Throws as write_png.
+void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality = 95);
+
+}  // namespace alhazen

@@ -1,0 +1,70 @@
+#pragma once
+/// What every picture reader does with the sizes in a header, and how it reports bad data.
+
+#include <cstdint>
+#include <string>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/codecs/image_io.h"
+
+namespace alhazen {
+
+/// Ends the reading of a malformed picture.
+[[noreturn]] inline void bad_image(const std::string& name, const std::string& what) {
+    throw Error(ErrorKind::Scene, what, {name, 0, 0});
+}
+
+/// Throws Error: Scene for an empty picture, Resource for one beyond the limits.
+inline void check_image_size(std::int64_t width, std::int64_t height, const ImageLimits& limits,
+                             const std::string& name) {
+    const auto size = [&] { return std::to_string(width) + " x " + std::to_string(height); };
+    if (width <= 0 || height <= 0) bad_image(name, "the picture is empty (" + size() + " pixels)");
+    const auto refuse = [&](const std::string& allowed) {
+        throw Error(ErrorKind::Resource,
+                    "the picture is too large: " + size() + " pixels, allowed are " + allowed,
+                    {name, 0, 0});
+    };
+    if (width > limits.max_side || height > limits.max_side) {
+        refuse("sides of " + std::to_string(limits.max_side) + " (--max-image-side)");
+    }
+    if (std::uint64_t(width) * std::uint64_t(height) > limits.max_pixels) {
+        refuse(std::to_string(limits.max_pixels) + " pixels (--max-image-pixels)");
+    }
+}
+
+/// Throws ImageMemoryExceeded when `bytes` are more than the limit. To be called with all that will
+/// be in memory at once, before it is allocated.
+inline void check_image_memory(std::uint64_t bytes, const ImageLimits& limits,
+                               const std::string& name) {
+    if (bytes <= limits.max_bytes) return;
+    constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+    throw ImageMemoryExceeded(
+        ErrorKind::Resource,
+        "the picture is too large: reading it takes " + std::to_string((bytes + kMiB - 1) / kMiB) +
+            " MiB, " + std::to_string(limits.max_bytes / kMiB) + " MiB are left (--max-image-mib)",
+        {name, 0, 0});
+}
+
+/// The bytes of the samples of a picture of a checked size.
+[[nodiscard]] inline std::uint64_t sample_bytes(std::int64_t width, std::int64_t height,
+                                                std::uint64_t channels, std::size_t each) {
+    return std::uint64_t(width) * std::uint64_t(height) * channels * each;
+}
+
+/// A picture of a checked size whose rows are still to be appended: memory that is reserved but not
+/// touched costs nothing, so a header that lies about the size does no harm. Throws as
+/// check_image_memory.
+[[nodiscard]] inline Image reserved_image(int width, int height, int channels, bool linear,
+                                          const ImageLimits& limits, const std::string& name) {
+    check_image_memory(sample_bytes(width, height, std::uint64_t(channels), sizeof(float)), limits,
+                       name);
+    Image image;
+    image.width = width;
+    image.height = height;
+    image.channels = channels;
+    image.linear = linear;
+    image.samples.reserve(std::size_t(width) * std::size_t(height) * std::size_t(channels));
+    return image;
+}
+
+}  // namespace alhazen

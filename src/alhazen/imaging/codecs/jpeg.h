@@ -1,0 +1,26 @@
+#pragma once
+/// JPEG by libjpeg-turbo.
+///
+/// Source: ITU-T T.81 (JPEG), JFIF 1.02; Adobe's APP14 for the polarity of CMYK.
+/// Differs: data that end early or do not decode are an error, where libjpeg only warns.
+/// Conventions: read samples are code / 255, grey or RGB; CMYK is turned into RGB.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/imaging/codecs/stored_image.h"
+
+namespace alhazen {
+
+/// Throws Error: Scene when malformed, Resource beyond the limits.
+[[nodiscard]] StoredImage decode_jpeg(std::string_view bytes, const std::string& name,
+                                      const ImageLimits& limits);
+
+/// Without chroma subsampling; alpha is dropped. Throws Error (Usage) when sizes, bits (8) or
+/// quality (1 to 100) do not fit.
+[[nodiscard]] std::vector<std::byte> encode_jpeg(const EncodedImage& image, int quality);
+
+}  // namespace alhazen

@@ -1,0 +1,25 @@
+#pragma once
+/// Portable float map: a text header, then floats.
+///
+/// Source: P. Debevec, "PFM Portable FloatMap Image Format", 2001.
+/// Differs: nothing.
+/// Conventions: the file has the bottom row first. The sign of its scale gives the byte order
+/// (negative: little endian, which is what is written), its size multiplies the values.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/imaging/codecs/image_io.h"
+
+namespace alhazen {
+
+/// Throws Error: Scene when malformed, Resource beyond the limits.
+[[nodiscard]] Image decode_pfm(std::string_view bytes, const std::string& name,
+                               const ImageLimits& limits);
+
+/// `image` has valid sizes; alpha is dropped. Every float is kept as it is.
+[[nodiscard]] std::vector<std::byte> encode_pfm(const Image& image);
+
+}  // namespace alhazen

@@ -1,0 +1,29 @@
+#pragma once
+/// PNG, 8 and 16 bit, by libpng.
+///
+/// Source: ISO/IEC 15948 (PNG).
+/// Differs: gAMA, sBIT, ICC profiles and text are not read: samples are given as sRGB display
+/// codes. Conventions: read samples are code / 255 or code / 65535; palettes become RGB, tRNS
+/// becomes alpha. Any damage that libpng finds in critical chunks, a truncated file included, is an
+/// error.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/imaging/codecs/stored_image.h"
+
+namespace alhazen {
+
+/// Throws Error: Scene when malformed, Resource beyond the limits.
+[[nodiscard]] StoredImage decode_png(std::string_view bytes, const std::string& name,
+                                     const ImageLimits& limits);
+
+/// The file that holds exactly the codes of `image`. Throws Error (Usage) when the sizes or the
+/// codes do not fit or a key of `metadata` is not 1 to 79 printable ASCII characters.
+[[nodiscard]] std::vector<std::byte> encode_png(const EncodedImage& image,
+                                                const ImageMetadata& metadata);
+
+}  // namespace alhazen

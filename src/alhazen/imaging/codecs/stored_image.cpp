@@ -1,0 +1,146 @@
+#include "alhazen/imaging/codecs/stored_image.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "alhazen/imaging/image/encoding.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The value of a code of `max` + 1 codes.
+template <class Code>
+float value_of(Code code) {
+    constexpr float kMax = sizeof(Code) == 1 ? 255.0f : 65535.0f;
+    return float(code) / kMax;
+}
+template <>
+float value_of(float sample) {
+    return sample;
+}
+
+template <class Code>
+std::vector<double> decoded_codes() {
+    std::vector<double> values(std::size_t{1} << (8 * sizeof(Code)));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = linear_from_srgb(double(value_of(static_cast<Code>(i))));
+    }
+    return values;
+}
+
+double decoded(std::uint8_t code) {
+    static const std::vector<double> values = decoded_codes<std::uint8_t>();
+    return values[code];
+}
+double decoded(std::uint16_t code) {
+    static const std::vector<double> values = decoded_codes<std::uint16_t>();
+    return values[code];
+}
+double decoded(float sample) {
+    return linear_from_srgb(double(sample));
+}
+
+/// The codes of all samples, or nothing when one of them is no code.
+template <class Code>
+bool to_codes(const std::vector<float>& samples, std::vector<Code>& codes) {
+    constexpr float kMax = sizeof(Code) == 1 ? 255.0f : 65535.0f;
+    codes.resize(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const float s = samples[i];
+        if (!(s >= 0.0f && s <= 1.0f)) return false;
+        codes[i] = static_cast<Code>(std::lround(s * kMax));
+        if (value_of(codes[i]) != s) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::size_t StoredImage::memory_bytes() const {
+    return std::visit([](const auto& s) { return s.size() * sizeof(s[0]); }, samples);
+}
+
+Rgba StoredImage::pixel(std::size_t index, bool decode_srgb) const {
+    return std::visit(
+        [&](const auto& all) -> Rgba {
+            const auto* p = all.data() + index * std::size_t(channels);
+            const auto color = [&](int i) {
+                return decode_srgb ? decoded(p[i]) : double(value_of(p[i]));
+            };
+            if (channels < 3) {
+                const double grey = color(0);
+                return {grey, grey, grey, channels == 2 ? double(value_of(p[1])) : 1.0};
+            }
+            return {color(0), color(1), color(2), channels == 4 ? double(value_of(p[3])) : 1.0};
+        },
+        samples);
+}
+
+void StoredImage::read_pixels(std::size_t first, std::size_t count, bool decode_srgb,
+                              double* out) const {
+    const auto step = std::size_t(channels);
+    // Alpha is never decoded.
+    const std::size_t colors = channels == 2 || channels == 4 ? step - 1 : step;
+    std::visit(
+        [&](const auto& all) {
+            const auto* in = all.data() + first * step;
+            for (std::size_t i = 0; i < count; ++i, in += step, out += step) {
+                for (std::size_t k = 0; k < step; ++k) {
+                    out[k] = decode_srgb && k < colors ? decoded(in[k]) : double(value_of(in[k]));
+                }
+            }
+        },
+        samples);
+}
+
+bool StoredImage::is_opaque() const {
+    if (channels != 2 && channels != 4) return true;
+    return std::visit(
+        [&](const auto& all) {
+            const auto step = std::size_t(channels);
+            for (std::size_t i = step - 1; i < all.size(); i += step) {
+                if (value_of(all[i]) < 1.0f) return false;
+            }
+            return true;
+        },
+        samples);
+}
+
+StoredImage stored(Image image) {
+    StoredImage result{image.width, image.height, image.channels, image.linear, {}};
+    if (!image.linear) {
+        if (std::vector<std::uint8_t> bytes; to_codes(image.samples, bytes)) {
+            result.samples = std::move(bytes);
+            return result;
+        }
+        if (std::vector<std::uint16_t> shorts; to_codes(image.samples, shorts)) {
+            result.samples = std::move(shorts);
+            return result;
+        }
+    }
+    result.samples = std::move(image.samples);
+    return result;
+}
+
+Image expanded(StoredImage image) {
+    Image result;
+    result.width = image.width;
+    result.height = image.height;
+    result.channels = image.channels;
+    result.linear = image.linear;
+    if (auto* floats = std::get_if<std::vector<float>>(&image.samples)) {
+        result.samples = std::move(*floats);
+        return result;
+    }
+    std::visit(
+        [&](const auto& samples) {
+            result.samples.reserve(samples.size());
+            for (const auto sample : samples) result.samples.push_back(value_of(sample));
+        },
+        image.samples);
+    return result;
+}
+
+}  // namespace alhazen

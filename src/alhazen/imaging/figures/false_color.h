@@ -1,0 +1,33 @@
+#pragma once
+/// One number per pixel as a picture for looking, with its scale drawn below.
+///
+/// Conventions: values outside the scale take the colour of its end; a value that is not finite is
+/// black. The scale adds a strip below the picture and widens a narrow one on the right.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "alhazen/imaging/image/encoding.h"
+
+namespace alhazen {
+
+struct ColorScale {
+    enum class Colors {
+        Heat,      ///< heat_color: more is lighter
+        NearGrey,  ///< white at `low`, dark grey at `high`
+    };
+    double low = 0, high = 1;
+    Colors colors = Colors::Heat;
+    std::string title;  ///< letters of tiny_font
+};
+
+/// 8-bit sRGB. `values` are [height][width].
+[[nodiscard]] EncodedImage false_color(std::span<const float> values, int width, int height,
+                                       const ColorScale& scale);
+
+/// A colour that tells one number from its neighbours; black for 0. sRGB codes 0..255.
+[[nodiscard]] std::array<std::uint16_t, 3> id_color(std::uint32_t id);
+
+}  // namespace alhazen

@@ -1,0 +1,95 @@
+#include "alhazen/imaging/image/encoding.h"
+
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/image/image.h"
+
+namespace alhazen {
+
+namespace {
+
+std::uint32_t rounded(double c, int bits) {
+    const std::uint32_t max = (std::uint32_t{1} << bits) - 1;
+    if (!(c > 0.0)) return 0;  // NaN too
+    if (c >= 1.0) return max;
+    return std::uint32_t(std::floor(double(max) * c + 0.5));
+}
+
+void check_sizes(int width, int height, int channels, int bits) {
+    if (width <= 0 || height <= 0) {
+        throw Error(ErrorKind::Usage, "cannot encode a picture of " + std::to_string(width) +
+                                          " x " + std::to_string(height) + " pixels");
+    }
+    if (channels < 1 || channels > 4) {
+        throw Error(ErrorKind::Usage, "cannot encode a picture of " + std::to_string(channels) +
+                                          " channels, expected 1 to 4");
+    }
+    if (bits != 8 && bits != 16) {
+        throw Error(ErrorKind::Usage,
+                    "cannot encode in " + std::to_string(bits) + " bits, expected 8 or 16");
+    }
+}
+
+EncodedImage empty_encoded(int width, int height, int channels, int bits) {
+    check_sizes(width, height, channels, bits);
+    EncodedImage encoded{
+        .width = width, .height = height, .channels = channels, .bits = bits, .samples = {}};
+    encoded.samples.resize(std::size_t(width) * std::size_t(height) * std::size_t(channels));
+    return encoded;
+}
+
+}  // namespace
+
+double srgb_from_linear(double c) {
+    return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+}
+
+double linear_from_srgb(double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
+    const std::uint32_t max = (std::uint32_t{1} << bits) - 1;
+    if (!(c > 0.0)) return 0;  // NaN too
+    if (c >= 1.0) return max;
+    if (encoding == Encoding::LinearTruncated) return std::uint32_t(std::floor(double(max) * c));
+    return rounded(srgb_from_linear(c), bits);
+}
+
+EncodedImage encode(const double* rgb, int width, int height, Encoding encoding, int bits) {
+    EncodedImage encoded = empty_encoded(width, height, 3, bits);
+    // Backgrounds repeat their values: the curve is costly, a comparison is not.
+    double last[3] = {0.0, 0.0, 0.0};
+    std::uint16_t code[3] = {0, 0, 0};
+    for (std::size_t i = 0; i < encoded.samples.size(); ++i) {
+        const std::size_t channel = i % 3;
+        if (rgb[i] != last[channel]) {
+            last[channel] = rgb[i];
+            code[channel] = std::uint16_t(encode_channel(rgb[i], encoding, bits));
+        }
+        encoded.samples[i] = code[channel];
+    }
+    return encoded;
+}
+
+EncodedImage encode(const Image& image, Encoding encoding, int bits) {
+    EncodedImage encoded = empty_encoded(image.width, image.height, image.channels, bits);
+    if (image.samples.size() != encoded.samples.size()) {
+        throw Error(ErrorKind::Usage, "the picture has " + std::to_string(image.samples.size()) +
+                                          " samples, expected " +
+                                          std::to_string(encoded.samples.size()));
+    }
+    const auto channels = std::size_t(image.channels);
+    const bool has_alpha = channels == 2 || channels == 4;
+    for (std::size_t i = 0; i < encoded.samples.size(); ++i) {
+        const double value = double(image.samples[i]);
+        const bool is_alpha = has_alpha && i % channels == channels - 1;
+        encoded.samples[i] =
+            std::uint16_t(is_alpha || !image.linear ? rounded(value, bits)
+                                                    : encode_channel(value, encoding, bits));
+    }
+    return encoded;
+}
+
+}  // namespace alhazen

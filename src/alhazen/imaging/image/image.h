@@ -1,0 +1,43 @@
+#pragma once
+/// A picture in memory: float samples, interleaved, top row first.
+///
+/// Conventions: values are as the file or the renderer gives them; `linear` says whether they are
+/// linear radiance (EXR, HDR, PFM, renders) or still encoded for display (PNG, JPG, BMP: value /
+/// 255).
+
+#include <cstddef>
+#include <vector>
+
+#include "alhazen/imaging/image/rgb.h"
+
+namespace alhazen {
+
+struct Image {
+    int width = 0, height = 0;
+    int channels = 3;  ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGB + alpha
+    bool linear = true;
+    std::vector<float> samples;  ///< [height][width][channels]
+
+    Image() = default;
+    Image(int width_, int height_, int channels_)
+        : width(width_),
+          height(height_),
+          channels(channels_),
+          samples(std::size_t(width_) * std::size_t(height_) * std::size_t(channels_)) {}
+
+    [[nodiscard]] float* pixel(int x, int y) {
+        return samples.data() +
+               (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
+    }
+    [[nodiscard]] const float* pixel(int x, int y) const {
+        return samples.data() +
+               (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
+    }
+    /// The colour of a pixel; grey is repeated in the three channels.
+    [[nodiscard]] Rgb rgb(int x, int y) const {
+        const float* p = pixel(x, y);
+        return channels < 3 ? Rgb{p[0], p[0], p[0]} : Rgb{p[0], p[1], p[2]};
+    }
+};
+
+}  // namespace alhazen

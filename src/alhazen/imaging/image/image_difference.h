@@ -1,0 +1,32 @@
+#pragma once
+/// How far two pictures are apart.
+///
+/// Conventions: colours are compared, alpha is not; grey counts as three equal channels where the
+/// other picture has colour. Encoded pictures are compared as encoded, linear ones by value. Equal
+/// infinities and two NaN count as equal; NaN against a number and different infinities are
+/// infinitely far apart.
+
+#include <cstdint>
+
+#include "alhazen/imaging/image/image.h"
+
+namespace alhazen {
+
+struct ImageDifference {
+    std::uint64_t pixels = 0;
+    std::uint64_t identical = 0;        ///< pixels equal in every channel
+    std::uint64_t within_one_step = 0;  ///< pixels at most 1/255 apart in every channel
+    double max_absolute = 0;
+    double mean_absolute = 0;
+    double rmse = 0;
+    double psnr_db = 0;  ///< of a unit peak; infinite for equal pictures
+};
+
+/// Throws Error (Usage) when the sizes differ, or one picture is linear and the other encoded.
+[[nodiscard]] ImageDifference difference(const Image& a, const Image& b);
+
+/// |a - b| per channel, scaled so that the largest finite difference is 1; infinite ones are 1 too.
+/// Throws as `difference`.
+[[nodiscard]] Image difference_image(const Image& a, const Image& b);
+
+}  // namespace alhazen

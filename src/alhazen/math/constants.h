@@ -1,0 +1,13 @@
+#pragma once
+/// Constants. Files and the command line have degrees, all else radians.
+
+#include <limits>
+#include <numbers>
+
+namespace alhazen {
+
+inline constexpr double kPi = std::numbers::pi;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kRadiansPerDegree = kPi / 180.0;
+
+}  // namespace alhazen

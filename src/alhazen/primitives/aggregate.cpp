@@ -1,0 +1,44 @@
+#include "alhazen/primitives/aggregate.h"
+
+#include <algorithm>
+
+namespace alhazen {
+
+BoundingSphere Aggregate::sphere() const {
+    return bounding_sphere(box());
+}
+
+void Aggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                              Coherence) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) (void)closest(rays[i], hits[i], query);
+}
+
+void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result, RayQuery query,
+                               Coherence) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], query);
+}
+
+void Aggregate::complete(const Ray&, double, PrimitiveId, Surface&) const {}
+
+bool hit_less(const Hit& a, const Hit& b) {
+    if (a.t != b.t) return a.t < b.t;
+    // Outermost ids first: paths are stored innermost first, followed outward.
+    std::size_t i = a.path.size();
+    std::size_t j = b.path.size();
+    while (i > 0 && j > 0) {
+        --i;
+        --j;
+        if (a.path[i] != b.path[j]) return a.path[i] < b.path[j];
+    }
+    // One path ended: its next id is the primitive itself.
+    const PrimitiveId pa = i > 0 ? a.path[i - 1] : a.primitive;
+    const PrimitiveId pb = j > 0 ? b.path[j - 1] : b.primitive;
+    // Crossings of one primitive at one t stay in the order in which the primitive reports them.
+    return pa < pb;
+}
+
+void sort_appended(std::vector<Hit>& hits, std::size_t before) {
+    std::stable_sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(), hit_less);
+}
+
+}  // namespace alhazen

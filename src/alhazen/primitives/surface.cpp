@@ -1,0 +1,261 @@
+#include "alhazen/primitives/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "alhazen/primitives/primitive_columns.h"
+#include "alhazen/shapes/core/plain_surface.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr double kEpsilon = 0x1p-53;
+/// The first t of a ray that leaves a surface: not zero, and far enough from the subnormal numbers
+/// that no arithmetic on it becomes slow.
+constexpr double kBeyondZero = 0x1p-500;
+
+Vec3 times_abs(const Mat3& m, const Vec3& v) {
+    return v.x * abs(m.x_axis) + v.y * abs(m.y_axis) + v.z * abs(m.z_axis);
+}
+
+void carry_normals_outward(const Affine& inner, Surface& surface) {
+    const bool same = surface.shading_normal == surface.normal;
+    const Vec3 normal = normalize(transpose_times(inner.linear, surface.normal));
+    if (!same) {
+        surface.shading_normal = normalize(transpose_times(inner.linear, surface.shading_normal));
+    } else {
+        surface.shading_normal = normal;
+    }
+    surface.normal = normal;
+}
+
+/// Carries a surface out of an inner frame. The new error has the old one, the rounding of the
+/// transform, and that of the ray on its way in (which the next ray will suffer again).
+void carry_outward(const Placement& placement, bool with_uv, Surface& surface) {
+    const Affine& outer = placement.outer_from_inner;
+    const Affine& inner = placement.inner_from_outer;
+    carry_normals_outward(inner, surface);
+    if (outer == Affine{}) {
+        // The terms below, products with 0 and 1 left out: a CSG object that stands where it is.
+        const Vec3 terms = 4 * kEpsilon * abs(surface.point);
+        surface.error = (surface.error + terms) + terms;
+        return;
+    }
+    const Vec3 rounded_terms = times_abs(outer.linear, abs(surface.point)) + abs(outer.translation);
+    const Vec3 outer_point = outer.point(surface.point);
+    const Vec3 inner_terms = times_abs(inner.linear, abs(outer_point)) + abs(inner.translation);
+    surface.error = times_abs(outer.linear, surface.error + 4 * kEpsilon * inner_terms) +
+                    4 * kEpsilon * rounded_terms;
+    surface.point = outer_point;
+    if (!with_uv) return;
+    surface.dpdu = outer.linear * surface.dpdu;
+    surface.dpdv = outer.linear * surface.dpdv;
+    if (surface.is_of_mesh) {
+        surface.dpdu2 = outer.linear * surface.dpdu2;
+        surface.dpdv2 = outer.linear * surface.dpdv2;
+        surface.tangent = outer.linear * surface.tangent;
+        surface.bitangent = outer.linear * surface.bitangent;
+    }
+}
+
+/// Sets all that nobody sets but where it is something else.
+void begin(Surface& surface) {
+    if (!surface.has_extras) return;
+    surface.tangent = surface.bitangent = {};
+    surface.color = {1, 1, 1, 1};
+    surface.materials = {};
+    surface.weights = {1, 0, 0};
+    surface.material_count = 1;
+    surface.media = {};
+    surface.has_extras = false;
+}
+
+/// Writes what `shape_surface()` returns in its place: it is large.
+template <class F>
+void set_shape_part(Surface& surface, F&& shape_surface) {
+    ::new (static_cast<ShapeSurface*>(&surface)) ShapeSurface(shape_surface());
+}
+
+/// The second set of coordinates is the first.
+void share_coordinates(Surface& surface) {
+    surface.uv2 = surface.uv;
+    surface.dpdu2 = surface.dpdu;
+    surface.dpdv2 = surface.dpdv;
+}
+
+/// Farthest coordinate of a shape along each axis; where it is unbounded, that of the point.
+Vec3 reach_of(const Box3& box, const Vec3& point) {
+    Vec3 reach;
+    for (int k = 0; k < 3; ++k) {
+        const double farthest = std::max(std::abs(box.lo[k]), std::abs(box.hi[k]));
+        reach[k] = std::isfinite(farthest) ? farthest : std::abs(point[k]);
+    }
+    return reach;
+}
+
+/// The surface in the shape's own frame. The shape bounds the error of the point; what is added is
+/// the rounding of the next ray's test, which is relative to the size of the shape, not to where
+/// the point lies.
+template <class S>
+void shape_surface(const S& shape, const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
+    set_shape_part(surface, [&] { return surface_of_shape(shape, ray, hit, with_uv); });
+    surface.error += 4 * kEpsilon * reach_of(shape.box(), surface.point);
+}
+
+void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint32_t index,
+                      const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
+    with_column(table.columns, kind, [&](const auto& column) {
+        surface.is_of_mesh = false;
+        const std::uint32_t placement = column.placements[index];
+        if (placement == kNoPlacement) {
+            shape_surface(column.shapes[index], ray, hit, with_uv, surface);
+        } else {
+            const Placement& p = table.placements[placement];
+            shape_surface(column.shapes[index], transformed(p.inner_from_outer, ray), hit, with_uv,
+                          surface);
+            carry_outward(p, with_uv, surface);
+        }
+        surface.materials[0] = column.materials[index];
+        surface.part = column.parts.empty() ? 0 : column.parts[index];
+    });
+}
+
+/// What meshes may carry beyond positions, normals and one set of texture coordinates.
+void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, const Hit& hit,
+                           Surface& surface) {
+    const auto& corners = mesh.triangles[triangle];
+    const std::array<double, 3> weights{1.0 - hit.u - hit.v, hit.u, hit.v};
+    if (!mesh.uvs2.empty()) {
+        surface.uv2 = {};
+        for (std::size_t i = 0; i < 3; ++i) {
+            surface.uv2 = surface.uv2 + weights[i] * mesh.uvs2[corners[i]];
+        }
+        const UvDerivatives derivatives = mesh.uv_derivatives(triangle, mesh.uvs2);
+        surface.dpdu2 = derivatives.dpdu;
+        surface.dpdv2 = derivatives.dpdv;
+    }
+    if (!mesh.colors.empty()) {
+        surface.has_extras = true;
+        surface.color = {0, 0, 0, 0};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const VertexColor& c = mesh.colors[corners[i]];
+            surface.color += weights[i] * Rgba{c.r, c.g, c.b, c.a};
+        }
+    }
+    if (!mesh.tangents.empty()) {
+        surface.has_extras = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const VertexTangent& t = mesh.tangents[corners[i]];
+            surface.tangent += weights[i] * Vec3{t.x, t.y, t.z};
+        }
+        // Handedness does not vary within a triangle of a well-made mesh.
+        surface.bitangent =
+            double(mesh.tangents[corners[0]].sign) * cross(surface.shading_normal, surface.tangent);
+    }
+}
+
+void triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hit& hit,
+                      Surface& surface) {
+    const PlacedMesh& placed = table.mesh_of(index);
+    const TriangleMesh& mesh = *placed.mesh;
+    const std::uint32_t triangle = index - placed.first_triangle;
+    set_shape_part(surface, [&] { return mesh.surface(triangle, hit); });
+    share_coordinates(surface);
+    surface.is_of_mesh = true;
+    const auto& corners = mesh.triangles[triangle];
+    // The test of the next ray rounds relative to the size of the triangle, not to where the point
+    // lies, and along any axis: in the plane z = 0 it does not find a distance of 0.
+    double reach = 0.0;
+    for (const std::uint32_t corner : corners) {
+        reach = std::fmax(reach, max_component(abs(mesh.positions[corner] - surface.point)));
+    }
+    const double rounding = 12 * kEpsilon * reach;
+    surface.error += Vec3{rounding, rounding, rounding};
+    if (placed.mirrored) {
+        surface.normal = -surface.normal;
+        if (mesh.normals.empty()) surface.shading_normal = surface.normal;
+    }
+    add_vertex_attributes(mesh, triangle, hit, surface);
+    surface.materials[0] = placed.material;
+    surface.part = placed.part;
+    if (!mesh.vertex_materials.empty()) {
+        surface.has_extras = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            surface.materials[i] = MaterialId{mesh.vertex_materials[corners[i]]};
+        }
+        surface.weights = {1.0 - hit.u - hit.v, hit.u, hit.v};
+        surface.material_count = 3;
+    }
+}
+
+/// Descends the path of instances from level `depth` (outermost = path.size()) inward.
+void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, std::size_t depth,
+                    bool with_uv, Surface& surface) {
+    const PrimitiveTable& table = aggregate.primitives();
+    if (depth > 0) {
+        const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
+        surface_inside(*instance.aggregate, inner_ray(instance, ray), hit, depth - 1, with_uv,
+                       surface);
+        carry_outward(instance.placement, with_uv, surface);
+        surface.instance = instance.part;
+        if (instance.of_shared_mesh) surface.part = instance.part;
+        aggregate.complete(ray, hit.t, hit.path[depth - 1], surface);
+        return;
+    }
+    const std::uint32_t kind = table.kind(hit.primitive);
+    const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table.first(kind);
+    if (kind == kTriangleKind) {
+        triangle_surface(table, index, hit, surface);
+    } else {
+        analytic_surface(table, kind, index, ray, hit, with_uv, surface);
+    }
+    surface.instance = surface.part;
+    aggregate.complete(ray, hit.t, hit.primitive, surface);
+}
+
+}  // namespace
+
+Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
+    Surface surface;
+    set_surface(aggregate, ray, hit, true, surface);
+    return surface;
+}
+
+void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
+                 Surface& surface) {
+    begin(surface);
+    surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, surface);
+    if (with_uv && !surface.is_of_mesh) share_coordinates(surface);
+}
+
+std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit) {
+    const Aggregate* innermost = &aggregate;
+    for (std::size_t i = hit.path.size(); i-- > 0;) {
+        if (innermost->changes_materials()) return std::nullopt;
+        const PrimitiveTable& table = innermost->primitives();
+        innermost = table.instances[table.index(hit.path[i])].aggregate.get();
+    }
+    if (innermost->changes_materials()) return std::nullopt;
+    const PrimitiveTable& table = innermost->primitives();
+    const std::uint32_t kind = table.kind(hit.primitive);
+    const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table.first(kind);
+    if (kind != kTriangleKind) {
+        return with_column(table.columns, kind,
+                           [&](const auto& column) { return column.materials[index]; });
+    }
+    const PlacedMesh& placed = table.mesh_of(index);
+    const bool varies = !placed.mesh->vertex_materials.empty() || !placed.mesh->colors.empty();
+    return varies ? std::nullopt : std::optional(placed.material);
+}
+
+Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {
+    const double margin = 32.0 * dot(abs(surface.normal), surface.error);
+    const Vec3 offset = dot(direction, surface.normal) >= 0.0 ? margin * surface.normal
+                                                              : (-margin) * surface.normal;
+    // The sum rounds by half an ulp, far less than the margin.
+    return {surface.point + offset, direction, kBeyondZero, t_max};
+}
+
+}  // namespace alhazen

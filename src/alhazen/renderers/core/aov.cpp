@@ -1,0 +1,252 @@
+#include "alhazen/renderers/core/aov.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "alhazen/base/error.h"
+#include "alhazen/math/unit_vector.h"
+#include "alhazen/renderers/core/eye_samples.h"
+#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/core/renderer.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Distance in front of the eye along the normal of the picture plane: the same for all points of a
+/// plane that is parallel to the picture.
+class DepthScale {
+  public:
+    explicit DepthScale(const Camera& camera) {
+        std::visit(
+            [&](const auto& c) {
+                Vec3 forward;
+                if constexpr (requires { c.look; }) {
+                    forward = c.look;
+                    eye_ = c.eye;
+                } else {
+                    forward = c.direction;
+                    eye_ = c.origin;
+                }
+                axis_ = normalize(cross(c.up, c.right));
+                if (dot(axis_, forward) < 0.0) axis_ = -axis_;
+            },
+            camera);
+    }
+    [[nodiscard]] double depth(const Vec3& point) const { return dot(point - eye_, axis_); }
+
+  private:
+    Vec3 eye_, axis_;
+};
+
+/// What the samples of a pixel have met so far.
+struct PixelGeometry {
+    int samples = 0, hits = 0;
+    double depth = 0, error = 0;
+    Vec3 normal, geometric, position;
+    Vec2 uv;
+    Rgb albedo;
+    std::uint32_t object = 0, material = 0, instance = 0;
+
+    void add_ids(const Surface& surface) {
+        object = surface.part + 1;
+        instance = surface.instance + 1;
+        std::size_t heaviest = 0;
+        for (std::size_t i = 1; i < static_cast<std::size_t>(surface.material_count); ++i) {
+            if (surface.weights[i] > surface.weights[heaviest]) heaviest = i;
+        }
+        material = static_cast<std::uint32_t>(surface.materials[heaviest]) + 1;
+    }
+
+    void add(const ShadingPoint& point, const DepthScale& scale) {
+        const Surface& surface = point.surface;
+        depth += scale.depth(surface.point);
+        normal += point.normal;
+        geometric += point.geometric;
+        position += surface.point;
+        uv = {uv.x + surface.uv.x, uv.y + surface.uv.y};
+        albedo += point.material->albedo;
+        error = std::max(error, length(surface.error));
+        ++hits;
+    }
+};
+
+void write(AovFilm& film, int i, int j, const PixelGeometry& g) {
+    const double share = g.hits > 0 ? 1.0 / g.hits : 0.0;
+    const auto set = [&](AovKind kind, std::initializer_list<double> values) {
+        film.set(kind, i, j, {values.begin(), values.size()});
+    };
+    const auto set_vector = [&](AovKind kind, const Vec3& v) { set(kind, {v.x, v.y, v.z}); };
+    set(AovKind::Alpha, {static_cast<double>(g.hits) / g.samples});
+    set(AovKind::Depth, {g.hits > 0 ? share * g.depth : std::numeric_limits<double>::infinity()});
+    set_vector(AovKind::Normal, unit_or(g.normal, {}));
+    set_vector(AovKind::GeometricNormal, unit_or(g.geometric, {}));
+    set_vector(AovKind::Position, share * g.position);
+    set(AovKind::Uv, {share * g.uv.x, share * g.uv.y});
+    const Rgb albedo = share * g.albedo;
+    set(AovKind::Albedo, {albedo.r, albedo.g, albedo.b});
+    set(AovKind::ErrorBound, {g.error});
+    film.set_whole(AovKind::ObjectId, i, j, g.object);
+    film.set_whole(AovKind::MaterialId, i, j, g.material);
+    film.set_whole(AovKind::InstanceId, i, j, g.instance);
+}
+
+}  // namespace
+
+std::span<const AovEntry> aov_table() {
+    using enum SampleType;
+    static const std::vector<AovEntry> table{
+        {AovKind::Alpha, "alpha", "share of the pixel's samples that met something", {"A"}, Half},
+        {AovKind::Depth,
+         "depth",
+         "distance in front of the eye, along its axis",
+         {"depth.Z"},
+         Float},
+        {AovKind::Normal,
+         "N",
+         "normal that was shaded with, world space, towards the eye",
+         {"N.X", "N.Y", "N.Z"},
+         Float},
+        {AovKind::GeometricNormal,
+         "Ng",
+         "normal of the surface itself, towards the eye",
+         {"Ng.X", "Ng.Y", "Ng.Z"},
+         Float},
+        {AovKind::Position, "P", "point, world space", {"P.X", "P.Y", "P.Z"}, Float},
+        {AovKind::Uv, "uv", "texture coordinates", {"uv.U", "uv.V"}, Float},
+        {AovKind::Albedo,
+         "albedo",
+         "colour of the surface: base colour or diffuse coefficient",
+         {"albedo.R", "albedo.G", "albedo.B"},
+         Half},
+        {AovKind::ObjectId,
+         "id.object",
+         "1 + number of the part that is seen",
+         {"id.object"},
+         Uint},
+        {AovKind::MaterialId, "id.material", "1 + number of its material", {"id.material"}, Uint},
+        {AovKind::InstanceId,
+         "id.instance",
+         "1 + number of the part that placed it in the scene",
+         {"id.instance"},
+         Uint},
+        {AovKind::ErrorBound,
+         "error_bound",
+         "bound of the distance of the point from the true surface",
+         {"error_bound"},
+         Float},
+        {AovKind::Rays, "count.rays", "rays that were cast for the pixel", {"count.rays"}, Float},
+        {AovKind::NodeVisits,
+         "count.node_visits",
+         "nodes that they entered",
+         {"count.node_visits"},
+         Float},
+        {AovKind::BoxTests,
+         "count.box_tests",
+         "bounds that they were tested with, one for each child of a wide node",
+         {"count.box_tests"},
+         Float},
+        {AovKind::PrimitiveTests,
+         "count.primitive_tests",
+         "primitives that they were tested with",
+         {"count.primitive_tests"},
+         Float},
+        {AovKind::Time, "time", "wall time that the pixel took, seconds", {"time.seconds"}, Float},
+    };
+    return table;
+}
+
+AovSet parse_aovs(const std::string& list) {
+    AovSet set;
+    std::size_t begin = 0;
+    while (begin <= list.size()) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string name = list.substr(begin, end - begin);
+        bool known = false;
+        for (const AovEntry& entry : aov_table()) {
+            const std::string_view entry_name = entry.name;
+            if (name == "all" || name == entry_name ||
+                (!name.empty() && entry_name.starts_with(name + "."))) {
+                set.add(entry.kind);
+                known = true;
+            }
+        }
+        if (!known) {
+            std::string names = "all";
+            for (const AovEntry& entry : aov_table()) names += std::string(", ") + entry.name;
+            throw Error(ErrorKind::Usage, "unknown AOV '" + name + "'; known: " + names);
+        }
+        begin = end + 1;
+    }
+    return set;
+}
+
+AovFilm::AovFilm(const AovSet& wanted, const PixelBox& crop) : wanted_(wanted), layers_(crop) {
+    for (const AovEntry& entry : aov_table()) {
+        if (!wanted_.has(entry.kind)) continue;
+        first_channel_[static_cast<std::size_t>(entry.kind)] = layers_.channels().size();
+        for (const char* channel : entry.channels) layers_.add(channel, entry.type);
+    }
+}
+
+void AovFilm::set(AovKind kind, int x, int y, std::span<const double> values) {
+    if (!wanted_.has(kind)) return;
+    std::size_t channel = first_channel_[static_cast<std::size_t>(kind)];
+    for (const double value : values) layers_.set(channel++, x, y, value);
+}
+
+void AovFilm::set_whole(AovKind kind, int x, int y, std::uint64_t value) {
+    if (!wanted_.has(kind)) return;
+    const std::size_t channel = first_channel_[static_cast<std::size_t>(kind)];
+    layers_.set_whole(channel, x, y, static_cast<std::uint32_t>(value));
+}
+
+void AovRecorder::begin_pixel() {
+    if (job_.aovs == nullptr) return;
+    rays_before_ = counters_.total_cast();
+    tests_before_ = counters_.tests;
+    if (job_.aovs->wanted().has(AovKind::Time)) begin_ = std::chrono::steady_clock::now();
+}
+
+void AovRecorder::end_pixel(int i, int j, int width, int height) {
+    if (job_.aovs == nullptr) return;
+    record_costs(i, j);
+    if (job_.aovs->wanted().has_geometry()) record_geometry(i, j, width, height);
+}
+
+void AovRecorder::record_costs(int i, int j) {
+    AovFilm& film = *job_.aovs;
+    const auto set = [&](AovKind kind, double value) { film.set(kind, i, j, {&value, 1}); };
+    if (film.wanted().has(AovKind::Time)) {
+        const auto now = std::chrono::steady_clock::now();
+        set(AovKind::Time, std::chrono::duration<double>(now - begin_).count());
+    }
+    const auto grown = [](std::uint64_t now, std::uint64_t before) {
+        return static_cast<double>(now - before);
+    };
+    set(AovKind::Rays, grown(counters_.total_cast(), rays_before_));
+    set(AovKind::NodeVisits, grown(counters_.tests.node_visits, tests_before_.node_visits));
+    set(AovKind::BoxTests, grown(counters_.tests.box_tests, tests_before_.box_tests));
+    set(AovKind::PrimitiveTests,
+        grown(counters_.tests.primitive_tests, tests_before_.primitive_tests));
+}
+
+void AovRecorder::record_geometry(int i, int j, int width, int height) {
+    const DepthScale scale(job_.camera);
+    PixelGeometry geometry;
+    geometry.samples = job_.samples_per_pixel;
+    for (int s = 0; s < job_.samples_per_pixel; ++s) {
+        const Vec2 p = eye_sample(job_, i, j, width, height, s);
+        const Ray ray = eye_ray(job_.camera, p.x, p.y);
+        ++counters_.aov_rays;
+        VisibleHit seen;
+        if (!first_visible_hit(job_.scene, ray, job_.cone, false, nullptr, seen)) continue;
+        if (s == 0) geometry.add_ids(seen.point.surface);
+        geometry.add(seen.point, scale);
+    }
+    write(*job_.aovs, i, j, geometry);
+}
+
+}  // namespace alhazen

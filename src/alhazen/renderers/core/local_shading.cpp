@@ -1,0 +1,248 @@
+#include "alhazen/renderers/core/local_shading.h"
+
+#include <cmath>
+#include <new>
+
+#include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/shading/materials/turn_to_view.h"
+#include "alhazen/shading/textures/normal_map.h"
+
+namespace alhazen {
+
+namespace {
+
+/// `v`, a vector in the plane of `dpdu` and `dpdv`, in texture coordinates (least squares); zero
+/// where they do not span a plane.
+Vec2 in_coordinates(const Vec3& v, const Vec3& dpdu, const Vec3& dpdv) {
+    const double uu = length_squared(dpdu);
+    const double vv = length_squared(dpdv);
+    const double uv = dot(dpdu, dpdv);
+    const double determinant = uu * vv - uv * uv;
+    if (!(determinant > 1e-12 * uu * vv)) return {};
+    const double u = dot(dpdu, v), w = dot(dpdv, v);
+    return {(vv * u - uv * w) / determinant, (uu * w - uv * u) / determinant};
+}
+
+bool has_normal_map(const Scene& scene, const Surface& surface) {
+    const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
+    return material.normal_map.texture != kNoTexture;
+}
+
+/// The interpolated normal, bent by the material's normal map.
+Vec3 mapped_normal(const Scene& scene, const Surface& surface,
+                   const std::array<UvFootprint, 2>& footprint) {
+    const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
+    const NormalMap& map = material.normal_map;
+    const Texture& texture = scene.textures[static_cast<std::size_t>(map.texture)];
+    const bool second = texture.uv_set == 1;
+    const Vec3& n = surface.shading_normal;
+    TangentFrame frame;
+    if (surface.tangent != Vec3{}) {
+        frame = frame_from_tangents(n, surface.tangent, surface.bitangent);
+    } else {
+        Vec3 dpdu = second ? surface.dpdu2 : surface.dpdu;
+        Vec3 dpdv = second ? surface.dpdv2 : surface.dpdv;
+        apply_uv_transform(texture.uv_transform, dpdu, dpdv);
+        frame = frame_from_derivatives(n, dpdu, dpdv);
+    }
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, {1, 1, 1, 1}};
+    return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
+}
+
+/// `n`, or the nearest direction that does not turn away from the viewer: a bent normal may.
+Vec3 turned_to_view(const Vec3& n, const Vec3& view) {
+    constexpr double kLeastCosine = 1e-3;
+    const double cosine = dot(n, view);
+    if (cosine >= kLeastCosine) return n;
+    const Vec3 turned = n + (kLeastCosine - cosine) * view;
+    return length_squared(turned) > 0.0 ? normalize(turned) : view;
+}
+
+}  // namespace
+
+MaterialSample material_at(const Scene& scene, const Surface& surface,
+                           const std::array<UvFootprint, 2>& footprint) {
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, surface.color};
+    const auto sample = [&](std::size_t i) {
+        return evaluate(scene.materials[static_cast<std::size_t>(surface.materials[i])],
+                        scene.textures, lookup);
+    };
+    if (surface.material_count == 1) return sample(0);
+    return weighted_sum(surface.weights[0], sample(0), surface.weights[1], sample(1),
+                        surface.weights[2], sample(2));
+}
+
+MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id) {
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color};
+    return evaluate(scene.materials[static_cast<std::size_t>(id)], scene.textures, lookup);
+}
+
+std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
+                                        double width) {
+    // The circle across the ray, projected along it onto the plane: its radius stays across the
+    // plane of incidence and grows by 1 / cosine along it.
+    const Vec3& n = surface.normal;
+    const double cosine = std::fmax(std::abs(dot(direction, n)), 1e-6);
+    const Vec3 in_plane = direction - dot(direction, n) * n;
+    const double sine = length(in_plane);
+    const Vec3 along = sine > 1e-9 ? in_plane / sine : perpendicular(n);
+    const Vec3 a = (width / cosine) * along;
+    const Vec3 b = width * cross(n, along);
+    const auto in_set = [&](const Vec3& dpdu, const Vec3& dpdv) {
+        return UvFootprint{in_coordinates(a, dpdu, dpdv), in_coordinates(b, dpdu, dpdv)};
+    };
+    return {in_set(surface.dpdu, surface.dpdv), in_set(surface.dpdu2, surface.dpdv2)};
+}
+
+namespace {
+
+/// The point's own sample, to be changed.
+MaterialSample& own_material(ShadingPoint& point) {
+    if (point.material != &point.own) {
+        point.own = *point.material;
+        point.material = &point.own;
+    }
+    return point.own;
+}
+
+/// Looks the material up; false where it is one that many points share.
+bool set_material(const Scene& scene, const Vec3& direction, double width, MaterialCache* constant,
+                  std::array<UvFootprint, 2>& footprint, ShadingPoint& point) {
+    const Surface& surface = point.surface;
+    if (constant != nullptr && !surface.has_extras) {
+        point.material = constant->find(surface.materials[0]);
+        if (point.material != nullptr) return false;
+    }
+    if (scene.has_mipmaps && width > 0.0) footprint = footprint_at(surface, direction, width);
+    // In place: it is large.
+    ::new (&point.own) MaterialSample(material_at(scene, surface, footprint));
+    point.material = &point.own;
+    return true;
+}
+
+/// What the ray came through and what it finds behind the surface, and the material as it is seen
+/// there.
+void set_media(const Scene& scene, ShadingPoint& point) {
+    const SurfaceMedia& media = point.surface.media;
+    const double cosine = dot(point.view, point.normal);
+    point.behind = {};
+    point.medium = point.material->transmissive;
+    point.medium_is_physical = point.material->physical;
+    if (!media.known) {
+        const bool from_inside = point.inside && !point.entering && !point.medium.is_black();
+        if (point.material->physical) turn_to_view(own_material(point), cosine, from_inside);
+        point.passing = point.material->transmissive;
+        return;
+    }
+    MaterialSample& material = own_material(point);
+    point.behind.known = true;
+    double here = scene.conventions.air_index, beyond = here;
+    Rgb before_passes{1, 1, 1};
+    if (media.before) {
+        const MaterialSample before = medium_at(scene, point.surface, *media.before);
+        here = before.index;
+        point.medium = before.transmissive;
+        point.medium_is_physical = before.physical;
+        // The wall's own material is that of what is entered.
+        if (media.after) before_passes = before.transmissive;
+    }
+    if (media.after) {
+        const MaterialSample after = medium_at(scene, point.surface, *media.after);
+        beyond = after.index;
+        point.behind.inside = true;
+        point.behind.absorption = after.absorption;
+    }
+    point.behind.eta = here / beyond;
+    turn_to_view_between(material, cosine, point.behind.eta, media.before && media.after);
+    point.passing = material.transmissive * before_passes;
+}
+
+}  // namespace
+
+void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
+                       const PointNeeds& needs, ShadingPoint& point) {
+    point.inside = arrival.inside;
+    set_surface(*scene.aggregate, ray, hit, needs.uv, point.surface);
+    std::array<UvFootprint, 2> footprint;
+    const bool varies =
+        set_material(scene, ray.direction, arrival.width, needs.constant, footprint, point);
+    point.view = -ray.direction;
+    point.entering = dot(ray.direction, point.surface.normal) < 0.0;
+    point.geometric = point.entering ? point.surface.normal : -point.surface.normal;
+    // The interpolated normal is turned by its own sign: near silhouettes, and in meshes wound
+    // against their normals, it may face the ray although the geometric one does not.
+    const Vec3& shading = point.surface.shading_normal;
+    const bool turned = dot(ray.direction, shading) > 0.0;
+    if (varies && has_normal_map(scene, point.surface)) {
+        const Vec3 bent = mapped_normal(scene, point.surface, footprint);
+        point.normal = turned_to_view(turned ? -bent : bent, point.view);
+    } else {
+        point.normal = turned ? -shading : shading;
+    }
+    if (!point.entering && is_unseen_from_behind(*point.material)) {
+        own_material(point).coverage = 0.0;
+    }
+    set_media(scene, point);
+}
+
+bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone, bool inside,
+                       TraversalStats* stats, VisibleHit& found) {
+    Ray rest = ray;
+    double passed = 0.0;
+    for (int i = 0; i <= kMaxPassedSurfaces; ++i) {
+        found.hit = Hit();
+        if (!scene.aggregate->closest(rest, found.hit, {stats, mask_of(RayKind::Eye)}))
+            return false;
+        found.t = passed + found.hit.t;
+        set_shading_point(scene, rest, found.hit, {inside, cone.width_at(found.t)}, {},
+                          found.point);
+        const double coverage = found.point.material->coverage;
+        if (coverage > 0.0) return true;
+        passed = found.t;
+        rest = leaving_ray(found.point.surface, ray.direction, ray.t_max - passed);
+    }
+    return false;
+}
+
+std::vector<Rgb> ambient_terms(std::span<const Light> lights) {
+    std::vector<Rgb> terms;
+    for (const Light& light : lights) terms.push_back(ambient_of(light));
+    return terms;
+}
+
+Rgb unshadowed_terms(const ShadingConventions& conventions, std::span<const Rgb> ambient,
+                     const ShadingPoint& point) {
+    const MaterialSample& m = *point.material;
+    Rgb ambient_factor = conventions.ambient_factor == ShadingConventions::AmbientFactor::Diffuse
+                             ? m.diffuse
+                             : m.ambient;
+    if (conventions.ambient_inside_times_kt && point.inside) {
+        ambient_factor = ambient_factor * point.medium;
+    }
+    Rgb sum = m.emission;
+    for (const Rgb& term : ambient) sum += ambient_factor * term;
+    return sum;
+}
+
+Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
+                       const Vec3& to_light, double cosine) {
+    const MaterialSample& m = *point.material;
+    Rgb fraction = cosine * m.diffuse;
+    if (m.specular.is_black()) return fraction;
+    double highlight_cosine;
+    if (conventions.highlight == ShadingConventions::Highlight::BlinnPhong) {
+        highlight_cosine = dot(point.normal, normalize(to_light + point.view));
+    } else {
+        const Vec3 mirrored = 2.0 * cosine * point.normal - to_light;
+        highlight_cosine = dot(mirrored, point.view);
+    }
+    // 0^0 would light every point of a material without shininess from behind: only the lit side
+    // counts.
+    if (highlight_cosine > 0.0) {
+        const double falloff = m.physical ? cosine : 1.0;
+        fraction += (falloff * std::pow(highlight_cosine, m.shininess)) * m.specular;
+    }
+    return fraction;
+}
+
+}  // namespace alhazen

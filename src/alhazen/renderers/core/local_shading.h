@@ -1,0 +1,107 @@
+#pragma once
+/// The part of the shading equation that needs no further rays but shadow rays; shared by the
+/// renderers.
+///
+/// Source: UW CSE 457, "Ray Tracing" lecture and Trace project: I = ke + sum_j [ ka ILa_j + Ashadow
+/// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977. Differs: what
+/// formats do otherwise is read from ShadingConventions.
+
+#include <span>
+#include <vector>
+
+#include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/core/material_cache.h"
+#include "alhazen/scene/scene.h"
+
+namespace alhazen {
+
+/// What a ray finds behind a surface where a solid of several media tells.
+struct BehindSurface {
+    bool known = false;
+    bool inside = false;  ///< there is a medium, not air
+    double eta = 1;       ///< index on this side / index behind
+    Rgb absorption;
+};
+
+/// A hit made ready for shading: everything turned to the side the ray came from.
+struct ShadingPoint {
+    ShadingPoint() = default;
+    ShadingPoint(const ShadingPoint&) = delete;  // `material` may point into it
+    ShadingPoint& operator=(const ShadingPoint&) = delete;
+
+    Surface surface;
+    const MaterialSample* material = &own;  ///< `own`, or one that many points share
+    MaterialSample own;
+    bool inside = false;   ///< the ray came through the inside of something transparent
+    bool entering = true;  ///< the ray met the outside (by the geometric normal)
+    BehindSurface behind;
+    Rgb passing;                      ///< kt of going through: at a wall, of both media
+    Rgb medium;                       ///< kt of what the ray came through, where it is inside
+    bool medium_is_physical = false;  ///< it absorbs by its own law
+    Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
+    Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
+    Vec3 view;                        ///< unit, towards the ray's origin
+};
+
+/// `footprint`: what the ray's cone cuts out of both sets of texture coordinates.
+[[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
+                                         const std::array<UvFootprint, 2>& footprint = {});
+
+/// What fills one side of the surface (`surface.media`), textures looked up as on the surface.
+[[nodiscard]] MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id);
+
+/// What a cone of diameter `width` around `direction` cuts out of the surface, in both sets of
+/// texture coordinates.
+[[nodiscard]] std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
+                                                      double width);
+
+/// How a ray comes to a surface.
+struct Arrival {
+    /// Through the inside of something: known from the ray's history, not from the normal: an open
+    /// surface has a back but no inside.
+    bool inside = false;
+    double width = 0;  ///< of the ray's cone at the hit
+};
+
+/// What is asked of a shading point.
+struct PointNeeds {
+    bool uv = true;                     ///< else texture coordinates may be missing
+    MaterialCache* constant = nullptr;  ///< samples that many points share; may be null
+};
+
+/// Fills in all of `point`: it is large, and not copied. `ray.direction` must be unit. The material
+/// is as the ray sees it: textures filtered, Fresnel's share for its angle, coverage 0 where a
+/// single-sided surface turns its back.
+void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
+                       const PointNeeds& needs, ShadingPoint& point);
+
+/// A surface that a ray sees.
+struct VisibleHit {
+    Hit hit;
+    ShadingPoint point;
+    double t = 0;  ///< from the origin of the ray asked for; `hit.t` counts from the last surface
+                   ///< passed through
+};
+
+/// The first surface along an eye ray of which something is there: a coverage above 0. Others are
+/// passed straight through, at most kMaxPassedSurfaces of them.
+[[nodiscard]] bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone,
+                                     bool inside, TraversalStats* stats, VisibleHit& found);
+inline constexpr int kMaxPassedSurfaces = 4096;
+
+/// Less of a ray than this is not followed any further through surfaces that are partly there.
+inline constexpr double kLeastTransmittance = 1.0 / 4096;
+
+/// [light] What `unshadowed_terms` asks of the lights: the same at every point.
+[[nodiscard]] std::vector<Rgb> ambient_terms(std::span<const Light> lights);
+
+/// Emission and the ambient terms of all lights.
+[[nodiscard]] Rgb unshadowed_terms(const ShadingConventions& conventions,
+                                   std::span<const Rgb> ambient, const ShadingPoint& point);
+
+/// kd (N.L) + ks highlight for a light in unit direction `to_light` with N.L = `cosine` > 0.
+[[nodiscard]] Rgb reflected_fraction(const ShadingConventions& conventions,
+                                     const ShadingPoint& point, const Vec3& to_light,
+                                     double cosine);
+
+}  // namespace alhazen

@@ -1,0 +1,144 @@
+#include "alhazen/renderers/core/shadow_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/local_shading.h"
+
+namespace alhazen {
+
+namespace {
+
+using ShadowTint = ShadingConventions::ShadowTint;
+
+/// Rays that are cast together: enough to keep the stream kernel busy, few enough to stay near the
+/// core with what belongs to them.
+constexpr std::size_t kMostRays = 512;
+/// Where more than one of so many rays meets something, every ray is asked what it meets.
+constexpr std::uint64_t kFewMeet = 4;
+
+}  // namespace
+
+ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
+    : scene_(scene),
+      count_(counters[RayKind::Shadow]),
+      stats_(stats),
+      opaque_(scene.all_opaque || scene.conventions.shadow_tint == ShadowTint::Opaque),
+      met_(std::make_unique<bool[]>(kMostRays)) {
+    rays_.reserve(kMostRays);
+    waiting_.reserve(kMostRays);
+}
+
+void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rgb& fraction,
+                      const Path& path, Rgb& sum) {
+    if (scene_.conventions.shadow_tint == ShadowTint::None) {
+        sum += light.intensity * fraction;
+        return;
+    }
+    if (rays_.size() == kMostRays) finish();
+    rays_.push_back(leaving_ray(surface, light.to_light, light.distance));
+    waiting_.push_back({&sum, &path, light.intensity, fraction});
+}
+
+void ShadowBatch::finish(Coherence coherence) {
+    if (rays_.empty()) return;
+    const std::span<bool> met(met_.get(), rays_.size());
+    if (asks_first()) {
+        scene_.aggregate->occluded_batch(rays_, met, query(), coherence);
+    } else {
+        std::fill(met.begin(), met.end(), true);
+    }
+    count_.cast += rays_.size();
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        const Waiting& w = waiting_[i];
+        const Rgb through = let_through(rays_[i], *w.path, met[i]);
+        if (!through.is_black()) *w.sum += through * w.intensity * w.fraction;
+    }
+    rays_.clear();
+    waiting_.clear();
+}
+
+/// Whether it pays to find out which rays meet anything at all, and to ask only those what it is.
+/// What is counted must not depend on the rays before.
+bool ShadowBatch::asks_first() const {
+    return opaque_ || (stats_ == nullptr && kFewMeet * count_.hit <= count_.cast);
+}
+
+/// What is left of the light; `met`: there may be something on the way.
+Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
+    if (opaque_) {
+        count_.hit += met;
+        return met ? Rgb{0, 0, 0} : Rgb{1, 1, 1};
+    }
+    crossings_.clear();
+    // Light may pass what it meets without a trace: the back of a surface that has none.
+    const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query());
+    count_.hit += blocked || !crossings_.empty();
+    return blocked ? Rgb{0, 0, 0} : tint_of_crossings(ray, path);
+}
+
+Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
+    Rgb tint{1, 1, 1};
+    media_.clear();
+    if (path.inside) media_.push_back(path.absorption);
+    double last = 0.0;
+    bool in_wall = false;  // the first of the two crossings of a wall lies behind
+    for (const Hit& crossing : crossings_) {
+        const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
+        MaterialSample material = material_at(scene_, surface);
+        if (material.coverage == 0.0) continue;
+        bool leaving = dot(ray.direction, surface.normal) >= 0.0;
+        MaterialSample medium = material;
+        if (const SurfaceMedia& media = surface.media; media.before || media.after) {
+            const bool wall = media.before && media.after;
+            leaving = media.before && !in_wall;
+            in_wall = wall && leaving;
+            medium = medium_at(scene_, surface, leaving ? *media.before : *media.after);
+            if (wall) material = medium;
+        }
+        // Light that comes to the back of a surface without one passes.
+        if (!leaving && is_unseen_from_behind(material)) continue;
+        Rgb through = light_through(material, medium, leaving, crossing.t - last);
+        if (medium.physical && !medium.thin) {
+            tint = tint * through_medium(crossing.t - last);
+            enter_or_leave(leaving, medium.absorption);
+        }
+        if (material.coverage < 1.0) {
+            const double open = 1.0 - material.coverage;
+            through = Rgb{open, open, open} + material.coverage * through;
+        }
+        tint = tint * through;
+        if (tint.is_black()) return tint;
+        if (!medium.physical || !medium.thin) last = crossing.t;
+    }
+    if (std::isfinite(ray.t_max)) tint = tint * through_medium(ray.t_max - last);
+    return tint;
+}
+
+/// What one surface lets through of light that enters or leaves `medium` there; `inside`: the way
+/// since the last one.
+Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSample& medium,
+                               bool leaving, double inside) const {
+    const Rgb& kt = material.transmissive;
+    if (material.physical || kt.is_black() ||
+        scene_.conventions.shadow_tint == ShadowTint::PerCrossing) {
+        return kt;
+    }
+    return leaving ? power(medium.transmissive, inside) : Rgb{1, 1, 1};
+}
+
+/// What is left after a way through the innermost volume that was entered.
+Rgb ShadowBatch::through_medium(double distance) const {
+    return media_.empty() ? Rgb{1, 1, 1} : transmittance(media_.back(), distance);
+}
+
+void ShadowBatch::enter_or_leave(bool leaving, const Rgb& absorption) {
+    if (!leaving) {
+        media_.push_back(absorption);
+    } else if (!media_.empty()) {
+        media_.pop_back();
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,120 @@
+#pragma once
+/// The first surface of which something is there along each of many rays: `first_visible_hit` for
+/// all of them, in batches.
+///
+/// Source: none. Differs: nothing. Conventions: surfaces are told one at a time, in any order of
+/// the rays; what is told of a surface is gone with the next: it is large. Memory is kept from
+/// batch to batch.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/renderers/core/local_shading.h"
+
+namespace alhazen {
+
+class VisibleBatch {
+  public:
+    VisibleBatch(const Scene& scene, TraversalStats* stats)
+        : scene_(scene), stats_(stats), constant_(scene) {}
+
+    /// `path(k)` gives `kind`, `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for
+    /// each ray: a null pointer where nothing is seen, else what is seen and its distance from the
+    /// ray's origin. `tell` must not change rays or paths that have not been told yet.
+    template <class PathOf, class Tell>
+    void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
+        find(rays, coherence, path, tell, [](std::size_t, const Hit&) { return false; });
+    }
+    /// The same, but that `take(k, hit)` may take the first hit of a ray, of whose surface nothing
+    /// is asked then: true where it does.
+    template <class PathOf, class Tell, class Take>
+    void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell,
+              Take&& take) {
+        behind_.clear();
+        const auto kind = [&](std::size_t k) { return path(k).kind; };
+        for (std::size_t k = 0; const Hit& hit : closest(rays, coherence, kind)) {
+            if (hit.found()) {
+                if (!take(k, hit)) meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
+            } else {
+                tell(k, static_cast<const ShadingPoint*>(nullptr), 0.0);
+            }
+            ++k;
+        }
+        for (int passed = 0; passed < kMaxPassedSurfaces && !behind_.empty(); ++passed) {
+            on_way_.swap(behind_);
+            behind_.clear();
+            rest_.clear();
+            for (const Passed& p : on_way_) rest_.push_back(p.rest);
+            const auto kind_behind = [&](std::size_t i) { return path(on_way_[i].ray).kind; };
+            for (std::size_t i = 0; const Hit& hit : closest(rest_, Coherence::Any, kind_behind)) {
+                const Passed& p = on_way_[i++];
+                if (hit.found()) {
+                    meet(p.ray, rays[p.ray], p.rest, p.distance, hit, path(p.ray), tell);
+                } else {
+                    tell(p.ray, static_cast<const ShadingPoint*>(nullptr), 0.0);
+                }
+            }
+        }
+        for (const Passed& p : behind_) tell(p.ray, static_cast<const ShadingPoint*>(nullptr), 0.0);
+    }
+
+  private:
+    /// A ray behind surfaces of which nothing is there.
+    struct Passed {
+        Ray rest;
+        std::size_t ray;
+        double distance;  ///< from the origin of the ray asked for
+    };
+
+    /// What ray i meets first of what rays of `kind(i)` see.
+    template <class KindOf>
+    [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays, Coherence coherence,
+                                               KindOf&& kind) {
+        // Hits are large: those that are there are used again.
+        if (hits_.size() < rays.size()) hits_.resize(rays.size());
+        if (!scene_.has_masks) {
+            trace(rays, hits_, coherence, kAllRays);
+            return std::span(hits_).first(rays.size());
+        }
+        for (std::size_t k = 0; k < kRayKindCount; ++k) {
+            chosen_.clear();
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (kind(i) == static_cast<RayKind>(k)) chosen_.push_back(i);
+            }
+            trace_chosen(rays, coherence, mask_of(static_cast<RayKind>(k)));
+        }
+        return std::span(hits_).first(rays.size());
+    }
+    void trace(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, RayMask mask);
+    void trace_chosen(std::span<const Ray> rays, Coherence coherence, RayMask mask);
+
+    /// The hit is a surface. `rest`: ray k from the last surface on, `distance` behind the origin
+    /// of `whole`.
+    template <class Path, class Tell>
+    void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
+              const Path& path, Tell&& tell) {
+        const double t = distance + hit.t;
+        const PointNeeds needs{.uv = !scene_.textures.empty(), .constant = &constant_};
+        set_shading_point(scene_, rest, hit, {path.inside, path.cone.width_at(t)}, needs, point_);
+        if (point_.material->coverage > 0.0) {
+            tell(k, static_cast<const ShadingPoint*>(&point_), t);
+            return;
+        }
+        behind_.push_back({leaving_ray(point_.surface, whole.direction, whole.t_max - t), k, t});
+    }
+
+    const Scene& scene_;
+    TraversalStats* stats_;
+    MaterialCache constant_;
+    ShadingPoint point_;
+    std::vector<Hit> hits_;
+    // Of the rays of one kind, where the kinds are told apart.
+    std::vector<std::size_t> chosen_;
+    std::vector<Ray> chosen_rays_;
+    std::vector<Hit> chosen_hits_;
+    std::vector<Ray> rest_;
+    std::vector<Passed> behind_, on_way_;
+};
+
+}  // namespace alhazen

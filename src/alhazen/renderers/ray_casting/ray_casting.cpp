@@ -1,0 +1,123 @@
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+
+#include <vector>
+
+#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/core/pixel_loop.h"
+#include "alhazen/renderers/core/unlit_cache.h"
+#include "alhazen/renderers/core/visible_batch.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::size_t kRaysAtOnce = 256;
+
+Rgb shade(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& point) {
+    Rgb sum = unshadowed_terms(scene.conventions, ambient, point);
+    for (const Light& light : scene.lights) {
+        if (!illuminates(light)) continue;
+        const LightSample l =
+            sample(light, point.surface.point, scene.conventions.clamp_attenuation);
+        const double cosine = dot(point.normal, l.to_light);
+        if (cosine > 0.0) {
+            sum += l.intensity * reflected_fraction(scene.conventions, point, l.to_light, cosine);
+        }
+    }
+    return sum;
+}
+
+/// Casts eye rays.
+class Caster {
+  public:
+    Caster(const RenderJob& job, std::size_t /*rays_at_once*/, RayCounters& counters)
+        : job_(job),
+          count_(counters[RayKind::Eye]),
+          eye_{0, 1.0, job.cone},
+          ambient_(ambient_terms(job.scene.lights)),
+          flat_looks_(job.scene, ambient_),
+          visible_(job.scene, job.count_tests ? &counters.tests : nullptr) {}
+
+    void trace(std::span<const Ray> eye_rays, std::span<Rgb> radiance) {
+        count_.cast += eye_rays.size();
+        on_way_.clear();
+        behind_.clear();
+        rays_behind_.clear();
+        visible_.find(
+            eye_rays, Coherence::Coherent, [&](std::size_t) -> const OnWay& { return eye_; },
+            [&](std::size_t k, const ShadingPoint* point, double t) {
+                if (point == nullptr) return end(k, 1.0, radiance);
+                ++count_.hit;
+                meet({k, 1.0, job_.cone}, eye_rays[k], *point, t, radiance);
+            },
+            [&](std::size_t k, const Hit& hit) {
+                const Rgb* look = flat_looks_.find(hit);
+                if (look == nullptr) return false;
+                ++count_.hit;
+                radiance[k] += *look;
+                return true;
+            });
+        for (int met = 1; met < kMaxPassedSurfaces && !behind_.empty(); ++met) {
+            if (job_.stop_requested()) return;
+            go_on(radiance);
+        }
+        for (const OnWay& o : behind_) end(o.sample, o.left, radiance);
+    }
+
+  private:
+    /// A ray, as far as surfaces that are partly there let it through.
+    struct OnWay {
+        std::size_t sample;
+        double left;
+        RayCone cone;
+        bool inside = false;
+        RayKind kind = RayKind::Eye;
+    };
+
+    void end(std::size_t sample, double left, std::span<Rgb> radiance) const {
+        radiance[sample] = radiance[sample] + left * job_.scene.background;
+    }
+
+    /// What a ray finds of a surface, and what goes on behind it.
+    void meet(const OnWay& o, const Ray& ray, const ShadingPoint& point, double t,
+              std::span<Rgb> radiance) {
+        const double coverage = point.material->coverage;
+        radiance[o.sample] += (o.left * coverage) * shade(job_.scene, ambient_, point);
+        const double left = o.left * (1.0 - coverage);
+        if (!(left >= kLeastTransmittance)) return;
+        behind_.push_back({o.sample, left, o.cone.from(t)});
+        rays_behind_.push_back(leaving_ray(point.surface, ray.direction));
+    }
+
+    /// The next surface along the rays that are left.
+    void go_on(std::span<Rgb> radiance) {
+        on_way_.swap(behind_);
+        rays_.swap(rays_behind_);
+        behind_.clear();
+        rays_behind_.clear();
+        visible_.find(
+            rays_, Coherence::Any, [&](std::size_t k) -> const OnWay& { return on_way_[k]; },
+            [&](std::size_t k, const ShadingPoint* point, double t) {
+                const OnWay& o = on_way_[k];
+                if (point == nullptr) return end(o.sample, o.left, radiance);
+                meet(o, rays_[k], *point, t, radiance);
+            });
+    }
+
+    const RenderJob& job_;
+    RayCount& count_;
+    const OnWay eye_;  ///< what every eye ray has behind it
+    const std::vector<Rgb> ambient_;
+    UnlitCache flat_looks_;
+    VisibleBatch visible_;
+    std::vector<OnWay> on_way_, behind_;
+    std::vector<Ray> rays_, rays_behind_;
+};
+
+}  // namespace
+
+std::unique_ptr<TileRenderer> RayCasting::begin(const RenderJob& job) const {
+    return std::make_unique<PixelRenderer<Caster>>(job, kRaysAtOnce);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,17 @@
+#pragma once
+/// Visible surfaces only: eye rays, shaded by the lights without shadows.
+///
+/// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968; Goldstein
+/// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971. Differs: shadows are left to
+/// `whitted`; the shading is that renderer's local part.
+
+#include "alhazen/renderers/core/renderer.h"
+
+namespace alhazen {
+
+class RayCasting final : public Renderer {
+  public:
+    [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
+};
+
+}  // namespace alhazen

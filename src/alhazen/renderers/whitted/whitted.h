@@ -1,0 +1,31 @@
+#pragma once
+/// Recursive ray tracing: eye, shadow, reflection and refraction rays.
+///
+/// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; the
+/// equation and the rules for interpolated normals of the UW CSE 457 Trace project:
+///   I = ke + sum_j [ kd ILa_j + Ashadow Adist IL_j Bj (kd (N.L) + ks (N.H)+^ns) ] + kr I(Q,R) + kt
+///   I(Q,T).
+/// Differs: secondary rays start outside the error bound of the hit point instead of at a global
+/// epsilon; shadow rays count every surface they cross once, in one query; what formats do
+/// otherwise is read from ShadingConventions; many rays of a generation are traced together
+/// (wavefront.h), with the result of the recursion, bit for bit.
+
+#include <cstddef>
+
+#include "alhazen/renderers/core/renderer.h"
+
+namespace alhazen {
+
+class Whitted final : public Renderer {
+  public:
+    /// `rays_at_once`: of a generation, at least 1; the picture does not depend on it.
+    explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
+
+    [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
+
+  private:
+    static constexpr std::size_t kRaysAtOnce = 256;
+    std::size_t rays_at_once_;
+};
+
+}  // namespace alhazen

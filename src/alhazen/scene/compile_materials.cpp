@@ -1,0 +1,69 @@
+#include "alhazen/scene/compile_materials.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace alhazen {
+
+namespace {
+
+/// Textures that show one picture in different ways share its pyramid.
+void compile_textures(const SceneDescription& description, Scene& scene) {
+    std::map<std::pair<const StoredImage*, bool>, std::shared_ptr<const MipPyramid>> pyramids;
+    for (const TextureDescription& t : description.textures) {
+        Texture& texture = scene.textures.emplace_back(t.texture);
+        if (texture.filter != TextureFilter::Mipmapped) continue;
+        auto& pyramid = pyramids[{texture.image.get(), texture.decode_srgb}];
+        if (!pyramid) {
+            pyramid = std::make_shared<const MipPyramid>(texture.image, texture.decode_srgb);
+        }
+        texture.pyramid = pyramid;
+        scene.has_mipmaps = true;
+    }
+}
+
+}  // namespace
+
+void compile_materials(const SceneDescription& description, Scene& scene) {
+    const bool truncate = description.conventions.truncate_material_colors;
+    for (const MaterialDescription& of : description.materials) {
+        Material m = of.material;
+        if (truncate) {
+            for (ColorInput* input : {&m.emission, &m.ambient, &m.diffuse, &m.specular,
+                                      &m.reflective, &m.transmissive}) {
+                for (int i = 0; i < 3; ++i) {
+                    input->color[i] = std::floor(255.0 * input->color[i]) / 255.0;
+                }
+            }
+        }
+        scene.materials.push_back(std::move(m));
+    }
+    compile_textures(description, scene);
+    for (const LightDescription& l : description.lights) {
+        Light light = l.light;
+        if (auto* directional = std::get_if<DirectionalLight>(&light)) {
+            directional->to_light = normalize(directional->to_light);
+        } else if (auto* spot = std::get_if<SpotLight>(&light)) {
+            spot->direction = normalize(spot->direction);
+        }
+        scene.lights.push_back(light);
+    }
+    scene.cameras = description.cameras;
+    scene.conventions = description.conventions;
+    scene.background = description.picture.background.value_or(Rgb{});
+}
+
+std::uint64_t texture_bytes(const std::vector<Texture>& textures) {
+    std::map<const void*, std::uint64_t> bytes;
+    for (const Texture& t : textures) {
+        bytes[t.image.get()] = t.image->memory_bytes();
+        if (t.pyramid) bytes[t.pyramid.get()] = t.pyramid->memory_bytes();
+    }
+    std::uint64_t sum = 0;
+    for (const auto& [what, count] : bytes) sum += count;
+    return sum;
+}
+
+}  // namespace alhazen

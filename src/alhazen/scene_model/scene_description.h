@@ -1,0 +1,152 @@
+#pragma once
+/// What a scene file says: names, values and where each was written. Importers make it, `validate`
+/// judges it, `compile` turns it into the `Scene` that rays meet. Plain data, free to edit in
+/// between.
+///
+/// Conventions: an object is a list of parts; a part is a shape, a mesh or another object under a
+/// transform. `root` is the object that is rendered; an object used by several parts is instanced,
+/// not copied.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "alhazen/base/diagnostics.h"
+#include "alhazen/cameras/camera.h"
+#include "alhazen/geometry/ray_mask.h"
+#include "alhazen/math/affine.h"
+#include "alhazen/shading/lights/light.h"
+#include "alhazen/shading/materials/material.h"
+#include "alhazen/shading/shading_conventions.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
+#include "alhazen/shapes/shape_list.h"
+
+namespace alhazen {
+
+enum class MeshIndex : std::uint32_t {};
+enum class ObjectIndex : std::uint32_t {};
+
+struct Part {
+    std::variant<AnyShape, MeshIndex, ObjectIndex> what;
+    Affine object_from_part;  ///< into the frame of the object that owns the part
+    /// Ignored for an object (its parts have their own) and for a mesh with vertex materials.
+    MaterialId material{0};
+    std::string name;
+    FileLocation location;
+    /// Bits of `mask_of(RayKind)`, or kAllRays. A kind of ray sees the part where it sees all the
+    /// objects around it too.
+    RayMask visible_to = kAllRays;
+};
+
+/// What the parts of an object make together.
+enum class Combine : std::uint8_t {
+    Group,         ///< they lie side by side; as an operand of a solid: their union
+    Union,         ///< one solid
+    Intersection,  ///< what all of them share
+    Difference,    ///< the first part without all the others
+};
+
+/// Which material a surface shows that a subtracted part has cut.
+enum class CutMaterial : std::uint8_t {
+    Own,      ///< that of the subtracted part
+    Minuend,  ///< that of the solid that is cut there
+};
+
+/// Anything but a group is a solid: its parts must bound volumes (closed shapes, closed meshes,
+/// objects of such), and it is one of them wherever it is used.
+struct ObjectDescription {
+    std::string name;
+    std::vector<Part> parts;
+    FileLocation location;
+    Combine combine = Combine::Group;
+    CutMaterial cut_material = CutMaterial::Own;  ///< for a difference
+    /// Of a group: "NAME" or "NAME:SETTING=VALUE,..."; such an object is never dissolved in the one
+    /// around it. Empty: it is traced like the rest of the scene.
+    std::string accelerator;
+};
+
+struct MeshDescription {
+    std::string name;
+    std::shared_ptr<TriangleMesh> mesh;  ///< vertex_materials hold values of MaterialId
+    FileLocation location;
+};
+
+struct TextureDescription {
+    std::string name;
+    Texture texture;  ///< image already read
+    FileLocation location;
+};
+
+struct CameraDescription {
+    std::string name;
+    Camera camera;
+    double aspect = 1;  ///< width / height the camera was described for
+    FileLocation location;
+};
+
+struct LightDescription {
+    std::string name;
+    Light light;
+    FileLocation location;
+};
+
+struct MaterialDescription {
+    Material material;
+    FileLocation location;
+};
+
+/// Largest side of a picture, pixels.
+inline constexpr int kMaxPictureSide = 65536;
+
+/// What the file says about the picture; the command line overrides it.
+struct PictureSettings {
+    std::optional<int> width, height;  ///< pixels
+    std::optional<Rgb> background;     ///< black when the file has none
+};
+
+/// An animation of the file; the scene shows one moment of it (ImportOptions::time).
+struct AnimationInfo {
+    std::string name;
+    double begin = 0, end = 0;  ///< seconds, of its first and last key
+};
+
+/// Which way is up where a file has no camera.
+enum class UpAxis { Y, Z };
+
+struct SceneDescription {
+    // Compiled once, not in every file that has a description.
+    SceneDescription();
+    SceneDescription(const SceneDescription&);
+    SceneDescription(SceneDescription&&) noexcept;
+    SceneDescription& operator=(const SceneDescription&);
+    SceneDescription& operator=(SceneDescription&&) noexcept;
+    ~SceneDescription();
+
+    std::string format;  ///< name of the importer
+    std::filesystem::path path;
+    std::set<std::filesystem::path> files;   ///< others that were read, or that it names
+    std::vector<CameraDescription> cameras;  ///< the first is the default
+    std::vector<LightDescription> lights;
+    std::vector<MaterialDescription> materials;  ///< indexed by MaterialId
+    std::vector<TextureDescription> textures;    ///< indexed by TextureId
+    std::vector<MeshDescription> meshes;         ///< indexed by MeshIndex
+    std::vector<ObjectDescription> objects;      ///< indexed by ObjectIndex
+    ObjectIndex root{0};
+    std::vector<AnimationInfo> animations;
+    PictureSettings picture;
+    UpAxis up_axis = UpAxis::Y;
+    ShadingConventions conventions;
+};
+
+/// Adds every finding about `description` to `diagnostics`: values that are not finite, singular
+/// transforms, bad shapes and meshes, ids out of range, objects that contain themselves, nesting
+/// deeper than kMaxInstanceDepth, masks of no kind of ray, operands of a solid that bound no
+/// volume, accelerators that there are not, nothing to see (warning).
+void validate(const SceneDescription& description, Diagnostics& diagnostics);
+
+}  // namespace alhazen

@@ -1,0 +1,289 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alhazen/accel/accelerator_names.h"
+#include "alhazen/base/error.h"
+#include "alhazen/scene_model/scene_description.h"
+#include "alhazen/scene_model/validate_materials.h"
+#include "alhazen/scene_model/validate_solids.h"
+
+namespace alhazen {
+
+namespace {
+
+/// What follows objects recurses this deep.
+constexpr int kMaxSolidNesting = 500;
+
+bool finite(const Rgb& c) {
+    return c.is_finite();
+}
+
+class Validator {
+  public:
+    Validator(const SceneDescription& description, Diagnostics& diagnostics)
+        : d_(description), out_(diagnostics) {}
+
+    void run() {
+        check_cameras();
+        check_lights();
+        validate_materials(d_, out_);
+        for (const MeshDescription& mesh : d_.meshes) check_mesh(mesh);
+        for (const ObjectDescription& object : d_.objects) {
+            for (const Part& part : object.parts) check_part(part);
+        }
+        check_accelerators();
+        check_nesting();
+        validate_solids(d_, out_);
+        check_picture();
+    }
+
+  private:
+    void error(const FileLocation& where, std::string message) {
+        out_.error(where.file.empty() ? file() : where, std::move(message));
+    }
+    void warning(const FileLocation& where, std::string message) {
+        out_.warning(where.file.empty() ? file() : where, std::move(message));
+    }
+    [[nodiscard]] FileLocation file() const { return {d_.path.string(), 0, 0}; }
+
+    void check_cameras() {
+        for (const CameraDescription& camera : d_.cameras) {
+            const bool ok = std::visit(
+                [](const auto& c) {
+                    Vec3 forward;
+                    bool good = is_finite(c.right) && is_finite(c.up);
+                    if constexpr (requires { c.look; }) {
+                        forward = c.look;
+                        good = good && is_finite(c.eye);
+                    } else {
+                        forward = c.direction;
+                        good = good && is_finite(c.origin);
+                    }
+                    // The picture plane must not degenerate to a line.
+                    return good && is_finite(forward) && forward != Vec3{} &&
+                           length_squared(cross(c.right, c.up)) > 0.0;
+                },
+                camera.camera);
+            if (!ok || !(camera.aspect > 0.0) || !std::isfinite(camera.aspect)) {
+                error(camera.location,
+                      "the camera's vectors must be finite, its view direction not zero and its "
+                      "right and up vectors not parallel");
+            }
+        }
+    }
+
+    void check_lights() {
+        for (const LightDescription& light : d_.lights) {
+            const auto need = [&](bool ok, const char* message) {
+                if (!ok) error(light.location, message);
+            };
+            std::visit(
+                [&](const auto& l) {
+                    need(finite(l.ambient), "the light's ambient colour must be finite");
+                    if constexpr (requires { l.color; }) {
+                        need(finite(l.color), "the light's colour must be finite");
+                    }
+                    if constexpr (requires { l.position; }) {
+                        need(is_finite(l.position), "the light's position must be finite");
+                        const Attenuation& a = l.attenuation;
+                        need(
+                            a.constant >= 0 && a.linear >= 0 && a.quadratic >= 0 &&
+                                std::isfinite(a.constant + a.linear + a.quadratic),
+                            "the light's attenuation coefficients must be finite and not negative");
+                    }
+                    if constexpr (requires { l.range; }) {
+                        need(l.range > 0, "the light's range must be positive");
+                    }
+                    if constexpr (requires { l.to_light; }) {
+                        need(is_finite(l.to_light) && l.to_light != Vec3{},
+                             "the light's direction must be finite and not zero");
+                    }
+                    if constexpr (requires { l.inner_angle; }) {
+                        need(is_finite(l.direction) && l.direction != Vec3{},
+                             "the light's direction must be finite and not zero");
+                        need(l.inner_angle >= 0 && l.inner_angle <= l.outer_angle &&
+                                 l.outer_angle <= 3.1415926535897936,
+                             "the light's angles must satisfy 0 <= inner <= outer <= 180 degrees");
+                    }
+                },
+                light.light);
+        }
+    }
+
+    void check_mesh(const MeshDescription& description) {
+        if (!description.mesh) {
+            error(description.location, fmt::format("{} is missing", in_words(description)));
+            return;
+        }
+        const TriangleMesh& mesh = *description.mesh;
+        mesh.validate(description.location, out_);
+        const auto bad = std::find_if(mesh.vertex_materials.begin(), mesh.vertex_materials.end(),
+                                      [&](std::uint32_t m) { return m >= d_.materials.size(); });
+        if (bad != mesh.vertex_materials.end()) {
+            error(description.location,
+                  fmt::format("a vertex of {} refers to material {} of {}", in_words(description),
+                              *bad, d_.materials.size()));
+        }
+    }
+
+    void check_mask(const Part& part) {
+        if (part.visible_to == kAllRays) return;
+        if ((part.visible_to & ~kRaysOfAllKinds) != 0) {
+            error(part.location,
+                  fmt::format("is visible to rays of mask {:#x}; known are bits of {:#x}",
+                              part.visible_to, kRaysOfAllKinds));
+        } else if (part.visible_to == 0) {
+            warning(part.location, "is visible to no ray");
+        }
+    }
+
+    void check_part(const Part& part) {
+        check_mask(part);
+        if (!is_invertible(part.object_from_part)) {
+            error(part.location, "the transform is singular or not finite");
+        }
+        if (const AnyShape* shape = std::get_if<AnyShape>(&part.what)) {
+            std::visit([&](const auto& s) { s.validate(part.location, out_); }, *shape);
+        } else if (const MeshIndex* mesh = std::get_if<MeshIndex>(&part.what)) {
+            if (static_cast<std::uint32_t>(*mesh) >= d_.meshes.size()) {
+                error(part.location,
+                      fmt::format("refers to mesh {} of {}", static_cast<std::uint32_t>(*mesh),
+                                  d_.meshes.size()));
+            }
+        } else if (static_cast<std::uint32_t>(std::get<ObjectIndex>(part.what)) >=
+                   d_.objects.size()) {
+            error(part.location,
+                  fmt::format("refers to object {} of {}",
+                              static_cast<std::uint32_t>(std::get<ObjectIndex>(part.what)),
+                              d_.objects.size()));
+        }
+        if (!std::holds_alternative<ObjectIndex>(part.what) &&
+            static_cast<std::uint32_t>(part.material) >= d_.materials.size()) {
+            error(part.location,
+                  fmt::format("refers to material {} of {}",
+                              static_cast<std::uint32_t>(part.material), d_.materials.size()));
+        }
+    }
+
+    void check_accelerators() {
+        for (std::size_t i = 0; i < d_.objects.size(); ++i) {
+            const ObjectDescription& object = d_.objects[i];
+            if (object.accelerator.empty()) continue;
+            if (object.combine != Combine::Group) {
+                error(object.location, "a solid made of others has no accelerator of its own");
+            } else if (i == static_cast<std::size_t>(d_.root)) {
+                error(object.location,
+                      "the root of the scene is traced with what the command line says: it has no "
+                      "accelerator of its own");
+            }
+            try {
+                check_accelerator(object.accelerator);
+            } catch (const Error& e) {
+                error(object.location, e.what());
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<int> object_uses() const {
+        std::vector<int> uses(d_.objects.size(), 0);
+        for (const ObjectDescription& object : d_.objects) {
+            for (const Part& part : object.parts) {
+                const auto* child = std::get_if<ObjectIndex>(&part.what);
+                if (child == nullptr || static_cast<std::size_t>(*child) >= uses.size()) continue;
+                ++uses[static_cast<std::size_t>(*child)];
+            }
+        }
+        return uses;
+    }
+
+    /// Depth of every object by an explicit stack: hostile nesting must not overflow the real one.
+    void check_nesting() {
+        enum : std::uint8_t { New, Open, Done };
+        const std::size_t n = d_.objects.size();
+        if (static_cast<std::size_t>(d_.root) >= n) {
+            error({}, "the scene has no root object");
+            return;
+        }
+        std::vector<std::uint8_t> state(n, New);
+        std::vector<int> depth(n, 0);
+        // Parts of a solid that are placed once become part of it: they take no level of instances.
+        std::vector<int> nesting(n, 0), uses = object_uses();
+        const auto deepen = [&](std::size_t outer, std::size_t inner) {
+            const bool joined = d_.objects[outer].combine != Combine::Group && uses[inner] == 1;
+            depth[outer] = std::max(depth[outer], depth[inner] + !joined);
+            nesting[outer] = std::max(nesting[outer], nesting[inner] + 1);
+        };
+        struct Frame {
+            std::size_t object, next_part;
+        };
+        std::vector<Frame> stack{{static_cast<std::size_t>(d_.root), 0}};
+        state[stack.back().object] = Open;
+        while (!stack.empty()) {
+            Frame& frame = stack.back();
+            const std::size_t object = frame.object;
+            const auto& parts = d_.objects[object].parts;
+            if (frame.next_part == parts.size()) {
+                state[object] = Done;
+                stack.pop_back();
+                if (!stack.empty()) {
+                    deepen(stack.back().object, object);
+                }
+                continue;
+            }
+            const Part& part = parts[frame.next_part++];
+            const ObjectIndex* child = std::get_if<ObjectIndex>(&part.what);
+            if (child == nullptr || static_cast<std::size_t>(*child) >= n) continue;
+            const std::size_t c = static_cast<std::size_t>(*child);
+            if (state[c] == Open) {
+                error(part.location,
+                      fmt::format("object '{}' contains itself", d_.objects[c].name));
+                return;
+            }
+            if (state[c] == Done) {
+                deepen(object, c);
+            } else {
+                state[c] = Open;
+                stack.push_back({c, 0});
+            }
+        }
+        const int deepest = depth[static_cast<std::size_t>(d_.root)];
+        const int nested = nesting[static_cast<std::size_t>(d_.root)];
+        // Automatic instances of meshes may add one level of their own.
+        if (deepest + 1 > static_cast<int>(kMaxInstanceDepth)) {
+            error({}, fmt::format("objects are nested {} deep; at most {} levels are supported",
+                                  deepest, kMaxInstanceDepth - 1));
+        } else if (nested > kMaxSolidNesting) {
+            error({}, fmt::format("solids are nested {} deep; at most {} levels are supported",
+                                  nested, kMaxSolidNesting));
+        }
+        if (d_.objects[static_cast<std::size_t>(d_.root)].parts.empty()) {
+            warning({}, "the scene is empty");
+        }
+    }
+
+    void check_picture() {
+        const auto side = [&](const std::optional<int>& pixels, const char* what) {
+            if (pixels && (*pixels < 1 || *pixels > kMaxPictureSide)) {
+                error({}, fmt::format("picture {} must be 1 to {} pixels, found {}", what,
+                                      kMaxPictureSide, *pixels));
+            }
+        };
+        side(d_.picture.width, "width");
+        side(d_.picture.height, "height");
+        if (!finite(d_.picture.background.value_or(Rgb{}))) {
+            error({}, "the background colour must be finite");
+        }
+    }
+
+    const SceneDescription& d_;
+    Diagnostics& out_;
+};
+
+}  // namespace
+
+void validate(const SceneDescription& description, Diagnostics& diagnostics) {
+    Validator(description, diagnostics).run();
+}
+
+}  // namespace alhazen

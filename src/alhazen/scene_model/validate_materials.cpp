@@ -1,0 +1,111 @@
+#include "alhazen/scene_model/validate_materials.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace alhazen {
+
+namespace {
+
+/// The checks of one material or texture; remembers whose they are.
+class Checker {
+  public:
+    Checker(const SceneDescription& description, FileLocation where, Diagnostics& diagnostics)
+        : d_(description), where_(std::move(where)), out_(diagnostics) {
+        if (where_.file.empty()) where_ = {d_.path.string(), 0, 0};
+    }
+
+    void error(std::string message) { out_.error(where_, std::move(message)); }
+
+    void material(const Material& m) {
+        name_ = m.name;
+        color(m.emission, "emission");
+        color(m.ambient, "ambient");
+        color(m.diffuse, "diffuse");
+        color(m.specular, "specular");
+        color(m.reflective, "reflective");
+        color(m.transmissive, "transmissive");
+        scalar(m.shininess, "shininess");
+        scalar(m.index, "index of refraction");
+        if (m.density) not_negative(*m.density, "density");
+        scalar(m.alpha, "alpha");
+        not_negative(m.alpha_cutoff, "alpha cutoff");
+        texture_id(m.normal_map.texture, "normal map");
+        if (!std::isfinite(m.normal_map.scale)) {
+            error(fmt::format("scale of the normal map of material '{}' must be finite", name_));
+        }
+        if (m.metallic_roughness) parameters(*m.metallic_roughness);
+    }
+
+  private:
+    void parameters(const MetallicRoughness& p) {
+        color(p.base_color, "base colour");
+        color(p.specular_color, "specular colour");
+        color({p.attenuation_color, kNoTexture}, "attenuation colour");
+        scalar(p.metallic, "metallic");
+        scalar(p.roughness, "roughness");
+        scalar(p.occlusion, "occlusion");
+        scalar(p.specular, "specular");
+        scalar(p.transmission, "transmission");
+        scalar(p.thickness, "thickness");
+        if (!(p.attenuation_distance > 0.0)) {
+            error(fmt::format("attenuation distance of material '{}' must be positive, found {}",
+                              name_, p.attenuation_distance));
+        }
+    }
+
+    void texture_id(TextureId id, const char* what) {
+        if (id == kNoTexture || static_cast<std::uint32_t>(id) < d_.textures.size()) return;
+        error(fmt::format("{} refers to texture {} of {}", what, static_cast<std::uint32_t>(id),
+                          d_.textures.size()));
+    }
+    void color(const ColorInput& input, const char* what) {
+        texture_id(input.texture, what);
+        if (!input.color.is_finite()) {
+            error(fmt::format("{} of material '{}' must be finite", what, name_));
+        }
+    }
+    void scalar(const ScalarInput& input, const char* what) {
+        texture_id(input.texture, what);
+        not_negative(input.value, what);
+    }
+    void not_negative(double value, const char* what) {
+        if (std::isfinite(value) && value >= 0.0) return;
+        error(fmt::format("{} of material '{}' must be finite and not negative, found {}", what,
+                          name_, value));
+    }
+
+    const SceneDescription& d_;
+    FileLocation where_;
+    Diagnostics& out_;
+    std::string name_;
+};
+
+void check_texture(const TextureDescription& t, Checker checker) {
+    const Texture& texture = t.texture;
+    if (!texture.image || texture.image->width <= 0 || texture.image->height <= 0) {
+        checker.error(fmt::format("texture '{}' has no image", t.name));
+    }
+    if (texture.uv_set != 0 && texture.uv_set != 1) {
+        checker.error(fmt::format("texture '{}' uses set {} of coordinates; there are 0 and 1",
+                                  t.name, texture.uv_set));
+    }
+    const UvTransform& u = texture.uv_transform;
+    if (!std::isfinite(u.uu + u.uv + u.vu + u.vv + u.offset.x + u.offset.y)) {
+        checker.error(fmt::format("the transform of texture '{}' must be finite", t.name));
+    }
+}
+
+}  // namespace
+
+void validate_materials(const SceneDescription& description, Diagnostics& diagnostics) {
+    for (const MaterialDescription& m : description.materials) {
+        Checker(description, m.location, diagnostics).material(m.material);
+    }
+    for (const TextureDescription& t : description.textures) {
+        check_texture(t, Checker(description, t.location, diagnostics));
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,19 @@
+#pragma once
+/// Whether the operands of solids (objects that are no groups) bound volumes.
+///
+/// Internal to `validate`.
+
+#include <string>
+
+#include "alhazen/scene_model/scene_description.h"
+
+namespace alhazen {
+
+/// Adds to `diagnostics` every part of a solid, or of an object that a solid uses, that bounds no
+/// volume, and every intersection or difference of nothing. Objects may contain themselves.
+void validate_solids(const SceneDescription& description, Diagnostics& diagnostics);
+
+/// "mesh 'name'", or "a mesh without a name".
+[[nodiscard]] std::string in_words(const MeshDescription& mesh);
+
+}  // namespace alhazen

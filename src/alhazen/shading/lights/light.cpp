@@ -1,0 +1,77 @@
+#include "alhazen/shading/lights/light.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace alhazen {
+
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+    using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce this by itself
+
+/// Direction and distance to a position, and the attenuation over that distance.
+struct Approach {
+    Vec3 to_light;
+    double distance;
+    double attenuation;
+};
+
+Approach approach(const auto& light, const Vec3& point, bool clamp) {
+    const Attenuation& a = light.attenuation;
+    const Vec3 offset = light.position - point;
+    const double d = length(offset);
+    double factor = 1.0 / (a.constant + a.linear * d + a.quadratic * (d * d));
+    // A light with no falloff given (all zero) divides by zero: clamping makes it 1, as the course
+    // does.
+    if (clamp && !(factor < 1.0)) factor = 1.0;
+    if (light.range != kNoRange) {
+        const double x = d / light.range;
+        factor *= std::max(1.0 - (x * x) * (x * x), 0.0);
+    }
+    return {offset / d, d, factor};
+}
+
+double spot_falloff(const SpotLight& light, const Vec3& to_light) {
+    const double cosine = -dot(to_light, light.direction);
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    if (angle <= light.inner_angle) return 1.0;
+    if (angle >= light.outer_angle) return 0.0;
+    const double x = (light.outer_angle - angle) / (light.outer_angle - light.inner_angle);
+    return x * x * (3.0 - 2.0 * x);
+}
+
+}  // namespace
+
+bool illuminates(const Light& light) {
+    return !std::holds_alternative<AmbientLight>(light);
+}
+
+LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation) {
+    return std::visit(
+        Overloaded{
+            [](const AmbientLight&) { return LightSample{}; },
+            [](const DirectionalLight& l) {
+                return LightSample{l.to_light, std::numeric_limits<double>::infinity(), l.color};
+            },
+            [&](const PointLight& l) {
+                const Approach a = approach(l, point, clamp_attenuation);
+                return LightSample{a.to_light, a.distance, a.attenuation * l.color};
+            },
+            [&](const SpotLight& l) {
+                const Approach a = approach(l, point, clamp_attenuation);
+                return LightSample{a.to_light, a.distance,
+                                   a.attenuation * spot_falloff(l, a.to_light) * l.color};
+            }},
+        light);
+}
+
+Rgb ambient_of(const Light& light) {
+    return std::visit([](const auto& l) { return l.ambient; }, light);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,70 @@
+#pragma once
+/// Lights without extent: a closed variant of plain structs. ADD A LIGHT HERE: a struct and an
+/// entry in `Light`.
+///
+/// Conventions: every light may carry an ambient term, added at every point whatever is in between
+/// (the course's I_La); an `AmbientLight` is nothing else.
+
+#include <limits>
+#include <variant>
+
+#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+struct AmbientLight {
+    Rgb ambient;
+};
+
+struct DirectionalLight {
+    Vec3 to_light{0, 0, 1};  ///< unit, from the scene towards the light
+    Rgb color{1, 1, 1};
+    Rgb ambient;
+};
+
+/// 1 / (constant + linear d + quadratic d^2).
+struct Attenuation {
+    double constant = 1, linear = 0, quadratic = 0;
+};
+
+/// Where a light ends: its attenuation is multiplied by clamp(1 - (d / range)^4, 0, 1).
+/// Source: Khronos, KHR_lights_punctual, "Range Property".
+inline constexpr double kNoRange = std::numeric_limits<double>::infinity();
+
+struct PointLight {
+    Vec3 position;
+    Rgb color{1, 1, 1};
+    Attenuation attenuation;
+    Rgb ambient;
+    double range = kNoRange;
+};
+
+/// A point light that shines into a cone: full within `inner_angle` of the axis, none beyond
+/// `outer_angle`, a smooth cubic step of the angle between.
+struct SpotLight {
+    Vec3 position;
+    Vec3 direction{0, 0, -1};                     ///< unit, from the light into the scene
+    double inner_angle = 0.5, outer_angle = 0.6;  ///< radians from the axis
+    Rgb color{1, 1, 1};
+    Attenuation attenuation;
+    Rgb ambient;
+    double range = kNoRange;
+};
+
+using Light = std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight>;
+
+/// A light as seen from a point: unit direction towards it, distance (infinite for directional
+/// lights) and the intensity that arrives unshadowed, attenuation included.
+struct LightSample {
+    Vec3 to_light;
+    double distance = 0;
+    Rgb intensity;
+};
+
+/// False for a light that only has an ambient term.
+[[nodiscard]] bool illuminates(const Light& light);
+[[nodiscard]] LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation);
+[[nodiscard]] Rgb ambient_of(const Light& light);
+
+}  // namespace alhazen

@@ -1,0 +1,121 @@
+#include "alhazen/shading/materials/material.h"
+
+#include <algorithm>
+
+#include "alhazen/shading/materials/texture_inputs.h"
+
+namespace alhazen {
+
+Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLookup& lookup) {
+    const Texture& texture = textures[static_cast<std::uint32_t>(id)];
+    const std::size_t set = texture.uv_set == 1 ? 1 : 0;
+    const UvTransform& transform = texture.uv_transform;
+    if (transform == UvTransform{}) {
+        return evaluate(texture, lookup.uv[set], lookup.footprint[set]);
+    }
+    return evaluate(
+        texture, transform.apply(lookup.uv[set]),
+        {transform.linear(lookup.footprint[set].a), transform.linear(lookup.footprint[set].b)});
+}
+
+bool reads_textures(const Material& m) {
+    const auto any = [](const auto&... input) { return ((input.texture != kNoTexture) || ...); };
+    if (any(m.emission, m.ambient, m.diffuse, m.specular, m.reflective, m.transmissive, m.shininess,
+            m.index, m.alpha, m.normal_map)) {
+        return true;
+    }
+    if (!m.metallic_roughness) return false;
+    const MetallicRoughness& p = *m.metallic_roughness;
+    return any(p.base_color, p.metallic, p.roughness, p.occlusion, p.specular, p.specular_color,
+               p.transmission, p.thickness);
+}
+
+double channel_of(const Rgba& texel, Channel channel) {
+    switch (channel) {
+        case Channel::Red:
+            return texel.r;
+        case Channel::Green:
+            return texel.g;
+        case Channel::Blue:
+            return texel.b;
+        case Channel::Alpha:
+            return texel.a;
+        case Channel::Mean:
+            break;
+    }
+    return (texel.r + texel.g + texel.b) / 3.0;
+}
+
+Rgb color_at(const ColorInput& input, std::span<const Texture> textures,
+             const SurfaceLookup& lookup) {
+    if (input.texture == kNoTexture) return input.color;
+    return input.color * texel_at(input.texture, textures, lookup).rgb();
+}
+
+double value_at(const ScalarInput& input, std::span<const Texture> textures,
+                const SurfaceLookup& lookup) {
+    if (input.texture == kNoTexture) return input.value;
+    return input.value * channel_of(texel_at(input.texture, textures, lookup), input.channel);
+}
+
+double coverage_of(const Material& material, std::span<const Texture> textures,
+                   const SurfaceLookup& lookup) {
+    if (material.alpha_mode == AlphaMode::Opaque) return 1.0;
+    const double alpha = lookup.color.a * value_at(material.alpha, textures, lookup);
+    if (material.alpha_mode == AlphaMode::Mask) return alpha < material.alpha_cutoff ? 0.0 : 1.0;
+    return alpha > 0.0 ? std::min(alpha, 1.0) : 0.0;
+}
+
+namespace {
+
+/// Whitted's coefficients. Written at once: setting the fields of a sample that was made before
+/// takes as long again.
+MaterialSample evaluate_whitted(const Material& m, std::span<const Texture> textures,
+                                const SurfaceLookup& lookup) {
+    const auto color = [&](const ColorInput& input) {
+        return input.texture == kNoTexture ? input.color : color_at(input, textures, lookup);
+    };
+    const auto value = [&](const ScalarInput& input) {
+        return input.texture == kNoTexture ? input.value : value_at(input, textures, lookup);
+    };
+    const Rgb vertex = lookup.color.rgb();
+    const Rgb diffuse = vertex * color(m.diffuse);
+    return {.emission = color(m.emission),
+            .ambient = vertex * color(m.ambient),
+            .diffuse = diffuse,
+            .specular = color(m.specular),
+            .reflective = color(m.reflective),
+            .transmissive = color(m.transmissive),
+            .shininess = value(m.shininess),
+            .index = value(m.index),
+            .coverage = coverage_of(m, textures, lookup),
+            .albedo = diffuse,
+            .single_sided = !m.double_sided};
+}
+
+}  // namespace
+
+MaterialSample evaluate(const Material& material, std::span<const Texture> textures,
+                        const SurfaceLookup& lookup) {
+    if (!material.metallic_roughness) return evaluate_whitted(material, textures, lookup);
+    MaterialSample sample =
+        evaluate_metallic_roughness(material, *material.metallic_roughness, textures, lookup);
+    sample.coverage = coverage_of(material, textures, lookup);
+    sample.single_sided = !material.double_sided;
+    return sample;
+}
+
+MaterialSample weighted_sum(double wa, const MaterialSample& a, double wb, const MaterialSample& b,
+                            double wc, const MaterialSample& c) {
+    MaterialSample sum = a;
+    const auto mix = [&](auto... field) {
+        ((sum.*field = wa * (a.*field) + wb * (b.*field) + wc * (c.*field)), ...);
+    };
+    using S = MaterialSample;
+    mix(&S::emission, &S::ambient, &S::diffuse, &S::specular, &S::reflective, &S::transmissive,
+        &S::albedo, &S::absorption, &S::grazing);
+    mix(&S::shininess, &S::index, &S::coverage, &S::occlusion);
+    return sum;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,151 @@
+#pragma once
+/// What a point of a surface does with light, constant or read from textures: Whitted's
+/// coefficients, or the metallic-roughness parameters from which they are derived where they are
+/// used.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and appendix B; the extensions
+/// KHR_materials_{ior, transmission, volume, specular, emissive_strength, unlit}.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "alhazen/shading/textures/texture.h"
+
+namespace alhazen {
+
+enum class MaterialId : std::uint32_t {};
+
+/// A colour, or a texture times that colour.
+struct ColorInput {
+    Rgb color;
+    TextureId texture = kNoTexture;
+};
+/// Which number of a texel a scalar input reads; Mean is that of red, green and blue.
+enum class Channel { Mean, Red, Green, Blue, Alpha };
+/// A number, or a channel of a texture times that number.
+struct ScalarInput {
+    double value = 0;
+    TextureId texture = kNoTexture;
+    Channel channel = Channel::Mean;
+};
+
+/// What alpha means: nothing; a threshold that cuts the surface out; how much of it is there.
+enum class AlphaMode { Opaque, Mask, Blend };
+
+/// A picture of directions in the tangent frame that bends the shading normal: x to the right (+u),
+/// y up (+v), z along the normal, each stored as (c + 1) / 2.
+struct NormalMap {
+    TextureId texture = kNoTexture;
+    double scale = 1;  ///< of x and y
+};
+
+/// The metallic-roughness parameters, kept as the file gives them. Emission and index of refraction
+/// are those of the Material.
+struct MetallicRoughness {
+    ColorInput base_color{{1, 1, 1}, kNoTexture};
+    ScalarInput metallic{1, kNoTexture, Channel::Blue};
+    ScalarInput roughness{1, kNoTexture, Channel::Green};
+    /// 1 where no texture; a texture is blended in by `value`: 1 + value (texel - 1).
+    ScalarInput occlusion{1, kNoTexture, Channel::Red};
+    ScalarInput specular{1, kNoTexture, Channel::Alpha};  ///< strength of the dielectric reflection
+    ColorInput specular_color{{1, 1, 1}, kNoTexture};     ///< of it at normal incidence
+    ScalarInput transmission{0, kNoTexture, Channel::Red};
+    /// 0: a thin sheet that does not bend light; else the surface bounds a volume.
+    ScalarInput thickness{0, kNoTexture, Channel::Green};
+    double attenuation_distance = std::numeric_limits<double>::infinity();  ///< scene units
+    Rgb attenuation_color{1, 1, 1};  ///< what is left of white light after that distance
+    bool unlit = false;              ///< shows its base colour whatever the light
+};
+
+/// Coefficients are 0..1 by custom, not by force. Importers fill in what their format leaves out
+/// (kr = ks, say) so that renderers need no rules of formats.
+struct Material {
+    std::string name;
+    ColorInput emission;                   ///< ke
+    ColorInput ambient;                    ///< ka
+    ColorInput diffuse;                    ///< kd
+    ColorInput specular;                   ///< ks, the highlight
+    ColorInput reflective;                 ///< kr, the mirror direction
+    ColorInput transmissive;               ///< kt, the refracted direction
+    ScalarInput shininess{0, kNoTexture};  ///< ns, exponent of the highlight
+    ScalarInput index{1, kNoTexture};      ///< index of refraction inside the surface's normal
+
+    /// Mass of a unit of volume, in any unit; for measures, not for light.
+    std::optional<double> density;
+
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    ScalarInput alpha{1, kNoTexture, Channel::Alpha};  ///< times the alpha of the vertex colour
+    double alpha_cutoff = 0.5;                         ///< Mask: below it nothing is there
+    bool double_sided = true;                          ///< else the back cannot be seen
+    NormalMap normal_map;
+    /// Given: the Whitted coefficients above (emission and index apart) are not used; `evaluate`
+    /// derives them.
+    std::optional<MetallicRoughness> metallic_roughness;
+
+    /// True when no light passes anywhere.
+    [[nodiscard]] bool is_opaque() const {
+        const auto is_black = [](const ColorInput& c) {
+            return c.texture == kNoTexture && c.color.is_black();
+        };
+        if (alpha_mode != AlphaMode::Opaque) return false;
+        return metallic_roughness ? metallic_roughness->transmission.value == 0.0
+                                  : is_black(transmissive);
+    }
+};
+
+/// What a material may look at where a ray meets it.
+struct SurfaceLookup {
+    std::array<Vec2, 2> uv{};  ///< both sets of texture coordinates
+    std::array<UvFootprint, 2> footprint{};
+    Rgba color{1, 1, 1, 1};  ///< of the vertices
+};
+
+/// A material evaluated at one point, as the terms of Whitted's equation and what it leaves out.
+/// Colours are those at normal incidence until `turn_to_view`.
+struct MaterialSample {
+    Rgb emission, ambient, diffuse, specular, reflective, transmissive;
+    double shininess = 0, index = 1;
+
+    double coverage = 1;   ///< share of the point that is there; a ray goes straight on by the rest
+    Rgb albedo;            ///< colour of the surface itself, whatever it does with it
+    Rgb absorption;        ///< inside: light falls by exp(-absorption * length)
+    double occlusion = 1;  ///< already in `ambient`
+    bool unlit = false;    ///< the colour is in `emission`; all else is black
+    bool thin = false;     ///< transmitted light goes straight on, and inside is outside
+    bool physical = false;      ///< metallic-roughness: the highlight is times N.L, Fresnel applies
+    Rgb grazing;                ///< `reflective` at grazing incidence, where physical
+    bool single_sided = false;  ///< cannot be seen from behind
+};
+
+[[nodiscard]] MaterialSample evaluate(const Material& material, std::span<const Texture> textures,
+                                      const SurfaceLookup& lookup);
+[[nodiscard]] inline MaterialSample evaluate(const Material& material,
+                                             std::span<const Texture> textures, const Vec2& uv) {
+    return evaluate(material, textures, SurfaceLookup{{uv, uv}, {}, {1, 1, 1, 1}});
+}
+
+/// A volume is seen from inside whatever its sides; a thin sheet is not.
+[[nodiscard]] inline bool is_unseen_from_behind(const MaterialSample& sample) {
+    return sample.single_sided && (sample.thin || sample.transmissive.is_black());
+}
+
+/// What part of the point is there, without the rest of the material.
+[[nodiscard]] double coverage_of(const Material& material, std::span<const Texture> textures,
+                                 const SurfaceLookup& lookup);
+
+/// Makes a physical sample that of a ray that meets the surface with `cosine` to its normal (0..1),
+/// from inside the volume or not: Schlick's Fresnel term, total reflection included, shared out
+/// between reflection and the rest. Does nothing to others.
+void turn_to_view(MaterialSample& sample, double cosine, bool from_inside);
+
+/// Weighted sum of two samples: vertex materials are interpolated field by field, what is only true
+/// or false is the first one's.
+[[nodiscard]] MaterialSample weighted_sum(double wa, const MaterialSample& a, double wb,
+                                          const MaterialSample& b, double wc,
+                                          const MaterialSample& c);
+
+}  // namespace alhazen

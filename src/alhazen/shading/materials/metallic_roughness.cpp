@@ -1,0 +1,141 @@
+/// Metallic-roughness parameters as terms of Whitted's equation.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021, appendix B; Schlick, "An Inexpensive BRDF Model
+/// for Physically-Based Rendering", Eurographics 1994; Walter et al., "Microfacet Models for
+/// Refraction through Rough Surfaces", EGSR 2007 (the Blinn-Phong exponent of a roughness).
+/// Differs: docs/materials.md, with the reasons.
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/shading/materials/turn_to_view.h"
+
+namespace alhazen {
+
+namespace {
+
+/// A highlight narrower than that of this roughness would fall between the pixels.
+constexpr double kLeastRoughness = 0.2;
+
+double clamped(double x) {
+    return x > 0.0 ? std::min(x, 1.0) : 0.0;
+}
+
+double fifth_power(double x) {
+    return x * x * x * x * x;
+}
+
+double max_of_one(const Rgb& c) {
+    return clamped(c.max());
+}
+
+Rgb min_of_one(const Rgb& c) {
+    return {clamped(c.r), clamped(c.g), clamped(c.b)};
+}
+
+/// Light left after `distance` is `color`: the sigma of exp(-sigma length).
+Rgb absorption_of(const Rgb& color, double distance) {
+    if (!(distance > 0.0) || !std::isfinite(distance)) return {};
+    const auto sigma = [&](double c) {
+        // A black channel would absorb infinitely; this leaves nothing visible of it.
+        return -std::log(std::clamp(c, 1e-12, 1.0)) / distance;
+    };
+    return {sigma(color.r), sigma(color.g), sigma(color.b)};
+}
+
+/// Reflection of a boundary at normal incidence.
+double normal_reflectance(double index) {
+    // KHR_materials_ior: 0 stands for an index so high that all light is reflected.
+    if (index == 0.0) return 1.0;
+    const double r = (index - 1.0) / (index + 1.0);
+    return r * r;
+}
+
+/// What the surface does not reflect is shared by what lies below it.
+void keep_below(MaterialSample& sample, double share) {
+    sample.diffuse = share * sample.diffuse;
+    sample.transmissive = share * sample.transmissive;
+}
+
+}  // namespace
+
+MaterialSample evaluate_metallic_roughness(const Material& material, const MetallicRoughness& p,
+                                           std::span<const Texture> textures,
+                                           const SurfaceLookup& lookup) {
+    MaterialSample s;
+    const Rgb base = lookup.color.rgb() * color_at(p.base_color, textures, lookup);
+    s.albedo = base;
+    if (p.unlit) {
+        s.unlit = true;
+        s.emission = base;
+        return s;
+    }
+    const double metallic = clamped(value_at(p.metallic, textures, lookup));
+    const double roughness = clamped(value_at(p.roughness, textures, lookup));
+    const double strength = clamped(value_at(p.specular, textures, lookup));
+    const double transmission = clamped(value_at(p.transmission, textures, lookup));
+    if (p.occlusion.texture != kNoTexture) {
+        const double texel =
+            channel_of(texel_at(p.occlusion.texture, textures, lookup), p.occlusion.channel);
+        s.occlusion = clamped(1.0 + p.occlusion.value * (texel - 1.0));
+    }
+    s.physical = true;
+    s.index = material.index.value;
+    s.emission = color_at(material.emission, textures, lookup);
+
+    const Rgb dielectric = strength * min_of_one(normal_reflectance(s.index) *
+                                                 color_at(p.specular_color, textures, lookup));
+    const Rgb at_normal = (1.0 - metallic) * dielectric + metallic * base;
+    const double grazing = (1.0 - metallic) * strength + metallic;
+    const double mirror = std::pow(1.0 - roughness, 4.0);
+    s.reflective = mirror * at_normal;
+    s.grazing = mirror * Rgb{grazing, grazing, grazing};
+
+    const double alpha = std::pow(std::max(roughness, kLeastRoughness), 2.0);
+    s.shininess = 2.0 / (alpha * alpha) - 2.0;
+    s.specular = (s.shininess + 2.0) / 8.0 * at_normal;
+
+    const Rgb body = (1.0 - metallic) * (1.0 - transmission) * base;
+    // Whitted's equation has no blurred reflection: what the mirror part leaves of a metal's is
+    // taken from all around (ambient) and half of it, as the highlight has its share, from lights.
+    const Rgb rough_metal = metallic * (1.0 - mirror) * base;
+    s.diffuse = body + 0.5 * rough_metal;
+    s.ambient = s.occlusion * (body + rough_metal);
+    s.transmissive = (1.0 - metallic) * transmission * base;
+    // The texture of the thickness is for renderers that cannot see how thick the volume is.
+    s.thin = !(p.thickness.value > 0.0) || s.index == 0.0;
+    if (!s.thin) s.absorption = absorption_of(p.attenuation_color, p.attenuation_distance);
+    return s;
+}
+
+void turn_to_view(MaterialSample& sample, double cosine, bool from_inside) {
+    const bool dense = from_inside && sample.index > 0.0;
+    turn_to_view_between(sample, cosine, dense ? sample.index : 1.0, false);
+}
+
+void turn_to_view_between(MaterialSample& sample, double cosine, double eta, bool wall) {
+    if (!sample.physical) return;
+    if (const double outside = normal_reflectance(sample.index); wall && outside > 0.0) {
+        const double share = normal_reflectance(eta) / outside;
+        sample.reflective = share * sample.reflective;
+        sample.specular = share * sample.specular;
+    }
+    double c = clamped(cosine);
+    if (eta > 1.0 && !sample.thin) {
+        // Schlick's formula wants the angle on the thin side; there is none beyond the critical
+        // angle.
+        const double squared = 1.0 - eta * eta * (1.0 - c * c);
+        if (!(squared > 0.0)) {
+            if (!sample.transmissive.is_black()) sample.reflective = {1, 1, 1};
+            keep_below(sample, 0.0);
+            return;
+        }
+        c = std::sqrt(squared);
+    }
+    const double weight = fifth_power(1.0 - c);
+    sample.reflective += weight * (sample.grazing - sample.reflective);
+    keep_below(sample, 1.0 - max_of_one(sample.reflective));
+}
+
+}  // namespace alhazen

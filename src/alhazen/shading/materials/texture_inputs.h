@@ -1,0 +1,26 @@
+#pragma once
+/// The values that a material's inputs have at a point.
+
+#include "alhazen/shading/materials/material.h"
+
+namespace alhazen {
+
+[[nodiscard]] Rgba texel_at(TextureId id, std::span<const Texture> textures,
+                            const SurfaceLookup& lookup);
+[[nodiscard]] double channel_of(const Rgba& texel, Channel channel);
+[[nodiscard]] Rgb color_at(const ColorInput& input, std::span<const Texture> textures,
+                           const SurfaceLookup& lookup);
+[[nodiscard]] double value_at(const ScalarInput& input, std::span<const Texture> textures,
+                              const SurfaceLookup& lookup);
+
+/// False: the material is the same everywhere, vertex colours apart.
+[[nodiscard]] bool reads_textures(const Material& material);
+
+/// The metallic-roughness parameters as terms of Whitted's equation; docs/materials.md derives
+/// them.
+[[nodiscard]] MaterialSample evaluate_metallic_roughness(const Material& material,
+                                                         const MetallicRoughness& parameters,
+                                                         std::span<const Texture> textures,
+                                                         const SurfaceLookup& lookup);
+
+}  // namespace alhazen

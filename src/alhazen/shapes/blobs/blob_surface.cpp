@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "alhazen/shapes/blobs/blob.h"
+#include "alhazen/shapes/core/plain_surface.h"
+#include "alhazen/shapes/core/shape_numerics.h"
+
+namespace alhazen {
+
+namespace {
+
+struct Density {
+    double value = 0;
+    Vec3 gradient{};
+    double rounding = 0;
+};
+
+/// Of the components in `near`, which are all that hold at p.
+Density density_at(const Blob& blob, const std::vector<std::uint32_t>& near, const Vec3& p) {
+    Density sum;
+    for (const std::uint32_t i : near) {
+        const BlobComponent& c = blob.components[i];
+        Vec3 nearest = c.base;
+        if (c.rod) {
+            const Vec3 e = c.top - c.base;
+            nearest += std::clamp(dot(p - c.base, e) / length_squared(e), 0.0, 1.0) * e;
+        }
+        const Vec3 r = p - nearest;
+        const double q = 1.0 - length_squared(r) / (c.radius * c.radius);
+        if (q <= 0.0) continue;
+        sum.value += c.strength * q * q;
+        sum.gradient -= (4.0 * c.strength * q / (c.radius * c.radius)) * r;
+        sum.rounding += std::abs(c.strength) * (8.0 + 4.0 * max_component(abs(p)) / c.radius);
+    }
+    return sum;
+}
+
+}  // namespace
+
+ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hit) {
+    // Kept from ray to ray so that nothing is allocated.
+    static thread_local std::vector<std::uint32_t> near;
+    ShapeSurface surface;
+    surface.point = ray.at(hit.t);
+    near.clear();
+    shape.tree->for_point(surface.point, [&](std::uint32_t i) { near.push_back(i); });
+    Density there = density_at(shape, near, surface.point);
+    double steepness = length(there.gradient);
+    if (steepness > 0.0) {
+        // One step to the surface; no farther than what the ray rounds.
+        const double off = (shape.threshold - there.value) / steepness;
+        const double room = 0x1p-48 * (max_component(abs(ray.origin)) + shape.reach);
+        surface.point += (std::clamp(off, -room, room) / steepness) * there.gradient;
+        // What begins to hold on so short a way adds nothing yet.
+        there = density_at(shape, near, surface.point);
+        steepness = length(there.gradient);
+    }
+    surface.normal = unit_or(-there.gradient, -unit_or(ray.direction, {0, 0, 1}));
+    // Whether the ray enters here (v = -1) or leaves is known from all its crossings.
+    if (dot(surface.normal, ray.direction) * hit.v < 0.0) surface.normal = -surface.normal;
+    surface.shading_normal = surface.normal;
+    // What the density rounds, over its steepness; where that hardly tells, the last digits of all.
+    const double most = gamma_bound(48) * shape.reach;
+    const double off = 0x1p-53 * there.rounding / steepness + gamma_bound(4) * shape.reach;
+    const double error = off < most ? off : most;
+    surface.error = {error, error, error};
+    return surface;
+}
+
+ShapeSurface Blob::surface(const Ray& ray, const ShapeHit& hit) const {
+    ShapeSurface surface = plain_surface(*this, ray, hit);
+    const Vec3 from_center = unit_or(surface.point - bounds.center(), {1, 0, 0});
+    surface.uv = {turn_fraction(from_center.x, from_center.y),
+                  0.5 + std::atan2(from_center.z, std::hypot(from_center.x, from_center.y)) / kPi};
+    return surface;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,25 @@
+#pragma once
+/// The first crossings of a packet of rays with one shape.
+///
+/// Conventions: for each ray the bits of `find_first_hit`. A shape with a packet test declares
+/// `std::uint32_t first_hits(const S&, std::span<const Ray* const>, ShapeHit*)` in its own header:
+/// the set of rays that hit, bit i for ray i; [ray] their first crossings; one to `kMaxPacketRays`
+/// valid rays. It joins first_hits_test.cpp, which compares the two.
+
+#include <cstdint>
+#include <span>
+
+#include "alhazen/geometry/ray_lanes.h"
+#include "alhazen/shapes/core/shape.h"
+
+namespace alhazen {
+
+inline constexpr std::size_t kMaxPacketRays = kRayLanes;
+
+/// Shapes with a packet test.
+template <class S>
+concept HasPacketTest = requires(const S& shape, std::span<const Ray* const> rays, ShapeHit* hits) {
+    first_hits(shape, rays, hits);
+};
+
+}  // namespace alhazen

@@ -1,0 +1,102 @@
+#pragma once
+/// What a shape must offer, and what it answers about a point on it.
+///
+/// A shape is a plain struct that describes a surface in its own frame. It knows neither materials
+/// nor transforms nor file formats. To add one: docs in CONTRIBUTING.md. Conventions: `intersect`
+/// works on un-normalised rays; it writes every crossing with t in [ray.t_min, ray.t_max], either
+/// of which may be infinite, in ascending order of t: at most `kMaxHits`, or any number into a
+/// ShapeHits where that says `kManyHits`. The nearest crossing, any crossing and all crossings are
+/// all read from that one list, so they cannot disagree. A closed shape is a solid: along a line
+/// its crossings enter and leave by turns, whatever their normals. A tangent ray may be reported as
+/// two equal crossings or none, never as one. A bounded solid is crossed evenly often; an unbounded
+/// one says with `inside_at_minus_infinity` where its lines begin. Threads: const functions may be
+/// called from many threads.
+
+#include <array>
+#include <concepts>
+#include <span>
+#include <vector>
+
+#include "alhazen/base/diagnostics.h"
+#include "alhazen/geometry/box.h"
+#include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/ray.h"
+#include "alhazen/math/interval.h"
+#include "alhazen/shapes/core/shape_hits.h"
+
+namespace alhazen {
+
+/// The surface at a crossing, in the shape's frame.
+struct ShapeSurface {
+    Vec3 point;           ///< on the surface: re-projected, not merely origin + t * direction
+    Vec3 normal;          ///< unit geometric normal; outward for a closed shape
+    Vec3 shading_normal;  ///< unit; equal to `normal` unless the shape interpolates normals
+    Vec2 uv;              ///< texture coordinates
+    Vec3 dpdu, dpdv;      ///< change of the point by u and by v; zero where there is none
+    Vec3 error;           ///< bound of |point - true point on the surface|, component by component
+};
+
+/// A shape that crosses a line kMaxHits times at the most and returns how often it did.
+template <class S>
+concept WritesFewHits = S::kMaxHits >= 1 &&
+                        S::kMaxHits <= kMaxShapeHits&& requires(const S& shape, const Ray& ray,
+                                                                ShapeHit* hits) {
+    { shape.intersect(ray, hits) } -> std::same_as<int>;
+};
+
+/// A shape that crosses a line any number of times: it appends to the list.
+template <class S>
+concept WritesManyHits = S::kMaxHits ==
+                         kManyHits&& requires(const S& shape, const Ray& ray, ShapeHits& hits) {
+    { shape.intersect(ray, hits) } -> std::same_as<void>;
+};
+
+/// A solid that may reach to infinity.
+template <class S>
+concept UnboundedSolid = requires(const S& shape, const Ray& ray) {
+    /// Whether the line of the ray (its limits do not matter) begins inside: at t = -infinity.
+    { shape.inside_at_minus_infinity(ray) } -> std::same_as<bool>;
+};
+
+template <class S>
+concept Shape = requires(S& fresh, const S& shape, const Ray& ray, const ShapeHit& hit,
+                         const Vec3& axis, const FileLocation& where, Diagnostics& diagnostics) {
+    { S::kMaxHits } -> std::convertible_to<int>;
+    { S::kName } -> std::convertible_to<const char*>;  // as in scene files: "sphere"
+    { S::kClosed } -> std::convertible_to<bool>;       // could bound a volume whatever its options
+    /// Sets derived fields. Called once, after the public fields are set and validated, before any
+    /// query.
+    { fresh.prepare() } -> std::same_as<void>;
+    /// Reports every way in which the fields make no such shape (NaN, zero radius, ...).
+    { shape.validate(where, diagnostics) } -> std::same_as<void>;
+    /// True when this instance bounds a volume (a cylinder without caps does not).
+    { shape.closed() } -> std::same_as<bool>;
+    /// Holds the shape, rounded outward; infinite along an axis where the shape is.
+    { shape.box() } -> std::same_as<Box3>;
+    /// Range of dot(axis, p) over the shape, rounded outward.
+    { shape.extent(axis) } -> std::same_as<Interval>;
+    { shape.surface(ray, hit) } -> std::same_as<ShapeSurface>;
+}
+&&(WritesFewHits<S> || WritesManyHits<S>);
+
+/// Appends the crossings of a shape of either kind.
+template <Shape S>
+inline void append_hits(const S& shape, const Ray& ray, ShapeHits& hits) {
+    if constexpr (WritesManyHits<S>) {
+        shape.intersect(ray, hits);
+    } else {
+        hits.grow(shape.intersect(ray, hits.room(S::kMaxHits)));
+    }
+}
+
+/// Whether the line of a ray begins inside the solid.
+template <Shape S>
+[[nodiscard]] inline bool inside_at_minus_infinity(const S& shape, const Ray& ray) {
+    if constexpr (UnboundedSolid<S>) {
+        return shape.inside_at_minus_infinity(ray);
+    } else {
+        return false;
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,146 @@
+#pragma once
+/// What the shapes share: rounding bounds, careful vectors, checks of fields and the writing of
+/// hits.
+///
+/// Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., SIAM, 2002,
+/// section 3.1 (gamma); Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed.,
+/// section 6.8 (error bounds of surface points). Differs: nothing. Conventions: internal to this
+/// folder.
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "alhazen/math/constants.h"
+#include "alhazen/math/quadratic.h"
+#include "alhazen/math/unit_vector.h"
+#include "alhazen/shapes/core/shape.h"
+
+namespace alhazen {
+
+/// Relative error bound of n roundings in a row.
+constexpr double gamma_bound(int n) {
+    constexpr double kHalfUlp = 0x1p-53;
+    return n * kHalfUlp / (1.0 - n * kHalfUlp);
+}
+
+/// Shapes larger or smaller than this are refused: squares and products of four must not overflow
+/// or vanish.
+inline constexpr double kMaxCoordinate = 1e70;
+inline constexpr double kMinLength = 1e-70;
+
+/// Each component right to 1.5 ulp, however nearly parallel the two are.
+inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
+/// Half the size of a circle's box: `radius` times the sine of the angle between `n` (unit) and
+/// each axis, without the cancellation of 1 - n^2.
+inline Vec3 circle_half_box(const Vec3& n, double radius) {
+    return radius * Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
+}
+
+/// center +- half, rounded outward.
+inline Box3 outward_box(const Vec3& center, const Vec3& half) {
+    const Vec3 padded_half = half + gamma_bound(16) * (abs(center) + half);
+    return {center - padded_half, center + padded_half};
+}
+
+/// dot(axis, p) for p within `half` of `center` in that measure, rounded outward.
+inline Interval outward_extent(const Vec3& axis, const Vec3& center, double half) {
+    const double middle = dot(axis, center);
+    const double reach = half + gamma_bound(16) * (dot(abs(axis), abs(center)) + half);
+    return {middle - reach, middle + reach};
+}
+
+/// The angle of (x, y) as a fraction of the circle, in [0, 1).
+inline double turn_fraction(double x, double y) {
+    const double turn = std::atan2(y, x) / (2.0 * kPi);
+    if (turn >= 0.0) return turn;
+    const double wrapped = turn + 1.0;
+    return wrapped < 1.0 ? wrapped : 0.0;
+}
+
+// ---- writing hits
+
+/// Writes the crossing when the ray covers it; returns how many were written.
+inline int report_crossing(const Ray& ray, const ShapeHit& hit, ShapeHit* hits) {
+    if (!ray.covers(hit.t) || !std::isfinite(hit.t)) return 0;
+    hits[0] = hit;
+    return 1;
+}
+
+/// Writes those ends of a span entry <= exit that the ray covers. A span that does not end is none.
+inline int report_span(const Ray& ray, double entry, std::uint32_t entry_part, double exit,
+                       std::uint32_t exit_part, ShapeHit* hits) {
+    if (!(entry <= exit) || !std::isfinite(entry) || !std::isfinite(exit)) return 0;
+    int count = 0;
+    if (ray.covers(entry)) hits[count++] = {entry, 0, 0, entry_part};
+    if (ray.covers(exit)) hits[count++] = {exit, 0, 0, exit_part};
+    return count;
+}
+
+// ---- planes
+
+/// t of the crossing with a plane; not finite when the ray runs along it.
+inline double plane_crossing(const Ray& ray, const Vec3& point, const Vec3& unit_normal) {
+    return dot(unit_normal, point - ray.origin) / dot(unit_normal, ray.direction);
+}
+
+/// `p` moved to the plane through `point`, with its error; uv are left to the caller.
+inline ShapeSurface surface_on_plane(const Vec3& p, const Vec3& point, const Vec3& unit_normal) {
+    ShapeSurface surface;
+    const Vec3 from_point = p - point;
+    surface.point = p - dot(unit_normal, from_point) * unit_normal;
+    surface.normal = surface.shading_normal = unit_normal;
+    // Seven roundings of the offset's terms (three of them the normal's own), one of the result.
+    const Vec3 n = abs(unit_normal);
+    const double distance =
+        gamma_bound(10) * dot(n, abs(from_point)) + gamma_bound(2) * dot(n, abs(surface.point));
+    surface.error = distance * n;
+    return surface;
+}
+
+// ---- validation
+
+/// Writes "NAME: FIELD ..." for each field that cannot be used.
+class FieldChecks {
+  public:
+    FieldChecks(const char* shape, const FileLocation& where, Diagnostics& diagnostics)
+        : shape_(shape), where_(where), diagnostics_(diagnostics) {}
+
+    void fail(const std::string& what) {
+        diagnostics_.error(where_, std::string(shape_) + ": " + what);
+        ok_ = false;
+    }
+    void point(const char* field, const Vec3& p) {
+        if (!(max_component(abs(p)) <= kMaxCoordinate) || !is_finite(p)) {
+            fail(std::string(field) + " must be three finite numbers below 1e70");
+        }
+    }
+    /// `least` is kMinLength, or 0 where a length may be zero.
+    void length(const char* field, double value, double least = kMinLength) {
+        const bool usable = value == 0.0 ? least == 0.0 : value >= kMinLength;
+        if (!usable || !(value <= kMaxCoordinate)) {
+            fail(std::string(field) + " must be a number " +
+                 (least == 0.0 ? "that is zero or " : "") + "from 1e-70 to 1e70, not " +
+                 std::to_string(value));
+        }
+    }
+    void vector(const char* field, const Vec3& v) {
+        point(field, v);
+        if (!(max_component(abs(v)) >= kMinLength)) {
+            fail(std::string(field) + " must not be zero");
+        }
+    }
+    [[nodiscard]] bool ok() const { return ok_; }
+
+  private:
+    const char* shape_;
+    const FileLocation& where_;
+    Diagnostics& diagnostics_;
+    bool ok_ = true;
+};
+
+}  // namespace alhazen

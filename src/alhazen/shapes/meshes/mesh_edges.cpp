@@ -1,0 +1,99 @@
+#include "alhazen/shapes/meshes/mesh_edges.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace alhazen {
+
+namespace {
+
+/// A position as bits, 0 and -0 made one: ordered whatever it holds, NaN included.
+struct PositionKey {
+    std::array<std::uint64_t, 3> bits;
+    std::uint32_t vertex;
+};
+
+/// For each vertex the lowest vertex of equal position. By sorting: no input makes it slow.
+std::vector<std::uint32_t> merged_vertices(const std::vector<Vec3>& positions) {
+    std::vector<PositionKey> keys(positions.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const Vec3 p = positions[i] + Vec3{};
+        keys[i] = {{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
+                    std::bit_cast<std::uint64_t>(p.z)},
+                   static_cast<std::uint32_t>(i)};
+    }
+    std::sort(keys.begin(), keys.end(), [](const PositionKey& a, const PositionKey& b) {
+        return a.bits != b.bits ? a.bits < b.bits : a.vertex < b.vertex;
+    });
+    std::vector<std::uint32_t> merged(positions.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const bool same = i > 0 && keys[i].bits == keys[i - 1].bits;
+        merged[keys[i].vertex] = same ? merged[keys[i - 1].vertex] : keys[i].vertex;
+    }
+    return merged;
+}
+
+/// The edges, lower vertex first, and whether the triangle runs along it from the lower to the
+/// higher one.
+struct DirectedEdge {
+    std::uint64_t vertices;
+    bool upward;
+};
+
+std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
+    const std::vector<std::uint32_t> merged = merged_vertices(mesh.positions);
+    std::vector<DirectedEdge> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles) {
+        const std::uint32_t v[3] = {merged[triangle[0]], merged[triangle[1]], merged[triangle[2]]};
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;  // a segment: never hit
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t from = v[k], to = v[k == 2 ? 0 : k + 1];
+            const auto [lo, hi] = std::minmax(from, to);
+            edges.push_back({std::uint64_t{lo} << 32 | hi, from < to});
+        }
+    }
+    std::sort(edges.begin(), edges.end(),
+              [](const DirectedEdge& a, const DirectedEdge& b) { return a.vertices < b.vertices; });
+    return edges;
+}
+
+}  // namespace
+
+MeshEdges mesh_edges(const TriangleMesh& mesh) {
+    const std::vector<DirectedEdge> edges = sorted_edges(mesh);
+    MeshEdges found;
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t end = i + 1;
+        while (end < edges.size() && edges[end].vertices == edges[i].vertices) ++end;
+        ++found.count;
+        found.open += end - i == 1;
+        found.crowded += end - i > 2;
+        found.turned += end - i == 2 && edges[i].upward == edges[i + 1].upward;
+        i = end;
+    }
+    return found;
+}
+
+std::string MeshEdges::description() const {
+    if (count == 0) return "no triangles";
+    if (closed()) {
+        return turned == 0 ? "closed"
+                           : "closed, but the two triangles of " + std::to_string(turned) +
+                                 " edges face opposite ways";
+    }
+    std::string text;
+    if (open > 0) {
+        text = std::to_string(open) + " of " + std::to_string(count) +
+               " edges belong to one triangle only";
+    }
+    if (crowded > 0) {
+        text += (text.empty()
+                     ? std::to_string(crowded) + " of " + std::to_string(count) + " edges belong"
+                     : ", " + std::to_string(crowded)) +
+                " to more than two";
+    }
+    return text;
+}
+
+}  // namespace alhazen

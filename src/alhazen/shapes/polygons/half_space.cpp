@@ -1,0 +1,57 @@
+#include "alhazen/shapes/polygons/half_space.h"
+
+#include "alhazen/shapes/core/shape_numerics.h"
+
+namespace alhazen {
+
+void HalfSpace::prepare() {
+    face.point = point;
+    face.normal = normal;
+    face.prepare();
+}
+
+void HalfSpace::validate(const FileLocation& where, Diagnostics& diagnostics) const {
+    FieldChecks checks(kName, where, diagnostics);
+    checks.point("point", point);
+    checks.vector("normal", normal);
+}
+
+// Of the solid, not only of its face: whatever lies in the solid must not be missed.
+Box3 HalfSpace::box() const {
+    Box3 box = face.box();
+    for (int k = 0; k < 3; ++k) {
+        if (normal[k] > 0.0) box.lo[k] = -kInfinity;
+        if (normal[k] < 0.0) box.hi[k] = kInfinity;
+    }
+    return box;
+}
+
+Interval HalfSpace::extent(const Vec3& axis) const {
+    Interval range = face.extent(axis);
+    if (dot(axis, face.unit_normal) > 0.0) {
+        range.lo = -kInfinity;
+    } else {
+        range.hi = kInfinity;
+    }
+    return range;
+}
+
+int HalfSpace::intersect(const Ray& ray, ShapeHit* hits) const {
+    return face.intersect(ray, hits);
+}
+
+ShapeSurface HalfSpace::surface(const Ray& ray, const ShapeHit& hit) const {
+    return face.surface(ray, hit);
+}
+
+bool HalfSpace::inside_at_minus_infinity(const Ray& ray) const {
+    // Parity must fit: a crossing that is too far away to be a number is none.
+    Ray line = ray;
+    line.t_min = -kInfinity;
+    line.t_max = kInfinity;
+    ShapeHit hit;
+    if (face.intersect(line, &hit) == 1) return dot(face.unit_normal, ray.direction) > 0.0;
+    return dot(face.unit_normal, face.point - ray.origin) > 0.0;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,182 @@
+#include "alhazen/shapes/polygons/polygon.h"
+
+#include <algorithm>
+
+#include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/shapes/core/shape_numerics.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Newell's normal: the sum over the edges of (a - origin) x (b - origin), twice the area long.
+Vec3 newell_normal(const Polygon& polygon) {
+    Vec3 sum;
+    const Vec3 origin = polygon.vertices.front();
+    std::size_t first = 0;
+    for (const std::size_t end : polygon.loop_ends) {
+        for (std::size_t i = first; i < end; ++i) {
+            const Vec3& next = polygon.vertices[i + 1 < end ? i + 1 : first];
+            sum += cross(polygon.vertices[i] - origin, next - origin);
+        }
+        first = end;
+    }
+    return sum;
+}
+
+/// As differences from the first vertex, so that a plane along two axes stays exactly that.
+Vec3 mean_vertex(const std::vector<Vec3>& vertices) {
+    Vec3 sum;
+    for (const Vec3& v : vertices) sum += v - vertices.front();
+    return vertices.front() + sum / static_cast<double>(vertices.size());
+}
+
+Vec3 first_edge_direction(const Polygon& polygon) {
+    for (std::size_t i = 1; i < polygon.vertices.size(); ++i) {
+        const Vec3 edge = polygon.vertices[i] - polygon.vertices.front();
+        const Vec3 in_plane = edge - dot(edge, polygon.normal) * polygon.normal;
+        if (length_squared(in_plane) > 1e-12 * length_squared(edge)) {
+            return unit_or(in_plane, perpendicular(polygon.normal));
+        }
+    }
+    return perpendicular(polygon.normal);
+}
+
+/// The odd-even rule about the ray, in sheared space.
+bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
+    const RayShear shear(ray.direction);
+    const auto vertex = [&](std::size_t i) {
+        const Vec3& p = polygon.vertices[i];
+        return sheared<double>(p[shear.kx], p[shear.ky], p[shear.kz], ray.origin[shear.kx],
+                               ray.origin[shear.ky], ray.origin[shear.kz], shear.sx, shear.sy);
+    };
+    bool inside = false;
+    std::size_t first = 0;
+    for (const std::size_t end : polygon.loop_ends) {
+        ShearedVertex<double> a = vertex(end - 1);
+        for (std::size_t i = first; i < end; ++i) {
+            const ShearedVertex<double> b = vertex(i);
+            if ((a.y > 0.0) != (b.y > 0.0)) {
+                // Does the edge cross the positive x axis? Most often the signs of x tell.
+                if (a.x > 0.0 && b.x > 0.0) {
+                    inside = !inside;
+                } else if (!(a.x < 0.0 && b.x < 0.0)) {
+                    if ((resolved_edge_sign(a, b) > 0) == (b.y > 0.0)) inside = !inside;
+                }
+            }
+            a = b;
+        }
+        first = end;
+    }
+    return inside;
+}
+
+/// `t` moved into the range where the line runs through `box`. A ray nearly in the polygon's plane
+/// has a t that is mostly rounding; this keeps its hit on the polygon.
+double clamped_to_box(double t, const Ray& ray, const Box3& box) {
+    double lo = -kInfinity, hi = kInfinity;
+    for (int k = 0; k < 3; ++k) {
+        const double d = ray.direction[k];
+        if (d == 0.0) continue;
+        lo = std::max(lo, ((d > 0.0 ? box.lo[k] : box.hi[k]) - ray.origin[k]) / d);
+        hi = std::min(hi, ((d > 0.0 ? box.hi[k] : box.lo[k]) - ray.origin[k]) / d);
+    }
+    if (!(lo <= hi)) return 0.5 * lo + 0.5 * hi;
+    return t > lo ? std::min(t, hi) : lo;  // NaN (edge on) becomes lo
+}
+
+}  // namespace
+
+void Polygon::prepare() {
+    if (loop_ends.empty()) loop_ends = {static_cast<std::uint32_t>(vertices.size())};
+    normal = unit_or(newell_normal(*this), {0, 0, 1});
+    point = mean_vertex(vertices);
+    u_axis = first_edge_direction(*this);
+    bounds = {};
+    off_plane = 0.0;
+    for (const Vec3& v : vertices) {
+        const double distance = dot(normal, v - point);
+        bounds.include(v);
+        bounds.include(v - distance * normal);
+        off_plane = std::max(off_plane, std::abs(distance));
+    }
+    bounds = padded(bounds, gamma_bound(16));
+}
+
+void Polygon::validate(const FileLocation& where, Diagnostics& diagnostics) const {
+    FieldChecks checks(kName, where, diagnostics);
+    for (const Vec3& v : vertices) {
+        checks.point("each vertex", v);
+        if (!checks.ok()) return;
+    }
+    const auto count = vertices.size();
+    Polygon loops{.vertices = {}, .loop_ends = loop_ends};
+    if (loop_ends.empty()) loops.loop_ends = {static_cast<std::uint32_t>(count)};
+    std::size_t first = 0;
+    for (const std::size_t end : loops.loop_ends) {
+        if (end > count || end < first + 3) {
+            checks.fail(
+                "each loop needs three vertices or more, and its end must lie past the one before");
+            return;
+        }
+        first = end;
+    }
+    if (first != count) checks.fail("the last loop must end at the last vertex");
+    if (!checks.ok()) return;
+    loops.vertices = vertices;
+    Box3 box;
+    for (const Vec3& v : vertices) box.include(v);
+    const double size = max_component(box.size());
+    const double twice_area = max_component(abs(newell_normal(loops)));
+    if (!(twice_area > 1e-14 * size * size)) checks.fail("the vertices enclose no area");
+}
+
+Box3 Polygon::box() const {
+    return bounds;
+}
+
+Interval Polygon::extent(const Vec3& axis) const {
+    Interval range;
+    const double foot = dot(axis, normal);
+    Vec3 reach = abs(point);
+    for (const Vec3& v : vertices) {
+        const double at_vertex = dot(axis, v);
+        range.include(at_vertex);
+        range.include(at_vertex - dot(normal, v - point) * foot);
+        const Vec3 m = abs(v);
+        reach = {std::max(reach.x, m.x), std::max(reach.y, m.y), std::max(reach.z, m.z)};
+    }
+    const double pad = gamma_bound(16) * dot(abs(axis), reach);
+    return {range.lo - pad, range.hi + pad};
+}
+
+int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
+    const Vec3 to_plane = point - ray.origin;
+    const double cosine = dot(normal, ray.direction);
+    const double t = dot(normal, to_plane) / cosine;
+    // How far t can be off: by rounding, and where the vertices are not in one plane. The sheared
+    // test below decides; these two only spare it, so they must never reject what it would accept.
+    const Vec3 size = abs(to_plane) + std::abs(t) * abs(ray.direction);
+    const double t_slack =
+        (off_plane + gamma_bound(16) * (size.x + size.y + size.z)) / std::abs(cosine);
+    if (t + t_slack < ray.t_min || t - t_slack > ray.t_max) return 0;
+    for (int k = 0; k < 3; ++k) {
+        const double p = ray.origin[k] + t * ray.direction[k];
+        const double slack = t_slack * std::abs(ray.direction[k]) +
+                             gamma_bound(16) * (std::abs(ray.origin[k]) + size[k]);
+        if (p + slack < bounds.lo[k] || p - slack > bounds.hi[k]) return 0;
+    }
+    if (!surrounds_ray(*this, ray)) return 0;
+    return report_crossing(ray, {clamped_to_box(t, ray, bounds), 0, 0, 0}, hits);
+}
+
+ShapeSurface Polygon::surface(const Ray& ray, const ShapeHit& hit) const {
+    ShapeSurface surface = surface_on_plane(ray.at(hit.t), point, normal);
+    const Vec3 offset = surface.point - vertices.front();
+    surface.dpdu = u_axis;
+    surface.dpdv = cross(normal, u_axis);
+    surface.uv = {dot(offset, u_axis), dot(offset, surface.dpdv)};
+    return surface;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,40 @@
+#pragma once
+/// A planar polygon of one or several loops, concave or with holes; inside by the odd-even rule.
+///
+/// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1 (drop the axis along which
+/// the normal is longest). Differs: the plane's normal is Newell's, over all loops; the point is
+/// not projected along an axis but along the ray, by the shear and the exact edge signs of
+/// geometry/watertight_triangle.h. Polygons that share vertices bit for bit, in one plane or around
+/// a solid, thus leave no gap and no double hit: a ray through a shared edge or vertex meets
+/// exactly one side of it. The plane only gives t. Conventions: counter-clockwise from the side the
+/// normal points to. uv are coordinates in the plane, from the first vertex along the first edge.
+/// Vertices need not lie in one plane; a hit lies in the plane of the mean. Complexity: O(vertices)
+/// for a ray that meets the polygon's box where it meets its plane, else O(1).
+
+#include "alhazen/shapes/core/shape.h"
+
+namespace alhazen {
+
+struct Polygon {
+    static constexpr const char* kName = "polygon";
+    static constexpr int kMaxHits = 1;
+    static constexpr bool kClosed = false;
+
+    std::vector<Vec3> vertices;            ///< all loops, one after another
+    std::vector<std::uint32_t> loop_ends;  ///< [loop] one past its last vertex; empty: one loop
+    Vec3 point{};                          ///< derived: on the plane
+    Vec3 normal{0, 0, 1};                  ///< derived: unit
+    Vec3 u_axis{1, 0, 0};                  ///< derived: unit, in the plane, along the first edge
+    Box3 bounds{};                         ///< derived: of the vertices and their feet on the plane
+    double off_plane = 0;                  ///< derived: no vertex is farther from the plane
+
+    void prepare();
+    void validate(const FileLocation& where, Diagnostics& diagnostics) const;
+    [[nodiscard]] bool closed() const { return false; }
+    [[nodiscard]] Box3 box() const;
+    [[nodiscard]] Interval extent(const Vec3& axis) const;
+    int intersect(const Ray& ray, ShapeHit* hits) const;
+    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
+};
+
+}  // namespace alhazen

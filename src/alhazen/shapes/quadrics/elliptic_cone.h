@@ -1,0 +1,34 @@
+#pragma once
+/// An elliptic cone or its lower part, right or oblique: all cross-sections are of one shape.
+///
+/// Source: clipped_quadric.h: x^2 + y^2 < (1 - (1 - s) z)^2 between z = 0 and 1 in the frame of the
+/// semi-axes of the base and the way to the top. Differs: nothing. Conventions: as for
+/// elliptic_cylinder.h. Where the shape of the cross-section changes see tgc.h.
+
+#include "alhazen/shapes/quadrics/clipped_quadric.h"
+
+namespace alhazen {
+
+struct EllipticCone {
+    static constexpr const char* kName = "elliptic_cone";
+    static constexpr int kMaxHits = ClippedQuadric::kMaxHits;
+    static constexpr bool kClosed = true;
+
+    Vec3 base{0, 0, 0}, top{0, 0, 1};       ///< the middles of the ends
+    Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of the base
+    double top_scale = 0;                   ///< size of the top over that of the base; 0: an apex
+    bool capped = true;
+    ClippedQuadric solid{};  ///< derived
+
+    void prepare();
+    void validate(const FileLocation& where, Diagnostics& diagnostics) const;
+    [[nodiscard]] bool closed() const { return capped; }
+    [[nodiscard]] Box3 box() const;
+    [[nodiscard]] Interval extent(const Vec3& axis) const;
+    int intersect(const Ray& ray, ShapeHit* hits) const { return solid.intersect(ray, hits); }
+    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const {
+        return solid.surface(ray, hit);
+    }
+};
+
+}  // namespace alhazen

@@ -1,0 +1,42 @@
+#pragma once
+/// A general quadric, f < 0 for a polynomial f of degree 2 with ten coefficients, clipped by a box
+/// and by planes, with caps or open; or not clipped at all.
+///
+/// Source: clipped_quadric.h. Differs: nothing. Conventions: part 0 the quadric, 1 to 6 the faces
+/// -x +x -y +y -z +z of the box, from 7 the planes. u runs around the z axis from +x (0 to 1), v
+/// is the angle above the xy plane, from -z (0) to +z (1). Normals point along the gradient.
+/// Without bounds it is an unbounded solid.
+
+#include "alhazen/shapes/quadrics/clipped_quadric.h"
+
+namespace alhazen {
+
+struct Quadric {
+    static constexpr const char* kName = "quadric";
+    static constexpr int kMaxHits = ClippedQuadric::kMaxHits;
+    static constexpr bool kClosed = true;
+
+    Vec3 squares{1, 1, 1};   ///< coefficients of x^2, y^2, z^2
+    Vec3 products{0, 0, 0};  ///< of x y, y z, z x
+    Vec3 linear{0, 0, 0};    ///< of x, y, z
+    double constant = -1;
+    Box3 clip_box{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+    std::vector<ClipPlane> clip_planes;  ///< what lies on the side of their normals is cut off
+    bool capped = true;
+    ClippedQuadric solid{};  ///< derived
+
+    void prepare();
+    void validate(const FileLocation& where, Diagnostics& diagnostics) const;
+    [[nodiscard]] bool closed() const { return capped; }
+    [[nodiscard]] Box3 box() const { return clip_box; }
+    [[nodiscard]] Interval extent(const Vec3& axis) const;
+    int intersect(const Ray& ray, ShapeHit* hits) const { return solid.intersect(ray, hits); }
+    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const {
+        return solid.surface(ray, hit);
+    }
+    [[nodiscard]] bool inside_at_minus_infinity(const Ray& ray) const {
+        return capped && solid.inside_at_minus_infinity(ray);
+    }
+};
+
+}  // namespace alhazen

@@ -1,0 +1,43 @@
+#pragma once
+/// A profile of lines and cubic curves turned about the z axis.
+///
+/// Source: Kajiya, "New Techniques for Ray Tracing Procedurally Defined Objects", SIGGRAPH 1983
+/// (surfaces of revolution as curves of degree six in the parameter of the profile).
+/// Differs: the crossings are the changes of sign of that polynomial, found with certainty
+/// (math/bernstein_roots.h), its signs at the ends of curves being those of the points there; t and
+/// the parameter are then made precise together (Newton in two variables). A ray that hardly climbs
+/// has its t hidden in the last digits of the parameter, and has a way of its own
+/// (shapes/swept/lathe_near_level.h). One that does not climb meets the profile where the profile
+/// has its height, and there two points of a circle. Conventions: the profile lies in the half
+/// plane of (radius, height), radius >= 0; the solid is what is odd-even inside of its loops, those
+/// completed by the axis that begin and end on it. A loop that neither closes nor does so is a
+/// surface, not a solid. part = curve; u runs around the axis (0 to 1), v along all curves (0 to
+/// 1). Complexity: O(curves) per ray.
+
+#include "alhazen/shapes/core/shape.h"
+#include "alhazen/shapes/swept/profile.h"
+
+namespace alhazen {
+
+struct Lathe {
+    static constexpr const char* kName = "lathe";
+    static constexpr int kMaxHits = kManyHits;
+    static constexpr bool kClosed = true;
+
+    Profile profile{};  ///< x is the distance from the axis, y the height
+
+    bool is_closed = false;  ///< derived: bounds a volume
+    double reach = 0;        ///< derived: largest coordinate of the profile
+    Vec3 center{};           ///< derived: of the axis
+    double radius = 1;       ///< derived: of a sphere about the center that holds all
+
+    void prepare();
+    void validate(const FileLocation& where, Diagnostics& diagnostics) const;
+    [[nodiscard]] bool closed() const;
+    [[nodiscard]] Box3 box() const;
+    [[nodiscard]] Interval extent(const Vec3& axis) const;
+    void intersect(const Ray& ray, ShapeHits& hits) const;
+    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
+};
+
+}  // namespace alhazen

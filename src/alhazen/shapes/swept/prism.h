@@ -1,0 +1,48 @@
+#pragma once
+/// A profile of lines and cubic curves swept along z, straight or towards an apex.
+///
+/// Source: Kajiya, "New Techniques for Ray Tracing Procedurally Defined Objects", SIGGRAPH 1983
+/// (prisms: the ray in the plane of the profile). Differs: tapered as well: the size of the section
+/// is linear in the height, and a ray's plane through the apex still meets the plane of the profile
+/// in a line. The crossings of that line with a curve are the changes of sign of a cubic, found
+/// with certainty (math/bernstein_roots.h); those with all loops, taken odd-even, make spans, which
+/// are clipped by the two ends. So a line crosses the solid evenly often by construction.
+/// Conventions: the section at height z is the profile times 1 + (top_scale - 1) (z - h0) / (h1 -
+/// h0). part 0 the end at h0, 1 that at h1, 2 + i the side along curve i. On sides u runs around
+/// all curves (0 to 1), v along the height; on ends uv are the profile's coordinates (of h0). A
+/// line in the plane of an end is outside. Loops may cross; where they do, inside is odd-even.
+/// Complexity: O(curves) per ray.
+
+#include "alhazen/shapes/core/shape.h"
+#include "alhazen/shapes/swept/profile.h"
+
+namespace alhazen {
+
+struct Prism {
+    static constexpr const char* kName = "prism";
+    static constexpr int kMaxHits = kManyHits;
+    static constexpr bool kClosed = true;
+
+    Profile profile{};  ///< in the plane z = h0; its loops close
+    double h0 = 0, h1 = 1;
+    double top_scale = 1;  ///< size at h1; 0 is an apex
+
+    double growth = 0;  ///< derived: change of the size with the height
+    double reach = 0;   ///< derived: largest coordinate of the profile
+    Vec3 center{};      ///< derived
+    double radius = 1;  ///< derived: of a sphere about the center that holds the prism
+
+    void prepare();
+    void validate(const FileLocation& where, Diagnostics& diagnostics) const;
+    [[nodiscard]] bool closed() const { return true; }
+    [[nodiscard]] Box3 box() const;
+    [[nodiscard]] Interval extent(const Vec3& axis) const;
+    void intersect(const Ray& ray, ShapeHits& hits) const;
+    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
+
+  private:
+    [[nodiscard]] ShapeSurface side_surface(const Ray& ray, const ShapeHit& hit) const;
+    [[nodiscard]] ShapeSurface end_surface(const Ray& ray, const ShapeHit& hit) const;
+};
+
+}  // namespace alhazen

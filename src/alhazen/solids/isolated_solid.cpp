@@ -1,0 +1,195 @@
+#include "alhazen/solids/isolated_solid.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/csg/csg_aggregate.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/primitives/surface.h"
+
+namespace alhazen {
+
+namespace {
+
+/// A table with one shape of another table, and where that table placed it.
+Placement take_shape(const PrimitiveTable& from, PrimitiveId id, PrimitiveTable& alone) {
+    Placement placement;
+    const std::uint32_t kind = from.kind(id);
+    const std::uint32_t index = from.index(id);
+    std::uint32_t k = 0;
+    const auto take = [&](const auto& column, auto& own) {
+        if (k++ != kind) return;
+        own.shapes.push_back(column.shapes[index]);
+        own.placements.push_back(kNoPlacement);
+        own.materials.push_back(MaterialId{0});
+        if (column.placements[index] != kNoPlacement) {
+            placement = from.placements[column.placements[index]];
+        }
+    };
+    std::apply(
+        [&](const auto&... column) {
+            (take(column, std::get<std::remove_cvref_t<decltype(column)>>(alone.columns)), ...);
+        },
+        from.columns);
+    return placement;
+}
+
+Ray whole_line(const Affine& inner_from_outer, const Ray& ray) {
+    Ray line = transformed(inner_from_outer, ray);
+    line.t_min = -kInfinity;
+    line.t_max = kInfinity;
+    return line;
+}
+
+}  // namespace
+
+IsolatedSolid::IsolatedSolid(const SolidList& solids, SolidId id)
+    : place_(solids.place(id)), world_(place_.world) {
+    const PrimitiveTable& table = place_.aggregate->primitives();
+    if (place_.kind == SolidPlace::Kind::Csg) {
+        aggregate_ = place_.aggregate;
+        csg_ = dynamic_cast<const SolidAggregate*>(aggregate_.get());
+    } else {
+        PrimitiveTable alone;
+        alone.material_opacity = {Opacity::Opaque};
+        const char* accelerator = "list";
+        if (place_.kind == SolidPlace::Kind::Shape) {
+            const Placement own = take_shape(table, place_.shape, alone);
+            world_ = {world_.outer_from_inner * own.outer_from_inner,
+                      own.inner_from_outer * world_.inner_from_outer};
+        } else if (table.size() == table.meshes[place_.mesh].mesh->triangles.size()) {
+            aggregate_ = place_.aggregate;
+        } else {
+            PlacedMesh mesh = table.meshes[place_.mesh];
+            mesh.material = MaterialId{0};
+            alone.meshes.push_back(std::move(mesh));
+            accelerator = kDefaultAccelerator;
+        }
+        if (!aggregate_) {
+            alone.finish();
+            aggregate_ = make_aggregate(accelerator, std::move(alone), {});
+        }
+    }
+    if (const auto* csg = dynamic_cast<const CsgAggregate*>(aggregate_.get())) {
+        has_walls_ = csg->solid().has_media();
+    }
+    box_ = transformed(world_.outer_from_inner, aggregate_->box());
+}
+
+Interval IsolatedSolid::extent(const Vec3& axis) const {
+    const Affine& m = world_.outer_from_inner;
+    const Vec3 inner_axis = transpose_times(m.linear, axis);
+    const PrimitiveTable& table = aggregate_->primitives();
+    Interval inner;
+    if (csg_ != nullptr) {
+        inner = alhazen::extent(aggregate_->box(), inner_axis);
+    } else {
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            inner = hull(inner, table.extent(i, inner_axis));
+        }
+    }
+    const double shift = dot(axis, m.translation);
+    const double pad = 4e-15 * (dot(abs(axis), abs(m.translation)) +
+                                std::max(std::abs(inner.lo), std::abs(inner.hi)));
+    const Interval own{inner.lo + shift - pad, inner.hi + shift + pad};
+    return intersection(own, alhazen::extent(box_, axis));
+}
+
+namespace {
+
+/// Walls between media inside of a solid are no part of its surface: out of one and into the other
+/// at the same place.
+void drop_walls(std::vector<Hit>& hits) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const bool wall = kept % 2 == 0 && kept > 0 && hits[i].t == hits[kept - 1].t;
+        if (wall) {
+            --kept;
+        } else {
+            if (kept != i) hits[kept] = hits[i];
+            ++kept;
+        }
+    }
+    hits.resize(kept);
+}
+
+}  // namespace
+
+void IsolatedSolid::cross(const Ray& ray, bool want_cosines, LineSpans& found) const {
+    const Ray line = whole_line(world_.inner_from_outer, ray);
+    found.hits.clear();
+    found.spans.clear();
+    found.cosines = 0;
+    aggregate_->all_hits(line, found.hits, nullptr);
+    found.consistent = found.hits.size() % 2 == 0;
+    if (!found.consistent) return;
+    if (has_walls_) drop_walls(found.hits);
+    for (std::size_t i = 0; i < found.hits.size(); i += 2) {
+        const Interval span{found.hits[i].t, found.hits[i + 1].t};
+        if (span.lo < span.hi) found.spans.push_back(span);
+    }
+    if (!want_cosines) return;
+    const double along = length(ray.direction);
+    for (const Hit& hit : found.hits) {
+        const Vec3 inner = surface_at(*aggregate_, line, hit).normal;
+        const Vec3 normal = normalize(transpose_times(world_.inner_from_outer.linear, inner));
+        found.cosines += std::abs(dot(normal, ray.direction)) / along;
+    }
+}
+
+void IsolatedSolid::crossings(const Ray& ray, std::vector<SurfacePoint>& found) const {
+    const Ray inner = transformed(world_.inner_from_outer, ray);
+    std::vector<Hit> hits;
+    aggregate_->all_hits(inner, hits, nullptr);
+    const Mat3& m = world_.outer_from_inner.linear;
+    for (const Hit& hit : hits) {
+        const Surface s = surface_at(*aggregate_, inner, hit);
+        const Vec3 error =
+            s.error.x * abs(m.x_axis) + s.error.y * abs(m.y_axis) + s.error.z * abs(m.z_axis);
+        found.push_back({hit.t, world_.outer_from_inner.point(s.point),
+                         normalize(transpose_times(world_.inner_from_outer.linear, s.normal)),
+                         error});
+    }
+}
+
+Box3 Overlap::box() const {
+    const Box3 a = a_.box(), b = b_.box();
+    Box3 both;
+    for (int k = 0; k < 3; ++k) {
+        both.lo[k] = std::max(a.lo[k], b.lo[k]);
+        both.hi[k] = std::min(a.hi[k], b.hi[k]);
+    }
+    return both;
+}
+
+Interval Overlap::extent(const Vec3& axis) const {
+    return intersection(a_.extent(axis), b_.extent(axis));
+}
+
+void Overlap::cross(const Ray& line, bool, LineSpans& found) const {
+    b_.cross(line, false, found);
+    if (!found.consistent) return;
+    std::swap(found.others, found.spans);
+    if (found.others.empty()) {
+        found.spans.clear();
+        return;
+    }
+    a_.cross(line, false, found);
+    if (!found.consistent) return;
+    // Both lists ascend: what ends first cannot meet what follows in the other.
+    std::vector<Interval>& shared = found.spans;
+    const std::vector<Interval> a = shared;
+    shared.clear();
+    for (std::size_t i = 0, k = 0; i < a.size() && k < found.others.size();) {
+        const Interval both = intersection(a[i], found.others[k]);
+        if (both.lo < both.hi) shared.push_back(both);
+        if (a[i].hi < found.others[k].hi) {
+            ++i;
+        } else {
+            ++k;
+        }
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,235 @@
+#include "alhazen/solids/measure_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace alhazen {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json to_json(const Estimate& e) {
+    return {{"value", e.value}, {"interval", {e.lo(), e.hi()}}};
+}
+json to_json(const Vec3& v) {
+    return json::array({v.x, v.y, v.z});
+}
+
+Estimate scaled(double factor, const Estimate& e) {
+    return {factor * e.value, std::abs(factor) * e.half_width};
+}
+
+/// The sum of independent numbers.
+Estimate sum(const Estimate& a, const Estimate& b) {
+    return {a.value + b.value, std::hypot(a.half_width, b.half_width)};
+}
+
+json solid_json(const SolidReport& r) {
+    const SolidMeasures& m = r.measures;
+    json out{{"solid", static_cast<std::uint64_t>(r.solid)}, {"name", r.name}};
+    out["box"] = {to_json(m.box.lo), to_json(m.box.hi)};
+    out["volume"] = to_json(m.volume);
+    out["area"] = to_json(m.area);
+    out["area_by_crofton"] = to_json(m.area_by_crofton);
+    json centroid = json::array(), inertia = json::array(), directions = json::array();
+    for (const Estimate& e : m.centroid) centroid.push_back(to_json(e));
+    for (const Estimate& e : m.inertia)
+        inertia.push_back(to_json(scaled(r.density.value_or(1), e)));
+    for (std::size_t k = 0; k < 3; ++k) {
+        directions.push_back({{"direction", to_json(m.directions[k])},
+                              {"volume", to_json(m.volume_by_direction[k])}});
+    }
+    out["centroid"] = m.has_moments ? std::move(centroid) : json(nullptr);
+    if (r.density) {
+        out["density"] = *r.density;
+        out["mass"] = to_json(scaled(*r.density, m.volume));
+    }
+    out["inertia_density"] = r.density.value_or(1);
+    out["inertia_xx_yy_zz_xy_yz_zx"] = m.has_moments ? std::move(inertia) : json(nullptr);
+    if (r.section) {
+        out["section_area"] = to_json(r.section->area);
+    }
+    out["directions"] = std::move(directions);
+    out["directions_agree"] = m.directions_agree;
+    out["areas_agree"] = m.areas_agree;
+    out["lines"] = m.lines;
+    out["inconsistent_lines"] = m.inconsistent_lines;
+    out["in_range"] = m.in_range;
+    out["reached"] = m.reached;
+    out["seconds"] = r.seconds;
+    return out;
+}
+
+json pair_json(const PairReport& r) {
+    json out{{"a", static_cast<std::uint64_t>(r.a)},
+             {"name_a", r.name_a},
+             {"b", static_cast<std::uint64_t>(r.b)},
+             {"name_b", r.name_b}};
+    if (r.overlap) {
+        out["overlap_volume"] = to_json(r.overlap->volume);
+        out["reached"] = r.overlap->reached;
+    }
+    if (r.clearance) {
+        const Clearance& c = *r.clearance;
+        out["clearance"] = {{"overlap", c.overlap},    {"at_least", c.at_least},
+                            {"at_most", c.at_most},    {"on_a", to_json(c.on_a)},
+                            {"on_b", to_json(c.on_b)}, {"error", c.error}};
+    }
+    return out;
+}
+
+/// Digits down to the interval, and the interval.
+std::string text_of(const Estimate& e) {
+    if (!(e.half_width > 0)) return fmt::format("{:.15g}", e.value);
+    const double exponent = std::floor(std::log10(e.half_width)) - 1;
+    const int decimals = static_cast<int>(std::clamp(-exponent, 0.0, 17.0));
+    // Numbers smaller than that many digits behind the point show are written with an exponent.
+    if (e.half_width < 1e-15 || std::abs(e.value) >= 1e15) {
+        return fmt::format("{:.16g} +- {:.2g}", e.value, e.half_width);
+    }
+    return fmt::format("{:.{}f} +- {:.2g}", e.value, decimals, e.half_width);
+}
+
+std::string inertia_text(const SolidMeasures& m, std::optional<double> density) {
+    constexpr std::array<const char*, 6> kNames{"xx", "yy", "zz", "xy", "yz", "zx"};
+    std::string out;
+    for (std::size_t k = 0; k < kNames.size(); ++k) {
+        out += fmt::format("  {:<10}{} {}\n", k == 0 ? "inertia" : "", kNames[k],
+                           text_of(scaled(density.value_or(1), m.inertia[k])));
+    }
+    if (!density) out += fmt::format("  {:<10}(density 1)\n", "");
+    return out;
+}
+
+std::string solid_text(const SolidReport& r) {
+    const SolidMeasures& m = r.measures;
+    std::string out = fmt::format("{} {}\n", static_cast<std::uint64_t>(r.solid), r.name);
+    const auto line = [&](const char* what, const std::string& value) {
+        out += fmt::format("  {:<10}{}\n", what, value);
+    };
+    line("box", fmt::format("({:.9g}, {:.9g}, {:.9g}) to ({:.9g}, {:.9g}, {:.9g})", m.box.lo.x,
+                            m.box.lo.y, m.box.lo.z, m.box.hi.x, m.box.hi.y, m.box.hi.z));
+    line("volume", text_of(m.volume));
+    line("area", text_of(m.area));
+    line("", text_of(m.area_by_crofton) + " by Crofton's count");
+    if (m.has_moments) {
+        line("centroid", text_of(m.centroid[0]));
+        line("", text_of(m.centroid[1]));
+        line("", text_of(m.centroid[2]));
+    } else {
+        line("centroid", "none: nothing was met");
+    }
+    if (r.density) {
+        line("density", fmt::format("{:.9g}", *r.density));
+        line("mass", text_of(scaled(*r.density, m.volume)));
+    }
+    if (m.has_moments) out += inertia_text(m, r.density);
+    if (r.section) line("section", text_of(r.section->area));
+    line("lines", fmt::format("{} in {:.2f} s{}", m.lines, r.seconds,
+                              m.reached ? "" : "; the wanted error was not reached"));
+    if (m.inconsistent_lines > 0) {
+        line("WARNING",
+             fmt::format("the crossings of {} lines did not come in pairs: is it closed?",
+                         m.inconsistent_lines));
+    }
+    if (!m.in_range) {
+        line("WARNING",
+             "numbers overflow or vanish: the solid is too large or too small; scale it");
+    }
+    if (!m.directions_agree) {
+        line("WARNING", "the volumes along three directions differ beyond chance: is it closed?");
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& d = m.directions[k];
+            line("", fmt::format("along ({:.3f}, {:.3f}, {:.3f}) {}", d.x, d.y, d.z,
+                                 text_of(m.volume_by_direction[k])));
+        }
+    }
+    if (!m.areas_agree) line("WARNING", "the two areas differ beyond chance");
+    return out;
+}
+
+std::string pair_text(const PairReport& r) {
+    std::string out = fmt::format("{} {} and {} {}\n", static_cast<std::uint64_t>(r.a), r.name_a,
+                                  static_cast<std::uint64_t>(r.b), r.name_b);
+    if (r.overlap) {
+        out += fmt::format("  overlap   {}{}\n", text_of(r.overlap->volume),
+                           r.overlap->reached ? "" : " (the wanted error was not reached)");
+    }
+    if (r.clearance) {
+        const Clearance& c = *r.clearance;
+        if (c.overlap) {
+            out += fmt::format("  clearance none: both hold ({:.9g}, {:.9g}, {:.9g})\n", c.on_a.x,
+                               c.on_a.y, c.on_a.z);
+        } else {
+            out += fmt::format(
+                "  clearance from {:.12g} (slab between the two) to {:.12g} (distance of\n"
+                "            ({:.9g}, {:.9g}, {:.9g}) and ({:.9g}, {:.9g}, {:.9g}))\n",
+                c.at_least, c.at_most, c.on_a.x, c.on_a.y, c.on_a.z, c.on_b.x, c.on_b.y, c.on_b.z);
+        }
+    }
+    return out;
+}
+
+/// Volume and mass of all solids together; what solids share counts for each.
+struct Totals {
+    Estimate volume, area, mass;
+    bool has_mass = true;
+};
+Totals totals_of(const std::vector<SolidReport>& solids) {
+    Totals all;
+    for (const SolidReport& r : solids) {
+        all.volume = sum(all.volume, r.measures.volume);
+        all.area = sum(all.area, r.measures.area);
+        if (r.density) all.mass = sum(all.mass, scaled(*r.density, r.measures.volume));
+        all.has_mass = all.has_mass && r.density;
+    }
+    return all;
+}
+
+}  // namespace
+
+bool SolidReport::holds() const {
+    return measures.directions_agree && measures.areas_agree && measures.in_range &&
+           measures.inconsistent_lines == 0;
+}
+
+bool MeasureReport::holds() const {
+    return std::all_of(solids.begin(), solids.end(),
+                       [](const SolidReport& r) { return r.holds(); });
+}
+
+json measure_json(const MeasureReport& report) {
+    json solids = json::array(), pairs = json::array();
+    for (const SolidReport& r : report.solids) solids.push_back(solid_json(r));
+    for (const PairReport& r : report.pairs) pairs.push_back(pair_json(r));
+    json out{{"confidence", 0.95}, {"open_surfaces", report.open_surfaces}};
+    out["solids"] = std::move(solids);
+    if (report.solids.size() > 1) {
+        const Totals all = totals_of(report.solids);
+        out["total"] = {{"volume", to_json(all.volume)}, {"area", to_json(all.area)}};
+        if (all.has_mass) out["total"]["mass"] = to_json(all.mass);
+    }
+    if (!report.pairs.empty()) out["pairs"] = std::move(pairs);
+    out["holds"] = report.holds();
+    return out;
+}
+
+std::string measure_text(const MeasureReport& report) {
+    std::string out;
+    for (const SolidReport& r : report.solids) out += solid_text(r);
+    if (report.solids.size() > 1) {
+        const Totals all = totals_of(report.solids);
+        out += fmt::format("all {} solids\n  volume    {}\n  area      {}\n", report.solids.size(),
+                           text_of(all.volume), text_of(all.area));
+        if (all.has_mass) out += fmt::format("  mass      {}\n", text_of(all.mass));
+    }
+    for (const PairReport& r : report.pairs) out += pair_text(r);
+    return out;
+}
+
+}  // namespace alhazen

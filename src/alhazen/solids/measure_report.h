@@ -1,0 +1,46 @@
+#pragma once
+/// What `alhazen measure` found out, as JSON and for reading.
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "alhazen/solids/clearance.h"
+#include "alhazen/solids/solid_measures.h"
+#include "alhazen/solids/solid_scene.h"
+
+namespace alhazen {
+
+struct SolidReport {
+    SolidId solid{};
+    std::string name;
+    SolidMeasures measures;
+    std::optional<double> density;
+    std::optional<SectionArea> section;
+    double seconds = 0;
+
+    /// Everything that was checked held: crossings in pairs, directions and areas alike, numbers in
+    /// range.
+    [[nodiscard]] bool holds() const;
+};
+
+struct PairReport {
+    SolidId a{}, b{};
+    std::string name_a, name_b;
+    std::optional<SolidMeasures> overlap;
+    std::optional<Clearance> clearance;
+};
+
+struct MeasureReport {
+    std::vector<SolidReport> solids;
+    std::vector<PairReport> pairs;
+    std::uint64_t open_surfaces = 0;
+
+    [[nodiscard]] bool holds() const;
+};
+
+[[nodiscard]] nlohmann::ordered_json measure_json(const MeasureReport& report);
+[[nodiscard]] std::string measure_text(const MeasureReport& report);
+
+}  // namespace alhazen

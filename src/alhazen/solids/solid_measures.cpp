@@ -1,0 +1,343 @@
+#include "alhazen/solids/solid_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "alhazen/base/error.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/sampling/random.h"
+#include "alhazen/sampling/sobol.h"
+#include "alhazen/solids/stratified_chords.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::uint64_t kPilotLines = 1024;  ///< of each direction
+constexpr std::uint64_t kFirstLines = 4096;
+/// Where lines are slow: no pilot, and no first round, takes more than this share of the time. But
+/// fewer lines than so many tell nothing.
+constexpr double kShareOfPilot = 1.0 / 64, kShareOfFirst = 1.0 / 32;
+constexpr std::uint64_t kLeastLines = 128;
+/// With so few more than before nothing is gained.
+constexpr double kLeastGrowth = 1.25;
+/// The interval of a bundle falls about with this power of its lines; with so many more than that
+/// says it is narrow enough for sure.
+constexpr double kOrder = 1.2, kReserve = 2;
+/// Growth in one step.
+constexpr double kLeastStep = 2, kMostStep = 16;
+/// Independent sets of lines for Crofton's formula, and the lines of each: a check, which converges
+/// slowly.
+constexpr std::size_t kCroftonSets = 16;
+constexpr std::uint32_t kCroftonLines = 2048, kLeastCroftonLines = 32;
+constexpr double kShareOfCrofton = 1.0 / 16;  ///< of the time, at the most
+/// Of the time, when also the area is measured.
+constexpr double kShareOfVolume = 0.875;
+/// Half of an interval of the wanted width is exceeded once in twenty cases: work on the volume
+/// goes on, while there is time, until that hardly happens.
+constexpr double kShareOfWanted = 0.5;
+/// How much wider than both intervals a difference may be.
+constexpr double kAgreement = 2.5;
+
+constexpr StratifiedChords::Measured kArea = StratifiedChords::Measured::Area;
+
+/// Beyond these moments of inertia overflow or lose their digits.
+constexpr double kLeastMoment = 1e-290, kMostMoment = 1e300;
+
+/// The world's axes, and a frame aslant to all that is usual.
+std::array<std::array<BundleFrame, 3>, 2> frames() {
+    const Mat3 aslant = Affine::rotate({0.36, 0.48, 0.8}, 0.7236).linear *
+                        Affine::rotate({1, 0.2, -0.3}, 0.5129).linear;
+    std::array<std::array<BundleFrame, 3>, 2> all;
+    const std::array<Mat3, 2> bases{Mat3{}, aslant};
+    for (std::size_t i = 0; i < bases.size(); ++i) {
+        const Vec3 x = bases[i].x_axis, y = bases[i].y_axis, z = bases[i].z_axis;
+        all[i] = {BundleFrame{x, y, z}, BundleFrame{y, z, x}, BundleFrame{z, x, y}};
+    }
+    return all;
+}
+
+double spread(const Replicates& r) {
+    return half_sample_estimate(r).half_width;
+}
+
+bool agree(const Estimate& a, const Estimate& b) {
+    return std::abs(a.value - b.value) <= kAgreement * std::hypot(a.half_width, b.half_width);
+}
+
+class Measurer {
+  public:
+    Measurer(const Measurable& solid, const MeasureOptions& options)
+        : solid_(solid),
+          options_(options),
+          deadline_(options.seconds, options.stop),
+          volume_deadline_(options.seconds * (options.area ? kShareOfVolume : 1.0), options.stop) {
+        box_ = solid.box();
+    }
+
+    SolidMeasures run() {
+        SolidMeasures found;
+        found.box = box_;
+        if (box_.empty()) {
+            found.reached = true;
+            return found;
+        }
+        if (!box_.bounded()) {
+            throw Error(ErrorKind::Usage, "the solid is not bounded: it has no volume");
+        }
+        center_ = box_.center();
+        // What the numbers of a span are computed from, as a multiple of the solid's size.
+        reach_ = 1 + length(center_) / length(box_.size());
+        choose_frame();
+        grow();
+        fill(found);
+        return found;
+    }
+
+  private:
+    /// Looks along six directions, and keeps those of the frame with the one that is best.
+    void choose_frame() {
+        const auto all = frames();
+        StratifiedChords first(solid_, all[0][0], center_, mix64(options_.seed) + 50);
+        grow_bundle(first, kLeastLines);  // tells how long a line takes
+        double least = 0, least_area = 0;
+        for (std::size_t f = 0; f < all.size(); ++f) {
+            if (f > 0 && deadline_.room(lines_) <= 0) break;
+            std::size_t best = 0;
+            double best_work = 0, area_spread = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint64_t key = mix64(options_.seed) + 16 * f + k;
+                StratifiedChords pilot(solid_, all[f][k], center_, key);
+                grow_bundle(pilot, affordable(kPilotLines, kShareOfPilot));
+                const double work = work_ahead(pilot);
+                if (k == 0 || work < best_work) {
+                    best = k;
+                    best_work = work;
+                }
+                if (!options_.area) continue;
+                StratifiedChords area_pilot(solid_, all[f][k], center_, key + 1000, kArea);
+                grow_bundle(area_pilot, affordable(kPilotLines, kShareOfPilot));
+                area_spread += spread(area_pilot.areas());
+            }
+            const bool better =
+                best_work < least || (best_work == least && area_spread < least_area);
+            if (f > 0 && !better) continue;
+            least = best_work;
+            least_area = area_spread;
+            frame_ = f;
+            best_ = best;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint64_t key = mix64(options_.seed) + 100 + 16 * frame_ + k;
+            bundles_.emplace_back(solid_, all[frame_][k], center_, key);
+            grow_bundle(bundles_.back(), affordable(kFirstLines, kShareOfFirst));
+            if (!options_.area) continue;
+            area_bundles_.emplace_back(solid_, all[frame_][k], center_, key + 1000, kArea);
+            grow_bundle(area_bundles_.back(), affordable(kFirstLines, kShareOfFirst));
+        }
+    }
+
+    /// So many lines, or fewer where those would take more than that share of the time.
+    [[nodiscard]] std::uint64_t affordable(std::uint64_t lines, double share) const {
+        const double room = share * deadline_.room(lines_) / StratifiedChords::kCostOfLine;
+        const auto least = static_cast<double>(kLeastLines);
+        return static_cast<std::uint64_t>(std::clamp(room, least, double(lines)));
+    }
+
+    /// About how many lines the wanted error takes along the direction of a pilot.
+    [[nodiscard]] double work_ahead(const StratifiedChords& pilot) const {
+        const Estimate e = half_sample_estimate(pilot.volumes());
+        const Estimate widened = with_rare_misses(e, pilot.misses(), pilot.sparsest());
+        const double wanted = options_.relative_error * std::abs(e.value);
+        const double lines = static_cast<double>(pilot.lines());
+        if (!(wanted > 0)) return 0;
+        // What is added for rare misses falls as 1 / lines.
+        return lines * std::max(std::pow(e.half_width / wanted, 1 / kOrder),
+                                (widened.half_width - e.half_width) / wanted);
+    }
+
+    void grow_bundle(StratifiedChords& bundle, std::uint64_t lines) {
+        lines_ += static_cast<double>(bundle.grow_to(lines));
+    }
+    /// To as many lines as an interval takes that is to be narrower by the factor, or what there is
+    /// time for; or other lines in the same cells; false when there is no time for that either.
+    bool enlarge(StratifiedChords& bundle, double factor, const Deadline& deadline) {
+        const double room = deadline.room(lines_);
+        const auto round = static_cast<double>(bundle.lines_of_round());
+        const auto most = static_cast<double>(options_.most_lines_of_round);
+        const double needed = kReserve * std::pow(factor, 1 / kOrder);
+        const double growth = std::clamp(needed, kLeastStep, kMostStep);
+        const double wanted =
+            std::min({growth * round, room / StratifiedChords::kCostOfLine, most});
+        const bool grows = wanted >= kLeastGrowth * round;
+        if (!grows && room < round) return false;
+        grow_bundle(bundle, grows ? static_cast<std::uint64_t>(wanted) : 0);
+        return true;
+    }
+
+    /// How much too wide the interval is; at most 1 where it is narrow enough.
+    [[nodiscard]] static double excess(const Estimate& e, double relative) {
+        const double wanted = relative * std::abs(e.value);
+        return e.half_width <= wanted ? 1 : e.half_width / wanted;
+    }
+
+    void grow() {
+        const auto grow_volume = [&](const Deadline& deadline) {
+            for (;;) {
+                const double factor = excess(volume(), kShareOfWanted * options_.relative_error);
+                if (factor <= 1 || !enlarge(bundles_[best_], factor, deadline)) return;
+            }
+        };
+        const auto grow_area = [&] {
+            for (;;) {
+                const double factor = excess(area(), options_.relative_error);
+                if (factor <= 1 || !enlarge(area_bundles_[widest_area()], factor, deadline_))
+                    return;
+            }
+        };
+        grow_volume(volume_deadline_);
+        if (options_.area) grow_area();
+        grow_volume(deadline_);
+        reached_ = excess(volume(), options_.relative_error) <= 1 &&
+                   (!options_.area || excess(area(), options_.relative_error) <= 1);
+    }
+
+    [[nodiscard]] std::size_t widest_area() const {
+        std::size_t widest = 0;
+        for (std::size_t k = 1; k < 3; ++k) {
+            if (spread(area_bundles_[k].areas()) > spread(area_bundles_[widest].areas()))
+                widest = k;
+        }
+        return widest;
+    }
+
+    [[nodiscard]] Estimate volume_along(std::size_t k) const {
+        const StratifiedChords& bundle = bundles_[k];
+        const Estimate e = with_rare_misses(half_sample_estimate(bundle.volumes()), bundle.misses(),
+                                            bundle.sparsest());
+        return with_rounding(e, reach_ * std::abs(e.value));
+    }
+    [[nodiscard]] Estimate volume() const { return volume_along(best_); }
+    [[nodiscard]] Estimate area() const {
+        Replicates sum{};
+        for (const StratifiedChords& bundle : area_bundles_) {
+            const Replicates share = bundle.areas();
+            for (std::size_t r = 0; r < kReplicates; ++r) sum[r] += share[r];
+        }
+        const Estimate e = half_sample_estimate(sum);
+        return with_rounding(e, reach_ * std::abs(e.value));
+    }
+
+    /// Lines in all directions alike through the ball around the box: the number of crossings
+    /// times the surface of the ball is twice the area.
+    [[nodiscard]] Estimate crofton() {
+        const double radius = 0.5 * length(box_.size());
+        std::array<double, kCroftonSets> area{};
+        const double share = kShareOfCrofton * (lines_ + deadline_.room(lines_)) / kCroftonSets;
+        const auto lines = static_cast<std::uint32_t>(
+            std::clamp(share, double{kLeastCroftonLines}, double{kCroftonLines}));
+        parallel_for(kCroftonSets, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t r = begin; r < end; ++r) {
+                area[r] = 2 * kPi * radius * radius * mean_crossings(r, radius, lines);
+            }
+        });
+        lines_ += static_cast<double>(kCroftonSets * lines);
+        return mean_of(area);
+    }
+
+    [[nodiscard]] double mean_crossings(std::size_t replicate, double radius,
+                                        std::uint32_t lines) const {
+        const std::uint64_t key = mix64(options_.seed + 77) + replicate;
+        LineSpans found;
+        double sum = 0;
+        for (std::uint32_t i = 0; i < lines; ++i) {
+            const double z = 1 - 2 * scrambled_sobol(key, i, 0);
+            const double turn = 2 * kPi * scrambled_sobol(key, i, 1);
+            const double across = std::sqrt(std::max(0.0, 1 - z * z));
+            const Vec3 d{across * std::cos(turn), across * std::sin(turn), z};
+            const Vec3 right = perpendicular(d);
+            const double r = radius * std::sqrt(scrambled_sobol(key, i, 2));
+            const double angle = 2 * kPi * scrambled_sobol(key, i, 3);
+            const Vec3 offset = r * std::cos(angle) * right + r * std::sin(angle) * cross(d, right);
+            solid_.cross({center_ + offset, d}, false, found);
+            sum += 2.0 * static_cast<double>(found.spans.size());
+        }
+        return sum / lines;
+    }
+
+    void fill(SolidMeasures& found) {
+        found.volume = volume();
+        found.in_range = std::isfinite(found.volume.hi());
+        for (std::size_t k = 0; k < 3; ++k) {
+            found.volume_by_direction[k] = volume_along(k);
+            found.directions[k] = bundles_[k].direction();
+            found.inconsistent_lines += bundles_[k].inconsistent();
+            if (options_.area) found.inconsistent_lines += area_bundles_[k].inconsistent();
+            found.directions_agree =
+                found.directions_agree && agree(found.volume, found.volume_by_direction[k]);
+        }
+        fill_moments(found);
+        if (options_.area) {
+            found.area = area();
+            found.area_by_crofton = crofton();
+            found.areas_agree = agree(found.area, found.area_by_crofton);
+            found.in_range = found.in_range && std::isfinite(found.area.hi());
+        }
+        found.lines = static_cast<std::uint64_t>(lines_);
+        found.reached = reached_;
+    }
+
+    /// Centroid and inertia are ratios: of each half sample by itself, and then their mean.
+    void fill_moments(SolidMeasures& found) const {
+        std::array<Replicates, 3> centroid{};
+        std::array<Replicates, 6> inertia{};
+        for (std::size_t r = 0; r < kReplicates; ++r) {
+            const Moments m = bundles_[best_].moments(r);
+            // Nothing there, or so little that hardly a line meets it: it has no middle.
+            if (!(m.volume > 0.0)) return;
+            const Vec3 c = m.first / m.volume;
+            std::array<double, 6> s = m.second;  // about the centroid
+            s[0] -= m.volume * c.x * c.x;
+            s[1] -= m.volume * c.y * c.y;
+            s[2] -= m.volume * c.z * c.z;
+            s[3] -= m.volume * c.x * c.y;
+            s[4] -= m.volume * c.y * c.z;
+            s[5] -= m.volume * c.z * c.x;
+            for (int k = 0; k < 3; ++k) centroid[std::size_t(k)][r] = center_[k] + c[k];
+            const std::array<double, 6> tensor{s[1] + s[2], s[2] + s[0], s[0] + s[1],
+                                               -s[3],       -s[4],       -s[5]};
+            for (std::size_t k = 0; k < 6; ++k) inertia[k][r] = tensor[k];
+        }
+        const double size = length(box_.size());
+        found.has_moments = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            found.centroid[k] = with_rounding(half_sample_estimate(centroid[k]), reach_ * size);
+        }
+        const double moment = found.volume.value * size * size;
+        for (std::size_t k = 0; k < 6; ++k) {
+            found.inertia[k] = with_rounding(half_sample_estimate(inertia[k]), reach_ * moment);
+        }
+        found.in_range = found.in_range && kLeastMoment <= moment && moment <= kMostMoment;
+    }
+
+    const Measurable& solid_;
+    const MeasureOptions& options_;
+    Deadline deadline_, volume_deadline_;
+    Box3 box_;
+    Vec3 center_;
+    double reach_ = 1;
+    std::size_t frame_ = 0, best_ = 0;
+    std::vector<StratifiedChords> bundles_, area_bundles_;
+    double lines_ = 0;
+    bool reached_ = false;
+};
+
+}  // namespace
+
+SolidMeasures measure(const Measurable& solid, const MeasureOptions& options) {
+    return Measurer(solid, options).run();
+}
+
+}  // namespace alhazen

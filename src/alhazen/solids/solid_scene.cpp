@@ -1,0 +1,172 @@
+#include "alhazen/solids/solid_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+
+#include "alhazen/base/control_characters.h"
+#include "alhazen/base/error.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Names of more solids are not looked through: numbers find them.
+constexpr std::uint64_t kMostNamed = 2'000'000;
+constexpr std::uint64_t kMostListed = 30;
+
+std::string own_name(const SceneDescription& description, const Part& part) {
+    if (!part.name.empty()) return part.name;
+    if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+        const std::string& name = description.meshes[static_cast<std::size_t>(*mesh)].name;
+        return name.empty() ? "mesh" : name;
+    }
+    if (const auto* object = std::get_if<ObjectIndex>(&part.what)) {
+        const std::string& name = description.objects[static_cast<std::size_t>(*object)].name;
+        return name.empty() ? "object" : name;
+    }
+    return std::visit([](const auto& shape) { return std::string(shape.kName); },
+                      std::get<AnyShape>(part.what));
+}
+
+/// Whether `word` is the name, or as much of its end or beginning as stands between slashes.
+bool means(const std::string& word, const std::string& name) {
+    if (word == name) return true;
+    if (word.empty() || word.size() >= name.size()) return false;
+    const std::size_t rest = name.size() - word.size();
+    return (name.ends_with(word) && name[rest - 1] == '/') ||
+           (name.starts_with(word) && name[word.size()] == '/');
+}
+
+std::optional<std::uint64_t> number_in(const std::string& word) {
+    std::uint64_t number = 0;
+    const char* const end = word.data() + word.size();
+    const auto [stop, status] = std::from_chars(word.data(), end, number);
+    if (status != std::errc{} || stop != end) return std::nullopt;
+    return number;
+}
+
+void collect_densities(const PrimitiveTable& table, const std::vector<Material>& materials,
+                       std::set<std::optional<double>>& densities) {
+    const auto add = [&](MaterialId m) {
+        densities.insert(materials[static_cast<std::size_t>(m)].density);
+    };
+    std::apply(
+        [&](const auto&... column) {
+            (std::for_each(column.materials.begin(), column.materials.end(), add), ...);
+        },
+        table.columns);
+    for (const PlacedMesh& mesh : table.meshes) add(mesh.material);
+    for (const Instance& instance : table.instances) {
+        collect_densities(instance.aggregate->primitives(), materials, densities);
+    }
+}
+
+}  // namespace
+
+SolidScene::SolidScene(const SceneDescription& description, const Scene& scene)
+    : scene_(scene), queries_(scene.aggregate) {
+    name_parts(description);
+}
+
+void SolidScene::name_parts(const SceneDescription& description) {
+    std::vector<std::size_t> first_part;
+    std::vector<int> uses(description.objects.size());
+    std::size_t parts = 0;
+    for (const ObjectDescription& object : description.objects) {
+        first_part.push_back(parts);
+        parts += object.parts.size();
+        for (const Part& part : object.parts) {
+            if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                ++uses[static_cast<std::size_t>(*child)];
+            }
+        }
+    }
+    part_names_.resize(parts);
+    // An object that is placed once is multiplied out: the names of its parts begin with its own.
+    struct Waiting {
+        std::size_t object;
+        std::string prefix;
+    };
+    std::vector<Waiting> waiting{{static_cast<std::size_t>(description.root), ""}};
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        if (uses[i] > 1 && i != static_cast<std::size_t>(description.root)) {
+            waiting.push_back({i, ""});
+        }
+    }
+    while (!waiting.empty()) {
+        const Waiting at = std::move(waiting.back());
+        waiting.pop_back();
+        const ObjectDescription& object = description.objects[at.object];
+        for (std::size_t i = 0; i < object.parts.size(); ++i) {
+            const Part& part = object.parts[i];
+            std::string name = at.prefix + own_name(description, part);
+            if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                const auto index = static_cast<std::size_t>(*child);
+                if (uses[index] == 1) waiting.push_back({index, name + "/"});
+            }
+            part_names_[first_part[at.object] + i] = std::move(name);
+        }
+    }
+}
+
+std::string SolidScene::name(SolidId solid) const {
+    std::string name;
+    for (const std::uint32_t part : solids().place(solid).parts) {
+        if (!name.empty()) name += '/';
+        name += part_names_[part];
+    }
+    return name.empty() ? "scene" : name;
+}
+
+const std::string& SolidScene::material_name(MaterialId material) const {
+    return scene_.materials[static_cast<std::size_t>(material)].name;
+}
+
+std::vector<SolidId> SolidScene::select(std::span<const std::string> words) const {
+    std::set<SolidId> chosen;
+    const std::uint64_t count = solids().count();
+    if (words.empty()) {
+        for (std::uint64_t i = 0; i < count; ++i) chosen.insert(chosen.end(), SolidId{i});
+    }
+    std::vector<std::string> names;
+    for (const std::string& word : words) {
+        const auto number = number_in(word);
+        if (number && *number < count) {
+            chosen.insert(SolidId{*number});
+            continue;
+        }
+        if (names.empty() && count <= kMostNamed) {
+            for (std::uint64_t i = 0; i < count; ++i) names.push_back(name(SolidId{i}));
+        }
+        bool found = false;
+        for (std::uint64_t i = 0; i < names.size(); ++i) {
+            if (!means(word, names[i])) continue;
+            chosen.insert(SolidId{i});
+            found = true;
+        }
+        if (found) continue;
+        std::string known;
+        for (std::uint64_t i = 0; i < std::min<std::uint64_t>(names.size(), kMostListed); ++i) {
+            known += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, escape_controls(names[i]));
+        }
+        throw Error(ErrorKind::Usage,
+                    fmt::format("no solid '{}'; the scene has {} of them: {}{}", word, count, known,
+                                names.size() > kMostListed ? ", ..." : ""));
+    }
+    return {chosen.begin(), chosen.end()};
+}
+
+std::optional<double> SolidScene::density(SolidId solid) const {
+    const SolidPlace place = solids().place(solid);
+    if (place.kind != SolidPlace::Kind::Csg) {
+        return scene_.materials[static_cast<std::size_t>(place.material)].density;
+    }
+    std::set<std::optional<double>> densities;
+    collect_densities(place.aggregate->primitives(), scene_.materials, densities);
+    return densities.size() == 1 ? *densities.begin() : std::nullopt;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,44 @@
+#pragma once
+/// The solids of a loaded scene by the names that the file gave them.
+///
+/// Conventions: a solid is called by the names of the parts that lead to it, joined by '/', the
+/// outermost first; a part without a name by what it is. Names need not be unique, numbers are.
+/// Complexity and threads: as SolidQueries; names are made when they are asked for.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "alhazen/scene/scene.h"
+#include "alhazen/solids/spans.h"
+
+namespace alhazen {
+
+class SolidScene {
+  public:
+    /// Both must outlive it.
+    SolidScene(const SceneDescription& description, const Scene& scene);
+
+    [[nodiscard]] const SolidQueries& queries() const { return queries_; }
+    [[nodiscard]] const SolidList& solids() const { return queries_.solids(); }
+    [[nodiscard]] std::string name(SolidId solid) const;
+    [[nodiscard]] const std::string& material_name(MaterialId material) const;
+
+    /// The solids that the words mean, in ascending order: a number, a whole name, the end or the
+    /// beginning of a name up to a '/'. No words: all solids. Throws Error (Usage) that lists names
+    /// where a word means none.
+    [[nodiscard]] std::vector<SolidId> select(std::span<const std::string> words) const;
+
+    /// The density of the solid's material; of a CSG object that of its leaves, where it is one.
+    [[nodiscard]] std::optional<double> density(SolidId solid) const;
+
+  private:
+    void name_parts(const SceneDescription& description);
+
+    const Scene& scene_;
+    SolidQueries queries_;
+    std::vector<std::string> part_names_;  ///< [part number] with those of objects placed once
+};
+
+}  // namespace alhazen

@@ -1,0 +1,383 @@
+#include "alhazen/solids/stratified_chords.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/sampling/random.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::size_t kCellsPerTask = 256;
+/// Of the cells that are cut these are the largest, whatever was seen in them: what is too small to
+/// be seen at once must not be overlooked for good.
+constexpr double kCutForSize = 0.15;
+/// The same where hardly a line misses: what the corners may lack was not seen.
+constexpr double kCutForSizeIfFull = 0.75;
+/// So many lines that miss the solid show in the scatter.
+constexpr std::uint64_t kEnoughMisses = 10;
+/// Lines of the survey of a cell: one in the middle, the others on a hexagon around it, whose
+/// radius is up to so many halves of the cell's side.
+constexpr std::uint64_t kSurveyLines = 7;
+constexpr double kLeastSurveyRadius = 1.1, kMostSurveyRadius = 1.7;
+/// Growth of the number of cells between surveys; after the last one.
+constexpr double kSurveyGrowth = 1.5, kLastGrowth = 2;
+/// Of the variance in a cell along a rim, what is in each of its quarters (h^5).
+constexpr float kRimShare = 1.0f / 32;
+/// Weight of that guess where the quarter itself was surveyed: what seven lines did not see may
+/// still be there.
+constexpr float kWeightOfGuess = 0.1f;
+/// Ends of spans are right to a few roundings of the numbers they are computed from.
+constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// Adds the span a < t < b of the line o + t d, |d| = 1, which counts `weight` times.
+void add_span(const Vec3& o, const Vec3& d, double a, double b, double weight, Moments& m) {
+    const double l0 = weight * (b - a);
+    const double l1 = l0 * (0.5 * (a + b));
+    const double l2 = l0 * (a * a + a * b + b * b) / 3.0;
+    m.volume += l0;
+    m.first += l0 * o + l1 * d;
+    const auto second = [&](int i, int k) {
+        return l0 * o[i] * o[k] + l1 * (o[i] * d[k] + d[i] * o[k]) + l2 * d[i] * d[k];
+    };
+    m.second[0] += second(0, 0);
+    m.second[1] += second(1, 1);
+    m.second[2] += second(2, 2);
+    m.second[3] += second(0, 1);
+    m.second[4] += second(1, 2);
+    m.second[5] += second(2, 0);
+}
+
+}  // namespace
+
+Moments& Moments::operator+=(const Moments& other) {
+    volume += other.volume;
+    first += other.first;
+    for (std::size_t i = 0; i < second.size(); ++i) second[i] += other.second[i];
+    cosines += other.cosines;
+    measured += other.measured;
+    return *this;
+}
+
+Moments Moments::operator*(double factor) const {
+    Moments m = *this;
+    m.volume *= factor;
+    m.first = factor * m.first;
+    for (double& x : m.second) x *= factor;
+    m.cosines *= factor;
+    m.measured *= factor;
+    return m;
+}
+
+StratifiedChords::Sums& StratifiedChords::Sums::operator+=(const Sums& other) {
+    all += other.all;
+    for (std::size_t i = 0; i < differences.size(); ++i) differences[i] += other.differences[i];
+    inconsistent += other.inconsistent;
+    misses += other.misses;
+    lines += other.lines;
+    return *this;
+}
+
+StratifiedChords::StratifiedChords(const Measurable& solid, const BundleFrame& frame,
+                                   const Vec3& center, std::uint64_t key, Measured measured)
+    : solid_(solid), frame_(frame), center_(center), key_(mix64(key)), measured_(measured) {
+    const auto range = [&](const Vec3& axis) {
+        const Interval extent = solid.extent(axis);
+        const double shift = dot(axis, center);
+        return Interval{extent.lo - shift, extent.hi - shift};
+    };
+    right_ = range(frame.right);
+    up_ = range(frame.up);
+    scale_ = measured == Measured::Area ? 1.0 : length(solid.box().size());
+}
+
+std::uint64_t StratifiedChords::grow_to(std::uint64_t lines) {
+    const auto cells = static_cast<std::size_t>(lines / kLinesPerCell);
+    const std::uint64_t before = surveyed_;
+    if (cells_.empty()) make_grid(cells);
+    if (cells > cells_.size()) {
+        const auto last = static_cast<std::size_t>(double(cells) / kLastGrowth);
+        for (;;) {
+            survey();
+            if (cells_.size() >= last) break;
+            cut(std::min(last, static_cast<std::size_t>(kSurveyGrowth * double(cells_.size()))));
+        }
+        cut(cells);
+        sums_ = {};
+        casts_ = 0;
+    }
+    cast();
+    return lines_of_round() + surveyed_ - before;
+}
+
+/// Some fourth of so many cells.
+void StratifiedChords::make_grid(std::size_t cells) {
+    std::size_t side = 1;
+    while (16 * side * side <= cells) side *= 2;
+    const float size = 1.0f / static_cast<float>(side);
+    for (std::size_t i = 0; i < side * side; ++i) {
+        cells_.push_back({double(i % side) * size, double(i / side) * size, size});
+    }
+}
+
+std::array<StratifiedChords::Cell, 4> StratifiedChords::Cell::quarters() const {
+    Cell part = *this;
+    part.size *= 0.5f;
+    part.scatter *= kRimShare;
+    for (float& second : part.curvature) second *= 0.25f;
+    part.quarter = true;
+    part.surveyed = false;
+    std::array<Cell, 4> all{part, part, part, part};
+    all[1].y += part.size;
+    all[2].x += part.size;
+    all[3].x += part.size;
+    all[3].y += part.size;
+    return all;
+}
+
+/// Cuts the cells with the largest scatter, and some of the largest, into four each.
+void StratifiedChords::cut(std::size_t cells) {
+    const std::size_t wanted = std::min(cells_.size(), (cells - cells_.size() + 2) / 3);
+    std::vector<std::uint32_t> order(cells_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const double share = missed_ < kEnoughMisses ? kCutForSizeIfFull : kCutForSize;
+    const auto for_size = static_cast<std::size_t>(share * static_cast<double>(wanted));
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted - for_size);
+    const auto last = order.begin() + static_cast<std::ptrdiff_t>(wanted);
+    const auto by = [&](auto&& size) {
+        return [&, size](std::uint32_t a, std::uint32_t b) {
+            const double of_a = size(cells_[a]), of_b = size(cells_[b]);
+            return of_a != of_b ? of_a > of_b : a < b;
+        };
+    };
+    std::nth_element(order.begin(), first, order.end(),
+                     by([](const Cell& c) { return c.scatter; }));
+    std::nth_element(first, last, order.end(), by([](const Cell& c) { return c.area(); }));
+    std::vector<bool> is_cut(cells_.size());
+    for (auto i = order.begin(); i != last; ++i) is_cut[*i] = true;
+    std::vector<Cell> finer;
+    finer.reserve(cells_.size() + 3 * wanted);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const Cell& c = cells_[i];
+        if (!is_cut[i]) {
+            finer.push_back(c);
+            continue;
+        }
+        for (const Cell& quarter : c.quarters()) finer.push_back(quarter);
+    }
+    cells_ = std::move(finer);
+}
+
+/// The sums that f(cell, its number, scratch, sums) adds to, in an order that does not depend on
+/// the number of threads.
+template <class F>
+StratifiedChords::Sums StratifiedChords::over_cells(F&& f) {
+    const std::size_t tasks = (cells_.size() + kCellsPerTask - 1) / kCellsPerTask;
+    std::vector<Sums> parts(tasks);
+    parallel_for(tasks, 1, [&](std::size_t begin, std::size_t end) {
+        LineSpans found;
+        for (std::size_t task = begin; task < end; ++task) {
+            const std::size_t first = task * kCellsPerTask;
+            const std::size_t last = std::min(cells_.size(), first + kCellsPerTask);
+            for (std::size_t i = first; i < last; ++i) f(cells_[i], i, found, parts[task]);
+        }
+    });
+    Sums sums;
+    for (const Sums& part : parts) sums += part;
+    inconsistent_ += sums.inconsistent;
+    missed_ += sums.misses;
+    ++rounds_;
+    return sums;
+}
+
+/// Looks at the cells that were not looked at yet.
+void StratifiedChords::survey() {
+    const Sums sums =
+        over_cells([&](Cell& cell, std::uint64_t number, LineSpans& found, Sums& part) {
+            if (cell.surveyed) return;
+            survey_cell(cell, mix64(key_ ^ mix64(rounds_ << 40 | number)), found, part);
+            part.lines += kSurveyLines;
+        });
+    surveyed_ += sums.lines;
+}
+
+/// The curvature, from a hexagon around the middle. How much it differs from that of the cell which
+/// this one was cut from says how far from a parabola the function is, in both.
+void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found,
+                                   Sums& sums) const {
+    const double half = 0.5 * cell.size, mx = cell.x + half, my = cell.y + half;
+    bool is_beyond = false;
+    const auto value = [&](double x, double y) {
+        // The solid touches the sides of its shadow's rectangle: beyond them is nothing.
+        if (!(0 <= x && x <= 1 && 0 <= y && y <= 1)) {
+            is_beyond = true;
+            return 0.0;
+        }
+        cast_line(x, y, found, sums);
+        if (measured_ == Measured::Area) return found.cosines;
+        double sum = 0;
+        for (const Interval& span : found.spans) sum += span.hi - span.lo;
+        return sum / scale_;
+    };
+    constexpr double kThird = 1.04719755119659775;  // of half a turn
+    const double u = static_cast<double>(bits >> 32) * 0x1p-32;
+    const double v = static_cast<double>(bits & 0xffffffffu) * 0x1p-32;
+    const double radius = kLeastSurveyRadius + v * (kMostSurveyRadius - kLeastSurveyRadius);
+    const double middle = value(mx, my);
+    double mean = 0, even = 0, slant = 0, odd = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double angle = (u + k) * kThird;
+        const double c = radius * std::cos(angle), s = radius * std::sin(angle);
+        const double there = value(mx + half * c, my + half * s);
+        const double opposite = value(mx - half * c, my - half * s);
+        // Along this direction: xx c^2 + 2 xy c s + yy s^2
+        const double second = (there + opposite - 2 * middle) / (radius * radius);
+        mean += second / 3;
+        even += second * (c * c - s * s) / (1.5 * radius * radius);
+        slant += second * 2 * c * s / (1.5 * radius * radius);
+        odd += (k == 1 ? -1 : 1) * (there - opposite) / (2 * radius * radius);
+    }
+    const Curvature before = cell.curvature;
+    const double xx = mean + even, yy = mean - even;
+    const auto squared = [](double a, double b, double c) { return a * a + 2 * b * b + c * c; };
+    const double size = squared(xx, slant, yy);
+    const double off =
+        cell.quarter ? squared(xx - before[0], slant - before[1], yy - before[2]) : size;
+    cell.curvature = {float(xx), float(slant), float(yy)};
+    const bool is_model = off < size && !is_beyond;
+    cell.trust = is_model ? static_cast<float>(1 - off / size) : 0.0f;
+    const double area = cell.area();
+    const auto seen = static_cast<float>((off + odd * odd) * area * area / 80);
+    const float guess = cell.quarter ? seen + kWeightOfGuess * (cell.scatter - seen) : seen;
+    // Cells are put in order by it, which a NaN would break.
+    cell.scatter = std::isfinite(guess) ? guess : 0;
+    cell.surveyed = true;
+}
+
+void StratifiedChords::cast() {
+    sums_ += over_cells([&](Cell& cell, std::uint64_t number, LineSpans& found, Sums& part) {
+        cast_in(cell, number, found, part);
+    });
+    ++casts_;
+}
+
+void StratifiedChords::cast_in(Cell& cell, std::uint64_t number, LineSpans& found,
+                               Sums& sums) const {
+    std::uint64_t bits = mix64(key_ ^ mix64(rounds_ << 40 | number));
+    // Any but that of the constant row.
+    const std::size_t row = 1 + bits % (kReplicates - 1);
+    Moments pairs[2];
+    for (Moments& pair : pairs) {
+        bits = mix64(bits);
+        cast_pair(cell, bits, found, pair, sums);
+    }
+    sums.all += pairs[0];
+    sums.all += pairs[1];
+    sums.differences[row] += pairs[0];
+    sums.differences[row] += pairs[1] * -1.0;
+}
+
+/// Two lines opposite of each other about the middle of the cell.
+void StratifiedChords::cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found,
+                                 Moments& pair, Sums& sums) const {
+    const double weight = cell.area() / kLinesPerCell;
+    const double half = 0.5 * cell.size;
+    const double u = (static_cast<double>(bits >> 32) + 0.5) * 0x1p-31 - 1;
+    const double v = (static_cast<double>(bits & 0xffffffffu) + 0.5) * 0x1p-31 - 1;
+    for (const double side : {1.0, -1.0}) {
+        const Vec3 offset =
+            cast_line(cell.x + half * (1 + side * u), cell.y + half * (1 + side * v), found, sums);
+        for (const Interval& span : found.spans) {
+            add_span(offset, frame_.d, span.lo, span.hi, weight, pair);
+        }
+        pair.cosines += weight * found.cosines;
+    }
+    // The model less its mean over the cell, for both lines.
+    const Curvature& c = cell.curvature;
+    const double model = c[0] * (u * u - 1.0 / 3) + 2 * c[1] * u * v + c[2] * (v * v - 1.0 / 3);
+    pair.measured = (measured_ == Measured::Area ? pair.cosines : pair.volume) -
+                    weight * scale_ * cell.trust * model;
+}
+
+Vec3 StratifiedChords::cast_line(double x, double y, LineSpans& found, Sums& sums) const {
+    const Vec3 offset =
+        (right_.lo + right_.width() * x) * frame_.right + (up_.lo + up_.width() * y) * frame_.up;
+    solid_.cross({center_ + offset, frame_.d}, measured_ == Measured::Area, found);
+    sums.inconsistent += found.consistent ? 0 : 1;
+    sums.misses += found.consistent && found.spans.empty() ? 1 : 0;
+    return offset;
+}
+
+double StratifiedChords::sparsest() const {
+    double largest = 0;
+    for (const Cell& c : cells_) largest = std::max(largest, c.area());
+    return static_cast<double>(casts_ * kLinesPerCell) / largest;
+}
+
+double StratifiedChords::share() const {
+    return right_.width() * up_.width() / static_cast<double>(casts_);
+}
+
+Moments StratifiedChords::moments(std::size_t replicate) const {
+    Moments m = sums_.all;
+    for (std::size_t row = 1; row < kReplicates; ++row) {
+        const bool second = std::popcount(row & replicate) % 2 != 0;
+        m += sums_.differences[row] * (second ? -1.0 : 1.0);
+    }
+    return m * share();
+}
+
+Replicates StratifiedChords::volumes() const {
+    Replicates v{};
+    for (std::size_t r = 0; r < kReplicates; ++r) v[r] = moments(r).measured;
+    return v;
+}
+
+Replicates StratifiedChords::areas() const {
+    Replicates v{};
+    for (std::size_t r = 0; r < kReplicates; ++r) v[r] = moments(r).measured;
+    return v;
+}
+
+Deadline::Deadline(double seconds, const StopFlag* stop)
+    : seconds_(seconds), stop_(stop), begin_(now()) {}
+
+double Deadline::room(double lines_done) const {
+    if (stop_ != nullptr && stop_->requested()) return 0;
+    const double elapsed = now() - begin_;
+    return lines_done * (seconds_ / elapsed - 1);
+}
+
+Estimate with_rounding(Estimate estimate, double magnitude) {
+    estimate.half_width += kRounding * magnitude;
+    return estimate;
+}
+
+Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines) {
+    // Of an event that never came in n trials the share is below 3/n in 95 of 100 cases.
+    constexpr double kRuleOfThree = 3.0;
+    const bool all_alike = volume.half_width <= kRounding * std::abs(volume.value);
+    if (misses >= kEnoughMisses || all_alike) return volume;
+    volume.half_width += kRuleOfThree / lines * std::abs(volume.value);
+    return volume;
+}
+
+Estimate half_sample_estimate(const Replicates& replicates) {
+    Estimate e = mean_of(replicates);
+    // Of independent ones the mean would scatter less, by the root of their number.
+    e.half_width *= std::sqrt(double{kReplicates - 1});
+    return e;
+}
+
+}  // namespace alhazen

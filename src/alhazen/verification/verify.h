@@ -1,0 +1,54 @@
+#pragma once
+/// Rays traced twice: by an accelerator and by brute force. Every disagreement is reported with the
+/// ray that shows it.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "alhazen/accel/wide_bvh/build/build_options.h"
+#include "alhazen/base/progress.h"
+#include "alhazen/scene_model/scene_description.h"
+
+namespace alhazen {
+
+struct VerifyOptions {
+    std::string accelerator = "wide_bvh";
+    BuildOptions build{};
+    std::string csg = "event_heap";  ///< who evaluates solids; compared with `roth`
+    std::uint64_t rays = 20000;      ///< in all, over the kinds below
+    std::uint64_t seed = 1;
+    std::string camera;
+    std::size_t max_reported = 20;
+    ProgressSink* progress = nullptr;
+};
+
+/// One ray on which the two differ. Coordinates are printed with 17 digits so that they repeat it
+/// exactly.
+struct Disagreement {
+    /// "random", "lattice", "eye", "aimed"; "random for shadow" where parts are masked.
+    std::string kind;
+    std::string query;  ///< "closest", "occluded", "all_hits", "shadowed", "parity"
+    Ray ray;
+    std::string found, expected;
+};
+
+struct VerifyReport {
+    std::string accelerator;
+    std::uint64_t rays = 0;  ///< traced, per query
+    std::uint64_t hits = 0;  ///< of the closest-hit query
+    std::uint64_t disagreements = 0;
+    std::uint64_t closed_surfaces = 0;   ///< meshes and shapes whose crossings were counted
+    std::uint64_t open_meshes = 0;       ///< meshes that bound no volume: nothing to count
+    std::uint64_t parity_lines = 0;      ///< lines through closed surfaces
+    std::uint64_t odd_crossings = 0;     ///< of those, lines with an odd number of crossings
+    std::vector<Disagreement> reported;  ///< the first ones
+
+    [[nodiscard]] bool holds() const { return disagreements == 0 && odd_crossings == 0; }
+};
+
+/// The description must have passed `validate`. Throws Error.
+[[nodiscard]] VerifyReport verify(const SceneDescription& description,
+                                  const VerifyOptions& options);
+
+}  // namespace alhazen

@@ -1,0 +1,221 @@
+// The hits do not depend on how much work went into the tree.
+
+#include <gtest/gtest.h>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/triangle_splitter.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
+#include "alhazen/parallel/parallel.h"
+#include "unit/aggregates/compare_aggregates.h"
+
+namespace alhazen {
+namespace {
+
+using namespace testing;
+
+constexpr BuildQuality kQualities[] = {BuildQuality::Fast, BuildQuality::Default,
+                                       BuildQuality::High};
+
+void compare(const std::string& name, const PrimitiveTable& table, const MakeRay& make_ray,
+             int count = 1000) {
+    const auto list = make_aggregate("list", table);
+    std::vector<std::shared_ptr<const Aggregate>> trees;
+    for (const BuildQuality quality : kQualities) {
+        trees.push_back(make_aggregate("wide_bvh", table, {quality}));
+    }
+    Random random(7);
+    int hits = 0;
+    for (int i = 0; i < count; ++i) {
+        const Ray ray = make_ray(random);
+        const Answer answer = ask(*list, ray);
+        hits += answer.found;
+        for (const BuildQuality quality : kQualities) {
+            const Aggregate& tree = *trees[static_cast<std::size_t>(quality)];
+            ASSERT_EQ(difference(answer, ask(tree, ray)), "")
+                << name << ", quality " << name_of(quality) << ", ray " << i << ": " << show(ray);
+        }
+    }
+    EXPECT_GT(hits, 0) << name;
+}
+
+/// Long and thin in all directions: what spatial splits are for.
+PrimitiveTable needles(int count, double length, std::uint64_t seed) {
+    Random random(seed);
+    TableBuilder builder;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 a = uniform_point(random, 1);
+        const Vec3 along = uniform_point(random, length);
+        builder.add_triangle(a, a + along, a + along + uniform_point(random, 0.03),
+                             random() % 3 != 0);
+    }
+    return builder.finish();
+}
+
+TEST(BuildQuality, AllGiveTheHitsOfTheListAmongRandomPrimitives) {
+    for (const int count : {1, 2, 9, 60, 1000}) {
+        const std::string name = std::to_string(count);
+        compare(name + " triangles", random_triangles(count, 1, count < 3 ? 2 : 0.3, 41),
+                random_rays(1));
+        compare(name + " primitives", random_mixture(count, 1, count < 3 ? 2 : 0.3, 42),
+                random_rays(1));
+    }
+}
+
+TEST(BuildQuality, AllGiveTheHitsOfTheListAmongLongThinTriangles) {
+    compare("needles", needles(2000, 1, 43), random_rays(1), 3000);
+    compare("long needles", needles(300, 30, 44), random_rays(1), 2000);
+}
+
+TEST(BuildQuality, AllGiveTheHitsOfTheListOnPlanesOfALattice) {
+    // Where the planes of the splits go through vertices, edges and whole triangles.
+    Random random(45);
+    TableBuilder builder;
+    for (int i = 0; i < 800; ++i) {
+        const Vec3 a = lattice_point(random, 4);
+        builder.add_triangle(a, a + lattice_point(random, 4), a + lattice_point(random, 4),
+                             random() % 2 == 0);
+    }
+    const PrimitiveTable table = builder.finish();
+    compare("lattice, random rays", table, random_rays(4), 2000);
+    compare(
+        "lattice, lattice rays", table,
+        [](Random& generator) {
+            Ray ray{lattice_point(generator, 8), {}, 0, 1e300};
+            while (ray.direction == Vec3{}) ray.direction = lattice_point(generator, 1);
+            return ray;
+        },
+        2000);
+}
+
+TEST(BuildQuality, AllGiveTheHitsOfTheListAtAnySize) {
+    for (const double size : {1e-100, 1e-6, 1e6, 1e100}) {
+        Random random(46);
+        TableBuilder builder;
+        for (int i = 0; i < 300; ++i) {
+            const Vec3 a = uniform_point(random, size);
+            builder.add_triangle(a, a + uniform_point(random, size),
+                                 a + uniform_point(random, 0.1 * size));
+        }
+        compare("size " + std::to_string(std::log10(size)), builder.finish(), random_rays(size));
+    }
+}
+
+TEST(BuildQuality, HighDividesLongTrianglesAndCostsLess) {
+    // Beams across a room, as in a building, and small things among them.
+    Random random(47);
+    TableBuilder builder;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 a = uniform_point(random, 1), along = uniform_point(random, 3);
+        builder.add_triangle(a, a + along, a + along + uniform_point(random, 0.05));
+    }
+    for (int i = 0; i < 6000; ++i) {
+        const Vec3 a = uniform_point(random, 1);
+        builder.add_triangle(a, a + uniform_point(random, 0.02), a + uniform_point(random, 0.02));
+    }
+    const PrimitiveTable table = builder.finish();
+    const WideBvhAggregate plain(table, {BuildQuality::Default}), high(table, {BuildQuality::High});
+    std::size_t used = 0;
+    for (const TriangleBlock& block : high.layout().triangles) used += used_lanes(block);
+    EXPECT_GT(used, 6500u);
+    EXPECT_LE(used, 8198u) << "the budget";
+    EXPECT_LT(high.layout().sah_cost(), 0.8 * plain.layout().sah_cost());
+}
+
+TEST(BuildQuality, NoneDependsOnTheNumberOfThreads) {
+    const PrimitiveTable table = needles(30000, 0.3, 48);
+    for (const BuildQuality quality : kQualities) {
+        std::unique_ptr<WideBvhAggregate> one, two;
+        ThreadLimit(1).run(
+            [&] { one = std::make_unique<WideBvhAggregate>(table, BuildOptions{quality}); });
+        ThreadLimit(2).run(
+            [&] { two = std::make_unique<WideBvhAggregate>(table, BuildOptions{quality}); });
+        const auto &a = one->layout(), &b = two->layout();
+        ASSERT_EQ(a.tree.nodes.size(), b.tree.nodes.size()) << name_of(quality);
+        ASSERT_EQ(a.triangles.size(), b.triangles.size()) << name_of(quality);
+        EXPECT_EQ(std::memcmp(a.tree.nodes.data(), b.tree.nodes.data(),
+                              a.tree.nodes.size() * sizeof(WideNode)),
+                  0)
+            << name_of(quality);
+        EXPECT_EQ(std::memcmp(a.triangles.data(), b.triangles.data(),
+                              a.triangles.size() * sizeof(TriangleBlock)),
+                  0)
+            << name_of(quality);
+    }
+}
+
+TEST(BuildQuality, PartsOfATriangleOnBothSidesOfAPlaneHoldAllOfIt) {
+    Random random(49);
+    for (int i = 0; i < 20000; ++i) {
+        const bool lattice = i % 2 == 0;
+        const auto corner = [&] {
+            return lattice ? 0.25 * lattice_point(random, 3) : uniform_point(random, 1);
+        };
+        const std::array<Vec3, 3> t{corner(), corner(), corner()};
+        const int axis = uniform_int(random, 0, 2);
+        const double plane = lattice ? 0.25 * uniform_int(random, -3, 3) : uniform(random, -1, 1);
+        FloatBox below, above;
+        split_triangle(t, axis, plane, below, above);
+        for (int k = 0; k < 20; ++k) {
+            double u = uniform(random, 0, 1), v = uniform(random, 0, 1);
+            if (u + v > 1) u = 1 - u, v = 1 - v;
+            const Vec3 p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+            const FloatBox& box = p[axis] < plane ? below : above;
+            for (int j = 0; j < 3; ++j) {
+                ASSERT_LE(static_cast<double>(box.lo[j]), p[j] + 1e-15) << i;
+                ASSERT_GE(static_cast<double>(box.hi[j]), p[j] - 1e-15) << i;
+            }
+        }
+    }
+}
+
+TEST(BuildQuality, SlicesOfATriangleHoldItsPointsAndAreNoLargerThanByRepeatedSplits) {
+    const PrimitiveTable table = random_triangles(2000, 1, 1, 50);
+    const LocalFrame frame(Box3{{-2, -2, -2}, {2, 2, 2}});
+    const TriangleSplitter splitter(table, frame);
+    Random random(51);
+    constexpr float kRounding = 1e-6f;
+    for (std::uint32_t id = 0; id < table.size(); ++id) {
+        std::array<Vec3, 3> t = table.triangle_vertices(id);
+        for (Vec3& p : t) p = frame.local(p);
+        // Of every other triangle a part only.
+        FloatBox box = frame.local(table.box(id)), rest;
+        const int axis = uniform_int(random, 0, 2);
+        BuildReference r(box, id, 0);
+        if (id % 2 == 0) {
+            const int other = uniform_int(random, 0, 2);
+            splitter.split(r, other, 0.25f * r.lo[other] + 0.75f * r.hi[other], box, rest);
+            r.set_box(box);
+        }
+        const BinPlanes planes(Box4(frame.local(Box3{{-2, -2, -2}, {2, 2, 2}})), axis, 16);
+        const int first = planes.bin(r.lo[axis]), last = planes.bin(r.hi[axis]);
+        Box4 slices[16], split[16];
+        splitter.slice(r, planes, first, last, slices);
+        splitter.ReferenceSplitter::slice(r, planes, first, last, split);
+        for (int i = 0; i <= last - first; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                if (slices[i].lo[0] > slices[i].hi[0]) continue;
+                ASSERT_GE(slices[i].lo[k], split[i].lo[k] - kRounding) << id;
+                ASSERT_LE(slices[i].hi[k], split[i].hi[k] + kRounding) << id;
+            }
+        }
+        for (int n = 0; n < 50; ++n) {
+            double u = uniform(random, 0, 1), v = uniform(random, 0, 1);
+            if (u + v > 1) u = 1 - u, v = 1 - v;
+            const Vec3 p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+            bool inside = true;
+            for (int k = 0; k < 3; ++k) {
+                const auto x = static_cast<float>(p[k]);
+                inside = inside && r.lo[k] <= x && x <= r.hi[k];
+            }
+            if (!inside) continue;
+            const Box4& slice = slices[planes.bin(static_cast<float>(p[axis])) - first];
+            for (int k = 0; k < 3; ++k) {
+                ASSERT_LE(slice.lo[k], static_cast<float>(p[k]) + kRounding) << id;
+                ASSERT_GE(slice.hi[k], static_cast<float>(p[k]) - kRounding) << id;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

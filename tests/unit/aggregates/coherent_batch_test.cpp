@@ -1,0 +1,274 @@
+// The hint that rays are coherent changes no hit, whatever the rays are.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
+#include "alhazen/simd/targets.h"
+#include "unit/aggregates/coherent_rays.h"
+
+namespace alhazen {
+namespace {
+
+using namespace testing;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+std::vector<std::pair<std::string, PrimitiveTable>> tables(double size, std::uint64_t seed) {
+    return {{"many triangles", random_triangles(800, size, 0.1 * size, seed)},
+            {"large triangles", random_triangles(60, size, size, seed)},
+            {"spheres", random_spheres(300, size, 0.1 * size, seed)},
+            {"mixture", random_mixture(300, size, 0.2 * size, seed)}};
+}
+
+TEST(CoherentBatch, EyeRaysHitWhatTheListHits) {
+    Random random(1);
+    for (const auto& [name, table] : tables(1, 2)) {
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 eye = uniform_point(random, 3);
+            const double width = i % 4 == 0 ? 0.01 : i % 4 == 1 ? 0.3 : i % 4 == 2 ? 1.5 : 8;
+            const Vec3 aim = uniform_point(random, 0.3);
+            compare("eye rays at " + name, table, eye_rays(eye, aim - eye, width, 20), false);
+        }
+        compare("eye rays at " + name, table, eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.7, 30));
+    }
+}
+
+TEST(CoherentBatch, ShadowRaysAreBlockedAsTheListSays) {
+    Random random(3);
+    for (const auto& [name, table] : tables(1, 4)) {
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 from = uniform_point(random, 1);
+            const Vec3 light = uniform_point(random, i < 4 ? 2 : 12);
+            const double width = i % 2 == 0 ? 0.02 : 0.3;
+            compare("shadow rays at " + name, table, shadow_rays(from, width, light, 20), false);
+        }
+        compare("shadow rays at " + name, table,
+                shadow_rays({-1.2, -1.1, -1.3}, 0.3, {1.5, 1.3, 1.4}, 30));
+    }
+}
+
+TEST(CoherentBatch, PacketsOfAnySizeAreTracedInFull) {
+    const PrimitiveTable table = random_mixture(200, 1, 0.3, 5);
+    const Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.7, 14);
+    for (const std::size_t size : {1, 2, 15, 16, 17, 31, 48, 63, 64, 65, 79, 80, 127, 129}) {
+        compare(std::to_string(size) + " rays", table, {rays.begin(), rays.begin() + size}, false);
+    }
+    compare("no rays", table, {}, false);
+}
+
+TEST(CoherentBatch, InvalidRaysAmongOthersHitNothingAndChangeNothing) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [name, table] : tables(1, 6)) {
+        Random random(7);
+        Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.7, 24);
+        for (Ray& ray : rays) {
+            switch (random() % 40) {
+                case 0:
+                    ray.origin.x = nan;
+                    break;
+                case 1:
+                    ray.direction.y = nan;
+                    break;
+                case 2:
+                    ray.direction = {};
+                    break;
+                case 3:
+                    ray.t_min = 2, ray.t_max = 1;
+                    break;
+                case 4:
+                    ray.t_max = nan;
+                    break;
+                case 5:
+                    ray.origin.z = kInf;
+                    break;
+                case 6:
+                    ray.direction.z = -kInf;
+                    break;
+                case 7:
+                    ray.direction = 1e-300 * ray.direction;
+                    break;
+                case 8:
+                    ray.direction = 1e200 * ray.direction;
+                    break;
+                case 9:
+                    ray.origin = ray.origin - 1e9 * ray.direction;
+                    break;
+                case 10:
+                    ray.direction = -ray.direction;
+                    break;
+                case 11:
+                    ray.direction = {1, 0.1, 0.2};
+                    break;
+                case 12:
+                    ray.t_min = -5;
+                    break;
+                default:
+                    break;
+            }
+        }
+        compare("invalid rays at " + name, table, rays);
+        rays.assign(100, Ray{{nan, 0, 0}, {1, 0, 0}});
+        compare("invalid rays only at " + name, table, rays, false);
+    }
+}
+
+TEST(CoherentBatch, RangesOfRaysHold) {
+    for (const auto& [name, table] : tables(1, 8)) {
+        Random random(9);
+        Rays rays = eye_rays({0.1, 0.2, 2}, {0, 0, -1}, 0.7, 24);
+        for (Ray& ray : rays) {
+            ray.t_min = uniform(random, 0, 3);
+            ray.t_max = ray.t_min + (random() % 2 == 0 ? 0.2 : 1e-6);
+        }
+        compare("short rays at " + name, table, rays);
+        // Ranges that end exactly at the hit, or begin there, or just miss it.
+        const auto list = make_aggregate("list", table);
+        for (Ray& ray : rays) {
+            ray.t_min = 0;
+            ray.t_max = kInf;
+            Hit hit;
+            if (!list->closest(ray, hit, nullptr)) continue;
+            const auto which = random() % 4;
+            if (which == 0) ray.t_max = hit.t;
+            if (which == 1) ray.t_max = std::nextafter(hit.t, 0.0);
+            if (which == 2) ray.t_min = hit.t;
+            if (which == 3) ray.t_min = std::nextafter(hit.t, 9.0);
+        }
+        compare("ranges that end at hits of " + name, table, rays);
+    }
+}
+
+TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
+    Random random(10);
+    TableBuilder builder;
+    std::vector<Vec3> targets;
+    for (int i = 0; i < 400; ++i) {
+        // A lattice: shared vertices and edges, triangles in common planes and twice the same.
+        const Vec3 a = 0.25 * lattice_point(random, 4);
+        const Vec3 b = a + 0.25 * lattice_point(random, 1), c = a + 0.25 * lattice_point(random, 1);
+        builder.add_triangle(a, b, c, random() % 2 == 0);
+        targets.insert(targets.end(), {a, b, 0.5 * (a + b), 0.5 * (b + c)});
+    }
+    const PrimitiveTable table = builder.finish();
+    for (const Vec3& eye : {Vec3{0.25, 0.5, 3}, Vec3{0.3, 0.2, 2.9}, Vec3{-3, 0.25, 0.25}}) {
+        Rays rays;
+        for (const Vec3& target : targets) rays.push_back({eye, target - eye, 0, kInf});
+        std::sort(rays.begin(), rays.end(),
+                  [](const Ray& a, const Ray& b) { return a.direction.y < b.direction.y; });
+        compare("rays at vertices and edges", table, rays);
+        for (Ray& ray : rays) ray.t_max = 1;
+        compare("rays to vertices and edges", table, rays);
+    }
+    // Side by side along an axis: no point in common but a direction, zeros of both signs.
+    Rays rays;
+    for (int i = 0; i < 400; ++i) {
+        rays.push_back({{0.125 * (i % 20 - 10), 0.125 * (i / 20 - 10), 2}, {0.0, -0.0, -1}});
+    }
+    compare("parallel rays", table, rays);
+    for (Ray& ray : rays) ray.origin = {0.001 * ray.origin.x, 0.25 + 0.001 * ray.origin.y, 2};
+    compare("parallel rays in a beam", table, rays);
+}
+
+TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
+    // Corners behind the eye, beside it and at its very depth, whose slopes say nothing.
+    Random random(18);
+    TableBuilder builder;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 a = 0.5 * lattice_point(random, 4);
+        builder.add_triangle(a, a + 0.5 * lattice_point(random, 3),
+                             a + 0.5 * lattice_point(random, 3), random() % 2 == 0);
+    }
+    const PrimitiveTable table = builder.finish();
+    for (const Vec3& eye : {Vec3{0, 0, 0}, Vec3{0.5, -0.5, 1}, Vec3{0.51, 0.24, 0.5}}) {
+        for (const Vec3& look : {Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0.5, 0.25}}) {
+            compare("triangles around the eye", table, eye_rays(eye, look, 0.4, 24), false);
+            Rays rays = eye_rays(eye, look, 0.1, 16);
+            for (Ray& ray : rays) ray.t_min = -1;
+            compare("and from behind it", table, rays, false);
+        }
+    }
+}
+
+TEST(CoherentBatch, FarRaysAndOddScalesHitWhatTheListHits) {
+    for (const double size : {1e-100, 1e-30, 1e-6, 1e6, 1e30, 1e100}) {
+        std::ostringstream name;
+        name << "size " << size;
+        for (const auto& [kind, table] : tables(size, 11)) {
+            Rays rays = eye_rays({0.1 * size, 0.2 * size, 3 * size}, {0, 0, -1}, 0.7, 12);
+            compare(name.str() + ", " + kind, table, rays);
+            for (Ray& ray : rays) ray.direction = size * ray.direction;
+            // Squares of 1e100 times 1e100 leave the range of double: spheres are missed by all.
+            compare(name.str() + " with directions, " + kind, table, rays, size < 1e99);
+        }
+    }
+    for (const double distance : {7.9, 8.5, 1e3, 1e6, 1e9, 1e12}) {
+        const Vec3 eye{0.3 * distance, 0.2 * distance, distance};
+        std::ostringstream name;
+        name << "from " << distance;
+        for (const auto& [kind, table] : tables(1, 12)) {
+            compare(name.str() + ", " + kind, table, eye_rays(eye, -eye, 1.5 / distance, 16));
+            compare(name.str() + " to a light, " + kind, table,
+                    shadow_rays({-1.2, -1.1, -1.3}, 0.3, eye, 16), false);
+        }
+    }
+}
+
+TEST(CoherentBatch, RaysThatAreNotCoherentHitWhatTheListHits) {
+    for (const auto& [name, table] : tables(1, 13)) {
+        Random random(14);
+        const MakeRay make = random_rays(1);
+        Rays rays;
+        for (int i = 0; i < 1000; ++i) rays.push_back(make(random));
+        compare("any rays at " + name, table, rays);
+        for (Ray& ray : rays) ray.origin = {0.1, 0.2, 0.3};
+        compare("rays from one point to everywhere at " + name, table, rays);
+    }
+}
+
+TEST(CoherentBatch, NestedAggregatesGiveTheHitsOfNestedLists) {
+    const auto nest = [](const char* name) {
+        const std::shared_ptr<const Aggregate> inner =
+            make_aggregate(name, random_mixture(60, 1, 0.3, 15));
+        Random random(16);
+        TableBuilder builder;
+        for (int i = 0; i < 30; ++i) {
+            Placement placement;
+            placement.outer_from_inner.linear = {{0.2, 0, 0}, {0, 0.1, 0.1}, {0, -0.1, 0.1}};
+            placement.outer_from_inner.translation = uniform_point(random, 1);
+            placement.inner_from_outer = inverse(placement.outer_from_inner);
+            builder.table.instances.push_back({.aggregate = inner, .placement = placement});
+        }
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 a = uniform_point(random, 1);
+            builder.add_triangle(a, a + uniform_point(random, 0.2), a + uniform_point(random, 0.2));
+        }
+        return make_aggregate(name, builder.finish());
+    };
+    const auto list = nest("list");
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride use(target);
+        compare_with(*list, *nest("wide_bvh"), eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.7, 24),
+                     "instances on " + target);
+        compare_with(*list, *nest("wide_bvh"),
+                     shadow_rays({-1.2, -1.1, -1.3}, 0.3, {1.5, 1.3, 1.4}, 24),
+                     "instances in shadow on " + target);
+    }
+}
+
+TEST(CoherentBatch, PacketsShareTheWorkOfTheirRays) {
+    const auto tree = make_aggregate("wide_bvh", random_triangles(3000, 1, 0.1, 17));
+    const Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.2, 32);
+    std::vector<Hit> hits(rays.size());
+    TraversalStats any, coherent;
+    tree->closest_batch(rays, hits, &any);
+    tree->closest_batch(rays, hits, &coherent, Coherence::Coherent);
+    EXPECT_GT(coherent.node_visits, 0u);
+    EXPECT_LT(5 * coherent.node_visits, any.node_visits);
+}
+
+}  // namespace
+}  // namespace alhazen

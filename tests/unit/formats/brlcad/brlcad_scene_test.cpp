@@ -1,0 +1,329 @@
+/// The scenes that BRL-CAD databases make: what is solid where, and in which colour.
+
+#include <gtest/gtest.h>
+
+#include "alhazen/formats/brlcad/brlcad_importer.h"
+#include "alhazen/formats/brlcad/brlcad_view.h"
+#include "alhazen/scene/scene.h"
+#include "alhazen/solids/spans.h"
+#include "import_text.h"
+
+namespace alhazen {
+namespace {
+
+using testing::mentions;
+using testing::text_of;
+
+SceneDescription import(const std::string& text, Diagnostics& found, ImportOptions options = {}) {
+    const ImportSource source{text, "a.asc", options};
+    const BrlcadImporter importer;
+    EXPECT_EQ(importer.recognise(source), 2) << text;
+    SceneDescription scene = importer.import(source, found);
+    if (found.error_count() == 0) validate(scene, found);
+    return scene;
+}
+
+/// A compiled scene that is asked for points.
+class Model {
+  public:
+    explicit Model(const std::string& text, ImportOptions options = {})
+        : description_(import(text, found_, std::move(options))) {
+        EXPECT_EQ(found_.error_count(), 0u) << text_of(found_);
+        scene_ = compile(description_);
+    }
+    /// How many solids hold the point.
+    [[nodiscard]] std::size_t at(const Vec3& p) const {
+        return SolidQueries(scene_.aggregate).inside(p).size();
+    }
+    /// The diffuse colour, made brightest, of what a ray meets first.
+    [[nodiscard]] Rgb color(const Vec3& origin, const Vec3& direction) const {
+        Ray ray;
+        ray.origin = origin;
+        ray.direction = direction;
+        Hit hit;
+        if (!scene_.aggregate->closest(ray, hit, nullptr)) return {};
+        const Surface surface = surface_at(*scene_.aggregate, ray, hit);
+        const Rgb c =
+            scene_.materials[static_cast<std::size_t>(surface.materials[0])].diffuse.color;
+        return c.max() > 0.0 ? (1.0 / c.max()) * c : c;
+    }
+    [[nodiscard]] const Diagnostics& found() const { return found_; }
+    [[nodiscard]] const SceneDescription& description() const { return description_; }
+
+  private:
+    Diagnostics found_;
+    SceneDescription description_;
+    Scene scene_;
+};
+
+const std::string kBall = "put ball ell V {0 0 0} A {2 0 0} B {0 2 0} C {0 0 2}\n";
+const std::string kMove = " {1 0 0 X  0 1 0 0  0 0 1 0  0 0 0 1}";
+std::string moved(double x) {
+    std::string text = kMove;
+    return text.replace(text.find('X'), 1, std::to_string(x));
+}
+const std::string kRegions = kBall + "put r comb region yes rgb {255 0 0} tree {l ball}\n" +
+                             "put g comb region yes rgb {0 255 0} tree {l ball" + moved(3) + "}\n";
+
+TEST(BrlcadScene, OperatorsWithinARegionMakeOneSolid) {
+    const Model model(kBall + "put a comb region yes tree {- {u {l ball} {l ball" + moved(3) +
+                      "}} {l ball" + moved(6) + "}}\n");
+    EXPECT_EQ(text_of(model.found()), "");
+    EXPECT_EQ(model.at({0, 0, 0}), 1u);
+    EXPECT_EQ(model.at({1.5, 0, 0}), 1u);  // in both balls
+    EXPECT_EQ(model.at({3, 0, 0}), 1u);
+    EXPECT_EQ(model.at({4.5, 0, 0}), 0u);
+    EXPECT_EQ(model.at({6, 0, 0}), 0u);
+}
+
+TEST(BrlcadScene, ExclusiveOrAndIntersectionOfCombinationsAreSolids) {
+    const Model model(kBall + "put two comb region no tree {^ {l ball} {l ball" + moved(3) +
+                      "}}\n" + "put a comb region yes tree {n {l two} {l two" + moved(1) + "}}\n");
+    EXPECT_EQ(model.at({0, 0, 0}), 1u);
+    EXPECT_EQ(model.at({1.5, 0, 0}), 0u);
+    EXPECT_EQ(model.at({-1.5, 0, 0}), 0u);
+    EXPECT_EQ(model.at({4.5, 0, 0}), 1u);
+}
+
+TEST(BrlcadScene, EverySolidIsWhereItsDefinitionSays) {
+    struct Probe {
+        const char* solid;
+        Vec3 inside, outside;  ///< both close to one place of the surface
+    };
+    const Probe probes[] = {
+        {"ell V {1 0 0} A {2 0 0} B {0 1 0} C {0 0 3}", {1, 0, 2.99}, {1, 0, 3.01}},
+        {"tgc V {0 0 0} H {0 0 2} A {2 0 0} B {0 1 0} C {1 0 0} D {0 2 0}",
+         {1.49, 0, 1},
+         {1.51, 0, 1}},
+        {"tgc V {0 0 0} H {0 0 2} A {2 0 0} B {0 1 0} C {1 0 0} D {0 2 0}",
+         {0, 1.49, 1},
+         {0, 1.51, 1}},
+        {"tor V {0 0 0} H {0 0 3} r_a 3 r_h 1", {0, 2.01, 0}, {0, 1.99, 0}},
+        {"half N {0 0 2} d 2", {5, 5, 0.99}, {5, 5, 1.01}},
+        {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {0, 0, -1.99}, {0, 0, -2.01}},
+        {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {0, 0, 4.99}, {0, 0, 5.01}},
+        // Half way up, the cone that touches both spheres: 1.5 / cos of its half angle.
+        {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {1.54, 0, 2}, {1.56, 0, 2}},
+        {"part V {0 0 0} H {0 0 1} r_v 3 r_h 1", {0, 0, 2.99}, {0, 0, 3.01}},
+        {"rpc V {0 0 0} H {0 0 2} B {0 4 0} r 2", {0.99, 3, 1}, {1.01, 3, 1}},
+        // ((B + c - s)^2 - c^2) / ((B + c)^2 - c^2) = 5 / 18 of r^2 at s = 2.
+        {"rhc V {0 0 0} H {0 0 2} B {0 4 0} r 2 c 0.25", {1.05, 2, 1}, {1.06, 2, 1}},
+        {"epa V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1", {0, 0.99, 3}, {0, 1.01, 3}},
+        {"epa V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1", {0.49, 0, 3}, {0.51, 0, 3}},
+        {"ehy V {0 0 0} H {0 0 4} A {0 1 0} r_1 2 r_2 1 c 0.25", {0, 1.05, 2}, {0, 1.06, 2}},
+        {"hyp V {0 0 0} H {0 0 4} A {2 0 0} b 1 bnr 0.5", {0.99, 0, 2}, {1.01, 0, 2}},
+        {"hyp V {0 0 0} H {0 0 4} A {2 0 0} b 1 bnr 0.5", {0, 0.99, 0.01}, {0, 1.01, 0.01}},
+        {"eto V {0 0 0} N {0 0 1} C {1 0 1} r 5 r_d 0.5", {5.99, 0, 0.99}, {6.01, 0, 1.01}},
+        {"eto V {0 0 0} N {0 0 1} C {1 0 1} r 5 r_d 0.5", {0, 5.35, -0.35}, {0, 5.36, -0.36}},
+        {"superell V {0 0 0} A {1 0 0} B {0 1 0} C {0 0 1} n 2 e 2",
+         {0.1, 0.1, 0.79},
+         {0.1, 0.1, 0.81}},
+        {"arbn N 4 P0 {0 0 1 1} P1 {0 1 -1 1} P2 {1 -1 -1 1} P3 {-1 -1 -1 1}",
+         {0, 0, 0.99},
+         {0, 0, 1.01}},
+        {"arb8 V1 {0 0 0} V2 {2 0 0} V3 {2 2 0} V4 {0 2 0} V5 {1 1 3} V6 {1 1 3} V7 {1 1 3} V8 {1 "
+         "1 3}",
+         {1, 1, 2.99},
+         {1, 1, 3.01}},
+        {"ars NC 3 PPC 4 C0 { {0 0 0} {0 0 0} {0 0 0} {0 0 0} } C1 { {1 0 1} {0 1 1} {-1 0 1} {0 "
+         "-1 1} } C2 { {0 0 2} {0 0 2} {0 0 2} {0 0 2} }",
+         {0.01, 0.01, 1.95},
+         {0.01, 0.01, 2.01}},
+        {"bot mode volume V {{0 0 0} {1 0 0} {0 1 0} {0 0 1}} F {{0 2 1} {0 1 3} {0 3 2} {1 2 3}}",
+         {0.33, 0.33, 0.33},
+         {0.34, 0.34, 0.34}},
+    };
+    for (const Probe& probe : probes) {
+        const Model model("put s " + std::string(probe.solid) + "\n");
+        EXPECT_EQ(text_of(model.found()), "") << probe.solid;
+        EXPECT_EQ(model.at(probe.inside), 1u) << probe.solid;
+        EXPECT_EQ(model.at(probe.outside), 0u) << probe.solid;
+    }
+}
+
+TEST(BrlcadScene, RegionsOfAGroupLieSideBySide) {
+    const Model model(kRegions + "put all comb region no tree {u {l r} {l g}}\n");
+    EXPECT_EQ(model.at({1.5, 0, 0}), 2u);
+    EXPECT_EQ(model.color({-9, 0, 0}, {1, 0, 0}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(model.color({9, 0, 0}, {-1, 0, 0}), (Rgb{0, 1, 0}));
+}
+
+TEST(BrlcadScene, OperatorsAboveRegionsActOnEachAndKeepTheirMaterials) {
+    const Model model(kRegions + "put cut half N {0 0 1} d 0\n" +
+                      "put all comb region no tree {- {u {l r} {l g}} {l cut}}\n");
+    EXPECT_EQ(model.at({1.5, 0, 0.5}), 2u);
+    EXPECT_EQ(model.at({1.5, 0, -0.5}), 0u);
+    // From below the cut faces are seen.
+    EXPECT_EQ(model.color({-1, 0, -9}, {0, 0, 1}), (Rgb{1, 0, 0}));
+    EXPECT_EQ(model.color({4, 0, -9}, {0, 0, 1}), (Rgb{0, 1, 0}));
+}
+
+TEST(BrlcadScene, ARegionCutByAnotherRegionIsOfItsOwnMaterialEverywhere) {
+    const Model model(kRegions + "put all comb region no tree {- {l r} {l g}}\n");
+    EXPECT_EQ(model.at({0, 0, 0}), 1u);
+    EXPECT_EQ(model.at({1.5, 0, 0}), 0u);
+    EXPECT_EQ(model.at({3, 0, 0}), 0u);
+    EXPECT_EQ(model.color({9, 0, 0}, {-1, 0, 0}), (Rgb{1, 0, 0}));
+}
+
+TEST(BrlcadScene, ColoursComeFromAboveWhereTheyAreFixedAndFromTheTableOfRegions) {
+    const Model model(kRegions + "put up comb rgb {0 0 255} inherit 1 tree {l r}\n" +
+                      "put low comb rgb {0 0 255} tree {l g {1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 1}}\n" +
+                      "put t comb region yes region_id 7 tree {l ball" + moved(-9) + "}\n" +
+                      "color 7 7 255 255 0\n");
+    EXPECT_EQ(model.color({0, 0, 9}, {0, 0, -1}), (Rgb{0, 0, 1}));
+    EXPECT_EQ(model.color({12, 0, 9}, {0, 0, -1}), (Rgb{0, 1, 0}));
+    EXPECT_EQ(model.color({-9, 0, 9}, {0, 0, -1}), (Rgb{1, 1, 0}));
+}
+
+TEST(BrlcadScene, MatricesFollowEachOtherFromTheInsideOut) {
+    const Model model(kBall + "put a comb tree {l ball {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 4}}\n" +
+                      "put b comb region yes tree {l a {0 -1 0 0 1 0 0 10 0 0 1 0 0 0 0 1}}\n" +
+                      "put c comb tree {l b" + moved(100) + "}\n");
+    EXPECT_EQ(model.at({100, 10, 0}), 1u);
+    EXPECT_EQ(model.at({100.4, 10, 0}), 1u);
+    EXPECT_EQ(model.at({100.6, 10, 0}), 0u);
+}
+
+TEST(BrlcadScene, AllThatNothingElseUsesIsShownOrWhatIsNamed) {
+    const std::string text = kRegions + "put all comb tree {l r}\n";
+    EXPECT_EQ(Model(text).description().objects.back().parts.size(), 2u);
+    ImportOptions options;
+    options.objects = {"r"};
+    const Model model(text, options);
+    EXPECT_EQ(model.at({0, 0, 0}), 1u);
+    EXPECT_EQ(model.at({4, 0, 0}), 0u);
+    options.objects = {"none"};
+    Diagnostics found;
+    (void)import(text, found, options);
+    EXPECT_TRUE(mentions(found, "there is no object 'none'")) << text_of(found);
+}
+
+TEST(BrlcadScene, NothingIsLostInSilence) {
+    const std::string dsp = "put d dsp file x\n";
+    const Model missing(kBall + "put a comb region yes tree {u {l ball} {l gone}}\n");
+    EXPECT_EQ(missing.at({0, 0, 0}), 1u);
+    EXPECT_TRUE(mentions(missing.found(), "a.asc:2:41: warning: there is no object 'gone'"));
+    const Model unread(kBall + dsp + "put a comb region yes tree {- {l ball} {l d}}\n" +
+                       "put b comb region yes tree {l ball}\n" + "put all comb tree {u {l a" +
+                       moved(9) + "} {l b}}\n");
+    EXPECT_EQ(unread.at({0, 0, 0}), 1u);
+    EXPECT_EQ(unread.at({9, 0, 0}), 0u);
+    EXPECT_TRUE(mentions(unread.found(), "'a' is left out: solid 'd' (dsp)"))
+        << text_of(unread.found());
+    const Model air(kBall +
+                    "put a comb region yes air 1 tree {l ball}\nput b half N {0 0 1} d -9\n");
+    EXPECT_EQ(air.at({0, 0, 0}), 0u);
+    EXPECT_TRUE(mentions(air.found(), "1 regions of air"));
+}
+
+TEST(BrlcadScene, CombinationsThatContainThemselvesAreRefused) {
+    Diagnostics found;
+    (void)import("put a comb tree {l b}\nput b comb tree {l c}\nput c comb tree {l b}\n", found);
+    EXPECT_TRUE(mentions(found, "combination 'b' contains itself")) << text_of(found);
+    Diagnostics ring;
+    (void)import("put b comb region yes tree {l c}\nput c comb tree {l b}\n", ring);
+    EXPECT_TRUE(mentions(ring, "every object is a part of another")) << text_of(ring);
+    Diagnostics region;
+    (void)import(kBall + "put b comb region yes tree {l c}\n" +
+                     "put c comb tree {- {l ball} {l b}}\nput t comb tree {l b}\n",
+                 region);
+    EXPECT_TRUE(mentions(region, "contains itself")) << text_of(region);
+}
+
+TEST(BrlcadScene, CombinationsThatDoubleAtEachLevelDoNotFillMemory) {
+    std::string text = kBall + "put c0 comb region yes tree {l ball}\n";
+    for (int i = 1; i < 60; ++i) {
+        const std::string below = "{l c" + std::to_string(i - 1) + "}";
+        text += "put c" + std::to_string(i) + " comb tree {- {u " + below + " " + below +
+                "} {l ball}}\n";
+    }
+    ImportOptions options;
+    options.max_made_bytes = 1 << 20;
+    Diagnostics found;
+    try {
+        (void)import(text, found, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Resource);
+    }
+}
+
+TEST(BrlcadScene, SurfacesAreShownButNotCut) {
+    const std::string bot =
+        "put s bot mode plate V {{0 0 0} {1 0 0} {0 1 0}} F {{0 1 2}}\n"
+        "put o bot mode volume V {{0 0 0} {1 0 0} {0 1 0}} F {{0 1 2}}\n";
+    const Model model(kBall + bot + "put a comb region yes tree {u {l s} {l o}}\n" +
+                      "put b comb region yes tree {- {l ball} {l s}}\n");
+    EXPECT_TRUE(mentions(model.found(), "without thickness"));
+    EXPECT_TRUE(mentions(model.found(), "'o' is not closed"));
+    EXPECT_TRUE(mentions(model.found(), "'b' is left out: 's' is a surface"));
+}
+
+TEST(BrlcadScene, LightsShineFromTheMiddleOfTheirRegions) {
+    const Model model(kBall +
+                      "put l comb region yes rgb {255 255 0} shader {light {f 1}} tree {l "
+                      "ball" +
+                      moved(3) + "}\nput all comb tree {l l" + moved(10) + "}\n");
+    ASSERT_EQ(model.description().lights.size(), 2u);
+    const auto& light = std::get<PointLight>(model.description().lights[0].light);
+    EXPECT_NEAR(light.position.x, 13.0, 1e-12);
+    EXPECT_EQ(light.color.b, 0.0);
+}
+
+TEST(BrlcadView, TheDefaultIsFrom35And25AsWideAsTheDiagonal) {
+    const auto cameras = brlcad_cameras({{-1.5, -1, -0.5}, {2.5, 3, 1}}, {});
+    ASSERT_EQ(cameras.size(), 8u);
+    const auto& camera = std::get<OrthographicCamera>(cameras[0].camera);
+    // The box in whole numbers: (-2, -1, -1) to (3, 3, 1).
+    const double size = std::sqrt(25.0 + 16.0 + 4.0);
+    EXPECT_NEAR(length(camera.right), size, 1e-12);
+    EXPECT_NEAR(length(camera.up), size, 1e-12);
+    EXPECT_NEAR(camera.direction.x, -0.7424038765, 1e-9);
+    EXPECT_NEAR(camera.direction.y, -0.5198367907, 1e-9);
+    EXPECT_NEAR(camera.direction.z, -0.4226182617, 1e-9);
+    const Vec3 middle = camera.origin + (size / std::sqrt(2.0)) * camera.direction;
+    EXPECT_NEAR(length(middle - Vec3{0.5, 1, 0}), 0, 1e-12);
+}
+
+TEST(BrlcadView, OrientationAndRotationSayTheSame) {
+    // The log of a reference picture gives the orientation of azimuth 35, elevation 25.
+    Diagnostics found;
+    const Box3 box{{-1, -1, -1}, {1, 1, 1}};
+    const auto views = read_brlcad_views(
+        "#!/bin/sh\nrt -M <<EOF\nviewsize 157.2;\neye_pt 1 2 3;\n"
+        "orientation 0.248097 0.476591 0.748097 0.389435;\nstart 4; clean;\nend;\n"
+        "viewrot -0.5735764503 0.8191520572 0 0 -0.3461886346 -0.2424038798 0.9063078165 0\n"
+        "0.7424039245 0.519836843 0.4226182699 0 0 0 0 1; set perspective=90;\n"
+        "start 5;\nend;\nae 35 25; lookat_pt 1 2 1;\nEOF\n",
+        "a.rt", box, found);
+    EXPECT_EQ(text_of(found), "");
+    ASSERT_EQ(views.size(), 3u);
+    EXPECT_EQ(views[0].name, "frame 4");
+    const auto& first = std::get<OrthographicCamera>(views[0].camera);
+    const auto& second = std::get<PerspectiveCamera>(views[1].camera);
+    EXPECT_NEAR(length(first.direction - second.look), 0, 3e-6);
+    EXPECT_NEAR(length((1 / 157.2) * first.right - 0.5 * second.right), 0, 3e-6);
+    EXPECT_NEAR(length((1 / 157.2) * first.up - 0.5 * second.up), 0, 3e-6);
+    EXPECT_EQ(first.origin, (Vec3{1, 2, 3}));
+    const auto& third = std::get<PerspectiveCamera>(views[2].camera);
+    EXPECT_NEAR(length(third.look - Vec3{0, 0, -1}), 0, 1e-12);
+}
+
+TEST(BrlcadView, FaultsOfAScriptAreToldWithTheirLine) {
+    const Box3 box{{-1, -1, -1}, {1, 1, 1}};
+    const auto message = [&](const char* text) {
+        Diagnostics found;
+        (void)read_brlcad_views(text, "a.rt", box, found);
+        return text_of(found);
+    };
+    EXPECT_NE(message("").find("no view in the script"), std::string::npos);
+    EXPECT_NE(message("\nviewsize 0;").find("a.rt:2:1: error: the size"), std::string::npos);
+    EXPECT_NE(message("ae 35;").find("expected 2 numbers"), std::string::npos);
+    EXPECT_NE(message("orientation 0 0 0 0;").find("must not be zero"), std::string::npos);
+    EXPECT_NE(message("viewsize nan;").find("found 'nan'"), std::string::npos);
+    EXPECT_NE(message("set perspective=200; ae 1 2;").find("0 to 180"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace alhazen

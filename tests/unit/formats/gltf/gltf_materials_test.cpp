@@ -1,0 +1,137 @@
+/// Materials and textures of glTF files in the terms of a scene.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/formats/gltf/scene/gltf_textures.h"
+#include "unit/formats/gltf/gltf_nodes_text.h"
+
+namespace alhazen::testing {
+namespace {
+
+TEST(GltfMaterial, KeepsWhatTheFileSays) {
+    const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", R"(,
+        "extensionsUsed": ["KHR_materials_ior", "KHR_materials_emissive_strength",
+          "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_specular"],
+        "materials": [{"name": "m", "alphaMode": "MASK", "alphaCutoff": 0.25,
+          "emissiveFactor": [1, 0.5, 0],
+          "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5,
+            "roughnessFactor": 0.6},
+          "extensions": {"KHR_materials_ior": {"ior": 1.4},
+            "KHR_materials_emissive_strength": {"emissiveStrength": 4},
+            "KHR_materials_transmission": {"transmissionFactor": 0.7},
+            "KHR_materials_volume": {"thicknessFactor": 2, "attenuationDistance": 3,
+              "attenuationColor": [0.5, 0.6, 0.7]},
+            "KHR_materials_specular": {"specularFactor": 0.8, "specularColorFactor": [1, 0, 1]}}}])"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    // And the default material of the primitive that names none.
+    ASSERT_EQ(result.scene.materials.size(), 2u);
+    const Material& m = result.scene.materials[0].material;
+    EXPECT_EQ(m.name, "m");
+    EXPECT_EQ(m.alpha_mode, AlphaMode::Mask);
+    EXPECT_EQ(m.alpha_cutoff, 0.25);
+    EXPECT_EQ(m.alpha.value, 0.4);
+    EXPECT_FALSE(m.double_sided);
+    EXPECT_EQ(m.emission.color, (Rgb{4, 2, 0}));
+    EXPECT_EQ(m.index.value, 1.4);
+    ASSERT_TRUE(m.metallic_roughness);
+    EXPECT_EQ(m.metallic_roughness->base_color.color, (Rgb{0.1, 0.2, 0.3}));
+    EXPECT_EQ(m.metallic_roughness->metallic.value, 0.5);
+    EXPECT_EQ(m.metallic_roughness->roughness.value, 0.6);
+    EXPECT_EQ(m.metallic_roughness->transmission.value, 0.7);
+    EXPECT_EQ(m.metallic_roughness->thickness.value, 2);
+    EXPECT_EQ(m.metallic_roughness->attenuation_distance, 3);
+    EXPECT_EQ(m.metallic_roughness->attenuation_color, (Rgb{0.5, 0.6, 0.7}));
+    EXPECT_EQ(m.metallic_roughness->specular.value, 0.8);
+    EXPECT_EQ(m.metallic_roughness->specular_color.color, (Rgb{1, 0, 1}));
+    const Material& plain = result.scene.materials[1].material;
+    ASSERT_TRUE(plain.metallic_roughness);
+    EXPECT_EQ(plain.metallic_roughness->metallic.value, 1);
+    EXPECT_EQ(plain.index.value, 1.5);
+}
+
+/// A PNG of one white pixel.
+constexpr const char* kPng =
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAA"
+    "AACklEQVR4nGP4DwABAQEAsTj2FAAAAABJRU5ErkJggg==";
+
+std::string with_picture(const std::string& uri) {
+    return with_nodes(R"({"mesh": 0})", "0",
+                      R"(, "images": [{"name": "pic", "uri": ")" + uri +
+                          R"("}], "samplers": [{"wrapS": 33071, "wrapT": 33648, "minFilter": 9728,
+          "magFilter": 9728}],
+        "textures": [{"source": 0, "sampler": 0}], "materials": [{
+          "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1},
+            "metallicRoughnessTexture": {"index": 0}},
+          "normalTexture": {"index": 0, "scale": 2},
+          "occlusionTexture": {"index": 0, "strength": 0.5}}])");
+}
+
+TEST(GltfMaterial, TexturesShareTheirPictureAndKeepTheirUse) {
+    const Imported result = import_gltf(with_picture(kPng));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    const Material& m = result.scene.materials.at(0).material;
+    const auto texture = [&](TextureId id) {
+        return result.scene.textures.at(std::size_t(id)).texture;
+    };
+    ASSERT_TRUE(m.metallic_roughness);
+    const Texture base = texture(m.metallic_roughness->base_color.texture);
+    EXPECT_TRUE(base.decode_srgb);
+    EXPECT_EQ(base.uv_set, 1);
+    EXPECT_EQ(base.wrap_u, Wrap::Clamp);
+    EXPECT_EQ(base.wrap_v, Wrap::Mirror);
+    EXPECT_EQ(base.filter, TextureFilter::Nearest);
+    EXPECT_EQ(m.alpha.texture, m.metallic_roughness->base_color.texture);
+    const Texture normal = texture(m.normal_map.texture);
+    EXPECT_FALSE(normal.decode_srgb);
+    EXPECT_EQ(normal.image, base.image);
+    EXPECT_EQ(m.normal_map.scale, 2);
+    EXPECT_EQ(m.metallic_roughness->occlusion.value, 0.5);
+    EXPECT_EQ(m.metallic_roughness->metallic.channel, Channel::Blue);
+    EXPECT_EQ(m.metallic_roughness->roughness.channel, Channel::Green);
+    EXPECT_EQ(m.metallic_roughness->metallic.texture, m.metallic_roughness->roughness.texture);
+    // Base colour and the linear one, which three inputs share.
+    EXPECT_EQ(result.scene.textures.size(), 2u);
+}
+
+TEST(GltfMaterial, AMissingPictureIsAnErrorThatNamesIt) {
+    const Imported result = import_gltf(with_picture("gone.png"));
+    EXPECT_GT(result.errors(), 0u);
+    EXPECT_TRUE(result.says("gone.png")) << result.messages();
+}
+
+TEST(GltfMaterial, APictureOutsideOfTheFolderIsAnError) {
+    const Imported result = import_gltf(with_picture("../../../gone.png"));
+    EXPECT_GT(result.errors(), 0u);
+    EXPECT_TRUE(result.says("--allow-path")) << result.messages();
+}
+
+TEST(GltfTextures, TransformsAreRestatedForUpwardV) {
+    gltf::TextureInfo info;
+    EXPECT_EQ(gltf::uv_transform(info), UvTransform{});
+    info.offset = {-0.2, 0.1};
+    info.scale = {1.5, 3};
+    info.rotation = 0.3;
+    const UvTransform transform = gltf::uv_transform(info);
+    for (const Vec2 st : {Vec2{0, 0}, {1, 0}, {0, 1}, {0.25, 0.75}}) {
+        const double x = 1.5 * st.x, y = 3 * st.y;
+        const double s = -0.2 + std::cos(0.3) * x + std::sin(0.3) * y;
+        const double t = 0.1 - std::sin(0.3) * x + std::cos(0.3) * y;
+        const Vec2 uv = transform.apply({st.x, 1 - st.y});
+        EXPECT_NEAR(uv.x, s, 1e-12);
+        EXPECT_NEAR(uv.y, 1 - t, 1e-12);
+    }
+}
+
+TEST(GltfTextures, FiltersFollowTheSampler) {
+    using gltf::Filter;
+    EXPECT_EQ(gltf::filter_of({}), TextureFilter::Mipmapped);
+    EXPECT_EQ(gltf::filter_of({Filter::Nearest, Filter::LinearMipmap}), TextureFilter::Mipmapped);
+    EXPECT_EQ(gltf::filter_of({Filter::Unset, Filter::Linear}), TextureFilter::Bilinear);
+    EXPECT_EQ(gltf::filter_of({Filter::Nearest, Filter::Nearest}), TextureFilter::Nearest);
+    EXPECT_EQ(gltf::filter_of({Filter::Linear, Filter::Nearest}), TextureFilter::Bilinear);
+}
+
+}  // namespace
+}  // namespace alhazen::testing

@@ -1,0 +1,321 @@
+/// Meshes written and read back: bits, triangle sets, orientation.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "alhazen/formats/mesh_files/mesh_export.h"
+#include "alhazen/formats/obj/mtl_reader.h"
+#include "alhazen/formats/obj/obj_reader.h"
+#include "alhazen/formats/ply/ply_reader.h"
+#include "alhazen/formats/stl/stl_reader.h"
+#include "import_text.h"
+#include "support/random.h"
+#include "support/sphere_mesh.h"
+
+namespace alhazen {
+namespace {
+
+using testing::import_text;
+using testing::text_of;
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+TriangleMesh ball(int levels) {
+    const testing::SphereMesh sphere(levels);
+    TriangleMesh mesh;
+    mesh.positions = sphere.positions;
+    mesh.triangles = sphere.triangles;
+    return mesh;
+}
+
+/// A ball with every array, of numbers that need all their bits.
+TriangleMesh full_mesh(testing::Random& random) {
+    TriangleMesh mesh = ball(2);
+    for (Vec3& p : mesh.positions) p = 3.7 * p + random.in_cube(0.01);
+    mesh.generate_normals();
+    mesh.normals[5] = {};  // a vertex without area has none
+    mesh.normals[6] = {0.1, -0.0, 0.3};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const float c = float(random.uniform(0, 3));
+        mesh.uvs.push_back({random.uniform(), -random.uniform()});
+        mesh.uvs2.push_back({0.5, double(float(random.uniform()))});
+        mesh.colors.push_back({c, float(random.uniform()), 1e-30f, float(random.uniform())});
+        mesh.tangents.push_back({float(random.uniform()), 0.25f, -0.0f, i % 2 ? 1.0f : -1.0f});
+        mesh.vertex_materials.push_back(std::uint32_t(random.below(5)));
+    }
+    return mesh;
+}
+
+/// The triangles as sorted lists of corners, each beginning with its least corner.
+using Corners = std::array<std::array<double, 3>, 3>;
+std::vector<Corners> triangle_set(const TriangleMesh& mesh, const Affine& placement = {}) {
+    std::vector<Corners> set;
+    for (const auto& t : mesh.triangles) {
+        Corners c;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 p = placement.point(mesh.positions[t[k]]);
+            c[k] = {p.x + 0.0, p.y + 0.0, p.z + 0.0};
+        }
+        std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+        set.push_back(c);
+    }
+    std::sort(set.begin(), set.end());
+    return set;
+}
+
+/// The value as a float has it. Volatile, because g++ 12 at -O2 takes double(float(x)) for x where
+/// two of them stand side by side.
+double rounded(double value) {
+    volatile float narrow = float(value);
+    return double(narrow);
+}
+
+TEST(MeshExport, APlyGivesEveryArrayBackBitForBit) {
+    testing::Random random(21);
+    for (int round = 0; round < 64; ++round) {
+        TriangleMesh mesh = full_mesh(random);
+        if (round & 1) mesh.normals.clear();
+        if (round & 2) mesh.uvs.clear();
+        if (round & 4) mesh.uvs2.clear();
+        if (round & 8) mesh.colors.clear();
+        if (round & 16) mesh.tangents.clear();
+        if (round & 32) mesh.vertex_materials.clear();
+        Diagnostics found;
+        const TriangleMesh back = read_ply(ply_bytes(mesh), "a.ply", {}, found);
+        EXPECT_EQ(text_of(found), "");
+        EXPECT_TRUE(same_bits(back.positions, mesh.positions)) << round;
+        EXPECT_TRUE(same_bits(back.triangles, mesh.triangles)) << round;
+        EXPECT_TRUE(same_bits(back.normals, mesh.normals)) << round;
+        EXPECT_TRUE(same_bits(back.uvs, mesh.uvs)) << round;
+        EXPECT_TRUE(same_bits(back.uvs2, mesh.uvs2)) << round;
+        EXPECT_TRUE(same_bits(back.colors, mesh.colors)) << round;
+        EXPECT_TRUE(same_bits(back.tangents, mesh.tangents)) << round;
+        EXPECT_TRUE(same_bits(back.vertex_materials, mesh.vertex_materials)) << round;
+    }
+}
+
+TEST(MeshExport, APlyIsAsSmallAsItsNumbersAllow) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {0.5, 0, 0}, {0, 0.25, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    const std::string floats = ply_bytes(mesh);
+    EXPECT_NE(floats.find("property float x"), std::string::npos);
+    mesh.positions[1].x = 0.1;
+    EXPECT_NE(ply_bytes(mesh).find("property double x"), std::string::npos);
+    EXPECT_EQ(ply_bytes(mesh).size(), floats.size() + 3 * 12 + 3);  // "double" is longer too
+    // All 256 display codes are exact.
+    Diagnostics found;
+    for (int code = 0; code < 256; ++code) {
+        const std::string text =
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+            "property uchar alpha\nelement face 1\nproperty list uchar int vertex_indices\n"
+            "end_header\n";
+        const std::string c = " " + std::to_string(code) + " 0 255 " + std::to_string(code) + "\n";
+        const TriangleMesh coded = read_ply(
+            text + "0 0 0" + c + "1 0 0" + c + "0 1 0" + c + "3 0 1 2\n", "a.ply", {}, found);
+        ASSERT_EQ(coded.colors.size(), 3u) << text_of(found);
+        const std::string bytes = ply_bytes(coded);
+        EXPECT_NE(bytes.find("property uchar alpha"), std::string::npos) << code;
+        EXPECT_TRUE(same_bits(read_ply(bytes, "a.ply", {}, found).colors, coded.colors)) << code;
+    }
+}
+
+TEST(MeshExport, ObjAndStlGiveTheSameTrianglesBack) {
+    testing::Random random(8);
+    TriangleMesh mesh = full_mesh(random);
+    const NamedMesh named{"a ball\n", &mesh, {}, "red\tpaint"};
+    Diagnostics found;
+    const SceneDescription scene = import_text(obj_text({&named, 1}), "a.obj", found);
+    ASSERT_EQ(scene.meshes.size(), 1u) << text_of(found);
+    EXPECT_EQ(scene.meshes[0].name, "a ball_");
+    const TriangleMesh& back = *scene.meshes[0].mesh;
+    EXPECT_EQ(triangle_set(back), triangle_set(mesh));
+    EXPECT_EQ(back.uvs.size(), mesh.positions.size());
+    EXPECT_EQ(back.normals.size(), mesh.positions.size());
+
+    for (Vec3& p : mesh.positions) p = {rounded(p.x), rounded(p.y), rounded(p.z)};
+    const auto solids = read_stl(stl_bytes({&named, 1}), "a.stl", {}, found);
+    ASSERT_EQ(solids.size(), 1u) << text_of(found);
+    EXPECT_EQ(triangle_set(solids[0].mesh), triangle_set(mesh));
+}
+
+TEST(MeshExport, MirroredPlacementsKeepTheOutsideOutside) {
+    const TriangleMesh mesh = ball(2);
+    const double volume = signed_volume(mesh);
+    ASSERT_GT(volume, 0);
+    const Affine mirror = Affine::translate({5, 0, 0}) * Affine::scale({-2, 1, 1});
+    const std::vector<NamedMesh> both{{"as it is", &mesh, {}, ""}, {"mirrored", &mesh, mirror, ""}};
+    Diagnostics found;
+    const TriangleMesh from_ply = read_ply(ply_bytes(both), "a.ply", {}, found);
+    EXPECT_NEAR(signed_volume(from_ply), 3 * volume, 1e-9);
+    const TriangleMesh from_obj = read_obj(obj_text(both), "a.obj", {}, found);
+    EXPECT_NEAR(signed_volume(from_obj), 3 * volume, 1e-9);
+    const auto from_stl = read_stl(stl_bytes(both), "a.stl", {}, found);
+    EXPECT_NEAR(signed_volume(from_stl.at(0).mesh), 3 * volume, 1e-5);
+    EXPECT_EQ(text_of(found), "");
+}
+
+TEST(MeshExport, AFlatMeshAmongSmoothOnesStaysFlat) {
+    TriangleMesh smooth = ball(1);
+    smooth.generate_normals();
+    const TriangleMesh flat = ball(1);
+    const std::vector<NamedMesh> both{{"", &smooth, {}, ""},
+                                      {"", &flat, Affine::translate({3, 0, 0}), ""}};
+    Diagnostics found;
+    const TriangleMesh back = read_ply(ply_bytes(both), "a.ply", {}, found);
+    ASSERT_EQ(back.normals.size(), back.positions.size()) << text_of(found);
+    EXPECT_EQ(back.positions.size(), smooth.positions.size() + 3 * flat.triangles.size());
+    for (std::size_t i = smooth.triangles.size(); i < back.triangles.size(); ++i) {
+        const auto& t = back.triangles[i];
+        EXPECT_EQ(back.normals[t[0]], back.normals[t[1]]);
+        EXPECT_EQ(back.normals[t[0]], back.normals[t[2]]);
+    }
+}
+
+TEST(MeshExport, MaterialsReadBackAsTheyWere) {
+    Material matt;
+    matt.name = "matt";
+    matt.diffuse.color = {.1, .2, .3};
+    matt.ambient.color = {.3, .2, .1};
+    matt.specular.color = {.5, .5, .5};
+    matt.shininess.value = 20;
+    Material glass;
+    glass.name = "glass";
+    glass.reflective.color = {.2, .2, .2};
+    glass.transmissive.color = {.8, .9, 1};
+    glass.index.value = 1.5;
+    Material leaf;
+    leaf.name = "leaf";
+    leaf.diffuse = {{1, 1, 1}, TextureId{1}};
+    leaf.alpha_mode = AlphaMode::Blend;
+    leaf.alpha.value = 0.5;
+    const std::vector<Material> all{matt, glass, leaf};
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    const std::vector<MtlTexture> textures{{"", settings}, {"leaf picture.png", settings}};
+    Diagnostics found;
+    std::vector<std::string> lost;
+    const std::vector<MtlMaterial> back = read_mtl(mtl_text(all, textures, lost), "a.mtl", found);
+    EXPECT_TRUE(lost.empty()) << lost[0];
+    EXPECT_EQ(text_of(found), "");
+    ASSERT_EQ(back.size(), 3u);
+    EXPECT_EQ(back[0].kd, matt.diffuse.color);
+    EXPECT_EQ(back[0].ka, matt.ambient.color);
+    EXPECT_EQ(back[0].ns, 20.0);
+    EXPECT_EQ(back[0].illum, 2);
+    EXPECT_EQ(back[1].tf, glass.transmissive.color);
+    EXPECT_EQ(back[1].ks, glass.reflective.color);
+    EXPECT_EQ(back[1].illum, 7);
+    EXPECT_EQ(back[1].ni, 1.5);
+    EXPECT_EQ(back[2].map_kd.file, "leaf picture.png");
+    EXPECT_EQ(back[2].d, 0.5);
+}
+
+/// The MTL statements of a material with one texture, read back, and what was lost.
+struct MtlTrip {
+    std::vector<std::string> lost;
+    std::vector<MtlMaterial> back;
+
+    explicit MtlTrip(const Texture& settings, Material m = {}) {
+        m.name = "m";
+        m.diffuse = {{.5, .5, .5}, TextureId{0}};
+        if (m.metallic_roughness) m.metallic_roughness->base_color = m.diffuse;
+        const std::vector<MtlTexture> textures{{"p.png", settings}};
+        Diagnostics found;
+        back = read_mtl(mtl_text({&m, 1}, textures, lost), "a.mtl", found);
+        EXPECT_EQ(text_of(found), "");
+        EXPECT_EQ(back.at(0).map_kd.file, "p.png");
+    }
+    [[nodiscard]] const MtlMap& map() const { return back[0].map_kd; }
+    [[nodiscard]] bool loses(const std::string& part) const {
+        return std::any_of(lost.begin(), lost.end(), [&](const std::string& line) {
+            return line.find(part) != std::string::npos;
+        });
+    }
+};
+
+TEST(MeshExport, MtlKeepsTheScaleOffsetAndClampOfPictures) {
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    settings.wrap_u = settings.wrap_v = Wrap::Clamp;
+    settings.uv_transform = {-2.5, 0, 0, 0.1, {0.25, -1e-3}};
+    const MtlTrip trip(settings);
+    EXPECT_EQ(trip.map().scale, (Vec2{-2.5, 0.1}));
+    EXPECT_EQ(trip.map().offset, (Vec2{0.25, -1e-3}));
+    EXPECT_TRUE(trip.map().clamp);
+    EXPECT_TRUE(trip.lost.empty()) << trip.lost[0];
+    settings.wrap_u = settings.wrap_v = Wrap::Repeat;
+    EXPECT_FALSE(MtlTrip(settings).map().clamp);
+}
+
+TEST(MeshExport, WhatMtlCannotSayIsTold) {
+    Texture usual;
+    usual.filter = TextureFilter::Mipmapped;
+    EXPECT_TRUE(MtlTrip(usual).lost.empty());
+    Texture t = usual;
+    t.uv_transform.uv = 0.5;
+    EXPECT_TRUE(MtlTrip(t).loses("rotation"));
+    t = usual;
+    t.wrap_v = Wrap::Mirror;
+    EXPECT_TRUE(MtlTrip(t).loses("mirrored"));
+    t = usual;
+    t.wrap_v = Wrap::Clamp;
+    EXPECT_TRUE(MtlTrip(t).loses("one axis only"));
+    t = usual;
+    t.uv_set = 1;
+    EXPECT_TRUE(MtlTrip(t).loses("second set"));
+    t = usual;
+    t.filter = TextureFilter::Nearest;
+    EXPECT_TRUE(MtlTrip(t).loses("filter"));
+    t = usual;
+    t.image =
+        std::make_shared<StoredImage>(StoredImage{1, 1, 1, false, std::vector<std::uint8_t>{7}});
+    EXPECT_TRUE(MtlTrip(t).loses("linear"));
+    t.decode_srgb = true;
+    EXPECT_TRUE(MtlTrip(t).lost.empty());
+
+    Material m;
+    m.transmissive = {{1, 1, 1}, TextureId{0}};
+    EXPECT_TRUE(MtlTrip(usual, m).loses("a picture beside Tf"));
+    m = {};
+    m.double_sided = false;
+    EXPECT_EQ(MtlTrip(usual, m).lost.size(), 1u);
+    m = {};
+    m.metallic_roughness.emplace();
+    m.metallic_roughness->occlusion.texture = TextureId{0};
+    EXPECT_TRUE(MtlTrip(usual, m).loses("occlusion"));
+}
+
+TEST(MeshExport, LossesAreToldOnceWithTheirNumber) {
+    std::vector<Material> many(3);
+    for (Material& m : many) m.double_sided = false;
+    many[0].name = "first";
+    std::vector<std::string> lost;
+    (void)mtl_text(many, {}, lost);
+    ASSERT_EQ(lost.size(), 1u);
+    EXPECT_EQ(lost[0], "that only the front is seen (material 'first', 3 times in all)");
+}
+
+TEST(MeshExport, BlackTimesAPictureStaysBlack) {
+    Texture settings;
+    settings.filter = TextureFilter::Mipmapped;
+    Material m;
+    m.name = "m";
+    m.diffuse = {{0, 0, 0}, TextureId{0}};
+    const std::vector<MtlTexture> textures{{"p.png", settings}};
+    std::vector<std::string> lost;
+    Diagnostics found;
+    const auto back = read_mtl(mtl_text({&m, 1}, textures, lost), "a.mtl", found);
+    EXPECT_EQ(back.at(0).map_kd.file, "");
+    EXPECT_EQ(back.at(0).kd, (Rgb{}));
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,251 @@
+/// Shapes, transforms, materials, meshes and instances of the native format.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/formats/native/read/native_shapes.h"
+#include "native_scene.h"
+
+namespace alhazen {
+namespace {
+
+using testing::expect_near;
+using testing::import_native;
+using testing::Imported;
+using testing::material_of;
+using testing::shape_of;
+
+TEST(NativeImporter, ReadsEveryFieldOfEveryShape) {
+    const Imported i = import_native(
+        "sphere { center = (1,2,3); radius = 4 }"
+        "plane { point = (1,2,3); normal = (4,5,6) }"
+        "disc { center = (1,2,3); normal = (4,5,6); radius = 7; inner_radius = 2 }"
+        "rectangle { corner = (1,2,3); edge_u = (4,5,6); edge_v = (7,8,9) }"
+        "box { lo = (1,2,3); hi = (4,5,6) }"
+        "cylinder { base = (1,2,3); top = (4,5,6); radius = 7; capped = false }"
+        "cone { base = (1,2,3); top = (4,5,6); base_radius = 7; top_radius = 8; capped = false }"
+        "polygon { loops = [[(0,0,0),(3,0,0),(0,3,0)], [(1,1,0),(2,1,0),(1,2,0)]] }"
+        "polygon { vertices = ((0,0,0),(3,0,0),(0,3,0)) }");
+    ASSERT_EQ(i.messages(), "");
+    const Vec3 a{1, 2, 3}, b{4, 5, 6}, c{7, 8, 9};
+    EXPECT_EQ(shape_of<Sphere>(i, 0).center, a);
+    EXPECT_EQ(shape_of<Sphere>(i, 0).radius, 4);
+    EXPECT_EQ(shape_of<Plane>(i, 1).point, a);
+    EXPECT_EQ(shape_of<Plane>(i, 1).normal, b);
+    EXPECT_EQ(shape_of<Disc>(i, 2).center, a);
+    EXPECT_EQ(shape_of<Disc>(i, 2).normal, b);
+    EXPECT_EQ(shape_of<Disc>(i, 2).radius, 7);
+    EXPECT_EQ(shape_of<Disc>(i, 2).inner_radius, 2);
+    EXPECT_EQ(shape_of<Rectangle>(i, 3).corner, a);
+    EXPECT_EQ(shape_of<Rectangle>(i, 3).edge_u, b);
+    EXPECT_EQ(shape_of<Rectangle>(i, 3).edge_v, c);
+    EXPECT_EQ(shape_of<BoxShape>(i, 4).lo, a);
+    EXPECT_EQ(shape_of<BoxShape>(i, 4).hi, b);
+    EXPECT_EQ(shape_of<Cylinder>(i, 5).base, a);
+    EXPECT_EQ(shape_of<Cylinder>(i, 5).top, b);
+    EXPECT_EQ(shape_of<Cylinder>(i, 5).radius, 7);
+    EXPECT_FALSE(shape_of<Cylinder>(i, 5).capped);
+    EXPECT_EQ(shape_of<Cone>(i, 6).base, a);
+    EXPECT_EQ(shape_of<Cone>(i, 6).top, b);
+    EXPECT_EQ(shape_of<Cone>(i, 6).base_radius, 7);
+    EXPECT_EQ(shape_of<Cone>(i, 6).top_radius, 8);
+    EXPECT_FALSE(shape_of<Cone>(i, 6).capped);
+    EXPECT_EQ(shape_of<Polygon>(i, 7).loop_ends, (std::vector<std::uint32_t>{3, 6}));
+    EXPECT_EQ(shape_of<Polygon>(i, 8).vertices.size(), 3u);
+}
+
+TEST(NativeImporter, HasABlockForEveryShapeWithItsOwnName) {
+    for (const std::string_view name : native_shape_names()) {
+        const Imported i = import_native(std::string(name) + " { transform = scale(2) }");
+        // Those whose form has no default.
+        const bool must_be_told = name == "polygon" || name == "polyhedron" || name == "prism" ||
+                                  name == "lathe" || name == "blob" || name == "height_field";
+        EXPECT_EQ(i.errors(), must_be_told ? 1u : 0u) << i.messages();
+        EXPECT_EQ(i.parts().size(), 1u);
+    }
+}
+
+TEST(NativeImporter, AppliesAListOfTransformsInTheWrittenOrder) {
+    const Imported i = import_native(
+        "sphere { transform = [translate(1,0,0), rotate((0,0,1), 90), scale(2,3,4)] }"
+        "group { transform = translate(0,0,5); sphere { transform = scale(2) } }"
+        "sphere { transform = matrix((1,2,3,4),(0,1,5,6),(0,0,1,7)) }");
+    ASSERT_EQ(i.messages(), "");
+    expect_near(i.parts()[0].object_from_part.point({0, 0, 0}), {0, 3, 0});
+    expect_near(i.parts()[0].object_from_part.point({0, 1, 1}), {-2, 3, 4});
+    expect_near(i.parts()[1].object_from_part.point({1, 0, 0}), {2, 0, 5});
+    expect_near(i.parts()[2].object_from_part.point({1, 1, 1}), {10, 12, 8});
+}
+
+TEST(NativeImporter, SaysWhatATransformMayBe) {
+    for (const char* bad :
+         {"3", "shear(1,2,3)", "translate(1,2)", "rotate((0,0,0), 3)", "rotate(0,0,1)",
+          "scale(1,2)", "scale()", "matrix((1,2,3,4))", "[translate(1,2,3), 7]", "translate"}) {
+        const Imported i = import_native(std::string("sphere { transform = ") + bad + " }");
+        EXPECT_EQ(i.errors(), 1u) << bad << "\n" << i.messages();
+    }
+}
+
+TEST(NativeImporter, ReadsMaterialsByNameInlineAndByDefault) {
+    const Imported i = import_native(
+        "sphere { }"
+        "material \"m\" { diffuse = (1,.5,0); specular = .25; emission = (0,0,1); reflective = .5;"
+        " transmissive = (.1,.2,.3); shininess = 12; index = 1.5 }"
+        "sphere { material = \"m\" } sphere { material = { diffuse = (0,1,0); ambient = 0 } }"
+        "defaults { material = \"m\" } sphere { }"
+        "group { defaults { material = { diffuse = .1 } } sphere { } } sphere { }"
+        "group { material = { diffuse = .2 } sphere { } }");
+    ASSERT_EQ(i.messages(), "");
+    EXPECT_EQ(material_of(i, 0).diffuse.color, (Rgb{.7, .7, .7}));
+    const Material& m = material_of(i, 1);
+    EXPECT_EQ(m.diffuse.color, (Rgb{1, .5, 0}));
+    EXPECT_EQ(m.ambient.color, m.diffuse.color);
+    EXPECT_EQ(m.specular.color, (Rgb{.25, .25, .25}));
+    EXPECT_EQ(m.emission.color, (Rgb{0, 0, 1}));
+    EXPECT_EQ(m.transmissive.color, (Rgb{.1, .2, .3}));
+    EXPECT_EQ(m.shininess.value, 12);
+    EXPECT_EQ(m.index.value, 1.5);
+    EXPECT_EQ(material_of(i, 2).ambient.color, (Rgb{}));
+    EXPECT_EQ(i.parts()[3].material, i.parts()[1].material);
+    EXPECT_EQ(material_of(i, 4).diffuse.color, (Rgb{.1, .1, .1}));
+    EXPECT_EQ(i.parts()[5].material, i.parts()[1].material);
+    EXPECT_EQ(material_of(i, 6).diffuse.color, (Rgb{.2, .2, .2}));
+}
+
+TEST(NativeImporter, ListsTheNamesThereAre) {
+    const Imported i = import_native(
+        "material \"red\" { } material \"blue\" { } sphere {\n material = \"green\" }");
+    EXPECT_EQ(i.errors(), 1u);
+    EXPECT_TRUE(
+        i.says("scene.alhazen:3:13: error: material \"green\" is not defined; defined are "
+               "blue, red"))
+        << i.messages();
+    EXPECT_TRUE(import_native("sphere {\n raduis = 1 }")
+                    .says("scene.alhazen:3:2: error: sphere: unknown key 'raduis'; known are "
+                          "transform, visible_to, center, radius, material"));
+    EXPECT_TRUE(import_native("sphare { }").says("unknown block 'sphare'; known are picture"));
+    EXPECT_TRUE(
+        import_native("conventions { highlight = gloss }").says("one of phong, blinn_phong"));
+    EXPECT_TRUE(import_native("sphere { radius = 1; radius = 2 }").says("given twice"));
+    EXPECT_TRUE(import_native("material \"a\" { } material \"a\" { }").says("already defined"));
+    EXPECT_TRUE(
+        import_native("instance \"x\";").says("object \"x\" is not defined before its use"));
+}
+
+TEST(NativeImporter, InstancesObjectsInsteadOfCopyingThem) {
+    const Imported i = import_native(
+        "object \"leg\" { cylinder { } }"
+        "object \"table\" { instance \"leg\" { transform = translate(1,0,0) } instance \"leg\"; "
+        "box { } }"
+        "instance \"table\" { name = \"first\" }");
+    ASSERT_EQ(i.messages(), "");
+    ASSERT_EQ(i.scene.objects.size(), 3u);
+    EXPECT_EQ(i.scene.root, ObjectIndex{0});
+    ASSERT_EQ(i.parts().size(), 1u);
+    EXPECT_EQ(std::get<ObjectIndex>(i.parts()[0].what), ObjectIndex{2});
+    EXPECT_EQ(i.parts()[0].name, "first");
+    const auto& table = i.scene.objects[2].parts;
+    ASSERT_EQ(table.size(), 3u);
+    EXPECT_EQ(std::get<ObjectIndex>(table[0].what), ObjectIndex{1});
+    expect_near(table[0].object_from_part.point({0, 0, 0}), {1, 0, 0});
+}
+
+TEST(NativeImporter, CannotInstanceAnObjectInsideItself) {
+    EXPECT_TRUE(
+        import_native("object \"a\" { instance \"a\"; }").says("object \"a\" is not defined"));
+}
+
+TEST(NativeImporter, GeometriesArePlacedByName) {
+    const Imported i = import_native(
+        "material \"red\" { }"
+        "geometry \"tent\" { points = [(0,0,0), (1,0,0), (0,1,0)]; faces = [(0,1,2)] }"
+        "mesh \"a\" { geometry = \"tent\" }"
+        "mesh { geometry = \"tent\"; transform = scale(2); material = \"red\" }");
+    ASSERT_EQ(i.messages(), "");
+    ASSERT_EQ(i.scene.meshes.size(), 1U);
+    EXPECT_EQ(i.scene.meshes[0].name, "tent");
+    ASSERT_EQ(i.parts().size(), 2U);
+    EXPECT_EQ(std::get<MeshIndex>(i.parts()[1].what), MeshIndex{0});
+    EXPECT_TRUE(import_native("mesh { geometry = \"tent\" }").says("not defined"));
+    EXPECT_TRUE(import_native("mesh { geometry = 5 }").says("the name of a geometry"));
+    EXPECT_TRUE(import_native("geometry { points = []; faces = [] }").says("expected a name"));
+}
+
+TEST(NativeImporter, TheListOfObjectsNumbersThem) {
+    const Imported i = import_native(
+        "objects { names = [\"car\", \"world\", \"wheel\"]; root = \"world\"; root_name = \"\" }"
+        "object \"car\" { instance \"wheel\" { } }"
+        "instance \"car\";"
+        "object \"wheel\" { name = \"round\"; sphere { } }");
+    ASSERT_EQ(i.messages(), "");
+    EXPECT_EQ(i.scene.root, ObjectIndex{1});
+    ASSERT_EQ(i.scene.objects.size(), 3U);
+    EXPECT_EQ(i.scene.objects[0].name, "car");
+    EXPECT_EQ(i.scene.objects[1].name, "");
+    EXPECT_EQ(i.scene.objects[2].name, "round");
+    EXPECT_EQ(std::get<ObjectIndex>(i.scene.objects[0].parts.at(0).what), ObjectIndex{2});
+    EXPECT_TRUE(
+        import_native("objects { names = [\"a\", \"b\"]; root = \"a\" }").says("not defined"));
+    EXPECT_TRUE(import_native(
+                    "objects { names = [\"a\", \"c\"]; root = \"b\" } object \"c\" { } sphere { }")
+                    .says("one of the names"));
+    EXPECT_TRUE(
+        import_native("objects { names = []; root = \"b\" } object \"b\" { }").says("is empty"));
+    EXPECT_TRUE(
+        import_native("objects { names = [\"a\", \"a\"]; root = \"a\" }").says("already defined"));
+    EXPECT_TRUE(
+        import_native("sphere { } objects { names = [\"a\"]; root = \"a\" }").says("before"));
+    EXPECT_TRUE(import_native("objects { names = [\"a\"]; root = \"a\" } object \"a\" { }")
+                    .says("already defined"));
+}
+
+TEST(NativeImporter, ReadsMetallicRoughnessAndAlpha) {
+    const Imported i = import_native(
+        "material \"m\" { alpha_mode = mask; alpha = 0.5; alpha_cutoff = 0.25; double_sided = "
+        "false;"
+        " metallic_roughness = { base_color = 0.5; metallic = 0; roughness = 0.25; unlit = true;"
+        " attenuation_distance = 2; attenuation_color = (1, 0.5, 0) } }"
+        "sphere { material = \"m\" }");
+    ASSERT_EQ(i.messages(), "");
+    const Material& m = material_of(i, 0);
+    EXPECT_EQ(m.alpha_mode, AlphaMode::Mask);
+    EXPECT_EQ(m.alpha.value, 0.5);
+    EXPECT_EQ(m.alpha_cutoff, 0.25);
+    EXPECT_FALSE(m.double_sided);
+    ASSERT_TRUE(m.metallic_roughness);
+    EXPECT_EQ(m.metallic_roughness->base_color.color, (Rgb{.5, .5, .5}));
+    EXPECT_EQ(m.metallic_roughness->metallic.value, 0);
+    EXPECT_EQ(m.metallic_roughness->roughness.value, 0.25);
+    EXPECT_EQ(m.metallic_roughness->occlusion.value, 1);
+    EXPECT_EQ(m.metallic_roughness->attenuation_distance, 2);
+    EXPECT_TRUE(m.metallic_roughness->unlit);
+    EXPECT_TRUE(
+        import_native("material \"m\" { metallic_roughness = 5 }").says("expected a block"));
+    EXPECT_TRUE(import_native("material \"m\" { normal_map = 5 }").says("texture(\"NAME\")"));
+    EXPECT_TRUE(
+        import_native("material \"m\" { metallic_roughness = { metal = 5 } }").says("unknown key"));
+}
+
+TEST(NativeImporter, ReadsMeshes) {
+    const Imported i = import_native(
+        "material \"a\" { } material \"b\" { }"
+        "mesh { points = [(0,0,0),(1,0,0),(1,1,0),(0,1,0)]; faces = [[0,1,2,3]]; smooth = true;"
+        " uvs = [(0,0),(1,0),(1,1),(0,1)]; vertex_materials = [\"a\",\"b\",\"a\",\"a\"] }");
+    ASSERT_EQ(i.messages(), "");
+    const TriangleMesh& mesh = *i.scene.meshes.at(0).mesh;
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.uvs.at(2), (Vec2{1, 1}));
+    expect_near(mesh.normals.at(0), {0, 0, 1});
+    EXPECT_EQ(mesh.vertex_materials, (std::vector<std::uint32_t>{0, 1, 0, 0}));
+    EXPECT_TRUE(
+        import_native("mesh { points = [(0,0,0)]; faces = [(0,0,7)] }").says("from 0 to 0"));
+    EXPECT_EQ(import_native("mesh { points = [(0,0,0)]; faces = [(0,0,0)]; uvs = [] }").errors(),
+              1u);
+    EXPECT_EQ(import_native("mesh { points = [(0,0,0)]; faces = [(0,0,0)]; normals = [(0,0,0)] }")
+                  .errors(),
+              1u);
+}
+
+}  // namespace
+}  // namespace alhazen

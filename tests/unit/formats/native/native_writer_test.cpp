@@ -1,0 +1,201 @@
+#include "alhazen/formats/native/write/native_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "alhazen/base/error.h"
+#include "alhazen/formats/native/read/native_text.h"
+#include "alhazen/formats/text/unique_labels.h"
+#include "alhazen/imaging/image/image.h"
+#include "native_round_trip.h"
+
+namespace alhazen {
+namespace {
+
+using testing::empty_scene;
+using testing::expect_round_trip;
+using testing::Numbers;
+using testing::RoundTrip;
+
+TEST(NativeText, NumbersReadBackToTheSameBits) {
+    std::mt19937_64 bits(7);
+    for (int i = 0; i < 20000; ++i) {
+        const double number = std::bit_cast<double>(bits());
+        if (!std::isfinite(number)) continue;
+        EXPECT_EQ(std::strtod(native_value(number).c_str(), nullptr), number);
+    }
+    EXPECT_EQ(native_value(-0.0), "-0");
+    EXPECT_EQ(native_value(0.1), "0.1");
+    EXPECT_EQ(native_value(5e-324), "5e-324");
+    EXPECT_THROW((void)native_value(std::numeric_limits<double>::infinity()), Error);
+    EXPECT_THROW((void)native_value(std::nan("")), Error);
+}
+
+TEST(NativeText, LabelsAreUniqueAndUniqueNamesStay) {
+    EXPECT_EQ(unique_labels({"a", "b", "a", "", "", "a_2"}, "thing"),
+              (std::vector<std::string>{"a", "b", "a_8", "thing_3", "thing_4", "a_2"}));
+}
+
+TEST(NativeWriter, AnEmptySceneIsItsHeader) {
+    const RoundTrip trip(empty_scene());
+    EXPECT_EQ(trip.text, "alhazen 1\n\n");
+    expect_round_trip(empty_scene());
+}
+
+TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
+    using C = ShadingConventions;
+    for (int i = 0; i < 4; ++i) {
+        SceneDescription scene = empty_scene("room");
+        C& c = scene.conventions;
+        const bool even = i % 2 == 0;
+        c.highlight = even ? C::Highlight::Phong : C::Highlight::BlinnPhong;
+        c.shadow_tint = C::ShadowTint(i);
+        c.refraction_tint = even ? C::RefractionTint::PerDistance : C::RefractionTint::PerEvent;
+        c.ambient_factor = even ? C::AmbientFactor::Diffuse : C::AmbientFactor::Ambient;
+        c.pixel_sample = C::PixelSample(i % 3);
+        c.ambient_inside_times_kt = even;
+        c.clamp_attenuation = even;
+        c.truncate_material_colors = even;
+        c.transmitting_surfaces_reflect = even;
+        c.correct_interpolated_normals = !even;
+        c.trace_reflections = !even;
+        c.trace_refractions = !even;
+        c.headlight = !even;
+        c.linear_output = even;
+        c.air_index = 1.0003;
+        c.max_depth = i;
+        c.min_contribution = 0.1 * i;
+        scene.picture = {.width = 17, .height = 3, .background = Rgb{0.1, -0.0, 0.3}};
+        scene.up_axis = even ? UpAxis::Z : UpAxis::Y;
+        expect_round_trip(scene);
+    }
+}
+
+TEST(NativeWriter, CamerasAndLightsComeBackBitForBit) {
+    Numbers n(11);
+    SceneDescription scene = empty_scene();
+    for (int i = 0; i < 20; ++i) {
+        const PerspectiveCamera p{n.point(), n.point(), n.point(), n.point()};
+        const OrthographicCamera o{n.point(), n.point(), n.point(), n.point()};
+        scene.cameras.push_back({i == 0 ? "" : "eye", p, n.positive(), {}});
+        scene.cameras.push_back(
+            {"a \"quoted\" \\ name\n\twith\x01 rubbish\xff", o, n.positive(), {}});
+        const Attenuation a{n.positive(), n.positive(), n.positive()};
+        const double inner = 0.1 * n.positive();
+        scene.lights.push_back({"", AmbientLight{n.color()}, {}});
+        scene.lights.push_back({"sun", DirectionalLight{n.point(), n.color(), n.color()}, {}});
+        scene.lights.push_back(
+            {"sun", PointLight{n.point(), n.color(), a, n.color(), n.positive()}, {}});
+        scene.lights.push_back({"lamp",
+                                SpotLight{n.point(), n.point(), inner, inner + 0.1 * n.positive(),
+                                          n.color(), a, n.color(), n.positive()},
+                                {}});
+    }
+    scene.lights.push_back({"without", PointLight{.attenuation = {0, 0, 0}}, {}});
+    scene.lights.push_back(
+        {"widest", SpotLight{.inner_angle = 0, .outer_angle = 3.141592653589793}, {}});
+    expect_round_trip(scene);
+}
+
+/// A picture of codes, or of floats that are none.
+std::shared_ptr<const StoredImage> picture(int channels, int kind) {
+    Image image(3, 2, channels);
+    image.linear = kind == 2;
+    for (std::size_t i = 0; i < image.samples.size(); ++i) {
+        const float code = static_cast<float>(i * 7 % 255);
+        image.samples[i] = kind == 0   ? code / 255.0F
+                           : kind == 1 ? (code * 257 - 1 < 0 ? 0 : code * 257 - 1) / 65535.0F
+                                       : code * 1.3e-5F - 1.0F;
+    }
+    auto kept = std::make_shared<StoredImage>(stored(image));
+    EXPECT_EQ(kept->samples.index(), std::size_t(kind));
+    return kept;
+}
+
+TEST(NativeWriter, PicturesKeepTheirSamplesAndAreWrittenOnce) {
+    SceneDescription scene = empty_scene();
+    for (int channels = 1; channels <= 4; ++channels) {
+        for (int kind = 0; kind < 3; ++kind) {
+            Texture texture;
+            texture.image = picture(channels, kind);
+            texture.wrap_u = Wrap(kind);
+            texture.wrap_v = Wrap((kind + 1) % 3);
+            texture.filter = TextureFilter(kind);
+            texture.corner_texels = kind == 1;
+            texture.decode_srgb = kind == 1;
+            texture.uv_set = kind == 1 ? 1 : 0;
+            if (kind > 0) texture.uv_transform = {0.1, 0.2, -0.3, 1.7, {0.3, -0.0}};
+            scene.textures.push_back({"wood", texture, {}});
+            texture.wrap_u = Wrap::Clamp;
+            scene.textures.push_back({"", texture, {}});
+        }
+    }
+    const RoundTrip trip(scene);
+    EXPECT_EQ(trip.files.size(), 12U);
+    EXPECT_TRUE(trip.files.contains("scene_files/texture_0.png"));
+    EXPECT_TRUE(trip.files.contains("scene_files/texture_4.exr"));
+    testing::expect_same(scene, trip.read.scene);
+    EXPECT_EQ(trip.read.scene.textures[0].texture.image, trip.read.scene.textures[1].texture.image);
+}
+
+TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
+    Numbers n(12);
+    SceneDescription scene = empty_scene();
+    for (int i = 0; i < 2; ++i) {
+        Texture texture;
+        texture.image = picture(4, 0);
+        scene.textures.push_back({"wood", texture, {}});
+    }
+    const auto color = [&] {
+        return ColorInput{n.color(), n.below(2) ? TextureId{1} : kNoTexture};
+    };
+    const auto scalar = [&](Channel usual) {
+        const int kind = n.below(3);
+        if (kind == 0) return ScalarInput{n.positive(), kNoTexture, usual};
+        return ScalarInput{kind == 1 ? 1.0 : n.positive(), TextureId{0}, Channel(n.below(5))};
+    };
+    scene.materials.push_back({Material{}, {}});
+    for (int i = 0; i < 60; ++i) {
+        Material m;
+        m.name = i % 3 == 0 ? "" : i % 3 == 1 ? "steel" : "steel " + std::to_string(i);
+        m.emission = color();
+        m.diffuse = color();
+        m.ambient = i % 2 == 0 ? m.diffuse : color();
+        m.specular = color();
+        m.reflective = color();
+        m.transmissive = color();
+        m.shininess = scalar(Channel::Mean);
+        m.index = scalar(Channel::Mean);
+        m.alpha_mode = AlphaMode(i % 3);
+        m.alpha = scalar(Channel::Alpha);
+        m.alpha_cutoff = n.positive();
+        m.double_sided = i % 2 == 0;
+        if (i % 4 != 0) m.normal_map = {TextureId{1}, i % 4 == 1 ? 1.0 : n.any()};
+        if (i % 5 != 0) {
+            MetallicRoughness& p = m.metallic_roughness.emplace();
+            if (i % 5 == 1) continue;
+            p.base_color = color();
+            p.metallic = scalar(Channel::Blue);
+            p.roughness = scalar(Channel::Green);
+            p.occlusion = scalar(Channel::Red);
+            p.specular = scalar(Channel::Alpha);
+            p.specular_color = color();
+            p.transmission = scalar(Channel::Red);
+            p.thickness = scalar(Channel::Green);
+            if (i % 5 != 2) p.attenuation_distance = n.positive();
+            p.attenuation_color = n.color();
+            p.unlit = i % 5 == 3;
+        }
+        scene.materials.push_back({m, {}});
+    }
+    expect_round_trip(scene);
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,377 @@
+/// OBJ as a scene: parts, names, materials, pictures.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "alhazen/formats/obj/mtl_reader.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "import_text.h"
+#include "support/random.h"
+#include "support/test_data.h"
+
+namespace alhazen {
+namespace {
+
+using testing::import_text;
+using testing::mentions;
+using testing::TemporaryFolder;
+using testing::text_of;
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+/// The scene of an OBJ text, validated, whose files lie in `folder`.
+SceneDescription scene_of(const std::string& text, Diagnostics& found,
+                          const std::filesystem::path& folder = "nowhere") {
+    SceneDescription scene = import_text(text, folder / "a.obj", found);
+    if (found.error_count() == 0) {
+        Diagnostics invalid;
+        validate(scene, invalid);
+        EXPECT_EQ(invalid.error_count(), 0u) << text_of(invalid);
+    }
+    return scene;
+}
+
+/// The material that this MTL text gives to `usemtl m`.
+Material material_of(const std::string& mtl, Diagnostics& found) {
+    const TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl m\n" + mtl);
+    const SceneDescription scene =
+        scene_of("mtllib a.mtl\n" + kSquare + "usemtl m\nf 1 2 3 4\n", found, folder.path());
+    EXPECT_EQ(found.error_count(), 0u) << text_of(found);
+    return scene.materials.at(0).material;
+}
+Material material_of(const std::string& mtl) {
+    Diagnostics found;
+    const Material m = material_of(mtl, found);
+    EXPECT_EQ(text_of(found), "") << mtl;
+    return m;
+}
+
+TEST(ObjScene, PartsAreNamedByObjectGroupAndMaterialAndEqualOnesMerge) {
+    Diagnostics found;
+    const SceneDescription scene =
+        scene_of(kSquare +
+                     "f 1 2 3\no box one\nf 1 2 3\ng lid\nf 1 2 4\nusemtl red\nf 1 3 4\ng side\n"
+                     "f 2 3 4\ng lid\nf 1 2 3\no box two\nf 1 2 3\n",
+                 found);
+    std::vector<std::string> names;
+    for (const Part& part : scene.objects.at(0).parts) names.push_back(part.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"a", "box one", "box one/lid", "box one/lid",
+                                               "box one/side", "box two"}));
+    EXPECT_EQ(scene.meshes.at(3).mesh->triangles.size(), 2u);
+    EXPECT_TRUE(mentions(found, "no material library has 'red'")) << text_of(found);
+    EXPECT_EQ(scene.materials.size(), 1u);
+}
+
+TEST(ObjScene, AMillionSwitchesOfMaterialAreTwoParts) {
+    std::string text = kSquare;
+    for (int i = 0; i < 500'000; ++i) text += "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n";
+    Diagnostics found;
+    const auto start = std::chrono::steady_clock::now();
+    const SceneDescription scene = scene_of(text, found);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_EQ(scene.meshes.size(), 2u);
+    EXPECT_EQ(scene.meshes.at(1).mesh->triangles.size(), 500'000u);
+    EXPECT_LT(seconds, 30.0);
+}
+
+TEST(ObjScene, TooManyGroupsAreMergedByMaterial) {
+    std::string text = kSquare;
+    for (int i = 0; i < 150'000; ++i) text += "g " + std::to_string(i) + "\nf 1 2 3\n";
+    Diagnostics found;
+    const SceneDescription scene = scene_of(text, found);
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.meshes.at(0).mesh->triangles.size(), 150'000u);
+    EXPECT_TRUE(mentions(found, "merged by material")) << text_of(found);
+}
+
+TEST(ObjScene, FilesWithoutFacesAreErrorsThatSaySo) {
+    const auto finding = [](std::string_view text) {
+        Diagnostics found;
+        (void)import_text(text, "a.obj", found);
+        EXPECT_GT(found.error_count(), 0u) << text;
+        return text_of(found);
+    };
+    EXPECT_NE(finding(kSquare).find("4 points but no faces"), std::string::npos);
+    EXPECT_NE(finding("").find("is empty"), std::string::npos);
+    EXPECT_NE(finding(std::string_view("\x7f"
+                                       "ELF\0\0",
+                                       6))
+                  .find("not text"),
+              std::string::npos);
+    EXPECT_NE(finding("dear reader\n").find("no statement of an OBJ file"), std::string::npos);
+    EXPECT_NE(finding(std::string_view("\xFE\xFF\0v", 4)).find("UTF-16"), std::string::npos);
+}
+
+TEST(ObjScene, OtherTextsAreNotTakenForObj) {
+    const auto importer = [](const std::string& text, const char* name) {
+        const ImportOptions options;
+        return std::string(find_importer({text, name, options}).name());
+    };
+    EXPECT_EQ(importer("v\nfrom 0 0 1\nat 0 0 0\nup 0 1 0\nangle 40\n", "a.txt"), "nff");
+    EXPECT_EQ(importer("SBT-raytracer 1.0\n", "a.obj"), "ray");
+    EXPECT_EQ(importer("# comment\ng\ng a b\ns off\nv 1 2 3\n", "a.txt"), "obj");
+    EXPECT_EQ(importer("mtllib a.mtl\n", "a.txt"), "obj");
+    EXPECT_EQ(importer("whatever", "A.OBJ"), "obj");
+    EXPECT_THROW((void)importer("s o g", "a.txt"), Error);
+}
+
+TEST(ObjScene, CoefficientsFollowTheIlluminationModel) {
+    const Material plain = material_of("Kd .1 .2 .3\nKa 0 0 0\nKs .4 .5 .6\nNs 20\nillum 2\n");
+    EXPECT_EQ(plain.diffuse.color, (Rgb{.1, .2, .3}));
+    EXPECT_EQ(plain.ambient.color, (Rgb{.1, .2, .3}));
+    EXPECT_EQ(plain.specular.color, (Rgb{.4, .5, .6}));
+    EXPECT_EQ(plain.shininess.value, 20.0);
+    EXPECT_TRUE(plain.reflective.color.is_black());
+    EXPECT_TRUE(plain.is_opaque());
+
+    EXPECT_TRUE(material_of("Kd 1 1 1\nKs 1 1 1\nNs 9\nillum 1\n").specular.color.is_black());
+    EXPECT_TRUE(material_of("Kd 1 1 1\nKs 1 1 1\nNs 0\n").specular.color.is_black());
+    EXPECT_EQ(material_of("Ks .9 .9 .9\nillum 3\n").reflective.color, (Rgb{.9, .9, .9}));
+    EXPECT_EQ(material_of("Ka .2 .2 .2\nKd 1 0 0\n").ambient.color, (Rgb{.2, .2, .2}));
+    EXPECT_EQ(material_of("Ke 10 10 10\n").emission.color, (Rgb{10, 10, 10}));
+    EXPECT_EQ(material_of("").diffuse.color, (Rgb{.7, .7, .7}));
+    EXPECT_EQ(material_of("Kd .5\n").diffuse.color, (Rgb{.5, .5, .5}));
+
+    const Material glass = material_of("Kd 0 0 0\nKs .3 .3 .3\nTf .9 .8 .7\nNi 1.5\nillum 7\n");
+    EXPECT_EQ(glass.transmissive.color, (Rgb{.9, .8, .7}));
+    EXPECT_EQ(glass.reflective.color, (Rgb{.3, .3, .3}));
+    EXPECT_EQ(glass.index.value, 1.5);
+    EXPECT_EQ(material_of("d .25\nillum 6\n").transmissive.color, (Rgb{.75, .75, .75}));
+    EXPECT_TRUE(material_of("Tf 1 1 1\nd 1\nillum 2\n").transmissive.color.is_black());
+}
+
+TEST(ObjScene, DissolvedMaterialsAreBlended) {
+    const Material d = material_of("Kd 1 1 1\nd .25\n");
+    EXPECT_EQ(d.alpha_mode, AlphaMode::Blend);
+    EXPECT_EQ(d.alpha.value, .25);
+    EXPECT_EQ(material_of("Tr .25\n").alpha.value, .75);
+    EXPECT_EQ(material_of("Tr 0\n").alpha_mode, AlphaMode::Opaque);
+    EXPECT_EQ(material_of("d 1\nTr 1\n").alpha_mode, AlphaMode::Opaque);
+    Diagnostics found;
+    EXPECT_EQ(material_of("Tr 1\n", found).alpha_mode, AlphaMode::Opaque);
+    EXPECT_TRUE(mentions(found, "invisible")) << text_of(found);
+}
+
+TEST(ObjScene, MetallicRoughnessStatementsAreKept) {
+    const Material m = material_of("Kd .8 .1 .1\nPr .3\nPm 1\nKe .5 0 0\n");
+    ASSERT_TRUE(m.metallic_roughness);
+    EXPECT_EQ(m.metallic_roughness->base_color.color, (Rgb{.8, .1, .1}));
+    EXPECT_EQ(m.metallic_roughness->roughness.value, .3);
+    EXPECT_EQ(m.metallic_roughness->metallic.value, 1.0);
+    EXPECT_EQ(m.emission.color, (Rgb{.5, 0, 0}));
+    EXPECT_FALSE(material_of("Kd 1 1 1\n").metallic_roughness);
+}
+
+/// A folder with a small picture and an OBJ whose material names it as `map`.
+struct WithPicture {
+    TemporaryFolder folder;
+    Diagnostics found;
+    SceneDescription scene;
+    explicit WithPicture(const std::string& mtl, const std::string& picture = "my pic.png") {
+        std::filesystem::create_directories((folder.path() / picture).parent_path());
+        Image image(2, 2, 3);
+        image.linear = false;
+        for (float& s : image.samples) s = 0.5f;
+        write_image(folder.path() / picture, image, {});
+        folder.write("lib/a b.mtl", "newmtl my material\n" + mtl);
+        scene = scene_of(
+            "mtllib lib/a b.mtl\n" + kSquare + "vt 0 0\nusemtl my material  \nf 1/1 2/1 3/1\n",
+            found, folder.path());
+    }
+    [[nodiscard]] const Material& material() const { return scene.materials.at(0).material; }
+    [[nodiscard]] const Texture& texture(TextureId id) const {
+        return scene.textures.at(std::size_t(id)).texture;
+    }
+};
+
+TEST(ObjScene, PicturesAreFoundWithBlanksOptionsAndOtherCapitals) {
+    for (const char* name :
+         {"my pic.png", "MY PIC.PNG", "-o 0.25 .5 -s 2 3 1 my pic.png", "my pic.png -bm 1.5",
+          "-blendu on -blendv off -mm 0 1 -imfchan r -texres 64 -cc on my pic.png",
+          "..\\lib\\my pic.png", "C:\\art\\textures\\my pic.png", "\"my pic.png\"",
+          "/home/me/my pic.png"}) {
+        const WithPicture s("map_Kd " + std::string(name) + "\nKd 0 0 0\n");
+        ASSERT_EQ(s.scene.textures.size(), 1u) << name << text_of(s.found);
+        EXPECT_EQ(s.material().diffuse.color, (Rgb{1, 1, 1})) << name;
+        EXPECT_EQ(s.texture(s.material().diffuse.texture).decode_srgb, true);
+        EXPECT_EQ(s.material().ambient.texture, s.material().diffuse.texture);
+        if (std::string(name).starts_with("-o")) {
+            const UvTransform& t = s.texture(s.material().diffuse.texture).uv_transform;
+            EXPECT_EQ(t.apply({1, 1}), (Vec2{2.25, 3.5}));
+        }
+    }
+}
+
+TEST(ObjScene, PicturesOfNumbersAreNotDecoded) {
+    const WithPicture s(
+        "Kd .5 .5 .5\nKs 1 1 1\nNs 10\nmap_Ns my pic.png\nmap_d -imfchan g my pic.png\n"
+        "norm -bm 2 my pic.png\nmap_Pr -clamp on my pic.png\n");
+    const Material& m = s.material();
+    EXPECT_EQ(text_of(s.found), "");
+    EXPECT_EQ(m.alpha_mode, AlphaMode::Blend);
+    EXPECT_EQ(m.alpha.channel, Channel::Green);
+    EXPECT_EQ(m.normal_map.scale, 2.0);
+    EXPECT_FALSE(s.texture(m.normal_map.texture).decode_srgb);
+    EXPECT_FALSE(s.texture(m.shininess.texture).decode_srgb);
+    ASSERT_TRUE(m.metallic_roughness);
+    EXPECT_EQ(s.texture(m.metallic_roughness->roughness.texture).wrap_u, Wrap::Clamp);
+}
+
+/// An OBJ with the materials "m0", "m1" ... of these statements beside a picture of heights h.png
+/// (a ramp), and one of directions n.png.
+struct WithBumps {
+    TemporaryFolder folder;
+    Diagnostics found;
+    SceneDescription scene;
+    explicit WithBumps(const std::vector<std::string>& materials) {
+        Image heights(8, 4, 1), directions(8, 4, 3);
+        heights.linear = directions.linear = false;
+        for (int x = 0; x < 8; ++x) {
+            for (int y = 0; y < 4; ++y) {
+                *heights.pixel(x, y) = float(x) / 8;
+                for (int k = 0; k < 3; ++k) directions.pixel(x, y)[k] = k == 2 ? 1.0f : 0.5f;
+            }
+        }
+        write_image(folder.path() / "h.png", heights, {});
+        write_image(folder.path() / "n.png", directions, {});
+        std::string mtl, obj = "mtllib a.mtl\n" + kSquare + "vt 0 0\n";
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            const std::string name = "m" + std::to_string(i) + "\n";
+            mtl += "newmtl " + name + "Kd 1 1 1\n" + materials[i];
+            obj += "usemtl " + name + "f 1/1 2/1 3/1\n";
+        }
+        folder.write("a.mtl", mtl);
+        scene = scene_of(obj, found, folder.path());
+        EXPECT_EQ(text_of(found), "");
+    }
+    [[nodiscard]] const NormalMap& map(std::size_t i) const {
+        return scene.materials.at(i).material.normal_map;
+    }
+    [[nodiscard]] const Texture& texture(std::size_t i) const {
+        return scene.textures.at(std::size_t(map(i).texture)).texture;
+    }
+};
+
+TEST(ObjScene, HeightsBecomeNormalsOnceForEachStrength) {
+    const WithBumps s({"bump h.png\n", "map_Bump -s 2 2 2 h.png\n", "map_bump h.png -bm 3\n",
+                       "map_bump -clamp on h.png\n", "map_bump -imfchan m h.png\n",
+                       "map_bump h.png -bm 0\n"});
+    EXPECT_EQ(s.texture(0).image, s.texture(1).image);
+    EXPECT_EQ(s.texture(1).uv_transform.uu, 2.0);
+    EXPECT_NE(s.texture(2).image, s.texture(0).image);
+    EXPECT_NE(s.texture(3).image, s.texture(0).image);
+    EXPECT_EQ(s.texture(3).wrap_u, Wrap::Clamp);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(s.map(i).scale, 1.0);
+        EXPECT_FALSE(s.texture(i).decode_srgb);
+        EXPECT_EQ(s.texture(i).image->channels, 3);
+        EXPECT_EQ(s.texture(i).image->width, 8);
+    }
+    // The heights rise to the right, the normals lean to the left; alpha is 1 everywhere.
+    EXPECT_LT(s.texture(0).image->pixel(9, false).r, 0.5);
+    EXPECT_LT(s.texture(2).image->pixel(9, false).r, s.texture(0).image->pixel(9, false).r);
+    EXPECT_NEAR(s.texture(4).image->pixel(9, false).r, 0.5, 0.003);
+    EXPECT_EQ(s.map(5).texture, kNoTexture);
+}
+
+TEST(ObjScene, BumpMapsOfDirectionsAreNormalMaps) {
+    const WithBumps s({"map_bump -bm 0.5 n.png\n", "norm -bm 2 h.png\n", "norm n.png\nbump h.png\n",
+                       "bump h.png\nnorm gone/../n.png\n", "map_bump -imfchan b n.png\n"});
+    EXPECT_EQ(s.map(0).scale, 0.5);
+    EXPECT_EQ(s.texture(0).image->pixel(0, false).b, 1.0);
+    EXPECT_EQ(s.map(1).scale, 2.0);  // said to be directions
+    EXPECT_EQ(s.texture(1).image->channels, 1);
+    EXPECT_EQ(s.texture(2).image, s.texture(0).image);
+    EXPECT_EQ(s.texture(3).image, s.texture(0).image);
+    EXPECT_NE(s.texture(4).image, s.texture(0).image);  // a channel: one number is meant
+}
+
+TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {
+    const WithPicture picture("map_Kd gone.png\nbump lost.png\nKd .5 .5 .5\n");
+    EXPECT_EQ(picture.material().diffuse.texture, kNoTexture);
+    EXPECT_EQ(picture.material().diffuse.color, (Rgb{.5, .5, .5}));
+    EXPECT_TRUE(mentions(picture.found, "a b.mtl:2:1: warning: the picture 'gone.png'"))
+        << text_of(picture.found);
+    EXPECT_TRUE(mentions(picture.found, "'lost.png'"));
+    EXPECT_EQ(picture.material().normal_map.texture, kNoTexture);
+    EXPECT_EQ(picture.found.error_count(), 0u);
+
+    Diagnostics found;
+    const TemporaryFolder folder;
+    folder.write("one.mtl", "newmtl a\nKd 1 0 0\n");
+    folder.write("two words.mtl", "newmtl b\nKd 0 1 0\n");
+    folder.write("bad.png", "not a picture");
+    folder.write("three.mtl", "newmtl c\nmap_Kd bad.png\n");
+    const SceneDescription scene =
+        scene_of("mtllib one.mtl gone.mtl two\\ words.mtl three.mtl\n" + kSquare +
+                     "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n",
+                 found, folder.path());
+    ASSERT_EQ(scene.materials.size(), 3u);
+    EXPECT_EQ(scene.materials[1].material.diffuse.color, (Rgb{0, 1, 0}));
+    EXPECT_TRUE(mentions(found, "the material file 'gone.mtl' is not there")) << text_of(found);
+    EXPECT_TRUE(mentions(found, "three.mtl:2:1: warning: texture:")) << text_of(found);
+    EXPECT_EQ(found.error_count(), 0u);
+}
+
+TEST(ObjScene, FilesOutsideOfTheScenesFolderAreNotRead) {
+    const TemporaryFolder folder;
+    folder.write("secret.mtl", "newmtl a\nKd 1 0 0\n");
+    folder.write("scene/here.txt", "");
+    Diagnostics found;
+    const SceneDescription scene = scene_of(
+        "mtllib ../secret.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", found, folder.path() / "scene");
+    EXPECT_TRUE(mentions(found, "outside of the scene's folder")) << text_of(found);
+    EXPECT_EQ(scene.materials.at(0).material.diffuse.color, (Rgb{.7, .7, .7}));
+}
+
+TEST(ObjScene, ManyNamesThatAreNotThereTakeNoTime) {
+    std::string names = "mtllib";
+    for (int i = 0; i < 300'000; ++i) names += " gone" + std::to_string(i) + ".mtl";
+    Diagnostics found;
+    const auto start = std::chrono::steady_clock::now();
+    const TemporaryFolder folder;
+    (void)scene_of(names + "\n" + kSquare + "f 1 2 3\n", found, folder.path());
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_LT(seconds, 10.0);
+    EXPECT_TRUE(mentions(found, "gone7.mtl"));
+}
+
+TEST(ObjScene, RandomDamageToALibraryNeverDoesMoreThanWarnings) {
+    testing::Random random(11);
+    const std::string good =
+        "newmtl a\nKd 1 1 1\nd .5\nillum 7\nTf 1 1 1\nmap_Kd -o 1 2 -s 1 x y.png -bm 1\nnorm -mm 0 "
+        "1 q\nPr 1\n";
+    for (int round = 0; round < 3000; ++round) {
+        std::string bytes = good;
+        for (int k = 0; k < 4; ++k) {
+            bytes[std::size_t(random.below(int(bytes.size())))] = char(random.below(256));
+        }
+        Diagnostics found;
+        (void)read_mtl(bytes, "a.mtl", found);
+        EXPECT_EQ(found.error_count(), 0u) << "round " << round;
+    }
+}
+
+TEST(ObjScene, TheHostileLibrariesAreRead) {
+    ALHAZEN_NEEDS_DATA("hostile/tinyobj/models");
+    for (const char* folder : {"hostile/tinyobj/models", "hostile/assimp/OBJ"}) {
+        for (const auto& entry :
+             std::filesystem::directory_iterator(testing::test_data() / folder)) {
+            if (entry.path().extension() != ".obj") continue;
+            Diagnostics found;
+            try {
+                const SceneDescription scene = import_scene(entry.path(), {}, found);
+                EXPECT_FALSE(scene.meshes.empty()) << entry.path();
+            } catch (const Error& error) {
+                EXPECT_NE(std::string(error.what()), "") << entry.path();
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

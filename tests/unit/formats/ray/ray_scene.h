@@ -1,0 +1,37 @@
+#pragma once
+/// What the tests of .ray files share: import from text, and the parts of the result.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "alhazen/base/file.h"
+#include "alhazen/formats/ray/ray_importer.h"
+#include "text_scene.h"
+
+namespace alhazen::testing {
+
+/// A mesh of a square, up to its material.
+inline constexpr const char* kSquareMesh =
+    "points = ((0,0,0),(1,0,0),(1,1,0),(0,1,0)); faces = ((0,1,2,3)); ";
+
+inline Imported import_ray(const std::string& body, const ImportOptions& options = {}) {
+    return import_text<RayImporter>("SBT-raytracer 1.0\n" + body, "scene.ray", options);
+}
+
+inline Imported import_ray_file(const std::filesystem::path& path) {
+    return import_text<RayImporter>(read_file(path), path);
+}
+
+inline const Material& material_of(const Imported& i, std::size_t part) {
+    return i.scene.materials.at(static_cast<std::size_t>(i.parts().at(part).material)).material;
+}
+
+inline void expect_near(const Vec3& a, const Vec3& b) {
+    EXPECT_NEAR(a.x, b.x, 1e-12);
+    EXPECT_NEAR(a.y, b.y, 1e-12);
+    EXPECT_NEAR(a.z, b.z, 1e-12);
+}
+
+}  // namespace alhazen::testing

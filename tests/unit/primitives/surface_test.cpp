@@ -1,0 +1,179 @@
+#include "alhazen/primitives/surface.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/sampling/random.h"
+#include "alhazen/scene/scene.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+Vec3 random_direction(RandomStream& random) {
+    while (true) {
+        const Vec3 d{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+        const double l = length_squared(d);
+        if (l > 0.01 && l <= 1.0) return d / std::sqrt(l);
+    }
+}
+
+/// A ray that leaves a convex surface outward must not meet it again; one that goes in must not
+/// meet it at once.
+void expect_no_self_intersection(const AnyShape& shape, std::uint64_t seed) {
+    RandomStream random(seed);
+    for (int round = 0; round < 200; ++round) {
+        // Sizes and places over many magnitudes.
+        const double scale = std::pow(10.0, random.uniform(-8, 8));
+        const double distance = std::pow(10.0, random.uniform(-8, 8));
+        const Affine placement = Affine::translate(distance * random_direction(random)) *
+                                 Affine::rotate(random_direction(random), random.uniform(0, 6)) *
+                                 Affine::scale({scale, scale * random.uniform(0.5, 2), scale});
+        SceneMaker maker;
+        std::visit([&](const auto& s) { maker.add(s, MaterialId{0}, placement); }, shape);
+        const Scene scene = maker.compile();
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 target = placement.point(
+                {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)});
+            const Vec3 origin = target + 10 * scale * random_direction(random);
+            const Ray ray{origin, normalize(target - origin)};
+            Hit hit;
+            if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
+            const Surface surface = surface_at(*scene.aggregate, ray, hit);
+            const Vec3 towards_ray =
+                dot(ray.direction, surface.normal) < 0 ? surface.normal : -surface.normal;
+            Vec3 away = random_direction(random);
+            if (dot(away, towards_ray) < 0) away = -away;
+            const Ray next = leaving_ray(surface, away);
+            EXPECT_FALSE(scene.aggregate->occluded(next, nullptr))
+                << "shape " << shape.index() << " round " << round << " ray " << i << " scale "
+                << scale << " distance " << distance;
+        }
+    }
+}
+
+TEST(Surface, RaysThatLeaveAConvexShapeDoNotMeetItAgain) {
+    expect_no_self_intersection(Sphere{}, 1);
+    expect_no_self_intersection(BoxShape{}, 2);
+    expect_no_self_intersection(Cylinder{}, 3);
+    expect_no_self_intersection(Cone{}, 4);
+    expect_no_self_intersection(Rectangle{}, 5);
+    expect_no_self_intersection(Disc{}, 6);
+    expect_no_self_intersection(Plane{}, 7);
+}
+
+TEST(Surface, RaysThatLeaveAFlatShapeNearTheOriginOfCoordinatesDoNotMeetItAgain) {
+    RandomStream random(9);
+    for (int round = 0; round < 2000; ++round) {
+        // A tilted shape through the origin, met where all coordinates of the point vanish.
+        const Affine tilt = Affine::rotate(random_direction(random), random.uniform(0, 6));
+        const double size = std::pow(10.0, random.uniform(0, 6));
+        const Vec3 u = size * tilt.vector({1, 0, 0});
+        const Vec3 v = size * tilt.vector({0, 1, 0});
+        SceneMaker maker;
+        if (round % 2 == 0) {
+            maker.add(Rectangle{.corner = -0.3 * u - 0.6 * v, .edge_u = u, .edge_v = v});
+        } else {
+            TriangleMesh mesh;
+            mesh.positions = {-0.3 * u - 0.3 * v, u - 0.2 * v, v - 0.3 * u};
+            mesh.triangles = {{0, 1, 2}};
+            maker.add(maker.mesh(mesh));
+        }
+        const Scene scene = maker.compile();
+        const Vec3 target = 1e-14 * random_direction(random);
+        const Vec3 from = 3.0 * random_direction(random);
+        const Ray ray{target - from, normalize(from)};
+        Hit hit;
+        if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
+        const Surface surface = surface_at(*scene.aggregate, ray, hit);
+        for (int i = 0; i < 20; ++i) {
+            const Ray next = leaving_ray(surface, random_direction(random));
+            EXPECT_FALSE(scene.aggregate->occluded(next, nullptr))
+                << "round " << round << " ray " << i;
+        }
+    }
+}
+
+TEST(Surface, RaysThatLeaveAConvexMeshDoNotMeetItAgain) {
+    RandomStream random(8);
+    for (int round = 0; round < 300; ++round) {
+        const double scale = std::pow(10.0, random.uniform(-8, 8));
+        const double distance = scale * std::pow(10.0, random.uniform(-3, 5));
+        TriangleMesh mesh = testing::tetrahedron();
+        mesh.transform(Affine::translate(distance * random_direction(random)) *
+                       Affine::rotate(random_direction(random), random.uniform(0, 6)) *
+                       Affine::scale({scale, scale, scale * 0.01}));
+        Vec3 center;
+        for (const Vec3& p : mesh.positions) center += 0.25 * p;
+        SceneMaker maker;
+        maker.add(maker.mesh(mesh));
+        const Scene scene = maker.compile();
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 d = random_direction(random);
+            const Ray ray{center - 3 * scale * d, d};
+            Hit hit;
+            if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
+            const Surface surface = surface_at(*scene.aggregate, ray, hit);
+            // Inside means beyond the far side of something as thin as its own rounding: leave
+            // those out.
+            Vec3 away = random_direction(random);
+            if (dot(away, surface.normal) < 0) away = -away;
+            if (dot(d, surface.normal) > 0) continue;
+            const Ray next = leaving_ray(surface, away);
+            EXPECT_FALSE(scene.aggregate->occluded(next, nullptr))
+                << "round " << round << " ray " << i << " scale " << scale << " distance "
+                << distance;
+        }
+    }
+}
+
+/// The test of a ray that starts in the plane z = 0 and runs mostly along x rounds to distances a
+/// little beyond 0, although the plane itself is exact.
+TEST(Surface, RaysThatLeaveAFlatMeshThroughTheOriginDoNotMeetItAgain) {
+    RandomStream random(47);
+    for (const double height : {0.0, 1e-3, 1.0}) {
+        TriangleMesh mesh;
+        mesh.positions = {
+            {-0.5, -0.5, height}, {0.5, -0.5, height}, {0.5, 0.5, height}, {-0.5, 0.5, height}};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+        SceneMaker maker;
+        maker.material({});
+        maker.add(maker.mesh(mesh));
+        const Scene scene = maker.compile();
+        for (int i = 0; i < 20000; ++i) {
+            Vec3 down = random_direction(random), away = random_direction(random);
+            down.z = -std::abs(down.z);
+            const Vec3 origin{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), height + 0.5};
+            Hit hit;
+            const Ray ray{origin, down};
+            if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
+            const Ray next = leaving_ray(surface_at(*scene.aggregate, ray, hit), away);
+            ASSERT_FALSE(scene.aggregate->occluded(next, nullptr))
+                << "height " << height << " ray " << i;
+        }
+    }
+}
+
+TEST(Surface, VertexMaterialsCarryTheBarycentricWeights) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.vertex_materials = {2, 1, 0};
+    SceneMaker maker;
+    for (int i = 0; i < 3; ++i) maker.material({});
+    maker.add(maker.mesh(mesh));
+    const Scene scene = maker.compile();
+    const Ray ray{{0.25, 0.5, 1}, {0, 0, -1}};
+    Hit hit;
+    ASSERT_TRUE(scene.aggregate->closest(ray, hit, nullptr));
+    const Surface s = surface_at(*scene.aggregate, ray, hit);
+    EXPECT_EQ(s.material_count, 3);
+    EXPECT_EQ(s.materials[0], MaterialId{2});
+    EXPECT_NEAR(s.weights[0], 0.25, 1e-15);
+    EXPECT_NEAR(s.weights[1], 0.25, 1e-15);
+    EXPECT_NEAR(s.weights[2], 0.5, 1e-15);
+}
+
+}  // namespace
+}  // namespace alhazen

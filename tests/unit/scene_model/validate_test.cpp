@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "alhazen/scene_model/scene_description.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t errors_in(const SceneDescription& description) {
+    Diagnostics diagnostics;
+    validate(description, diagnostics);
+    return diagnostics.error_count();
+}
+
+SceneMaker good_scene() {
+    SceneMaker maker;
+    maker.material({});
+    maker.add(Sphere{});
+    return maker;
+}
+
+TEST(Validate, AGoodSceneHasNoFinding) {
+    EXPECT_EQ(errors_in(good_scene().description()), 0u);
+}
+
+TEST(Validate, EveryFindingIsReportedAtOnceWithItsPlace) {
+    SceneMaker maker = good_scene();
+    SceneDescription& d = maker.description();
+    d.objects[0].parts[0].object_from_part = Affine::scale({1, 0, 1});
+    d.objects[0].parts[0].location = {"scene", 7, 3};
+    d.materials[0].material.shininess.value = -1;
+    d.lights.push_back({"", PointLight{.position = {kNan, 0, 0}}, {}});
+    d.picture.width = 0;
+    Diagnostics diagnostics;
+    validate(d, diagnostics);
+    EXPECT_EQ(diagnostics.error_count(), 4u);
+    bool found = false;
+    for (const Diagnostic& finding : diagnostics.all()) {
+        found |= to_string(finding).starts_with("scene:7:3: error: the transform is singular");
+    }
+    EXPECT_TRUE(found);
+}
+
+TEST(Validate, IdsOutOfRangeAreErrors) {
+    SceneMaker maker = good_scene();
+    SceneDescription& d = maker.description();
+    d.objects[0].parts[0].material = MaterialId{9};
+    d.materials[0].material.diffuse.texture = TextureId{3};
+    Part part;
+    part.what = MeshIndex{5};
+    d.objects[0].parts.push_back(part);
+    part.what = ObjectIndex{5};
+    d.objects[0].parts.push_back(part);
+    EXPECT_EQ(errors_in(d), 4u);
+}
+
+TEST(Validate, AnObjectThatContainsItselfIsAnError) {
+    SceneMaker maker = good_scene();
+    const ObjectIndex a = maker.object("a");
+    const ObjectIndex b = maker.object("b");
+    maker.add(b, MaterialId{0}, {}, a);
+    maker.add(a, MaterialId{0}, {}, b);
+    maker.add(a);
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
+TEST(Validate, NestingIsLimitedWithoutRecursion) {
+    SceneMaker maker = good_scene();
+    ObjectIndex previous{0};
+    for (int i = 0; i < 100000; ++i) {
+        const ObjectIndex next = maker.object("deep");
+        maker.add(next, MaterialId{0}, {}, previous);
+        previous = next;
+    }
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
+TEST(Validate, OperandsOfSolidsMustBoundVolumes) {
+    SceneMaker maker = good_scene();
+    const ObjectIndex solid = maker.object("solid");
+    const ObjectIndex operand = maker.object("operand");
+    SceneDescription& d = maker.description();
+    d.objects[static_cast<std::size_t>(solid)].combine = Combine::Difference;
+    EXPECT_EQ(errors_in(d), 1u) << "a difference of nothing";
+    maker.add(Sphere{}, MaterialId{0}, {}, solid);
+    maker.add(operand, MaterialId{0}, {}, solid);
+    EXPECT_EQ(errors_in(d), 0u) << "an empty operand";
+    const MeshIndex closed = maker.mesh(testing::tetrahedron());
+    maker.add(closed, MaterialId{0}, {}, operand);
+    EXPECT_EQ(errors_in(d), 0u);
+    TriangleMesh open = testing::tetrahedron();
+    open.triangles.pop_back();
+    maker.add(maker.mesh(open), MaterialId{0}, {}, operand);
+    maker.add(Disc{}, MaterialId{0}, {}, operand);
+    maker.add(Cylinder{.capped = false}, MaterialId{0}, {}, solid);
+    EXPECT_EQ(errors_in(d), 3u);
+    d.objects[static_cast<std::size_t>(solid)].combine = Combine::Group;
+    EXPECT_EQ(errors_in(d), 0u) << "side by side they may be open";
+}
+
+TEST(Validate, CamerasThatCannotMakeAPictureAreErrors) {
+    SceneMaker maker = good_scene();
+    auto& camera = std::get<PerspectiveCamera>(maker.description().cameras[0].camera);
+    camera.up = camera.right;
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+    camera.up = {0, 1, 0};
+    camera.look = {0, 0, 0};
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
+TEST(Validate, EveryPartOfAMaterialAndATextureIsLookedAt) {
+    const double inf = std::numeric_limits<double>::infinity();
+    const TextureId missing{7};
+    const auto errors_with = [](auto change) {
+        SceneMaker maker = good_scene();
+        Material& m = maker.description().materials[0].material;
+        m.metallic_roughness = MetallicRoughness{};
+        change(m, *m.metallic_roughness);
+        return errors_in(maker.description());
+    };
+    EXPECT_EQ(errors_with([](auto&, auto&) {}), 0u);
+    EXPECT_EQ(errors_with([&](auto& m, auto&) { m.alpha.texture = missing; }), 1u);
+    EXPECT_EQ(errors_with([&](auto& m, auto&) { m.normal_map = {missing, kNan}; }), 2u);
+    EXPECT_EQ(errors_with([&](auto& m, auto&) { m.alpha_cutoff = kNan; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.base_color.texture = missing; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.roughness.value = -1; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.thickness = {inf, missing, {}}; }), 2u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = 0; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = inf; }), 0u);
+
+    SceneMaker maker = good_scene();
+    Texture texture;
+    texture.image = std::make_shared<const StoredImage>(stored(Image(1, 1, 1)));
+    texture.uv_set = 2;
+    texture.uv_transform.uu = kNan;
+    maker.description().textures.push_back({"t", texture, {}});
+    EXPECT_EQ(errors_in(maker.description()), 2u);
+}
+
+TEST(Validate, MasksNameKindsOfRaysAndHideNoPartOfASolid) {
+    SceneMaker maker = good_scene();
+    Part& part = maker.description().objects[0].parts[0];
+    part.visible_to = mask_of(RayKind::Shadow);
+    EXPECT_EQ(errors_in(maker.description()), 0u);
+    part.visible_to = 1u << 7;
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+    part.visible_to = 0;
+    Diagnostics diagnostics;
+    validate(maker.description(), diagnostics);
+    EXPECT_EQ(diagnostics.error_count(), 0u);
+    ASSERT_EQ(diagnostics.all().size(), 1u) << "a warning";
+    part.visible_to = mask_of(RayKind::Eye);
+    maker.description().objects[0].combine = Combine::Union;
+    EXPECT_EQ(errors_in(maker.description()), 1u);
+}
+
+}  // namespace
+}  // namespace alhazen

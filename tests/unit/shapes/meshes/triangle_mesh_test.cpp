@@ -1,0 +1,238 @@
+#include "alhazen/shapes/meshes/triangle_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
+#include "support/quad.h"
+#include "support/random.h"
+#include "support/sphere_mesh.h"
+
+namespace alhazen {
+namespace {
+
+using testing::line;
+using testing::Quad;
+using testing::QuadVec;
+using testing::Random;
+
+TriangleMesh sphere_mesh(int levels) {
+    testing::SphereMesh sphere(levels);
+    return {.positions = std::move(sphere.positions), .triangles = std::move(sphere.triangles)};
+}
+
+/// Each triangle with three vertices of its own, as many files have it.
+TriangleMesh unshared(const TriangleMesh& mesh) {
+    TriangleMesh soup;
+    for (const auto& triangle : mesh.triangles) {
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        for (const std::uint32_t v : triangle) soup.positions.push_back(mesh.positions[v]);
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    return soup;
+}
+
+TEST(TriangleMesh, ClosedMeshesAreRecognisedAfterMergingEqualPositions) {
+    TriangleMesh mesh = sphere_mesh(3);
+    EXPECT_TRUE(mesh.closed());
+    TriangleMesh soup = unshared(mesh);
+    EXPECT_TRUE(soup.closed());
+    // Neither the orientation nor the sign of zero nor triangles without area matter.
+    std::swap(soup.triangles[5][0], soup.triangles[5][1]);
+    for (Vec3& p : soup.positions) {
+        if (p.x == 0.0) p.x = (&p - soup.positions.data()) % 2 == 0 ? 0.0 : -0.0;
+    }
+    soup.triangles.push_back({7, 7, 9});
+    EXPECT_TRUE(soup.closed());
+}
+
+TEST(TriangleMesh, OpenMeshesAreRecognised) {
+    const TriangleMesh closed = sphere_mesh(2);
+    TriangleMesh hole = closed;
+    hole.triangles.pop_back();
+    EXPECT_FALSE(hole.closed());
+    TriangleMesh fin = closed;  // three triangles at an edge
+    fin.positions.push_back({5, 5, 5});
+    const auto tip = static_cast<std::uint32_t>(fin.positions.size() - 1);
+    fin.triangles.push_back({fin.triangles[0][0], fin.triangles[0][1], tip});
+    EXPECT_FALSE(fin.closed());
+    TriangleMesh cracked = unshared(closed);
+    cracked.positions[0].x = std::nextafter(cracked.positions[0].x, 9.0);
+    EXPECT_FALSE(cracked.closed());
+    TriangleMesh four_at_an_edge = closed;  // two solids that share an edge
+    four_at_an_edge.triangles.insert(four_at_an_edge.triangles.end(), closed.triangles.begin(),
+                                     closed.triangles.end());
+    EXPECT_FALSE(four_at_an_edge.closed());
+    EXPECT_FALSE(TriangleMesh{}.closed());
+    EXPECT_FALSE((TriangleMesh{.positions = {{0, 0, 0}}, .triangles = {{0, 0, 0}}}).closed());
+}
+
+TEST(TriangleMesh, WhatKeepsItOpenIsCounted) {
+    const TriangleMesh closed = sphere_mesh(2);
+    EXPECT_TRUE(mesh_edges(closed).oriented());
+    EXPECT_EQ(mesh_edges(closed).description(), "closed");
+    EXPECT_EQ(mesh_edges(closed).count, closed.triangles.size() * 3 / 2);
+    TriangleMesh hole = closed;
+    hole.triangles.pop_back();
+    EXPECT_EQ(mesh_edges(hole).open, 3u);
+    EXPECT_NE(mesh_edges(hole).description().find("3 of "), std::string::npos);
+    TriangleMesh turned = closed;
+    std::swap(turned.triangles[4][0], turned.triangles[4][1]);
+    EXPECT_TRUE(mesh_edges(turned).closed());
+    EXPECT_FALSE(mesh_edges(turned).oriented());
+    EXPECT_EQ(mesh_edges(turned).turned, 3u);
+    TriangleMesh twice = closed;
+    twice.triangles.push_back(closed.triangles[0]);
+    EXPECT_EQ(mesh_edges(twice).crowded, 3u);
+    EXPECT_NE(mesh_edges(twice).description().find("to more than two"), std::string::npos);
+    EXPECT_EQ(mesh_edges({}).description(), "no triangles");
+}
+
+TEST(TriangleMesh, ClosednessOfPositionsThatAreNotNumbersIsAnswered) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    TriangleMesh mesh = sphere_mesh(1);
+    for (Vec3& p : mesh.positions) p.y = nan;
+    (void)mesh.closed();
+}
+
+TEST(TriangleMesh, VolumeAndAreaAreThoseOfTheSolid) {
+    TriangleMesh cube;
+    for (int i = 0; i < 8; ++i) {
+        cube.positions.push_back({i & 1 ? 3.0 : 1.0, i & 2 ? 3.0 : 1.0, i & 4 ? 3.0 : 1.0});
+    }
+    cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    ASSERT_TRUE(cube.closed());
+    EXPECT_DOUBLE_EQ(signed_volume(cube), 8.0);
+    EXPECT_DOUBLE_EQ(area(cube), 24.0);
+    for (auto& t : cube.triangles) std::swap(t[0], t[1]);
+    EXPECT_DOUBLE_EQ(signed_volume(cube), -8.0);
+    EXPECT_EQ(signed_volume({}), 0.0);
+
+    TriangleMesh sphere = sphere_mesh(5);
+    const double volume = signed_volume(sphere);
+    EXPECT_NEAR(volume, 4.18879, 0.01);
+    EXPECT_NEAR(area(sphere), 12.56637, 0.02);
+    sphere.transform(Affine::translate({1e6, -1e6, 1e6}));
+    EXPECT_NEAR(signed_volume(sphere), volume,
+                1e-9);  // positions lose 1e-10, volumes do not cancel
+}
+
+TEST(TriangleMesh, GeneratedNormalsPointOutward) {
+    TriangleMesh mesh = sphere_mesh(4);
+    mesh.positions.push_back({9, 9, 9});  // used by no triangle
+    mesh.generate_normals();
+    EXPECT_EQ(mesh.normals.back(), Vec3{});
+    mesh.positions.pop_back();
+    mesh.normals.pop_back();
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        ASSERT_NEAR(length(mesh.normals[i]), 1.0, 1e-14);
+        ASSERT_GT(dot(mesh.normals[i], mesh.positions[i]), 0.999) << i;
+    }
+}
+
+TEST(TriangleMesh, NormalsStayPerpendicularUnderTransforms) {
+    Random random(71);
+    for (int i = 0; i < 200; ++i) {
+        TriangleMesh mesh{.positions = {random.in_cube(2), random.in_cube(2), random.in_cube(2)},
+                          .triangles = {{0, 1, 2}}};
+        mesh.generate_normals();
+        const bool mirror = random.coin();
+        const Affine move =
+            Affine::translate(random.in_cube(5)) * Affine::rotate(random.unit_vector(), i) *
+            Affine::scale({random.uniform(0.1, 4), mirror ? -0.5 : 2.0, random.uniform(0.1, 4)});
+        const auto triangles = mesh.triangles;
+        mesh.transform(move);
+        ASSERT_EQ(mesh.triangles, triangles);
+        const Vec3 e1 = mesh.positions[1] - mesh.positions[0];
+        const Vec3 e2 = mesh.positions[2] - mesh.positions[0];
+        ASSERT_NEAR(dot(mesh.normals[0], e1), 0.0, 1e-12 * length(e1)) << "seed 71, case " << i;
+        ASSERT_NEAR(dot(mesh.normals[0], e2), 0.0, 1e-12 * length(e2)) << "seed 71, case " << i;
+        ASSERT_NEAR(length(mesh.normals[0]), 1.0, 1e-14) << "seed 71, case " << i;
+        // The side of the normal moves along; the winding turns over when mirrored.
+        ASSERT_EQ(dot(mesh.normals[0], cross(e1, e2)) < 0.0, mirror) << "seed 71, case " << i;
+    }
+}
+
+TEST(TriangleMesh, SurfaceInterpolatesAndBoundsItsError) {
+    Random random(72);
+    int hit_count = 0;
+    for (int i = 0; i < 50000; ++i) {
+        const double far = random.log_uniform(1, 1e5);
+        const Vec3 at = far * random.unit_vector();
+        TriangleMesh mesh{
+            .positions = {at + random.in_cube(1), at + random.in_cube(1), random.in_cube(2)},
+            .triangles = {{0, 1, 2}}};
+        const auto& p = mesh.positions;
+        const double b = random.uniform(), c = random.uniform() * (1 - b);
+        const Vec3 target = (1 - b - c) * p[0] + b * p[1] + c * p[2];
+        const Vec3 d = random.unit_vector();
+        const Ray ray = line(target - random.log_uniform(1, 1e3) * d, d);
+        ShapeHit hit;
+        if (!intersect_triangle(ray, RayShear(d), p[0], p[1], p[2], hit)) continue;
+        const ShapeSurface s = mesh.surface(0, hit);
+        const QuadVec n =
+            normalize(cross(QuadVec(p[1]) - QuadVec(p[0]), QuadVec(p[2]) - QuadVec(p[0])));
+        const auto off =
+            static_cast<double>(testing::magnitude(dot(n, QuadVec(s.point) - QuadVec(p[0]))));
+        const Vec3 exact_n{static_cast<double>(n.x), static_cast<double>(n.y),
+                           static_cast<double>(n.z)};
+        ASSERT_LE(off, dot(abs(exact_n), s.error)) << "seed 72, case " << i;
+        ASSERT_EQ(s.uv, (Vec2{hit.u, hit.v}));
+        ++hit_count;
+    }
+    EXPECT_GT(hit_count, 20000);
+}
+
+TEST(TriangleMesh, ShadingNormalFallsBackToTheGeometricOne) {
+    TriangleMesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}};
+    const ShapeHit hit{1, 0.25, 0.5, 0};
+    EXPECT_EQ(mesh.surface(0, hit).normal, (Vec3{0, 0, 1}));
+    EXPECT_EQ(mesh.surface(0, hit).shading_normal, (Vec3{0, 0, 1}));
+    mesh.normals = {{1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    EXPECT_NEAR(mesh.surface(0, hit).shading_normal.x, std::sqrt(0.5), 1e-15);
+    EXPECT_EQ(mesh.surface(0, hit).normal, (Vec3{0, 0, 1}));
+    mesh.normals.assign(3, {});
+    EXPECT_EQ(mesh.surface(0, hit).shading_normal, (Vec3{0, 0, 1}));
+    mesh.uvs = {{0, 0}, {4, 0}, {0, 8}};
+    EXPECT_EQ(mesh.surface(0, hit).uv, (Vec2{1, 4}));
+}
+
+TEST(TriangleMesh, BoundsHoldTheTriangles) {
+    Random random(73);
+    const TriangleMesh mesh = sphere_mesh(3);
+    EXPECT_EQ(mesh.box(), (Box3{{-1, -1, -1}, {1, 1, 1}}));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Vec3 axis = random.unit_vector();
+        const Interval extent = mesh.triangle_extent(i, axis);
+        for (const std::uint32_t v : mesh.triangles[i]) {
+            ASSERT_TRUE(mesh.triangle_box(i).contains(mesh.positions[v]));
+            const Quad exact = dot(QuadVec(axis), QuadVec(mesh.positions[v]));
+            ASSERT_TRUE(extent.lo <= exact && exact <= extent.hi) << i;
+        }
+        ASSERT_LT(extent.width(), 0.5) << i;
+    }
+}
+
+TEST(TriangleMesh, BadArraysAreReported) {
+    const auto errors = [](const TriangleMesh& mesh) {
+        Diagnostics diagnostics;
+        mesh.validate({}, diagnostics);
+        return diagnostics.error_count();
+    };
+    TriangleMesh mesh = sphere_mesh(0);
+    EXPECT_EQ(errors(mesh), 0u);
+    mesh.triangles[2][1] = 6;
+    EXPECT_EQ(errors(mesh), 1u);
+    mesh.positions[1].z = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(errors(mesh), 2u);
+    mesh.normals.resize(5);
+    EXPECT_EQ(errors(mesh), 3u);
+    mesh.uvs.resize(7);
+    EXPECT_EQ(errors(mesh), 4u);
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,92 @@
+#include "alhazen/solids/clearance.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/solids/solid_list.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+/// The clearance of two shapes that a scene holds alone.
+template <class A, class B>
+Clearance between(const A& a, const B& b, const Affine& place_b = {}) {
+    SceneMaker maker;
+    maker.add(a, MaterialId{0}, Affine::translate({1, 2, 3}));
+    maker.add(b, MaterialId{0}, Affine::translate({1, 2, 3}) * place_b);
+    const SolidList solids(maker.compile().aggregate);
+    // Their order in the table is that of the list of shapes.
+    return clearance(IsolatedSolid(solids, SolidId{0}), IsolatedSolid(solids, SolidId{1}));
+}
+
+void expect_clearance(const Clearance& found, double truth, double within) {
+    EXPECT_FALSE(found.overlap);
+    EXPECT_NEAR(found.at_most, truth, within);
+    EXPECT_GE(found.at_most, truth - 1e-12);
+    EXPECT_LE(found.at_least, truth + 1e-12);
+}
+
+TEST(Clearance, OfConvexSolidsBothBoundsMeet) {
+    const Clearance spheres = between(Sphere{{0, 0, 0}, 1}, Sphere{{3, 4, 0}, 2});
+    expect_clearance(spheres, 2, 1e-9);
+    EXPECT_NEAR(spheres.at_least, 2, 1e-9);
+    const Clearance boxes = between(BoxShape{{0, 0, 0}, {1, 1, 1}}, BoxShape{{2, 3, 0}, {3, 4, 1}});
+    expect_clearance(boxes, std::sqrt(5.0), 1e-6);
+    EXPECT_NEAR(boxes.at_least, std::sqrt(5.0), 1e-6);
+    const Clearance turned =
+        between(Sphere{{0, 0, 0}, 1}, BoxShape{{-1, -1, -1}, {1, 1, 1}},
+                Affine::translate({5, 0, 0}) * Affine::rotate({0, 0, 1}, 0.78539816339744831));
+    expect_clearance(turned, 4 - std::sqrt(2.0), 1e-6);
+    EXPECT_NEAR(turned.at_least, 4 - std::sqrt(2.0), 1e-6);
+    const Clearance crossed =
+        between(Cylinder{{-5, 0, 0}, {5, 0, 0}, 1}, Cylinder{{0, -5, 3.25}, {0, 5, 3.25}, 2});
+    expect_clearance(crossed, 0.25, 1e-9);
+    EXPECT_NEAR(crossed.at_least, 0.25, 1e-9);
+}
+
+TEST(Clearance, SolidsThatShareVolumeOverlap) {
+    const Clearance found = between(Sphere{{0, 0, 0}, 1}, Sphere{{1.5, 0, 0}, 1});
+    EXPECT_TRUE(found.overlap);
+    EXPECT_EQ(found.at_most, 0);
+    EXPECT_TRUE(between(Sphere{{0, 0, 0}, 5}, BoxShape{{-1, -1, -1}, {1, 1, 1}}).overlap);
+}
+
+TEST(Clearance, APinInAFrameHasAnUpperBoundOnly) {
+    // A closed frame of four bars around a rod.
+    TriangleMesh frame;
+    const auto add_bar = [&](const Vec3& lo, const Vec3& hi) {
+        const auto first = static_cast<std::uint32_t>(frame.positions.size());
+        for (int i = 0; i < 8; ++i) frame.positions.push_back(Box3{lo, hi}.corner(i));
+        for (const std::array<std::uint32_t, 3> t : {std::array<std::uint32_t, 3>{0, 2, 1},
+                                                     {1, 2, 3},
+                                                     {4, 5, 6},
+                                                     {5, 7, 6},
+                                                     {0, 1, 4},
+                                                     {1, 5, 4},
+                                                     {2, 6, 3},
+                                                     {3, 6, 7},
+                                                     {0, 4, 2},
+                                                     {2, 4, 6},
+                                                     {1, 3, 5},
+                                                     {3, 7, 5}}) {
+            frame.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
+    };
+    add_bar({-3, 2, -1}, {3, 3, 1});
+    add_bar({-3, -3, -1}, {3, -2, 1});
+    add_bar({-3, -1.9, -1}, {-2, 1.9, 1});
+    add_bar({2, -1.9, -1}, {3, 1.9, 1});
+    SceneMaker maker;
+    maker.add(Cylinder{{0.5, 0.25, -4}, {0.5, 0.25, 4}, 1});
+    maker.add(maker.mesh(frame));
+    const SolidList solids(maker.compile("wide_bvh").aggregate);
+    const Clearance found =
+        clearance(IsolatedSolid(solids, SolidId{0}), IsolatedSolid(solids, SolidId{1}));
+    expect_clearance(found, 0.5, 1e-6);
+    EXPECT_EQ(found.at_least, 0);
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,284 @@
+#include "alhazen/solids/solid_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "alhazen/base/error.h"
+#include "alhazen/solids/stratified_chords.h"
+#include "closed_forms.h"
+#include "support/sphere_mesh.h"
+
+namespace alhazen {
+namespace {
+
+using testing::known_solids;
+using testing::KnownSolid;
+using testing::LoneScene;
+using testing::SceneMaker;
+
+constexpr double kPi = 3.14159265358979323846;
+
+TEST(SolidMeasures, SolidsWithKnownFiguresHaveThem) {
+    for (const KnownSolid& known : known_solids()) {
+        const LoneScene scene(known);
+        const SolidMeasures m = measure(scene.solid, {.relative_error = 4e-4, .seconds = 20});
+        EXPECT_TRUE(m.reached) << known.name;
+        // Twice the interval: of these some fifty numbers a few miss their own.
+        const auto near = [&](const Estimate& e, double truth, const char* what) {
+            EXPECT_NEAR(e.value, truth, 2 * e.half_width) << known.name << " " << what;
+        };
+        near(m.volume, known.volume, "volume");
+        near(m.area, known.area, "area");
+        near(m.area_by_crofton, known.area, "Crofton");
+        for (int k = 0; k < 3; ++k) {
+            near(m.centroid[std::size_t(k)], known.centroid[k], "centroid");
+            near(m.volume_by_direction[std::size_t(k)], known.volume, "one direction");
+            if (known.inertia.x > 0) {
+                near(m.inertia[std::size_t(k)], known.inertia[k], "inertia");
+                near(m.inertia[std::size_t(k) + 3], 0, "product");
+            }
+        }
+        EXPECT_LT(m.volume.half_width, 5e-4 * known.volume) << known.name;
+        EXPECT_LT(m.area_by_crofton.half_width, 0.02 * known.area) << known.name;
+        EXPECT_TRUE(m.directions_agree) << known.name;
+        EXPECT_TRUE(m.areas_agree) << known.name;
+        EXPECT_EQ(m.inconsistent_lines, 0u);
+    }
+}
+
+TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
+    const LoneScene scene(known_solids()[1]);
+    const SolidMeasures m = measure(scene.solid);
+    EXPECT_NEAR(m.volume.value, 6, 1e-13);
+    EXPECT_LT(m.volume.half_width, 1e-12);
+    EXPECT_NEAR(m.area.value, 22, 1e-12);
+}
+
+/// How often the interval from half samples holds the truth.
+double coverage(const Measurable& solid, const BundleFrame& frame, double truth, bool area) {
+    constexpr int kRuns = 400;
+    int held = 0;
+    for (int run = 0; run < kRuns; ++run) {
+        StratifiedChords bundle(
+            solid, frame, solid.box().center(), 1000 + static_cast<unsigned>(run),
+            area ? StratifiedChords::Measured::Area : StratifiedChords::Measured::Volume);
+        bundle.grow_to(512);
+        bundle.grow_to(1024);
+        held += half_sample_estimate(area ? bundle.areas() : bundle.volumes()).holds(truth);
+    }
+    return held / double{kRuns};
+}
+
+TEST(SolidMeasures, IntervalsOfTheBundlesHoldTheTruthAsOftenAsTheySay) {
+    const Mat3 turned = Affine::rotate({3, -1, 2}, 1.1).linear;
+    const BundleFrame aslant{turned.x_axis, turned.y_axis, turned.z_axis};
+    const BundleFrame along_z{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    for (const KnownSolid& known : known_solids()) {
+        const LoneScene scene(known);
+        const double c = coverage(scene.solid, aslant, known.volume, false);
+        EXPECT_GE(c, 0.90) << known.name;
+        EXPECT_LE(c, 0.99) << known.name;
+    }
+    // The ends of a cylinder seen along its axis: nothing but a silhouette that is counted.
+    const LoneScene cylinder(known_solids()[3]);
+    const double ends = coverage(cylinder.solid, along_z, 3 * kPi, false);
+    EXPECT_GE(ends, 0.90);
+    EXPECT_LE(ends, 0.99);
+    const LoneScene sphere(known_solids()[0]);
+    const double share = coverage(sphere.solid, along_z, 16 * kPi / 3, true);
+    EXPECT_GE(share, 0.90);
+    EXPECT_LE(share, 0.99);
+}
+
+TEST(SolidMeasures, AMeshHasTheFiguresOfTheDivergenceTheorem) {
+    SceneMaker maker;
+    const testing::SphereMesh sphere(3);
+    TriangleMesh mesh;
+    mesh.positions = sphere.positions;
+    mesh.triangles = sphere.triangles;
+    const Affine placement =
+        Affine::translate({1, 2, 3}) * Affine::rotate({1, 1, 0}, 0.4) * Affine::scale({1, 2, 0.5});
+    TriangleMesh placed = mesh;
+    placed.transform(placement);
+    maker.add(maker.mesh(mesh), MaterialId{0}, placement);
+    maker.add(Sphere{{9, 9, 9}, 1});
+    const SolidList solids(maker.compile("wide_bvh").aggregate);
+    ASSERT_EQ(solids.count(), 2u);
+    const IsolatedSolid solid(solids, SolidId{1});
+    const SolidMeasures m = measure(solid, {.relative_error = 4e-4, .seconds = 20});
+    EXPECT_NEAR(m.volume.value, signed_volume(placed), 2 * m.volume.half_width);
+    EXPECT_NEAR(m.area.value, area(placed), 2 * m.area.half_width);
+    EXPECT_LT(m.volume.half_width, 5e-4 * m.volume.value);
+    EXPECT_TRUE(m.directions_agree);
+}
+
+TEST(SolidMeasures, TheLensOfTwoSpheresIsTheirOverlap) {
+    SceneMaker maker;
+    maker.add(Sphere{{0, 0, 0}, 1});
+    maker.add(Sphere{{0.6, 0.8, 0}, 1});
+    maker.add(Sphere{{5, 0, 0}, 1});
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid a(solids, SolidId{0}), b(solids, SolidId{1}), c(solids, SolidId{2});
+    // Two caps of height 1/2: 2 pi h^2 (3 - h) / 3 = 5 pi / 12.
+    const SolidMeasures lens =
+        measure(Overlap(a, b), {.relative_error = 1e-4, .seconds = 20, .area = false});
+    EXPECT_NEAR(lens.volume.value, 5 * kPi / 12, 2 * lens.volume.half_width);
+    EXPECT_LT(lens.volume.half_width, 2e-4);
+    EXPECT_EQ(measure(Overlap(a, c), {.area = false}).volume.value, 0);
+}
+
+TEST(SolidMeasures, BicylindersAreRightToFiveDigits) {
+    // Two as the overlap of cylinders, 16 r^3 / 3; along the axes, and turned.
+    for (const Affine& placement :
+         {Affine{}, Affine::rotate({1, -2, 1}, 0.8) * Affine::scale({2, 2, 2})}) {
+        SceneMaker maker;
+        maker.add(Cylinder{{-2, 0, 0}, {2, 0, 0}, 1}, MaterialId{0}, placement);
+        maker.add(Cylinder{{0, -2, 0}, {0, 2, 0}, 1}, MaterialId{0}, placement);
+        const SolidList solids(maker.compile().aggregate);
+        const IsolatedSolid a(solids, SolidId{0}), b(solids, SolidId{1});
+        const SolidMeasures m =
+            measure(Overlap(a, b), {.relative_error = 1e-5, .seconds = 20, .area = false});
+        const double truth = 16.0 / 3 * std::abs(determinant(placement.linear));
+        EXPECT_TRUE(m.reached);
+        EXPECT_NEAR(m.volume.value, truth, 2 * m.volume.half_width);
+        EXPECT_LE(m.volume.half_width, 1e-5 * truth);
+    }
+}
+
+TEST(SolidMeasures, SectionsHaveTheAreaOfDiscsEllipsesAndRectangles) {
+    SceneMaker maker;
+    maker.add(Sphere{{1, 1, 1}, 2});
+    maker.add(Cylinder{{0, 0, -5}, {0, 0, 5}, 1});
+    maker.add(BoxShape{{0, 0, 0}, {1, 2, 3}});
+    const SolidList solids(maker.compile().aggregate);
+    const MeasureOptions options{.relative_error = 1e-6, .seconds = 20};
+    const SectionArea disc =
+        section_area(IsolatedSolid(solids, SolidId{0}), {{0, 0, 2}, 4}, options);
+    EXPECT_NEAR(disc.area.value, 3 * kPi, 2 * disc.area.half_width);
+    EXPECT_LT(disc.area.half_width, 1e-5);
+    // Cut at 60 degrees to the axis the half axes are 1 and 2.
+    const double s = std::sqrt(3.0) / 2;
+    const SectionArea ellipse =
+        section_area(IsolatedSolid(solids, SolidId{2}), {{0, s, 0.5}, 0.1}, options);
+    EXPECT_NEAR(ellipse.area.value, 2 * kPi, 2 * ellipse.area.half_width);
+    const SectionArea rectangle =
+        section_area(IsolatedSolid(solids, SolidId{1}), {{1, 0, 0}, 0.5}, options);
+    EXPECT_NEAR(rectangle.area.value, 6, 1e-12);
+    EXPECT_EQ(section_area(IsolatedSolid(solids, SolidId{1}), {{1, 0, 0}, 5}).area.value, 0);
+    EXPECT_THROW((void)frame_of({{0, 0, 0}, 1}), Error);
+}
+
+TEST(SolidMeasures, WhatTheCornersOfAnAlmostFullShadowLackIsInTheInterval) {
+    // 8 gamma(1 + 1/p)^3 / gamma(1 + 3/p): of the difference to the cube a third is in corners that
+    // one line in 25000 meets.
+    constexpr double kPower = 200;
+    const double truth =
+        8 * std::exp(3 * std::lgamma(1 + 1 / kPower) - std::lgamma(1 + 3 / kPower));
+    Superellipsoid almost_a_cube;
+    almost_a_cube.east = almost_a_cube.north = 2 / kPower;
+    SceneMaker maker;
+    maker.add(almost_a_cube);
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+        const SolidMeasures m =
+            measure(solid, {.relative_error = 1e-3, .seconds = 20, .area = false, .seed = seed});
+        EXPECT_TRUE(m.volume.holds(truth))
+            << seed << ": " << m.volume.value << " +- " << m.volume.half_width;
+    }
+}
+
+TEST(SolidMeasures, LinesGoOnWhereThereAreAsManyCellsAsMayBe) {
+    const LoneScene sphere(known_solids()[0]);
+    const SolidMeasures m = measure(
+        sphere.solid,
+        {.relative_error = 5e-5, .seconds = 60, .area = false, .most_lines_of_round = 1 << 14});
+    EXPECT_TRUE(m.reached);
+    EXPECT_GT(m.lines, 100'000u);
+    EXPECT_NEAR(m.volume.value, 32 * kPi / 3, 2 * m.volume.half_width);
+}
+
+/// Every other line is said to have crossings that come in no pairs.
+class OddSolid final : public Measurable {
+  public:
+    [[nodiscard]] Box3 box() const override { return {{0, 0, 0}, {1, 1, 1}}; }
+    [[nodiscard]] Interval extent(const Vec3& axis) const override {
+        return alhazen::extent(box(), axis);
+    }
+    void cross(const Ray&, bool, LineSpans& found) const override {
+        found.spans.clear();
+        found.cosines = 0;
+        found.consistent = asked_.fetch_add(1) % 2 == 0;
+    }
+    [[nodiscard]] std::uint64_t asked() const { return asked_; }
+
+  private:
+    mutable std::atomic<std::uint64_t> asked_{0};
+};
+
+TEST(SolidMeasures, LinesWhoseCrossingsComeInNoPairsAreCountedInEveryRound) {
+    const OddSolid odd;
+    StratifiedChords bundle(odd, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {0.5, 0.5, 0.5}, 1);
+    for (const std::uint64_t lines : {1024u, 2048u, 0u}) bundle.grow_to(lines);
+    EXPECT_GT(odd.asked(), 4096u);
+    EXPECT_EQ(bundle.inconsistent(), odd.asked() / 2);
+}
+
+/// Counts the lines that ask for another solid.
+class CountedSolid final : public Measurable {
+  public:
+    explicit CountedSolid(const Measurable& solid) : solid_(solid) {}
+    [[nodiscard]] Box3 box() const override { return solid_.box(); }
+    [[nodiscard]] Interval extent(const Vec3& axis) const override { return solid_.extent(axis); }
+    void cross(const Ray& line, bool want_cosines, LineSpans& found) const override {
+        ++asked_;
+        solid_.cross(line, want_cosines, found);
+    }
+    [[nodiscard]] std::uint64_t asked() const { return asked_; }
+
+  private:
+    const Measurable& solid_;
+    mutable std::atomic<std::uint64_t> asked_{0};
+};
+
+TEST(SolidMeasures, WithoutTimePilotsAreShortToo) {
+    const LoneScene sphere(known_solids()[0]);
+    const CountedSolid counted(sphere.solid);
+    const SolidMeasures m = measure(counted, {.seconds = 0});
+    EXPECT_LT(counted.asked(), 8000u);
+    EXPECT_NEAR(m.volume.value, 32 * kPi / 3, 2 * m.volume.half_width);
+    EXPECT_FALSE(m.reached);
+}
+
+TEST(SolidMeasures, NothingHasNoMiddle) {
+    SceneMaker maker;
+    const ObjectIndex nothing = maker.object("nothing");
+    maker.description().objects.back().combine = Combine::Difference;
+    maker.add(Sphere{}, MaterialId{0}, {}, nothing);
+    maker.add(Sphere{}, MaterialId{0}, {}, nothing);
+    maker.add(nothing);
+    const SolidList solids(maker.compile().aggregate);
+    const SolidMeasures m = measure(IsolatedSolid(solids, SolidId{0}));
+    EXPECT_EQ(m.volume.value, 0);
+    EXPECT_FALSE(m.has_moments);
+    EXPECT_TRUE(m.in_range);
+}
+
+TEST(SolidMeasures, NumbersThatOverflowOrVanishSaySo) {
+    for (const double radius : {1e69, 1e-69, 1.0}) {
+        SceneMaker maker;
+        maker.add(Sphere{{0, 0, 0}, radius});
+        const SolidList solids(maker.compile().aggregate);
+        const SolidMeasures m =
+            measure(IsolatedSolid(solids, SolidId{0}), {.relative_error = 1e-2, .seconds = 20});
+        EXPECT_EQ(m.in_range, radius == 1.0) << radius;
+        EXPECT_TRUE(m.has_moments) << radius;
+        // The volume itself is a number, and so is its interval.
+        EXPECT_TRUE(m.volume.holds(4 * kPi / 3 * radius * radius * radius)) << radius;
+        EXPECT_GT(m.volume.half_width, 0) << radius;
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,115 @@
+#include "alhazen/solids/solid_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "alhazen/base/error.h"
+#include "alhazen/solids/solid_queries_json.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+/// root: a ball, a plane, two cars with two wheels each (one stored), a trailer used once.
+SceneMaker cars() {
+    SceneMaker maker;
+    Material rubber;
+    rubber.name = "rubber";
+    rubber.density = 1.5;
+    const MaterialId grey = maker.material({}), black = maker.material(rubber);
+    const ObjectIndex car = maker.object("car"), trailer = maker.object("trailer");
+    maker.add(Sphere{{0, 0, 5}, 1}, grey);
+    maker.add(Plane{}, grey);
+    maker.add(Cylinder{{0, 0, 0}, {0, 1, 0}, 0.5}, black, {}, car);
+    maker.description().objects[1].parts.back().name = "front";
+    maker.add(Cylinder{{0, 0, 0}, {0, 1, 0}, 0.5}, black, Affine::translate({2, 0, 0}), car);
+    maker.description().objects[1].parts.back().name = "rear";
+    maker.add(BoxShape{}, grey, {}, trailer);
+    maker.add(car);
+    maker.description().objects[0].parts.back().name = "taxi";
+    maker.add(car, MaterialId{0}, Affine::translate({10, 0, 0}));
+    maker.add(trailer, MaterialId{0}, Affine::translate({20, 0, 0}));
+    return maker;
+}
+
+TEST(SolidScene, SolidsAreCalledByThePartsThatLeadToThem) {
+    SceneMaker maker = cars();
+    const Scene scene = maker.compile();
+    const SolidScene solids(maker.description(), scene);
+    ASSERT_EQ(solids.solids().count(), 6u);
+    std::vector<std::string> names;
+    for (std::uint64_t i = 0; i < 6; ++i) names.push_back(solids.name(SolidId{i}));
+    EXPECT_EQ(names, (std::vector<std::string>{"sphere", "trailer/box", "taxi/front", "taxi/rear",
+                                               "car/front", "car/rear"}));
+    EXPECT_EQ(solids.density(SolidId{2}), 1.5);
+    EXPECT_EQ(solids.density(SolidId{0}), std::nullopt);
+}
+
+TEST(SolidScene, WordsChooseSolids) {
+    SceneMaker maker = cars();
+    const Scene scene = maker.compile();
+    const SolidScene solids(maker.description(), scene);
+    const auto chosen = [&](std::vector<std::string> words) {
+        std::vector<std::uint64_t> numbers;
+        for (const SolidId id : solids.select(words)) {
+            numbers.push_back(static_cast<std::uint64_t>(id));
+        }
+        return numbers;
+    };
+    EXPECT_EQ(chosen({}).size(), 6u);
+    EXPECT_EQ(chosen({"front"}), (std::vector<std::uint64_t>{2, 4}));
+    EXPECT_EQ(chosen({"car", "0"}), (std::vector<std::uint64_t>{0, 4, 5}));
+    EXPECT_EQ(chosen({"taxi/rear"}), (std::vector<std::uint64_t>{3}));
+    EXPECT_THROW((void)chosen({"bus"}), Error);
+    EXPECT_THROW((void)chosen({"6"}), Error);
+}
+
+TEST(SolidQueriesJson, AnswersHaveWhatWasAskedFor) {
+    SceneMaker maker = cars();
+    const Scene scene = maker.compile();
+    const SolidScene solids(maker.description(), scene);
+    const Ray ray = parse_ray("-5, 0.375 0.25 1,0,0");
+    SpanList list;
+    solids.queries().spans(ray, list);
+    const auto spans = spans_json(solids, ray, list.spans);
+    ASSERT_EQ(spans["spans"].size(), 5u);
+    EXPECT_EQ(spans["spans"][0]["name"], "taxi/front");
+    EXPECT_EQ(spans["spans"][0]["entry"]["material"], "rubber");
+    EXPECT_NEAR(spans["spans"][0]["entry"]["t"].get<double>(), 5 - std::sqrt(3.0) / 4, 1e-15);
+    EXPECT_LT(spans["spans"][0]["entry"]["normal"][0].get<double>(), 0);
+    const Vec3 point = parse_point("20,0,0.5");
+    const auto inside = inside_json(solids, point, solids.queries().inside(point));
+    ASSERT_EQ(inside["inside"].size(), 1u);
+    EXPECT_EQ(inside["inside"][0]["name"], "trailer/box");
+    EXPECT_EQ(inside["inside"][0]["on_surface"], true);
+    const auto thick = thickness_json(solids, ray, solids.queries().thickness(ray, list));
+    EXPECT_NEAR(thick["thickness"].get<double>(), 1 + 4 * std::sqrt(3.0) / 2, 1e-14);
+}
+
+TEST(SolidQueriesJson, BadNumbersAreRefusedWithTheirPlace) {
+    for (const char* bad : {"", "1,2,3", "1,2,3,4,5,x", "1,2,3,0,0,0", "1,2,3,4,5,6,7",
+                            "nan,0,0,1,0,0", "1,2,3,4,5,6,9,8", "1;2;3;4;5;6"}) {
+        EXPECT_THROW((void)parse_ray(bad), Error) << bad;
+    }
+    EXPECT_THROW((void)parse_point("1,2"), Error);
+    EXPECT_EQ(parse_ray("0 0 0 1 0 0 -1 inf").t_min, -1);
+    std::istringstream text("# rays\n\n0 0 0 1 0 0 # one\r\n  \n1 1 1 0 1\n");
+    LineReader reader(text, "rays.txt");
+    const auto lines = reader.next(10);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_NO_THROW((void)parse_ray(lines[0].text, lines[0].where));
+    try {
+        (void)parse_ray(lines[1].text, lines[1].where);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("rays.txt:5"), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(reader.next(10).empty());
+}
+
+}  // namespace
+}  // namespace alhazen
