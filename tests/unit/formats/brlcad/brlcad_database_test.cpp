@@ -4,7 +4,7 @@
 
 #include "alhazen/formats/brlcad/brlcad_v4_reader.h"
 #include "alhazen/formats/brlcad/brlcad_v5_reader.h"
-#include "import_text.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

@@ -6,7 +6,7 @@
 #include "alhazen/formats/brlcad/brlcad_view.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/solids/spans.h"
-#include "import_text.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

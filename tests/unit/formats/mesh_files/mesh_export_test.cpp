@@ -10,9 +10,9 @@
 #include "alhazen/formats/obj/obj_reader.h"
 #include "alhazen/formats/ply/ply_reader.h"
 #include "alhazen/formats/stl/stl_reader.h"
-#include "import_text.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

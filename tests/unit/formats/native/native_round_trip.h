@@ -12,7 +12,7 @@
 #include "support/random.h"
 #include "support/same_description.h"
 #include "support/scratch_folder.h"
-#include "text_scene.h"
+#include "unit/formats/text_scene.h"
 
 namespace alhazen::testing {
 

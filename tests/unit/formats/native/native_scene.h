@@ -9,7 +9,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/formats/native/read/native_importer.h"
-#include "text_scene.h"
+#include "unit/formats/text_scene.h"
 
 namespace alhazen::testing {
 

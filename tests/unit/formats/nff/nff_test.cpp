@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "import_text.h"
 #include "support/test_data.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "alhazen/formats/obj/mtl_reader.h"
 #include "alhazen/imaging/codecs/image_io.h"
-#include "import_text.h"
 #include "support/random.h"
 #include "support/test_data.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

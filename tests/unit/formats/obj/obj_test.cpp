@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "import_text.h"
 #include "support/test_data.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <random>
 
-#include "import_text.h"
 #include "support/test_data.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/formats/ray/ray_importer.h"
-#include "text_scene.h"
+#include "unit/formats/text_scene.h"
 
 namespace alhazen::testing {
 

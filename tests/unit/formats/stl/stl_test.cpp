@@ -9,10 +9,10 @@
 #include "alhazen/formats/mesh/vertex_welder.h"
 #include "alhazen/formats/mesh_files/mesh_export.h"
 #include "alhazen/formats/stl/stl_reader.h"
-#include "import_text.h"
 #include "support/random.h"
 #include "support/sphere_mesh.h"
 #include "support/test_data.h"
+#include "unit/formats/import_text.h"
 
 namespace alhazen {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/shapes/blobs/blob.h"
-#include "exact_sturm.h"
 #include "support/random.h"
 #include "unit/shapes/algebraic/certified_sturm.h"
+#include "unit/shapes/algebraic/exact_sturm.h"
 
 namespace alhazen {
 namespace {
