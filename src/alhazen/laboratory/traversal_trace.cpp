@@ -11,7 +11,7 @@
 #include "alhazen/accel/cells/uniform_grid.h"
 #include "alhazen/accel/directions/ray_classification.h"
 #include "alhazen/base/error.h"
-#include "alhazen/laboratory/convex_corners.h"
+#include "alhazen/laboratory/plane_corners.h"
 #include "alhazen/primitives/bounded_primitives.h"
 
 namespace alhazen {
@@ -112,7 +112,7 @@ std::vector<Vec3> shape_of(const KayKajiya& kay_kajiya, const TraversalStep& ste
             sides.push_back({n, bound.range[k].hi});
             sides.push_back({-n, -bound.range[k].lo});
         }
-        return convex_corners(sides);
+        return plane_corners(sides);
     };
     return std::visit(
         [&](const auto& tree) {
@@ -170,7 +170,7 @@ void add_shapes(const RayClassification& made, TraversalTrace& result) {
             keep(across - cube.hi[slope] * forward, from);
             keep(cube.lo[slope] * forward - across, from);
         }
-        TraversalStep beam{Kind::Beam, true, 0, convex_corners(sides)};
+        TraversalStep beam{Kind::Beam, true, 0, plane_corners(sides)};
         result.steps.insert(result.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                             std::move(beam));
         return;
