@@ -5,11 +5,11 @@
 namespace alhazen {
 namespace {
 
-/// Cells along an axis, and in all.
+/// Maximum numbers of cells along an axis and in total.
 constexpr int kMostAlongAxis = 1024;
 constexpr double kMostCells = 1 << 27;
 
-/// Throws Error (Usage) for too many cells. 0: as many as the density asks for.
+/// Throws Error (Usage) for too many cells. 0: by the density.
 void check_cell_count(const std::array<int, 3>& cells) {
     double count = 1;
     for (const int n : cells) count *= std::max(n, 1);
@@ -17,7 +17,7 @@ void check_cell_count(const std::array<int, 3>& cells) {
     throw Error(ErrorKind::Usage, "uniform_grid: nx, ny and nz make more than 134217728 cells");
 }
 
-/// Calls add(cell number) for all cells that the primitive, or its box, may have a point in.
+/// Calls add(cell number) for all cells that may contain a point of the primitive, or of its box.
 template <class Add>
 void for_cells(const CellGrid& grid, const BoundsSource& source, std::size_t i, bool by_box,
                const Add& add) {
