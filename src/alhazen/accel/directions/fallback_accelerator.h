@@ -1,5 +1,5 @@
 #pragma once
-/// What traces the rays that a structure for some rays has no lists for.
+/// The fallback accelerator: traces the rays for which a structure has no lists.
 
 #include <utility>
 #include <variant>
