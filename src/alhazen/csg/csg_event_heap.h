@@ -26,7 +26,7 @@ class CsgEventHeap final : public CsgEvaluator {
   public:
     static constexpr const char* kName = "event_heap";
     static constexpr const char* kDescription =
-        "S-bounds in a tree of boxes, a heap of crossings (a table for a few leaves): for any size";
+        "S-bounds in a tree of boxes, heap of crossings (table for a few leaves): for any size";
 
     explicit CsgEventHeap(const CsgSolid& solid) : CsgEventHeap(solid, solid.tree().bounds()) {}
     /// Uses other bounds than the S-bounds: at least as large.

@@ -21,8 +21,7 @@ namespace alhazen {
 class CsgRoth final : public CsgEvaluator {
   public:
     static constexpr const char* kName = "roth";
-    static constexpr const char* kDescription =
-        "span lists merged bottom-up (Roth 1982): the classical one";
+    static constexpr const char* kDescription = "span lists merged bottom-up (Roth 1982)";
 
     explicit CsgRoth(const CsgSolid& solid);
 

@@ -14,7 +14,7 @@ inline constexpr const char* kBoundNames[] = {"sphere", "ellipsoid", "box",
                                               "slabs3", "slabs7",    "slabs13"};
 
 [[nodiscard]] inline BoundKind read_bound(SettingsReader& reader, BoundKind fallback) {
-    return static_cast<BoundKind>(reader.choice("bound", "what lies around primitives",
+    return static_cast<BoundKind>(reader.choice("bound", "bound of primitives",
                                                 static_cast<std::size_t>(fallback), kBoundNames));
 }
 
@@ -24,7 +24,7 @@ enum class NestingBound : std::uint8_t { Sphere, Box, Slabs7, Slabs13 };
 
 [[nodiscard]] inline NestingBound read_nesting_bound(SettingsReader& reader,
                                                      NestingBound fallback) {
-    return static_cast<NestingBound>(reader.choice("bound", "what lies around primitives and nodes",
+    return static_cast<NestingBound>(reader.choice("bound", "bound of primitives and nodes",
                                                    static_cast<std::size_t>(fallback),
                                                    kNestingBoundNames));
 }

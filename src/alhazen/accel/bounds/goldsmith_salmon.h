@@ -29,7 +29,7 @@ class GoldsmithSalmon {
   public:
     static constexpr const char* kName = "goldsmith_salmon";
     static constexpr const char* kDescription =
-        "boxes in a hierarchy, each primitive inserted where the cost grows least";
+        "hierarchy of boxes, each primitive inserted where the cost grows least";
     struct Config {
         int orders = 1;  ///< random orders of insertion to try, keeping the cheapest tree.
                          ///< 0: the scene's order

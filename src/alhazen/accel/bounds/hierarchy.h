@@ -32,7 +32,7 @@ class Hierarchy {
         static constexpr const char* kOrders[] = {"stored", "nearest"};
         return {read_nesting_bound(reader, NestingBound::Box),
                 static_cast<ChildOrder>(
-                    reader.choice("order", "which child of a node comes first", 1, kOrders))};
+                    reader.choice("order", "order of the children of a node", 1, kOrders))};
     }
 
     [[nodiscard]] static Hierarchy build(const BoundsSource& source, const Config& config) {

@@ -22,7 +22,7 @@ class KayKajiya {
   public:
     static constexpr const char* kName = "kay_kajiya";
     static constexpr const char* kDescription =
-        "slabs shared by all bounds, the nearest bound first by a heap";
+        "slabs of common directions, nearest bound first by a heap";
     struct Config {
         int slabs = 7;  ///< 3, 7 or 13
     };

@@ -342,22 +342,22 @@ Bsp::Config Bsp::configure(SettingsReader& reader) {
     static constexpr int kDirections[] = {3, 7, 13, 3};
     Config config;
     const std::size_t planes = reader.choice(
-        "planes", "across so many directions, or the axes and all that polygons have", 2, kPlanes);
+        "planes", "number of plane directions, or the axes and the planes of polygons", 2, kPlanes);
     config.directions = kDirections[planes];
     config.polygons = planes == 3;
     config.candidates = reader.count(
-        "candidates", "planes weighed for each direction, polygons that offer theirs", 16, 1, 1000);
+        "candidates", "planes weighed per direction, polygons that contribute planes", 16, 1, 1000);
     config.axis_cost =
-        reader.number("axis_cost", "of a step at a plane across an axis", 15, 0.001, 1e6);
+        reader.number("axis_cost", "cost of a step at an axis-aligned plane", 15, 0.001, 1e6);
     config.traversal_cost =
-        reader.number("traversal_cost", "of a step at any other plane", 25, 0.001, 1e6);
-    config.test_cost = reader.number("test_cost", "of a primitive", 20, 0.001, 1e6);
+        reader.number("traversal_cost", "cost of a step at any other plane", 25, 0.001, 1e6);
+    config.test_cost = reader.number("test_cost", "cost of testing a primitive", 20, 0.001, 1e6);
     config.empty_factor = reader.number(
-        "empty_factor", "of the cost of a split across an axis that cuts off empty space", 0.8,
-        0.01, 1);
+        "empty_factor", "cost factor of an axis-aligned split that cuts off empty space", 0.8, 0.01,
+        1);
     config.max_depth =
-        reader.count("max_depth", "of the tree, 0: by the number of primitives", 0, 0, 64);
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+        reader.count("max_depth", "depth of the tree, 0: by the number of primitives", 0, 0, 64);
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     return config;
 }
 

@@ -289,16 +289,17 @@ class KdTreeBuilder {
 
 KdTree::Config KdTree::configure(SettingsReader& reader) {
     Config config;
-    config.traversal_cost = reader.number("traversal_cost", "of a step to a child", 15, 0.001, 1e6);
-    config.test_cost = reader.number("test_cost", "of a primitive", 20, 0.001, 1e6);
+    config.traversal_cost =
+        reader.number("traversal_cost", "cost of a step to a child", 15, 0.001, 1e6);
+    config.test_cost = reader.number("test_cost", "cost of testing a primitive", 20, 0.001, 1e6);
     config.empty_factor = reader.number(
-        "empty_factor", "of the cost of a split that cuts off empty space", 0.8, 0.01, 1);
+        "empty_factor", "cost factor of a split that cuts off empty space", 0.8, 0.01, 1);
     config.max_depth =
-        reader.count("max_depth", "of the tree, 0: by the number of primitives", 0, 0, 64);
+        reader.count("max_depth", "depth of the tree, 0: by the number of primitives", 0, 0, 64);
     static constexpr const char* kBuilders[] = {"nlogn", "n2"};
     config.quadratic =
-        reader.choice("build", "how the cheapest planes are found", 0, kBuilders) == 1;
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+        reader.choice("build", "method of finding the cheapest planes", 0, kBuilders) == 1;
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     return config;
 }
 

@@ -26,8 +26,7 @@ namespace alhazen {
 class KdTree {
   public:
     static constexpr const char* kName = "kd_tree";
-    static constexpr const char* kDescription =
-        "planes across the axes by the surface area heuristic";
+    static constexpr const char* kDescription = "axis-aligned planes by the surface area heuristic";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
         double traversal_cost = 15;  ///< cost of a step to a child

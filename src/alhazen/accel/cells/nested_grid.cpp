@@ -272,14 +272,15 @@ class NestedGridBuilder {
 
 NestedGrid::Config NestedGrid::configure(SettingsReader& reader) {
     Config config;
-    config.density = reader.number("density", "cells for each primitive of a grid", 3, 1e-3, 1000);
-    config.max_depth = reader.count("max_depth", "grids in each other", 3, 1, 8);
-    config.leaf_size = reader.count("leaf_size", "so many primitives are a list", 8, 1, 1000000);
+    config.density = reader.number("density", "cells per primitive of a grid", 3, 1e-3, 1000);
+    config.max_depth = reader.count("max_depth", "nesting depth of grids", 3, 1, 8);
+    config.leaf_size =
+        reader.count("leaf_size", "at most this many primitives stay a list", 8, 1, 1000000);
     static constexpr const char* kPlanes[] = {"equal", "balanced"};
     config.balanced =
         reader.choice("planes", "equally spaced, or at equal shares of the primitives", 0,
                       kPlanes) == 1;
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     return config;
 }
 

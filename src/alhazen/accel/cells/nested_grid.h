@@ -29,7 +29,7 @@ namespace alhazen {
 class NestedGrid {
   public:
     static constexpr const char* kName = "nested_grid";
-    static constexpr const char* kDescription = "grids in the cells of grids";
+    static constexpr const char* kDescription = "nested grids: cells divided by grids of their own";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
         double density = 3;     ///< cells per primitive of a grid

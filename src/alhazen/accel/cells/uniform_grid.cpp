@@ -39,7 +39,7 @@ void for_cells(const CellGrid& grid, const BoundsSource& source, std::size_t i, 
 
 UniformGrid::Config UniformGrid::configure(SettingsReader& reader) {
     Config config;
-    config.density = reader.number("density", "cells for each primitive", 3, 1e-6, 1000);
+    config.density = reader.number("density", "cells per primitive", 3, 1e-6, 1000);
     static constexpr const char* kAlong[] = {"nx", "ny", "nz"};
     for (std::size_t k = 0; k < 3; ++k) {
         config.cells[k] = reader.count(kAlong[k], "cells along the axis, 0: by the density", 0, 0,
@@ -47,10 +47,9 @@ UniformGrid::Config UniformGrid::configure(SettingsReader& reader) {
     }
     check_cell_count(config.cells);
     static constexpr const char* kLists[] = {"exact", "boxes"};
-    config.by_boxes =
-        reader.choice("lists", "what must reach into a cell: the primitive, or its box", 0,
-                      kLists) == 1;
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+    config.by_boxes = reader.choice("lists", "what must overlap a cell: the primitive, or its box",
+                                    0, kLists) == 1;
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     config.hit_in_cell =
         reader.flag("hit_in_cell", "off: a hit beyond its cell counts (wrong pictures)", true);
     return config;

@@ -23,7 +23,7 @@ namespace alhazen {
 class UniformGrid {
   public:
     static constexpr const char* kName = "uniform_grid";
-    static constexpr const char* kDescription = "equal cells, walked along the ray";
+    static constexpr const char* kDescription = "equal cells, traversed along the ray";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
         double density = 3;          ///< cells per primitive

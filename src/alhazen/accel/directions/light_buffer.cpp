@@ -288,12 +288,11 @@ class LightBufferBuilder {
 
 LightBuffer::Config LightBuffer::configure(SettingsReader& reader) {
     Config config;
-    config.density =
-        reader.number("density", "cells of a light for each primitive", 16, 1e-6, 1000);
+    config.density = reader.number("density", "cells of a light per primitive", 16, 1e-6, 1000);
     config.resolution = reader.count(
-        "resolution", "cells along the longest edge of what a light sees, 0: by the density", 0, 0,
+        "resolution", "cells along the longest edge of a light's window, 0: by the density", 0, 0,
         4096);
-    config.lights = reader.count("lights", "so many get a buffer", 16, 0, 1000);
+    config.lights = reader.count("lights", "maximum number of lights with a buffer", 16, 0, 1000);
     config.full_cells =
         reader.flag("full_cells", "lists end behind a polygon that fills their cell", true);
     config.shadow_cache = reader.flag("shadow_cache", "test the last occluder first", true);

@@ -43,7 +43,7 @@ class LightBuffer {
   public:
     static constexpr const char* kName = "light_buffer";
     static constexpr const char* kDescription =
-        "lists of what stands in a light's way, for shadow rays";
+        "lists of potential occluders per light, for shadow rays";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
         double density = 16;       ///< cells of a light per primitive

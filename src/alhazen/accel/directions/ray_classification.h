@@ -30,7 +30,7 @@ class RayClassification {
   public:
     static constexpr const char* kName = "ray_classification";
     static constexpr const char* kDescription =
-        "lists for classes of rays of neighbouring places and directions";
+        "lists for classes of rays of neighbouring origins and directions";
     using Config = RayHypercubes::Limits;
     [[nodiscard]] static Config configure(SettingsReader& reader);
 
