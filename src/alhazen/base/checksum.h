@@ -49,7 +49,8 @@ class Checksum {
 
   private:
     static std::uint64_t step(std::uint64_t sum, std::uint64_t word) {
-        // Without the shift a top bit would come out alone, and one bit of a later word undo it.
+        // The shift spreads a change of the top bit; without it one bit of a later word could undo
+        // it.
         const std::uint64_t product = (sum ^ word) * 0x9E3779B97F4A7C15u;
         return product ^ product >> 32;
     }

@@ -3,8 +3,8 @@
 /// tile and machine.
 ///
 /// Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014
-/// (the mixing function of SplitMix64). Differs: used as a hash of the coordinates, not as a
-/// sequence.
+/// (the mixing function of SplitMix64).
+/// Differs: used as a hash of the coordinates, not as a sequence.
 
 #include <cstdint>
 

@@ -30,7 +30,7 @@ class UniformGrid {
         std::array<int, 3> cells{};  ///< number along each axis; 0: by the density
         bool by_boxes = false;       ///< store a primitive in all cells that its box overlaps
         bool mailbox = true;         ///< test a primitive in many cells once per ray
-        bool hit_in_cell = true;     ///< false shows the errors without this rule
+        bool hit_in_cell = true;     ///< end only at hits inside the cell; false shows the errors
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
 

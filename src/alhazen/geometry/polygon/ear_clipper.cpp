@@ -38,7 +38,7 @@ std::vector<std::array<std::uint32_t, 3>> EarClipper::clip() {
     return std::move(triangles_);
 }
 
-/// Cuts off vertices that repeat the one before them: they have no angle.
+/// Cuts off vertices that coincide with the next one: they have no angle.
 void EarClipper::merge_repeated() {
     for (std::uint32_t i = 0; i < corners_.size() && left_ > 2; ++i) {
         if (flat_[i] == flat_[corners_[i].next]) emit(i);

@@ -2,9 +2,9 @@
 /// Reads and writes PNG, 8 and 16 bit, with libpng.
 ///
 /// Source: ISO/IEC 15948 (PNG).
-/// Differs: ignores gAMA, sBIT, ICC profiles and text: samples are sRGB display codes. Conventions:
-/// read samples are code / 255 or code / 65535; palettes become RGB, tRNS becomes alpha. Damage in
-/// critical chunks, including a truncated file, is an error.
+/// Differs: ignores gAMA, sBIT, ICC profiles and text: samples are sRGB display codes.
+/// Conventions: read samples are code / 255 or code / 65535; palettes become RGB, tRNS becomes
+/// alpha. Damage in critical chunks, including a truncated file, is an error.
 
 #include <cstddef>
 #include <string>
