@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<const char*, 5> kLengthUnits{"mm", "cm", "in", "pt", "px"};
 
-/// Text for XML: marks are named, control characters and what is no ASCII become '?'.
+/// Text for XML: markup is escaped; control characters and non-ASCII characters become '?'.
 std::string xml(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -49,8 +49,8 @@ std::string css(const Rgb& color) {
     return out;
 }
 
-/// The corners of what the SVG shows, y downward: all loops; without any, the shadow of `around`
-/// on the plane, or a square of one unit.
+/// The corners of the visible region, y downward: all loops; without loops the projection of
+/// `around` onto the plane, or a unit square.
 void find_corners(const std::vector<SectionLayer>& layers, const PlaneFrame& frame,
                   const Box3& around, Vec2& lo, Vec2& hi) {
     const double inf = std::numeric_limits<double>::infinity();
@@ -74,7 +74,7 @@ void find_corners(const std::vector<SectionLayer>& layers, const PlaneFrame& fra
     hi = {x.hi - level_x, level_y - y.lo};
 }
 
-/// Coordinates run down in an SVG.
+/// SVG coordinates have y downward.
 std::string path_of(const SectionOutlines& outlines) {
     std::string d;
     for (const Polyline& loop : outlines.loops) {
