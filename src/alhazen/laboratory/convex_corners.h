@@ -2,7 +2,7 @@
 /// Corners of small convex bodies, and outlines of their projections, for drawings.
 ///
 /// Source: A. M. Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions",
-/// Information Processing Letters 9, 1979 (`convex_outline`). Differs: nothing.
+/// Information Processing Letters 9, 1979 (`convex_outline`).
 
 #include <span>
 #include <vector>
@@ -17,11 +17,11 @@ struct HalfSpaceOfPoints {
     double offset = 0;
 };
 
-/// Every point where three of the planes meet and none of the half-spaces is left by more than
-/// rounding. O(n^4): for some dozens of planes. Empty when the body is unbounded or empty.
+/// Every intersection point of three planes that leaves no half-space by more than rounding.
+/// O(n^4): for some dozens of planes. Empty when the body is unbounded or empty.
 [[nodiscard]] std::vector<Vec3> convex_corners(std::span<const HalfSpaceOfPoints> sides);
 
-/// The hull of points of the plane, counter-clockwise; fewer than three for points in a line.
+/// The hull of points of the plane, counter-clockwise; fewer than three for collinear points.
 [[nodiscard]] std::vector<Vec2> convex_outline(std::vector<Vec2> points);
 
 }  // namespace alhazen
