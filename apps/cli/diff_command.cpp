@@ -15,7 +15,7 @@ namespace alhazen::cli {
 
 namespace {
 
-/// Two pictures of 8192 x 4096 pixels pass, and stay below 1 GiB.
+/// Room for two pictures of 8192 x 4096 pixels within 1 GiB.
 constexpr std::uint64_t kDiffMiB = 960;
 
 struct Metric {
