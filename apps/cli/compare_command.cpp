@@ -223,11 +223,11 @@ void add_compare(CLI::App& app, int& exit_status) {
         ->type_name("FILE");
     command
         ->add_option("--accelerators", args->accelerators,
-                     "Which, as NAME,NAME:SETTING=VALUE,... or all; list and wide_bvh always are")
+                     "NAME,NAME:SETTING=VALUE,... or all; list and wide_bvh are always added")
         ->type_name("LIST")
         ->capture_default_str();
     command->add_flag("--no-tuning", args->no_tuning,
-                      "Do not look for the best settings of each accelerator");
+                      "Do not search the best settings of each accelerator");
     command
         ->add_option("--time-limit", args->compare.time_limit,
                      "Seconds for counting the rays of one accelerator, as many for timing them, "
@@ -260,10 +260,10 @@ void add_compare(CLI::App& app, int& exit_status) {
                      "Draw what one accelerator does for the eye ray of this pixel, from the top "
                      "left")
         ->type_name("X,Y");
-    command->add_option("--svg", args->svg, "Where to draw it")->type_name("FILE");
+    command->add_option("--svg", args->svg, "SVG file of the drawing")->type_name("FILE");
     command
         ->add_option("--along", args->along,
-                     "From where: x, y, z or isometric; default: across the ray")
+                     "View direction: x, y, z or isometric; default: across the ray")
         ->type_name("AXIS");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, command, &exit_status] {

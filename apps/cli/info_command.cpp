@@ -18,7 +18,7 @@ void add_info(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand("info", "Say what is in a scene");
     const auto args = std::make_shared<Arguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
-    command->add_flag("--json", args->json, "As JSON");
+    command->add_flag("--json", args->json, "Print JSON");
     command->add_flag("--all", args->all,
                       "Do not cut lists short; also look whether meshes of more than two million "
                       "triangles are closed");

@@ -224,7 +224,7 @@ TraversalTrace trace_traversal(const Scene& scene, const std::string& accelerato
         entry.trace(scene, choice, result);
         return result;
     }
-    throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be traced; those that can are: {}",
+    throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be traced; traceable accelerators: {}",
                                               choice.name, traceable_accelerators()));
 }
 

@@ -35,7 +35,7 @@ struct ViewAngles {
                                                const ViewAngles& view, double aspect);
 
 struct FramingOptions {
-    std::optional<ViewAngles> view;  ///< if given: a framing camera replaces those of the file
+    std::optional<ViewAngles> view;  ///< if given: a framing camera is put before those of the file
     std::string camera;              ///< the selected camera; empty: the first
     double aspect = 4.0 / 3.0;       ///< width / height of the picture
 };
