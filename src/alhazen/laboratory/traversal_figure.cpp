@@ -17,7 +17,7 @@ namespace {
 using Kind = TraversalStep::Kind;
 
 constexpr double kWidth = 900, kMargin = 24, kLegend = 64;
-/// Of a large scene only what is tested is drawn.
+/// In larger scenes only the tested primitives are drawn.
 constexpr std::size_t kMostDrawn = 5000;
 
 /// From the world to the paper.
@@ -152,7 +152,7 @@ class Figure {
         if (box.empty()) box.include(trace.ray.origin);
         const Vec3 reach = 0.5 * box.size() + Vec3{1e-9, 1e-9, 1e-9};
         const Vec3 out = abs(trace.ray.origin - box.center());
-        // Of an eye that is far away only the last part of the way is shown.
+        // For a distant eye only the last part of the ray is shown.
         if (out.x < 2 * reach.x && out.y < 2 * reach.y && out.z < 2 * reach.z) {
             box.include(trace.ray.origin);
         }
@@ -238,7 +238,7 @@ class Figure {
         return text;
     }
 
-    /// Where the ray is in the picture.
+    /// The part of the ray inside the picture.
     std::string ray() const {
         const Ray& ray = trace_.ray;
         double enter = 0, leave = 1e300;
@@ -270,8 +270,7 @@ class Figure {
                           p.x, p.y);
     }
 
-    /// Numbers in the lower left of cells that have room for them; of several in one place the
-    /// first.
+    /// Numbers in the lower left of cells with space for them; of several in one place the first.
     std::string numbers() const {
         if (count(Kind::Beam) > 0) return "";
         std::string text;
