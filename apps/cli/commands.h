@@ -1,6 +1,5 @@
 #pragma once
-/// The sub-commands. Each function adds one to the command line; its callback sets `exit_status`
-/// when it ran.
+/// The sub-commands. Each function adds one to the command line; its callback sets `exit_status`.
 
 #include <CLI/CLI.hpp>
 

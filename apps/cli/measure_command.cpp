@@ -20,7 +20,7 @@ namespace alhazen::cli {
 
 namespace {
 
-/// More solids are measured only when they are named, or with --all.
+/// More solids are measured only when named, or with --all.
 constexpr std::size_t kMostSolids = 64;
 
 struct MeasureArguments {
@@ -34,7 +34,7 @@ struct MeasureArguments {
     bool all = false, quiet = false;
 };
 
-/// Two solids by name or number, apart by a comma.
+/// Two solids by name or number, separated by a comma.
 std::pair<SolidId, SolidId> find_pair(const SolidScene& scene, const std::string& text) {
     for (std::size_t comma = text.find(','); comma != std::string::npos;
          comma = text.find(',', comma + 1)) {
@@ -68,7 +68,7 @@ struct WantedPair {
     bool overlap = false;  ///< else their clearance
 };
 
-/// All of them, before anything is measured: names may be wrong.
+/// Resolves all pairs before measuring: names may be wrong.
 std::vector<WantedPair> find_pairs(const SolidScene& scene, const MeasureArguments& args) {
     std::vector<WantedPair> pairs;
     for (const std::string& text : args.overlaps) pairs.push_back({find_pair(scene, text), true});

@@ -30,7 +30,7 @@ struct SectionArguments {
     bool quiet = false;
 };
 
-/// What the plane cuts out of one solid.
+/// The cut of one solid.
 struct Cut {
     SolidId solid{};
     std::string name;
@@ -70,7 +70,7 @@ Chosen choose(const SolidScene& solids, const std::vector<std::string>& objects)
     return chosen;
 }
 
-/// Before anything is measured.
+/// Checks the tolerance before any measurement.
 void check_tolerance(const Box3& box, std::optional<double> tolerance) {
     if (!tolerance || *tolerance >= least_tolerance(box)) return;
     throw Error(ErrorKind::Usage,
@@ -79,7 +79,7 @@ void check_tolerance(const Box3& box, std::optional<double> tolerance) {
                             *tolerance, least_tolerance(box)));
 }
 
-/// Areas of what is cut, in the order of the solids; those that the plane misses are left out.
+/// Cut areas in the order of the solids, without solids that the plane misses.
 std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
                             const SectionPlane& plane, const SectionArguments& args) {
     const MeasureOptions options{
@@ -92,7 +92,7 @@ std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
     return cuts;
 }
 
-/// The text of the SVG; `unresolved` becomes the number of places that may be wrong.
+/// The text of the SVG; sets `unresolved` to the number of doubtful places.
 std::string outlines_of(const SolidScene& solids, const Scene& scene, const PlaneFrame& frame,
                         const Chosen& chosen, const std::vector<Cut>& cuts, SectionArguments& args,
                         std::uint64_t& unresolved) {
@@ -221,7 +221,7 @@ void run_section(SectionArguments& args, int& exit_status) {
         if (!args.svg.empty()) {
             svg = outlines_of(solids, loaded.scene, frame, chosen, cuts, args, unresolved);
         }
-        // Until here a signal ends the program, which has written nothing; now all of it is.
+        // Until here a signal ends the program, and nothing is written; from here all is written.
         (void)stop_on_signals();
         if (picture) write_image(args.output, *picture);
         if (!args.svg.empty()) write_file_atomically(args.svg, svg);

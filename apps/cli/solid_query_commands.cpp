@@ -1,4 +1,4 @@
-/// `spans`, `inside`, `thickness`: questions about the solids of a scene, a line of JSON for each.
+/// `spans`, `inside`, `thickness`: queries about the solids of a scene, a line of JSON for each.
 
 #include <fstream>
 #include <iostream>
@@ -18,7 +18,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Lines that are answered together, over all threads.
+/// Lines answered together, over all threads.
 constexpr std::size_t kBatch = 16384;
 
 struct SolidQueryArguments {
@@ -33,7 +33,7 @@ void print_line(const json& line) {
     (void)std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
-/// Calls answer(batch) with what was given and then with what the file holds, a batch at a time.
+/// Calls answer(batch) for the given items, then for those of the file, a batch at a time.
 template <class Question, class Parse, class Answer>
 void for_each_batch(const SolidQueryArguments& args, const Parse& parse, const Answer& answer) {
     std::vector<Question> batch;
@@ -56,7 +56,7 @@ void for_each_batch(const SolidQueryArguments& args, const Parse& parse, const A
     }
 }
 
-/// Loads the scene, and says what of it is no solid.
+/// Loads the scene and reports surfaces that are not solids.
 template <class Work>
 void with_solids(const SolidQueryArguments& args, const Work& work) {
     if (args.given.empty() && args.file.empty()) {
@@ -76,7 +76,7 @@ void with_solids(const SolidQueryArguments& args, const Work& work) {
     });
 }
 
-/// Adds the options of a command that asks about rays, or about points.
+/// Adds the options of a query by rays or by points.
 std::shared_ptr<SolidQueryArguments> add_arguments(CLI::App& command, const char* one,
                                                    const char* what, const char* numbers) {
     auto args = std::make_shared<SolidQueryArguments>();

@@ -91,7 +91,7 @@ void print_report(const VerifyReport& report) {
 
 void print_report(const ExactReport& report) {
     print(
-        "exact: {} solids, {} rays, {} crossings in 113 digits: {} disagreements, {} rays graze; "
+        "exact: {} solids, {} rays, {} crossings in 113 bits: {} disagreements, {} rays graze; "
         "crossings and points within {:.3g} and {:.3g} of their bounds{}\n",
         report.solids, report.rays, report.crossings, report.disagreements, report.grazing,
         report.worst_crossing, report.worst_point,

@@ -1,9 +1,9 @@
 #pragma once
-/// Whether two scene descriptions say the same, bit for bit. Every comparison takes its structs
-/// apart into all their members: a new member does not compile until it is compared here (and
-/// written by the native writer).
+/// Compares two scene descriptions bit for bit. Every comparison destructures its structs into all
+/// members: a new member does not compile until it is compared here (and written by the native
+/// writer).
 ///
-/// Not compared: places in files, derived fields of shapes, and what native_writer.h lists.
+/// Not compared: file locations, derived fields of shapes, and the exceptions of native_writer.h.
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ inline bool same(const TriangleMesh& a, const TriangleMesh& b) {
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
 }
 
-// Looks.
+// Materials and textures.
 
 inline bool same(const ColorInput& a, const ColorInput& b) {
     const auto& [a1, a2] = a;
@@ -134,7 +134,7 @@ inline bool same(const StoredImage& a, const StoredImage& b) {
 inline bool same(const Texture& a, const Texture& b) {
     const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9] = a;
     const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = b;
-    (void)a9, (void)b9;  // the pyramid is made by `compile`
+    (void)a9, (void)b9;  // `compile` makes the pyramid
     return same(*a1, *b1) && all_same(a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
 }
 inline bool same(const TextureDescription& a, const TextureDescription& b) {
@@ -194,7 +194,7 @@ inline bool same(const LightDescription& a, const LightDescription& b) {
     return all_same(a1, b1, a2, b2);
 }
 
-// Parts. Of shapes the fields that files give.
+// Parts: of shapes the fields that files give.
 
 inline bool same(const Sphere& a, const Sphere& b) {
     return all_same(a.center, b.center, a.radius, b.radius);
@@ -269,7 +269,7 @@ inline bool same(const Torus& a, const Torus& b) {
                     a.minor_radius, b.minor_radius);
 }
 inline bool same(const Polygon& a, const Polygon& b) {
-    // No loops mean one of all vertices.
+    // No loops: one loop of all vertices.
     const auto loops = [](const Polygon& p) {
         return p.loop_ends.empty()
                    ? std::vector<std::uint32_t>{static_cast<std::uint32_t>(p.vertices.size())}
@@ -364,7 +364,7 @@ bool all_same(const A& a, const B& b, const Rest&... rest) {
     return same(a, b) && all_same(rest...);
 }
 
-/// Fails the test for each list that differs, with the place of the first difference.
+/// Fails the test for each list that differs, with the position of the first difference.
 template <class T>
 void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const char* what) {
     EXPECT_EQ(a.size(), b.size()) << what;

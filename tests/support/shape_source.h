@@ -1,13 +1,12 @@
 #pragma once
-/// Where the numbers of random shapes come from, and the makers' common declaration.
+/// Number source of random shapes, and the makers' common declaration.
 
 #include "alhazen/shapes/shape_list.h"
 #include "support/random.h"
 
 namespace alhazen::testing {
 
-/// Where the numbers of a random shape come from: anywhere, or from a coarse grid and along the
-/// axes.
+/// Number source of a random shape: anywhere, or on a coarse grid and along the axes.
 struct ShapeSource {
     Random& random;
     bool lattice = false;

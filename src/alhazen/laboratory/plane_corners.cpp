@@ -6,7 +6,7 @@
 namespace alhazen {
 namespace {
 
-/// Relative room for rounding; far less than a drawing shows.
+/// Relative tolerance for rounding; far below what a drawing shows.
 constexpr double kRoom = 1e-9;
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 using Kind = TraversalStep::Kind;
 
 constexpr double kWidth = 900, kMargin = 24, kLegend = 64;
-/// Of a large scene only what is tested is drawn.
+/// In larger scenes only the tested primitives are drawn.
 constexpr std::size_t kMostDrawn = 5000;
 
 /// From the world to the paper.
@@ -160,7 +160,7 @@ class Figure {
         if (box.empty()) box.include(trace.ray.origin);
         const Vec3 reach = 0.5 * box.size() + Vec3{1e-9, 1e-9, 1e-9};
         const Vec3 out = abs(trace.ray.origin - box.center());
-        // Of an eye that is far away only the last part of the way is shown.
+        // For a distant eye only the last part of the ray is shown.
         if (out.x < 2 * reach.x && out.y < 2 * reach.y && out.z < 2 * reach.z) {
             box.include(trace.ray.origin);
         }
@@ -244,7 +244,7 @@ class Figure {
         }
     }
 
-    /// Where the ray is in the picture.
+    /// The part of the ray inside the picture.
     void draw_ray() {
         const Ray& ray = trace_.ray;
         double enter = 0, leave = 1e300;
@@ -276,8 +276,7 @@ class Figure {
         out_.leaf("circle", {{"cx", at(p.x)}, {"cy", at(p.y)}, {"r", "4"}, {"fill", "var(--ink)"}});
     }
 
-    /// Numbers in the lower left of cells that have room for them; of several in one place the
-    /// first.
+    /// Numbers in the lower left of cells with space for them; of several in one place the first.
     void draw_numbers() {
         if (count(Kind::Beam) > 0) return;
         int number = 0;
