@@ -3,10 +3,9 @@
 /// in a batch, rays of coherent sets in batches with the hint too.
 ///
 /// Conventions: rays come in blocks of kBlockRays: tiles, shadow rays that start where the rays of
-/// a tile end, and rays of all other kinds between them. Each batch is one call for the rays of one
-/// mask in a block; coherent sets are shot set by set, then all sets of a block at once, cut into
-/// packets as an accelerator pleases. Results are not what they should be before each call: a
-/// batch that leaves one unwritten is a disagreement.
+/// a tile end, and between them rays of all other kinds. A batch has the rays of a block with one
+/// mask; coherent sets are shot set by set, then all sets of the block at once. Results hold wrong
+/// values before each call: a batch that leaves one unwritten disagrees.
 
 #include <cstddef>
 #include <memory>
