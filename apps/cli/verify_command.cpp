@@ -91,7 +91,7 @@ void print_report(const VerifyReport& report) {
 
 void print_report(const ExactReport& report) {
     print(
-        "exact: {} solids, {} rays, {} crossings in 113 digits: {} disagreements, {} rays graze; "
+        "exact: {} solids, {} rays, {} crossings in 113 bits: {} disagreements, {} rays graze; "
         "crossings and points within {:.3g} and {:.3g} of their bounds{}\n",
         report.solids, report.rays, report.crossings, report.disagreements, report.grazing,
         report.worst_crossing, report.worst_point,
@@ -127,7 +127,7 @@ void add_verify(CLI::App& app, int& exit_status) {
     command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
     command->add_flag("--exact,!--no-exact", args->exact,
-                      "Shoot the exact solids again in numbers of 113 binary digits (the default)");
+                      "Shoot the exact solids again in numbers of 113 bits (the default)");
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");

@@ -1,5 +1,6 @@
 #pragma once
-/// Many accelerators on one scene, measured alike: what `alhazen compare` does (docs/compare.md).
+/// Many accelerators on one scene, measured alike: what `alhazen compare` does
+/// (docs/reference/compare.md).
 ///
 /// Source: Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999, and
 /// Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987 (what is

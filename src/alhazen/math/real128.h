@@ -1,5 +1,5 @@
 #pragma once
-/// A number with 113 binary digits, to check what was computed with 53.
+/// A number with 113 bits, to check what was computed with 53.
 ///
 /// Source: IEEE 754-2008, binary128. Differs: the compiler's own arithmetic; the square root is
 /// Newton's from that of double. Conventions: slow (software), used by checks only.

@@ -1,5 +1,5 @@
 #pragma once
-/// All crossings of a line with a solid in 113 binary digits, from the definition of the shape and
+/// All crossings of a line with a solid in 113 bits, from the definition of the shape and
 /// by other formulas than those that trace rays.
 ///
 /// Source: the definitions in the headers of the shapes. Differs: written for any number type, and

@@ -1,6 +1,6 @@
 #pragma once
 /// A comparison as one HTML file for a person: pictures, cost heat maps, charts, a table
-/// (docs/compare.md).
+/// (docs/reference/compare.md).
 ///
 /// Conventions: the file needs nothing else: pictures are data URIs, style and script are inside,
 /// and its content security policy forbids every request. Without a script all is there, but the
