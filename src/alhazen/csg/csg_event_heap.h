@@ -12,7 +12,7 @@
 /// unopened, and others opened where it ends: active zones of Rossignac and Voelcker, "Active Zones
 /// in CSG for Accelerating Boundary Evaluation", ACM TOG 8(1), 1989, found along the ray.
 /// Outside its S-bound a leaf counts as outside; that it does not for the whole solid is argued in
-/// docs/design/architecture.md and tested against the evaluation of every leaf.
+/// docs/design/csg.md and tested against the evaluation of every leaf.
 /// Complexity and threads: O(k log k) for k leaves pierced before the transition, and the way to
 /// them in the tree of boxes. No allocation per ray in a steady state. Const functions may be
 /// called from many threads.
