@@ -5,7 +5,7 @@
 
 namespace alhazen::cli {
 
-/// Exit statuses (docs/command_line.md).
+/// Exit statuses (docs/reference/command_line.md).
 enum ExitStatus {
     kDone = 0,
     kCheckFailed = 1,

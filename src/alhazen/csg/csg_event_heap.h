@@ -11,7 +11,7 @@
 /// operand alone determines the value (a ray within a hole), bounds that begin and end there stay
 /// unopened, and others are opened where it ends: active zones of Rossignac and Voelcker, "Active
 /// Zones in CSG for Accelerating Boundary Evaluation", ACM TOG 8(1), 1989, found along the ray.
-/// Outside its S-bound a leaf counts as outside; docs/architecture.md shows that this does not
+/// Outside its S-bound a leaf counts as outside; docs/design/csg.md shows that this does not
 /// change the solid, and tests compare it with the evaluation of every leaf.
 /// Complexity and threads: O(k log k) for k leaves pierced before the transition, and the paths to
 /// them in the tree of boxes. No allocation per ray in a steady state. Const functions may be

@@ -1,6 +1,6 @@
 #pragma once
 /// Measures many accelerators on one scene under equal conditions: `alhazen compare`
-/// (docs/compare.md).
+/// (docs/reference/compare.md).
 ///
 /// Source: Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999, and
 /// Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987 (what is

@@ -1,6 +1,6 @@
 #pragma once
 /// The layers of a picture as PNG files for viewing, one each, and the names of their ids
-/// (docs/aovs.md).
+/// (docs/reference/layers.md).
 
 #include <filesystem>
 #include <string>

@@ -1,8 +1,9 @@
 #pragma once
 /// Blocks of the quadrics, the torus and the algebraic surfaces.
 ///
-/// Source: docs/formats/native.md. Differs: nothing. Conventions: internal to this folder; keys are
-/// the names of the structs' fields, and what a file leaves out keeps the struct's default.
+/// Source: docs/reference/formats/native.md. Differs: nothing. Conventions: internal to this
+/// folder; keys are the names of the structs' fields, and what a file leaves out keeps the struct's
+/// default.
 
 #include "alhazen/formats/native/read/native_text.h"
 #include "alhazen/formats/text/block_reader.h"
