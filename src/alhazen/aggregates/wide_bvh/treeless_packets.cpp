@@ -12,6 +12,7 @@ namespace alhazen {
 
 namespace {
 
+constexpr std::size_t kFew = 4;
 constexpr std::size_t kBlock = kMaxPacketRays;
 
 /// Some rays of a batch, where they are or, as far as they differ from that, as copies.
@@ -88,9 +89,20 @@ void for_each_block(std::span<const Ray> rays, Done&& done, F&& f) {
 
 TreelessPackets::TreelessPackets(const PrimitiveTable& table,
                                  std::span<const PrimitiveId> outside) {
+    if (table.size() == outside.size() || table.size() - outside.size() > kFew) return;
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         const PrimitiveId id{i};
-        if (!std::binary_search(outside.begin(), outside.end(), id)) ids_.push_back(id);
+        if (std::find(outside.begin(), outside.end(), id) != outside.end()) continue;
+        const std::uint32_t kind = table.kind(id);
+        const bool fits = kind < kTriangleKind && with_column(table.columns, kind, [](auto& c) {
+                              using S = typename ShapeOfColumn<decltype(c)>::Type;
+                              return HasPacketTest<S>;
+                          });
+        if (!fits) {
+            ids_.clear();
+            return;
+        }
+        ids_.push_back(id);
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Batches of rays against few shapes, eight rays at a time (shapes/core/first_hits.h), without a
-/// tree. schedule.h says when.
+/// Batches of rays against few shapes whose first crossings are found for eight rays at a time
+/// (shapes/core/first_hits.h): without the tree, which would take longer than their lanes to miss.
 ///
 /// Conventions: those of `Aggregate::closest_batch`, for the shapes that are listed.
 /// Complexity and threads: every ray is tested against every shape. Const functions may be called
@@ -16,10 +16,11 @@ namespace alhazen {
 class TreelessPackets {
   public:
     TreelessPackets() = default;
-    /// Of a finished table without the primitives `outside`, which ascend; all others are shapes
-    /// with a packet test.
+    /// Of a finished table without the primitives `outside`: empty, unless the rest are few shapes
+    /// of such kinds.
     TreelessPackets(const PrimitiveTable& table, std::span<const PrimitiveId> outside);
 
+    [[nodiscard]] bool empty() const { return ids_.empty(); }
     /// [ray] each; `best` may hold hits found before.
     void closest(const PrimitiveTable& table, std::span<const Ray> rays, std::span<Hit> best,
                  RayQuery query) const;

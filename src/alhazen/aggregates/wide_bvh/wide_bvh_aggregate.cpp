@@ -7,6 +7,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/huge_pages.h"
 #include "alhazen/primitives/bounded_primitives.h"
+#include "alhazen/primitives/primitive_lanes.h"
 
 namespace alhazen {
 
@@ -17,9 +18,11 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& opt
     const BoundedPrimitives bounded(table_);
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
+    treeless_ = TreelessPackets(table_, unbounded_);
     layout_ = build_wide_bvh(table_, bounded, options);
     built_cost_ = layout_.sah_cost();
-    prepare_queries();
+    packets_pay_ = packets_pay();
+    prepare_meshes();
 }
 
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file)
@@ -27,10 +30,12 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::
     StoredWideBvh stored = load_wide_bvh(file, table_);
     box_ = stored.box;
     unbounded_ = std::move(stored.unbounded);
+    treeless_ = TreelessPackets(table_, unbounded_);
     layout_ = std::move(stored.layout);
     kernels_ = &wide_bvh_kernels(layout_.tree.width);
     built_cost_ = layout_.sah_cost();
-    prepare_queries();
+    packets_pay_ = packets_pay();
+    prepare_meshes();
 }
 
 std::shared_ptr<const WideBvhAggregate> WideBvhAggregate::load(PrimitiveTable table,
@@ -50,16 +55,35 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
     alhazen::refit(layout_, moved, bounded);
     box_ = bounded.all();
     table_ = std::move(moved);
-    prepare_queries();
+    packets_pay_ = packets_pay();
+    prepare_meshes();
     RefitReport report;
     report.cost = layout_.sah_cost();
     if (built_cost_ > 0) report.growth = report.cost / built_cost_;
     return report;
 }
 
-void WideBvhAggregate::prepare_queries() {
-    schedules_ = Schedules(table_, layout_, unbounded_);
-    if (Schedules::is_treeless(table_, unbounded_)) treeless_ = {table_, unbounded_};
+// Measured: in trees that lie near the core. Where primitives are finer than the rays lie apart a
+// packet gives up.
+bool WideBvhAggregate::packets_pay() const {
+    constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
+    if (layout_.memory_bytes() > kCachedBytes) return false;
+    std::size_t in_lanes = 0, alone = 0;
+    for (std::uint32_t i = 0; i < table_.size(); ++i) {
+        if (i == table_.first(kTriangleKind)) {
+            const std::uint32_t end = table_.first(kTriangleKind + 1);
+            in_lanes += end - i;
+            i = end;
+            if (i == table_.size()) break;
+        }
+        const PrimitiveId id{i};
+        if (std::binary_search(unbounded_.begin(), unbounded_.end(), id)) continue;
+        ++(alhazen::takes_lanes(table_, id) ? in_lanes : alone);
+    }
+    return 64 * alone <= in_lanes;
+}
+
+void WideBvhAggregate::prepare_meshes() const {
     for (const PlacedMesh& placed : table_.meshes) {
         collapse_to_huge_pages(std::span(placed.mesh->triangles));
         collapse_to_huge_pages(std::span(placed.mesh->positions));
@@ -148,6 +172,17 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, Ray
     return false;
 }
 
+namespace {
+
+/// Whether coherent rays are faster one by one than in the stream, which hides the way to memory:
+/// in trees that lie in the caches what neighbours do is predicted well.
+bool goes_one_by_one(const WideBvhLayout& layout, Coherence coherence) {
+    constexpr std::size_t kCachedBytes = std::size_t{64} << 20;
+    return coherence == Coherence::Coherent && layout.memory_bytes() <= kCachedBytes;
+}
+
+}  // namespace
+
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                      Coherence coherence) const {
     for (Hit& hit : hits) hit = Hit{};
@@ -161,18 +196,16 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
         });
     }
     if (layout_.tree.empty) return;
+    if (!treeless_.empty()) return treeless_.closest(table_, rays, hits, query);
     const WideBvhScene seen = scene(query.mask);
-    switch (schedules_.closest(coherence)) {
-        case Schedule::Treeless:
-            return treeless_.closest(table_, rays, hits, query);
-        case Schedule::Packets:
-            return kernels_->closest_coherent(seen, rays, hits, query.stats);
-        case Schedule::Stream:
-            return kernels_->closest_batch(seen, rays, hits, query.stats);
-        case Schedule::Single:
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                kernels_->closest(seen, rays[i], hits[i], query.stats);
-            }
+    if (coherence == Coherence::Coherent && packets_pay_) {
+        kernels_->closest_coherent(seen, rays, hits, query.stats);
+    } else if (goes_one_by_one(layout_, coherence)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            kernels_->closest(seen, rays[i], hits[i], query.stats);
+        }
+    } else {
+        kernels_->closest_batch(seen, rays, hits, query.stats);
     }
 }
 
@@ -187,17 +220,14 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         });
     }
     if (layout_.tree.empty) return;
+    if (!treeless_.empty()) return treeless_.occluded(table_, rays, occluded, query);
     const WideBvhScene seen = scene(query.mask);
-    switch (schedules_.occluded(coherence)) {
-        case Schedule::Treeless:
-            return treeless_.occluded(table_, rays, occluded, query);
-        case Schedule::Packets:  // answers nearest hits only
-        case Schedule::Stream:
-            return kernels_->occluded_batch(seen, rays, occluded, query.stats);
-        case Schedule::Single:
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                if (!occluded[i]) occluded[i] = kernels_->occluded(seen, rays[i], query.stats);
-            }
+    if (goes_one_by_one(layout_, coherence)) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (!occluded[i]) occluded[i] = kernels_->occluded(seen, rays[i], query.stats);
+        }
+    } else {
+        kernels_->occluded_batch(seen, rays, occluded, query.stats);
     }
 }
 
