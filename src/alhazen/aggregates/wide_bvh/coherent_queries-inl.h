@@ -1,4 +1,4 @@
-/// The nearest hits of coherent rays, packet after packet.
+/// Closest hits of coherent rays, packet by packet.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -17,16 +17,14 @@
 #include "alhazen/accel/wide_bvh/trace/make_packet-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse_packet-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/schedule.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Packets of fewer rays are no faster than rays on their own.
-inline constexpr int kFewRays = 16;
-
-/// Calls `otherwise(first, count)` for rays that fit in no packet. Rays and results as in
-/// WideBvhKernels::closest_batch.
+/// Traces packets, and calls `otherwise(first, count)` for rays in no packet. Rays and results as
+/// in WideBvhKernels::closest_batch.
 template <class Stats, class Otherwise>
 HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> rays,
                              std::span<Hit> results, Stats stats, Otherwise&& otherwise) {
@@ -38,7 +36,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         {layout.triangles.data(), layout.spheres.data(), layout.frustums.data(),
          layout.others.data()},
         {sizeof(TriangleBlock), sizeof(SphereBlock), sizeof(FrustumBlock), sizeof(BoxBlock)});
-    // Where packets fail they are tried again after a while: the whiles grow.
+    // After a failure some packets are skipped: the more, the more failures in a row.
     std::size_t failures = 0, skip = 0;
     for (std::size_t i = 0; i < rays.size(); i += kPacketRays) {
         const std::size_t count = std::min(kPacketRays, rays.size() - i);
@@ -51,7 +49,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
             otherwise(i, count);
             continue;
         }
-        // Those of each way by themselves: there are six ways at most.
+        // One packet per main axis and sign: six at most.
         std::uint64_t rest = ~std::uint64_t{0} >> (kPacketRays - count), alone = 0;
         while (rest != 0) {
             RayPacket packet;
@@ -60,10 +58,10 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
             if (used == 0) break;  // none can be used
             rest &= ~used;
             alone |= used;
-            if (!made || std::popcount(used) < kFewRays) continue;
+            if (!made || std::popcount(used) < kMinPacketRays) continue;
             ClosestPacket leaves(scene, rays.subspan(i, count), results.subspan(i, count), packet);
             if (!traverse_packet(layout.tree.nodes.data(), layout.tree.root, prefetch_table, packet,
-                                 leaves, stats)) {
+                                 leaves, kMaxPacketWork, stats)) {
                 continue;
             }
             leaves.finish(stats);
@@ -71,7 +69,7 @@ HWY_INLINE void run_coherent(const WideBvhScene& scene, std::span<const Ray> ray
         }
         alone |= rest;
         if (alone == ~std::uint64_t{0} >> (kPacketRays - count)) {
-            failures = std::min<std::size_t>(failures + 1, 4);
+            failures = std::min<std::size_t>(failures + 1, kMaxPacketBackoff);
             skip = (std::size_t{1} << failures) - 1;
             otherwise(i, count);
             continue;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/shapes/core/first_hits.h"
@@ -12,7 +13,6 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kFew = 4;
 constexpr std::size_t kBlock = kMaxPacketRays;
 
 /// Some rays of a batch, where they are or, as far as they differ from that, as copies.
@@ -89,7 +89,8 @@ void for_each_block(std::span<const Ray> rays, Done&& done, F&& f) {
 
 TreelessPackets::TreelessPackets(const PrimitiveTable& table,
                                  std::span<const PrimitiveId> outside) {
-    if (table.size() == outside.size() || table.size() - outside.size() > kFew) return;
+    if (table.size() == outside.size() || table.size() - outside.size() > kMaxTreelessPrimitives)
+        return;
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         const PrimitiveId id{i};
         if (std::find(outside.begin(), outside.end(), id) != outside.end()) continue;

@@ -7,22 +7,18 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/huge_pages.h"
 #include "alhazen/primitives/bounded_primitives.h"
-#include "alhazen/primitives/primitive_lanes.h"
 
 namespace alhazen {
 
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const BuildOptions& options)
-    : table_(std::move(table)),
-      kernels_(options.precision == Precision::Fast ? &wide_bvh_fast_kernels()
-                                                    : &wide_bvh_kernels(options.width)) {
+    : table_(std::move(table)), kernels_(wide_bvh_kernels(options.width, options.precision)) {
     const BoundedPrimitives bounded(table_);
     box_ = bounded.all();
     unbounded_ = bounded.unbounded();
     treeless_ = TreelessPackets(table_, unbounded_);
     layout_ = build_wide_bvh(table_, bounded, options);
     built_cost_ = layout_.sah_cost();
-    packets_pay_ = packets_pay();
-    prepare_meshes();
+    finish_build();
 }
 
 WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file)
@@ -32,10 +28,9 @@ WideBvhAggregate::WideBvhAggregate(PrimitiveTable table, const std::filesystem::
     unbounded_ = std::move(stored.unbounded);
     treeless_ = TreelessPackets(table_, unbounded_);
     layout_ = std::move(stored.layout);
-    kernels_ = &wide_bvh_kernels(layout_.tree.width);
+    kernels_ = wide_bvh_kernels(layout_.tree.width);
     built_cost_ = layout_.sah_cost();
-    packets_pay_ = packets_pay();
-    prepare_meshes();
+    finish_build();
 }
 
 std::shared_ptr<const WideBvhAggregate> WideBvhAggregate::load(PrimitiveTable table,
@@ -55,35 +50,17 @@ RefitReport WideBvhAggregate::refit(PrimitiveTable moved) {
     alhazen::refit(layout_, moved, bounded);
     box_ = bounded.all();
     table_ = std::move(moved);
-    packets_pay_ = packets_pay();
-    prepare_meshes();
+    finish_build();
     RefitReport report;
     report.cost = layout_.sah_cost();
     if (built_cost_ > 0) report.growth = report.cost / built_cost_;
     return report;
 }
 
-// Measured: in trees that lie near the core. Where primitives are finer than the rays lie apart a
-// packet gives up.
-bool WideBvhAggregate::packets_pay() const {
-    constexpr std::size_t kCachedBytes = std::size_t{8} << 20;
-    if (layout_.memory_bytes() > kCachedBytes) return false;
-    std::size_t in_lanes = 0, alone = 0;
-    for (std::uint32_t i = 0; i < table_.size(); ++i) {
-        if (i == table_.first(kTriangleKind)) {
-            const std::uint32_t end = table_.first(kTriangleKind + 1);
-            in_lanes += end - i;
-            i = end;
-            if (i == table_.size()) break;
-        }
-        const PrimitiveId id{i};
-        if (std::binary_search(unbounded_.begin(), unbounded_.end(), id)) continue;
-        ++(alhazen::takes_lanes(table_, id) ? in_lanes : alone);
-    }
-    return 64 * alone <= in_lanes;
-}
-
-void WideBvhAggregate::prepare_meshes() const {
+void WideBvhAggregate::finish_build() {
+    schedules_ = Schedules(table_, layout_, unbounded_, !treeless_.empty(),
+                           kernels_.closest_coherent != nullptr);
+    // Rays that come from everywhere read the meshes at random.
     for (const PlacedMesh& placed : table_.meshes) {
         collapse_to_huge_pages(std::span(placed.mesh->triangles));
         collapse_to_huge_pages(std::span(placed.mesh->positions));
@@ -131,7 +108,7 @@ bool WideBvhAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
             return false;
         });
     }
-    if (!layout_.tree.empty) kernels_->closest(scene(query.mask), ray, hit, query.stats);
+    if (!layout_.tree.empty) kernels_.closest(scene(query.mask), ray, hit, query.stats);
     return hit.found();
 }
 
@@ -143,7 +120,7 @@ bool WideBvhAggregate::occluded(const Ray& ray, RayQuery query) const {
         });
         if (found) return true;
     }
-    return !layout_.tree.empty && kernels_->occluded(scene(query.mask), ray, query.stats);
+    return !layout_.tree.empty && kernels_.occluded(scene(query.mask), ray, query.stats);
 }
 
 void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
@@ -154,7 +131,7 @@ void WideBvhAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery
         table_.all_hits(id, ray, shear, hits, policy, query.mask);
         return false;
     });
-    if (!layout_.tree.empty) (void)kernels_->all_hits(scene(query.mask), ray, hits, query.stats);
+    if (!layout_.tree.empty) (void)kernels_.all_hits(scene(query.mask), ray, hits, query.stats);
     finish_hits(hits, before);
 }
 
@@ -166,22 +143,11 @@ bool WideBvhAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, Ray
         return table_.shadowed(id, ray, shear, crossings, policy, query.mask);
     });
     if (opaque) return true;
-    if (!layout_.tree.empty && kernels_->shadowed(scene(query.mask), ray, crossings, query.stats))
+    if (!layout_.tree.empty && kernels_.shadowed(scene(query.mask), ray, crossings, query.stats))
         return true;
     finish_hits(crossings, before);
     return false;
 }
-
-namespace {
-
-/// Whether coherent rays are faster one by one than in the stream, which hides the way to memory:
-/// in trees that lie in the caches what neighbours do is predicted well.
-bool goes_one_by_one(const WideBvhLayout& layout, Coherence coherence) {
-    constexpr std::size_t kCachedBytes = std::size_t{64} << 20;
-    return coherence == Coherence::Coherent && layout.memory_bytes() <= kCachedBytes;
-}
-
-}  // namespace
 
 void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                      Coherence coherence) const {
@@ -196,16 +162,19 @@ void WideBvhAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> h
         });
     }
     if (layout_.tree.empty) return;
-    if (!treeless_.empty()) return treeless_.closest(table_, rays, hits, query);
     const WideBvhScene seen = scene(query.mask);
-    if (coherence == Coherence::Coherent && packets_pay_) {
-        kernels_->closest_coherent(seen, rays, hits, query.stats);
-    } else if (goes_one_by_one(layout_, coherence)) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            kernels_->closest(seen, rays[i], hits[i], query.stats);
-        }
-    } else {
-        kernels_->closest_batch(seen, rays, hits, query.stats);
+    switch (schedules_.closest(coherence)) {
+        case Schedule::Single:
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                kernels_.closest(seen, rays[i], hits[i], query.stats);
+            }
+            return;
+        case Schedule::Stream:
+            return kernels_.closest_batch(seen, rays, hits, query.stats);
+        case Schedule::Packets:
+            return kernels_.closest_coherent(seen, rays, hits, query.stats);
+        case Schedule::TreelessPackets:
+            return treeless_.closest(table_, rays, hits, query);
     }
 }
 
@@ -220,14 +189,18 @@ void WideBvhAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool>
         });
     }
     if (layout_.tree.empty) return;
-    if (!treeless_.empty()) return treeless_.occluded(table_, rays, occluded, query);
     const WideBvhScene seen = scene(query.mask);
-    if (goes_one_by_one(layout_, coherence)) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (!occluded[i]) occluded[i] = kernels_->occluded(seen, rays[i], query.stats);
-        }
-    } else {
-        kernels_->occluded_batch(seen, rays, occluded, query.stats);
+    switch (schedules_.occluded(coherence)) {
+        case Schedule::Single:
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (!occluded[i]) occluded[i] = kernels_.occluded(seen, rays[i], query.stats);
+            }
+            return;
+        case Schedule::Packets:  // closest hits only
+        case Schedule::Stream:
+            return kernels_.occluded_batch(seen, rays, occluded, query.stats);
+        case Schedule::TreelessPackets:
+            return treeless_.occluded(table_, rays, occluded, query);
     }
 }
 

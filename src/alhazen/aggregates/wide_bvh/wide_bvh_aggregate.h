@@ -17,6 +17,7 @@
 
 #include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/refit.h"
+#include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/aggregates/wide_bvh/treeless_packets.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/primitives/aggregate.h"
@@ -57,10 +58,8 @@ class WideBvhAggregate final : public Aggregate {
   private:
     WideBvhAggregate(PrimitiveTable table, const std::filesystem::path& file);
 
-    /// Whether packets of coherent rays are faster than single rays.
-    [[nodiscard]] bool packets_pay() const;
-    /// What nobody else prepares for rays that come from everywhere.
-    void prepare_meshes() const;
+    /// What follows from the table and the layout.
+    void finish_build();
     [[nodiscard]] WideBvhScene scene(RayMask mask) const { return {table_, layout_, mask}; }
     /// Sorts what a query appended, and drops what it found twice.
     void finish_hits(std::vector<Hit>& hits, std::size_t before) const;
@@ -73,9 +72,9 @@ class WideBvhAggregate final : public Aggregate {
     std::vector<PrimitiveId> unbounded_;
     TreelessPackets treeless_;  ///< all that is in the tree, or nothing
     WideBvhLayout layout_;
+    Schedules schedules_;
     double built_cost_ = 0;  ///< of the tree before any refit
-    bool packets_pay_ = false;
-    const WideBvhKernels* kernels_ = nullptr;
+    WideBvhKernels kernels_;
 };
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// The queries of the wide BVH aggregate, compiled once per instruction set.
+/// Kernels of the wide BVH aggregate, compiled once per instruction set.
 
 #include <span>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// What a kernel works on, for rays that see what `mask` says.
+/// The scene of a kernel, for rays with the mask `mask`.
 class WideBvhScene {
   public:
     WideBvhScene(const PrimitiveTable& t, const WideBvhLayout& l, RayMask m = kAllRays)
@@ -24,39 +24,43 @@ class WideBvhScene {
     }
 
   private:
-    bool all_seen_;  ///< the rays see every primitive
+    bool all_seen_;  ///< every primitive is visible
 };
 
 /// The queries of `Aggregate` on the bounded primitives; the tree is not empty, `stats` may be
 /// null, hits are appended unsorted. An invalid ray hits nothing.
 struct WideBvhKernels {
-    /// `best` may hold a hit found before: farther ones are not looked for.
+    /// `best` may hold an earlier hit, and limits the search.
     void (*closest)(const WideBvhScene&, const Ray&, Hit& best, TraversalStats*);
     bool (*occluded)(const WideBvhScene&, const Ray&, TraversalStats*);
     /// Always false.
     bool (*all_hits)(const WideBvhScene&, const Ray&, std::vector<Hit>&, TraversalStats*);
     bool (*shadowed)(const WideBvhScene&, const Ray&, std::vector<Hit>&, TraversalStats*);
-    /// [ray] each; `best` may hold hits found before.
+    /// [ray] each; `best` may hold earlier hits.
     void (*closest_batch)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
                           TraversalStats*);
-    /// [ray] each; what is true already stays so.
+    /// [ray] each; rays that are occluded already are skipped.
     void (*occluded_batch)(const WideBvhScene&, std::span<const Ray>, std::span<bool> occluded,
                            TraversalStats*);
-    /// The nearest hits, fast where neighbours go nearly the same way.
+    /// Closest hits by packets of coherent rays; null where the kernels have no packets.
     void (*closest_coherent)(const WideBvhScene&, std::span<const Ray>, std::span<Hit> best,
                              TraversalStats*);
 };
 
-/// Out of line, so that no copy of std::vector's code is made for a wide instruction set.
+/// Out of line: std::vector's code is not compiled for wide instruction sets.
 void append_hit(std::vector<Hit>& hits, const ShapeHit& hit, PrimitiveId id);
 
-/// Those for the best instruction set of this machine, or the one that is forced (simd/targets.h),
-/// and nodes of 4, 8 or 16 children.
-[[nodiscard]] const WideBvhKernels& wide_bvh_kernels(std::uint32_t width);
+/// The kernels for nodes of 4, 8 or 16 children, for the best instruction set of this machine or
+/// the one that is forced (simd/targets.h). Precision::Fast is for nodes of 8 only, and makes
+/// `closest`, `occluded` and their batches single-precision.
+[[nodiscard]] WideBvhKernels wide_bvh_kernels(std::uint32_t width,
+                                              Precision precision = Precision::Robust);
+
+/// The parts of the above, one per source file (aggregates/wide_bvh/kernels-inl.h).
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_4();
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_8();
 [[nodiscard]] const WideBvhKernels& wide_bvh_kernels_16();
-/// Those for nodes of 8, but that float decides about triangles in the first two queries and their
-/// batches.
-[[nodiscard]] const WideBvhKernels& wide_bvh_fast_kernels();
+/// Without `all_hits` and `shadowed`.
+[[nodiscard]] const WideBvhKernels& wide_bvh_kernels_fast();
 
 }  // namespace alhazen

@@ -1,34 +1,5 @@
-#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
-
-// Compiles the rest of this file once per target.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "alhazen/aggregates/wide_bvh/wide_bvh_kernels_16.cpp"
-#include <hwy/foreach_target.h>  // IWYU pragma: keep
-// After foreach_target.h.
-#include "alhazen/aggregates/wide_bvh/width_kernels-inl.h"
-
-HWY_BEFORE_NAMESPACE();
-namespace alhazen {
-namespace HWY_NAMESPACE {
-
-const WideBvhKernels& kernels_16() {
-    static constexpr WideBvhKernels kernels = WidthKernels<16>::table();
-    return kernels;
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace alhazen
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace alhazen {
-
-HWY_EXPORT(kernels_16);
-
-const WideBvhKernels& wide_bvh_kernels_16() {
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return HWY_DYNAMIC_DISPATCH(kernels_16)();
-}
-
-}  // namespace alhazen
-#endif
+// Nodes of 16 children.
+#define ALHAZEN_KERNELS wide_bvh_kernels_16
+#define ALHAZEN_KERNELS_WIDTH 16
+#define ALHAZEN_KERNELS_TEST FilteredTriangleTest
+#include "alhazen/aggregates/wide_bvh/kernels-inl.h"

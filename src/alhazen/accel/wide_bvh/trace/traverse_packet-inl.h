@@ -1,7 +1,6 @@
-/// The way of a packet of rays through the wide BVH.
+/// Traversal of the wide BVH by a packet of rays (packet-inl.h).
 ///
-/// Source: packet-inl.h, which says what a packet is. Differs: nothing. Conventions: included once
-/// per target (see simd/lanes-inl.h).
+/// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_TRAVERSE_PACKET_INL_H_
@@ -19,15 +18,13 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Takes the packet to every leaf it meets, the nearest first: `leaf.visit(ref, nearest, stats)`
-/// may shrink it, and returns true to stop. False when it gave up: nodes and leaves are more than a
-/// packet is worth, for most of them are met by few of its rays.
+/// Visits the leaves that the packet intersects, nearest first: `leaf.visit(ref, nearest, stats)`
+/// may shrink the packet, and returns true to stop. False when it gave up: after `max_work` nodes,
+/// a visited leaf counting as two per block.
 template <class Leaf, class Stats>
 HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
                                 const PrefetchTable& prefetch_table, const RayPacket& packet,
-                                Leaf& leaf, Stats stats) {
-    // Measured: about what the rays cost one by one.
-    constexpr std::uint32_t kMaxWork = 200;
+                                Leaf& leaf, std::uint32_t max_work, Stats stats) {
     std::uint32_t work = 0;
     StackEntry stack[kTraversalStackSize<8>];
     std::size_t height = 1;
@@ -40,7 +37,7 @@ HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
             work += 2 * top.ref.count();
             continue;
         }
-        if (++work > kMaxWork) return false;
+        if (++work > max_work) return false;
         const WideNode& node = nodes[top.ref.index()];
         stats.nodes(1);
         stats.boxes(node.child_count());
@@ -49,7 +46,7 @@ HWY_INLINE bool traverse_packet(const WideNode* nodes, NodeRef root,
         HWY_ALIGN float entry[WideNode::kWidth];
         store_lanes(entries, entry);
         height = push_sorted(node, hit, entry, stack, height);
-        // The next two; those below come up later.
+        // The next two.
         const std::size_t soon = std::min<std::size_t>(height, 2);
         for (std::size_t i = height - soon; i < height; ++i)
             prefetch_table.prefetch(stack[i].ref.bits());
