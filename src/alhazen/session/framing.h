@@ -43,7 +43,7 @@ struct FramingOptions {
 
 /// Adds a camera and a light to both, where they have none, and a grey background where a light was
 /// added and the file has none. Formats whose scenes are meant as they are get no light
-/// (ShadingConventions::headlight). Returns what was done, a sentence each. Throws Error: Scene
+/// (ImportConventions::headlight). Returns what was done, a sentence each. Throws Error: Scene
 /// when there is nothing to frame, Usage as find_camera.
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,
                                        const FramingOptions& options);
