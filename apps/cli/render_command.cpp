@@ -139,7 +139,7 @@ void write_pictures(const RenderArguments& args, const RenderOptions& options,
         const ImageMetadata names = id_names(loaded.description, options.aovs);
         picture.metadata.insert(picture.metadata.end(), names.begin(), names.end());
     }
-    write_picture(args.output, result.film, loaded.scene.conventions, picture);
+    write_picture(args.output, result.film, loaded.scene.conventions.film, picture);
     if (options.aovs.empty() || !writes_aov_pictures(args)) return;
     for (const std::string& line :
          write_aov_pictures(args.output, options.aovs, result.layers, common)) {

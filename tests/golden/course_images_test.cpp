@@ -33,7 +33,7 @@ ImageDifference against_solution(const std::filesystem::path& solution,
     const RenderResult result = render(loaded.scene, loaded.description.picture, {});
     const std::filesystem::path picture =
         std::filesystem::path(::testing::TempDir()) / ("course_" + solution.filename().string());
-    write_picture(picture, result.film, loaded.scene.conventions, {});
+    write_picture(picture, result.film, loaded.scene.conventions.film, {});
     const Image ours = read_image(picture);
     const Image theirs = read_image(solution);
     const ImageDifference d = difference(ours, theirs);

@@ -20,8 +20,8 @@ class SceneMaker {
         CameraDescription camera;
         camera.camera = look_along({0, 0, 5}, {0, 0, -1}, {0, 1, 0}, 0.7, 1.0);
         description_.cameras.push_back(camera);
-        description_.conventions.ambient_inside_times_kt = false;
-        description_.conventions.air_index = 1.0;
+        description_.conventions.shading.ambient_inside_times_kt = false;
+        description_.conventions.shading.air_index = 1.0;
     }
 
     SceneDescription& description() { return description_; }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "alhazen/base/overloaded.h"
 #include "alhazen/cameras/eye_rays.h"
 
 namespace alhazen {
@@ -23,10 +24,23 @@ Ray eye_ray(const Camera& camera, double x, double y) {
 
 RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel) {
     const double across = frame_height * std::sqrt(static_cast<double>(samples_per_pixel));
-    if (const auto* p = std::get_if<PerspectiveCamera>(&camera)) {
-        return {0.0, length(p->up) / (length(p->look) * across)};
-    }
-    return {length(std::get<OrthographicCamera>(camera).up) / across, 0.0};
+    return std::visit(Overloaded{[&](const PerspectiveCamera& c) {
+                                     return RayCone{0.0, length(c.up) / (length(c.look) * across)};
+                                 },
+                                 [&](const OrthographicCamera& c) {
+                                     return RayCone{length(c.up) / across, 0.0};
+                                 }},
+                      camera);
+}
+
+PicturePlane picture_plane(const Camera& camera) {
+    return std::visit(Overloaded{[](const PerspectiveCamera& c) {
+                                     return PicturePlane{c.eye, c.look, c.right, c.up};
+                                 },
+                                 [](const OrthographicCamera& c) {
+                                     return PicturePlane{c.origin, c.direction, c.right, c.up};
+                                 }},
+                      camera);
 }
 
 PerspectiveCamera look_along(const Vec3& eye, const Vec3& look, const Vec3& up, double fov_y,
@@ -46,7 +60,10 @@ OrthographicCamera look_along_parallel(const Vec3& origin, const Vec3& look, con
 
 Camera with_aspect(const Camera& camera, double described_aspect, double aspect) {
     Camera result = camera;
-    std::visit([&](auto& c) { c.right = (aspect / described_aspect) * c.right; }, result);
+    const auto widen = [&](Vec3& right) { right = (aspect / described_aspect) * right; };
+    std::visit(Overloaded{[&](PerspectiveCamera& c) { widen(c.right); },
+                          [&](OrthographicCamera& c) { widen(c.right); }},
+               result);
     return result;
 }
 

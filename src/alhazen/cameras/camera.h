@@ -1,5 +1,14 @@
 #pragma once
-/// Cameras: a closed variant of plain structs. ADD A CAMERA HERE: a struct, an entry in `Camera`.
+/// Cameras: a closed variant of plain structs.
+///
+/// ADD A CAMERA HERE: a struct, and an entry in `Camera`. The compiler then names the other places:
+///   - cameras/eye_rays.h: EyeRays (its rays);
+///   - cameras/camera.cpp: eye_cone, picture_plane, with_aspect;
+///   - formats/native/read/native_view.cpp: blocks_of (names and readers of its blocks);
+///   - formats/native/write/native_write_view.cpp: block_of;
+///   - session/framing.cpp: headlight; session/info.cpp: camera_json;
+///   - tests/support/same_description.h: same;
+///   - tests/unit/formats/native/native_writer_test.cpp: one in the round trip.
 ///
 /// Conventions: film coordinates x, y in [0, 1], x to the right, y up; (0, 0) is the lower left
 /// corner of the picture. Directions are normalised: eye rays start with unit directions.
@@ -33,9 +42,17 @@ using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 
 [[nodiscard]] Ray eye_ray(const Camera& camera, double x, double y);
 
-/// The cone of an eye ray that stands for one of `samples_per_pixel` samples of a pixel of a
-/// picture `frame_height` pixels high.
+/// The cone of an eye ray of one of `samples_per_pixel` samples of a pixel, in an image of
+/// `frame_height` pixels.
 [[nodiscard]] RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel);
+
+/// The frame of a camera: `eye` is the centre of projection, or the centre of the rectangle from
+/// which parallel rays start; `forward` the direction of view, not normalised; `right` and `up` the
+/// sides of the picture.
+struct PicturePlane {
+    Vec3 eye, forward, right, up;
+};
+[[nodiscard]] PicturePlane picture_plane(const Camera& camera);
 
 /// An orthonormal perspective camera. `fov_y` is the full vertical angle in radians, in (0, pi);
 /// `up` need not be perpendicular to `look`.

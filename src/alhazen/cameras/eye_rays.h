@@ -1,37 +1,39 @@
 #pragma once
-/// `eye_ray` for many rays of one camera: what depends on x and on y alone is found apart, for
-/// whole columns and rows of a picture.
+/// `eye_ray` for many rays of one camera: the terms of x and of y are computed once for whole
+/// columns and rows of an image.
 ///
-/// Source: none. Differs: nothing. Conventions: those of the cameras; the bits are those of
-/// `eye_ray`.
+/// Conventions: those of the cameras; the bits are those of `eye_ray`.
 
 #include <span>
 
+#include "alhazen/base/overloaded.h"
 #include "alhazen/cameras/camera.h"
 
 namespace alhazen {
 
 class EyeRays {
   public:
-    explicit EyeRays(const Camera& camera)
-        : from_eye_(std::holds_alternative<PerspectiveCamera>(camera)) {
-        if (const auto* p = std::get_if<PerspectiveCamera>(&camera)) {
-            set(p->eye, p->look, p->right, p->up);
-        } else {
-            const auto& o = std::get<OrthographicCamera>(camera);
-            set(normalize(o.direction), o.origin, o.right, o.up);
-        }
+    explicit EyeRays(const Camera& camera) {
+        std::visit(Overloaded{[this](const PerspectiveCamera& c) {
+                                  from_eye_ = true;
+                                  set(c.eye, c.look, c.right, c.up);
+                              },
+                              [this](const OrthographicCamera& c) {
+                                  from_eye_ = false;
+                                  set(normalize(c.direction), c.origin, c.right, c.up);
+                              }},
+                   camera);
     }
 
-    /// What the rays of one x share.
+    /// The term that the rays of one x share.
     [[nodiscard]] Vec3 column(double x) const { return middle_ + (x - 0.5) * right_; }
-    /// What the rays of one y share.
+    /// The term that the rays of one y share.
     [[nodiscard]] Vec3 row(double y) const { return (y - 0.5) * up_; }
-    /// `sum`: of a column and a row, in this order.
+    /// `sum`: column plus row, in this order.
     [[nodiscard]] Ray ray(const Vec3& sum) const {
         return from_eye_ ? Ray{fixed_, normalize(sum)} : Ray{sum, fixed_};
     }
-    /// As many rays as sums.
+    /// One ray for each sum.
     void rays(std::span<const Vec3> sums, Ray* out) const;
 
   private:
@@ -42,8 +44,8 @@ class EyeRays {
         up_ = up;
     }
 
-    bool from_eye_;
-    Vec3 fixed_;  ///< the eye, or the direction of all rays
+    bool from_eye_ = true;  ///< rays start at the eye; false: they are parallel
+    Vec3 fixed_;            ///< the eye, or the direction of all rays
     Vec3 middle_, right_, up_;
 };
 

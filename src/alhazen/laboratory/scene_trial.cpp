@@ -51,7 +51,9 @@ SceneTrial::SceneTrial(SceneDescription description, const TrialOptions& options
     : description_(std::move(description)),
       csg_(options.csg),
       picture_(Film(1, 1, PixelBox{0, 0, 1, 1})) {
-    if (options.spd) apply_spd(description_.conventions);
+    if (options.spd) {
+        apply_spd(description_.conventions.shading, description_.conventions.sampling);
+    }
     reference_ = build(kDefaultAccelerator);
     FramingOptions framing;
     framing.camera = options.camera;
@@ -76,7 +78,8 @@ Ray SceneTrial::eye_ray_of(int x, int y) const {
                     fmt::format("pixel {},{} is not in a picture of {}x{}", x, y, width, height));
     }
     const CameraDescription& camera = find_camera(reference_.scene, render_options_.camera);
-    const Vec2 p = single_sample(reference_.scene.conventions.pixel_sample, x, y, width, height);
+    const Vec2 p =
+        single_sample(reference_.scene.conventions.sampling.pixel_sample, x, y, width, height);
     return eye_ray(with_aspect(camera.camera, camera.aspect, static_cast<double>(width) / height),
                    p.x, p.y);
 }

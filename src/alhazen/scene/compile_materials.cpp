@@ -27,7 +27,7 @@ void compile_textures(const SceneDescription& description, Scene& scene) {
 }  // namespace
 
 void compile_materials(const SceneDescription& description, Scene& scene) {
-    const bool truncate = description.conventions.truncate_material_colors;
+    const bool truncate = description.conventions.importing.truncate_material_colors;
     for (const MaterialDescription& of : description.materials) {
         Material m = of.material;
         if (truncate) {
@@ -42,16 +42,11 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
     }
     compile_textures(description, scene);
     for (const LightDescription& l : description.lights) {
-        Light light = l.light;
-        if (auto* directional = std::get_if<DirectionalLight>(&light)) {
-            directional->to_light = normalize(directional->to_light);
-        } else if (auto* spot = std::get_if<SpotLight>(&light)) {
-            spot->direction = normalize(spot->direction);
-        }
-        scene.lights.push_back(light);
+        scene.lights.push_back(with_unit_directions(l.light));
     }
     scene.cameras = description.cameras;
-    scene.conventions = description.conventions;
+    const Conventions& conventions = description.conventions;
+    scene.conventions = {conventions.shading, conventions.sampling, conventions.film};
     scene.background = description.picture.background.value_or(Rgb{});
 }
 

@@ -26,13 +26,20 @@ struct SceneCensus {
     std::uint64_t accelerator_bytes = 0;
 };
 
+/// Conventions of the scene file that renderers, samplers and writers of pictures read.
+struct RenderConventions {
+    ShadingConventions shading;
+    SamplingConventions sampling;
+    FilmConventions film;
+};
+
 struct Scene {
     std::shared_ptr<const Aggregate> aggregate;
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Light> lights;
     std::vector<CameraDescription> cameras;
-    ShadingConventions conventions;
+    RenderConventions conventions;
     Rgb background;
     bool all_opaque = false;   ///< no material lets light through
     bool has_masks = false;    ///< some part has a visibility mask

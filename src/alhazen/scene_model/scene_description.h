@@ -19,9 +19,9 @@
 #include "alhazen/cameras/camera.h"
 #include "alhazen/geometry/ray_mask.h"
 #include "alhazen/math/affine.h"
+#include "alhazen/scene_model/conventions.h"
 #include "alhazen/shading/lights/light.h"
 #include "alhazen/shading/materials/material.h"
-#include "alhazen/shading/shading_conventions.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "alhazen/shapes/shape_list.h"
 
@@ -139,7 +139,7 @@ struct SceneDescription {
     std::vector<AnimationInfo> animations;
     PictureSettings picture;
     UpAxis up_axis = UpAxis::Y;
-    ShadingConventions conventions;
+    Conventions conventions;
 };
 
 /// Adds every finding about `description` to `diagnostics`: non-finite values, singular transforms,

@@ -4,6 +4,7 @@
 
 #include "alhazen/accel/accelerator_names.h"
 #include "alhazen/base/error.h"
+#include "alhazen/base/overloaded.h"
 #include "alhazen/scene_model/scene_description.h"
 #include "alhazen/scene_model/validate_materials.h"
 #include "alhazen/scene_model/validate_solids.h"
@@ -49,22 +50,11 @@ class Validator {
 
     void check_cameras() {
         for (const CameraDescription& camera : d_.cameras) {
-            const bool ok = std::visit(
-                [](const auto& c) {
-                    Vec3 forward;
-                    bool good = is_finite(c.right) && is_finite(c.up);
-                    if constexpr (requires { c.look; }) {
-                        forward = c.look;
-                        good = good && is_finite(c.eye);
-                    } else {
-                        forward = c.direction;
-                        good = good && is_finite(c.origin);
-                    }
-                    // The picture plane must not degenerate to a line.
-                    return good && is_finite(forward) && forward != Vec3{} &&
-                           length_squared(cross(c.right, c.up)) > 0.0;
-                },
-                camera.camera);
+            const PicturePlane plane = picture_plane(camera.camera);
+            // The picture plane must not degenerate to a line.
+            const bool ok = is_finite(plane.right) && is_finite(plane.up) && is_finite(plane.eye) &&
+                            is_finite(plane.forward) && plane.forward != Vec3{} &&
+                            length_squared(cross(plane.right, plane.up)) > 0.0;
             if (!ok || !(camera.aspect > 0.0) || !std::isfinite(camera.aspect)) {
                 error(camera.location,
                       "the camera's vectors must be finite, its view direction not zero and its "
@@ -78,35 +68,46 @@ class Validator {
             const auto need = [&](bool ok, const char* message) {
                 if (!ok) error(light.location, message);
             };
+            const auto ambient = [&](const Rgb& c) {
+                need(finite(c), "the light's ambient colour must be finite");
+            };
+            const auto color = [&](const Rgb& c) {
+                need(finite(c), "the light's colour must be finite");
+            };
+            const auto direction = [&](const Vec3& v) {
+                need(is_finite(v) && v != Vec3{},
+                     "the light's direction must be finite and not zero");
+            };
+            const auto falloff = [&](const auto& l) {
+                need(is_finite(l.position), "the light's position must be finite");
+                const Attenuation& a = l.attenuation;
+                need(a.constant >= 0 && a.linear >= 0 && a.quadratic >= 0 &&
+                         std::isfinite(a.constant + a.linear + a.quadratic),
+                     "the light's attenuation coefficients must be finite and not negative");
+                need(l.range > 0, "the light's range must be positive");
+            };
             std::visit(
-                [&](const auto& l) {
-                    need(finite(l.ambient), "the light's ambient colour must be finite");
-                    if constexpr (requires { l.color; }) {
-                        need(finite(l.color), "the light's colour must be finite");
-                    }
-                    if constexpr (requires { l.position; }) {
-                        need(is_finite(l.position), "the light's position must be finite");
-                        const Attenuation& a = l.attenuation;
-                        need(
-                            a.constant >= 0 && a.linear >= 0 && a.quadratic >= 0 &&
-                                std::isfinite(a.constant + a.linear + a.quadratic),
-                            "the light's attenuation coefficients must be finite and not negative");
-                    }
-                    if constexpr (requires { l.range; }) {
-                        need(l.range > 0, "the light's range must be positive");
-                    }
-                    if constexpr (requires { l.to_light; }) {
-                        need(is_finite(l.to_light) && l.to_light != Vec3{},
-                             "the light's direction must be finite and not zero");
-                    }
-                    if constexpr (requires { l.inner_angle; }) {
-                        need(is_finite(l.direction) && l.direction != Vec3{},
-                             "the light's direction must be finite and not zero");
+                Overloaded{
+                    [&](const AmbientLight& l) { ambient(l.ambient); },
+                    [&](const DirectionalLight& l) {
+                        ambient(l.ambient);
+                        color(l.color);
+                        direction(l.to_light);
+                    },
+                    [&](const PointLight& l) {
+                        ambient(l.ambient);
+                        color(l.color);
+                        falloff(l);
+                    },
+                    [&](const SpotLight& l) {
+                        ambient(l.ambient);
+                        color(l.color);
+                        falloff(l);
+                        direction(l.direction);
                         need(l.inner_angle >= 0 && l.inner_angle <= l.outer_angle &&
                                  l.outer_angle <= 3.1415926535897936,
                              "the light's angles must satisfy 0 <= inner <= outer <= 180 degrees");
-                    }
-                },
+                    }},
                 light.light);
         }
     }

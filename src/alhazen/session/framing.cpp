@@ -8,6 +8,7 @@
 #include <map>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/overloaded.h"
 #include "alhazen/math/constants.h"
 #include "alhazen/primitives/primitive_table.h"
 
@@ -139,18 +140,17 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
 
 /// A light at the eye: visible points are never in shadow.
 Light headlight(const Camera& camera) {
-    if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
-        PointLight light;
-        light.position = perspective->eye;
-        light.color = kHeadlight;
-        light.ambient = kHeadlightAmbient;
-        return light;
-    }
-    DirectionalLight light;
-    light.to_light = normalize(-std::get<OrthographicCamera>(camera).direction);
-    light.color = kHeadlight;
-    light.ambient = kHeadlightAmbient;
-    return light;
+    return std::visit(Overloaded{[](const PerspectiveCamera& c) -> Light {
+                                     return PointLight{.position = c.eye,
+                                                       .color = kHeadlight,
+                                                       .ambient = kHeadlightAmbient};
+                                 },
+                                 [](const OrthographicCamera& c) -> Light {
+                                     return DirectionalLight{.to_light = normalize(-c.direction),
+                                                             .color = kHeadlight,
+                                                             .ambient = kHeadlightAmbient};
+                                 }},
+                      camera);
 }
 
 bool shows_without_light(const Scene& scene) {
@@ -234,7 +234,8 @@ std::vector<std::string> complete_view(SceneDescription& description, Scene& sce
                             view.azimuth_deg, view.elevation_deg));
         }
     }
-    if (scene.lights.empty() && scene.conventions.headlight && !shows_without_light(scene)) {
+    if (scene.lights.empty() && description.conventions.importing.headlight &&
+        !shows_without_light(scene)) {
         const Light light = headlight(find_camera(scene, options.camera).camera);
         description.lights.push_back({"headlight", light, {}});
         scene.lights.push_back(light);

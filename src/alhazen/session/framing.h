@@ -42,7 +42,7 @@ struct FramingOptions {
 
 /// Adds a camera and a light to both, where they have none, and a grey background where a light was
 /// added and the file has none. Formats with complete lighting get no light
-/// (ShadingConventions::headlight). Returns a sentence per change. Throws Error: Scene when there
+/// (ImportConventions::headlight). Returns a sentence per change. Throws Error: Scene when there
 /// is nothing to frame, Usage as find_camera.
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,
                                        const FramingOptions& options);

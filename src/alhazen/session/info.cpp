@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "alhazen/base/overloaded.h"
 #include "alhazen/session/masked_parts.h"
 #include "alhazen/session/mesh_figures.h"
 #include "alhazen/session/unique_bytes.h"
@@ -110,29 +111,33 @@ json textures_json(const SceneDescription& d) {
 json camera_json(const CameraDescription& description) {
     constexpr double kDegrees = 180.0 / std::numbers::pi;
     json camera = {{"name", description.name}};
-    if (const auto* c = std::get_if<PerspectiveCamera>(&description.camera)) {
-        const auto field = [&](const Vec3& side) {
-            return 2.0 * kDegrees * std::atan(0.5 * length(side) / length(c->look));
-        };
-        camera["kind"] = "perspective";
-        camera["fov_x_deg"] = field(c->right);
-        camera["fov_y_deg"] = field(c->up);
-        camera["eye"] = vector_json(c->eye);
-    } else {
-        const auto& o = std::get<OrthographicCamera>(description.camera);
-        camera["kind"] = "orthographic";
-        camera["width"] = length(o.right);
-        camera["height"] = length(o.up);
-        camera["eye"] = vector_json(o.origin);
-    }
+    std::visit(Overloaded{[&](const PerspectiveCamera& c) {
+                              const auto field = [&](const Vec3& side) {
+                                  return 2.0 * kDegrees *
+                                         std::atan(0.5 * length(side) / length(c.look));
+                              };
+                              camera["kind"] = "perspective";
+                              camera["fov_x_deg"] = field(c.right);
+                              camera["fov_y_deg"] = field(c.up);
+                              camera["eye"] = vector_json(c.eye);
+                          },
+                          [&](const OrthographicCamera& c) {
+                              camera["kind"] = "orthographic";
+                              camera["width"] = length(c.right);
+                              camera["height"] = length(c.up);
+                              camera["eye"] = vector_json(c.origin);
+                          }},
+               description.camera);
     camera["aspect"] = description.aspect;
     return camera;
 }
 
 const char* light_kind(const Light& light) {
-    static constexpr const char* kNames[] = {"ambient", "directional", "point", "spot"};
-    static_assert(std::size(kNames) == std::variant_size_v<Light>);
-    return kNames[light.index()];
+    return std::visit(Overloaded{[](const AmbientLight&) { return "ambient"; },
+                                 [](const DirectionalLight&) { return "directional"; },
+                                 [](const PointLight&) { return "point"; },
+                                 [](const SpotLight&) { return "spot"; }},
+                      light);
 }
 
 json memory_json(const LoadedScene& loaded) {
@@ -211,7 +216,7 @@ void add_looks(json& info, const SceneDescription& d) {
     }
     if (d.picture.width) info["picture"]["width"] = *d.picture.width;
     if (d.picture.height) info["picture"]["height"] = *d.picture.height;
-    info["max_depth"] = d.conventions.max_depth;
+    info["max_depth"] = d.conventions.shading.max_depth;
 }
 
 }  // namespace

@@ -24,6 +24,6 @@ struct PictureOptions {
 
 /// Integer formats are encoded from the film's doubles: truncation is exact. Throws Error.
 void write_picture(const std::filesystem::path& path, const Film& film,
-                   const ShadingConventions& conventions, const PictureOptions& options);
+                   const FilmConventions& conventions, const PictureOptions& options);
 
 }  // namespace alhazen

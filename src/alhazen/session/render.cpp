@@ -70,9 +70,9 @@ void check(const RenderOptions& options) {
 /// The scene with the overrides of the command line; shares all geometry.
 Scene adjusted(const Scene& scene, const RenderOptions& options) {
     Scene result = scene;
-    ShadingConventions& conventions = result.conventions;
-    if (options.protocol == Protocol::Spd) apply_spd(conventions);
-    if (options.max_depth) conventions.max_depth = *options.max_depth;
+    ShadingConventions& shading = result.conventions.shading;
+    if (options.protocol == Protocol::Spd) apply_spd(shading, result.conventions.sampling);
+    if (options.max_depth) shading.max_depth = *options.max_depth;
     return result;
 }
 
@@ -122,12 +122,12 @@ class TileRenderers {
 
 }  // namespace
 
-void apply_spd(ShadingConventions& conventions) {
-    conventions.pixel_sample = ShadingConventions::PixelSample::FrameCorners;
-    conventions.max_depth = 4;
-    conventions.min_contribution = 0.0;
-    conventions.transmitting_surfaces_reflect = true;
-    conventions.correct_interpolated_normals = false;
+void apply_spd(ShadingConventions& shading, SamplingConventions& sampling) {
+    sampling.pixel_sample = SamplingConventions::PixelSample::FrameCorners;
+    shading.max_depth = 4;
+    shading.min_contribution = 0.0;
+    shading.transmitting_surfaces_reflect = true;
+    shading.correct_interpolated_normals = false;
 }
 
 double free_aspect(const PictureSettings& picture, const RenderOptions& options) {

@@ -22,7 +22,7 @@ enum class Protocol {
 };
 
 /// What Protocol::Spd says of a scene; it also fixes the size, 513 x 513.
-void apply_spd(ShadingConventions& conventions);
+void apply_spd(ShadingConventions& shading, SamplingConventions& sampling);
 
 struct RenderOptions {
     std::string renderer = "whitted";

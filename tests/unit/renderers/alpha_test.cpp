@@ -224,7 +224,7 @@ TEST(Transmission, LightFallsByTheLengthInsideAVolume) {
     m.metallic_roughness->attenuation_distance = 2;
     maker.add(BoxShape{{-1, -1, -2}, {1, 1, 2}}, maker.material(m));
     maker.add(wall(-3), maker.material(glowing({1, 1, 1})));
-    maker.description().conventions.max_depth = 2;
+    maker.description().conventions.shading.max_depth = 2;
     // Four units inside: twice the distance; two surfaces pass 96 % each. One reflection inside is
     // seen too: 0.96 of it leaves again towards nothing.
     const double two = 0.96 * 0.96;

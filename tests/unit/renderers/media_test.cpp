@@ -66,7 +66,7 @@ TEST(Media, EachTintsTheWayThroughIt) {
         for (const auto tint : {RefractionTint::PerDistance, RefractionTint::PerEvent}) {
             SceneMaker maker;
             maker.description().picture.background = Rgb{1, 1, 1};
-            maker.description().conventions.refraction_tint = tint;
+            maker.description().conventions.shading.refraction_tint = tint;
             add_tank(maker, wine_first);
             expect_near(center(maker),
                         tint == RefractionTint::PerDistance ? by_distance() : by_surface());
@@ -82,7 +82,7 @@ TEST(Media, EachTintsTheLightThatReachesWhatLiesBehind) {
             white.diffuse.color = {1, 1, 1};
             maker.add(Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, maker.material(white));
             maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
-            maker.description().conventions.shadow_tint = tint;
+            maker.description().conventions.shading.shadow_tint = tint;
             add_tank(maker, wine_first, Affine::translate({0, 0, 10}));  // above the camera
             expect_near(center(maker),
                         tint == ShadowTint::PerDistance ? by_distance() : by_surface());

@@ -39,7 +39,7 @@ int check(const Scene& scene, const std::vector<bool>& flat) {
         EXPECT_EQ(look != nullptr, flat[material]) << "material " << material;
         if (look == nullptr) continue;
         ++found;
-        EXPECT_EQ(*look, unshadowed_terms(scene.conventions, ambient, point));
+        EXPECT_EQ(*look, unshadowed_terms(scene.conventions.shading, ambient, point));
         EXPECT_EQ(point.material->coverage, 1.0);
         if (::testing::Test::HasFailure()) break;
     }

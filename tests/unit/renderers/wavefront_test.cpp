@@ -178,8 +178,8 @@ Scene doubling_scene(int depth, std::shared_ptr<Watched>& watched) {
                   both);
     }
     maker.light(PointLight{.position = {1, 1, 3}});
-    maker.description().conventions.max_depth = depth;
-    maker.description().conventions.min_contribution = 0;
+    maker.description().conventions.shading.max_depth = depth;
+    maker.description().conventions.shading.min_contribution = 0;
     Scene scene = maker.compile();
     watched = std::make_shared<Watched>(scene.aggregate);
     scene.aggregate = watched;
@@ -208,7 +208,7 @@ TEST(Wavefront, MirrorsAndGlassThatDoubleTheRaysTwelveTimesKeepGenerationsSmall)
 TEST(Wavefront, DeepTreesAreTracedFewRaysAtATime) {
     std::shared_ptr<Watched> watched;
     Scene scene = doubling_scene(200, watched);
-    scene.conventions.trace_refractions = false;
+    scene.conventions.shading.trace_refractions = false;
     const RenderJob job{scene, scene.cameras[0].camera};
     Film film(8, 8, {0, 0, 8, 8});
     RayCounters counters;
@@ -247,8 +247,8 @@ TEST(Wavefront, MirrorsInARowMultiplyAsTheRecursionDoes) {
         maker.add(Rectangle{.corner = {-9, -9, z}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}},
                   mirrors);
     }
-    maker.description().conventions.max_depth = 12;
-    maker.description().conventions.min_contribution = 0;
+    maker.description().conventions.shading.max_depth = 12;
+    maker.description().conventions.shading.min_contribution = 0;
     const Scene scene = maker.compile();
     Rgb expected = m.emission.color;
     for (int i = 0; i < 12; ++i) {

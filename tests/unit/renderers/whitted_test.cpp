@@ -80,7 +80,7 @@ TEST(Whitted, PhongMeasuresTheMirroredLightInsteadOfTheHalfVector) {
     m.shininess.value = 3;
     maker.add(Sphere{}, maker.material(m));
     maker.light(DirectionalLight{.to_light = {0, 3, 4}});
-    maker.description().conventions.highlight = ShadingConventions::Highlight::Phong;
+    maker.description().conventions.shading.highlight = ShadingConventions::Highlight::Phong;
     expect_near(center(maker.compile()), std::pow(0.8, 3) * Rgb{1, 1, 1});
 }
 
@@ -112,7 +112,8 @@ TEST(Whitted, BeerShadowsDependOnTheDistanceInside) {
     maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}}, white);
     maker.add(BoxShape{.lo = {1, -9, 0.5}, .hi = {2, 9, 40}}, pane);
     maker.light(DirectionalLight{.to_light = {4, 0, 3}});
-    maker.description().conventions.shadow_tint = ShadingConventions::ShadowTint::PerDistance;
+    maker.description().conventions.shading.shadow_tint =
+        ShadingConventions::ShadowTint::PerDistance;
     const double d = 1.0 / 0.8;
     expect_near(center(maker.compile()),
                 0.6 * Rgb{std::pow(0.9, d), std::pow(0.8, d), std::pow(0.5, d)});
@@ -162,11 +163,11 @@ TEST(Whitted, RecursionEndsByDepthAndByContribution) {
         (void)center(maker.compile(), counters);
         return counters[RayKind::Reflection].cast;
     };
-    d.conventions.max_depth = 0;
+    d.conventions.shading.max_depth = 0;
     EXPECT_EQ(reflections(), 0u);
-    d.conventions.max_depth = 7;
+    d.conventions.shading.max_depth = 7;
     EXPECT_EQ(reflections(), 7u);
-    d.conventions.min_contribution = 0.1;  // 0.5, 0.25, 0.125 go on, 0.0625 does not
+    d.conventions.shading.min_contribution = 0.1;  // 0.5, 0.25, 0.125 go on, 0.0625 does not
     EXPECT_EQ(reflections(), 3u);
 }
 
@@ -189,7 +190,7 @@ TEST(Whitted, InsideAmbientLightIsMultipliedByKtWhereTheConventionSaysSo) {
     maker.light(AmbientLight{{0.8, 0.8, 0.8}});
     // Front face: 0.8; back face, seen through one crossing: 0.5 * 0.8 (times kt once more inside).
     expect_near(center(maker.compile()), Rgb{1.2, 1.2, 1.2});
-    maker.description().conventions.ambient_inside_times_kt = true;
+    maker.description().conventions.shading.ambient_inside_times_kt = true;
     expect_near(center(maker.compile()), Rgb{1.0, 1.0, 1.0});
 }
 
@@ -203,10 +204,10 @@ TEST(Whitted, TheBackOfAnOpenSurfaceIsNotTheInsideOfAnything) {
                   maker.material(m));
         maker.light(AmbientLight{{0.25, 0.25, 0.25}});
         maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {0.5, 0.5, 0.5}});
-        ShadingConventions& conventions = maker.description().conventions;
-        conventions.ambient_inside_times_kt = true;
+        Conventions& conventions = maker.description().conventions;
+        conventions.shading.ambient_inside_times_kt = true;
         if (per_distance)
-            conventions.refraction_tint = ShadingConventions::RefractionTint::PerDistance;
+            conventions.shading.refraction_tint = ShadingConventions::RefractionTint::PerDistance;
         expect_near(center(maker.compile()), {0.75, 0.75, 0.75});
     }
 }
@@ -216,7 +217,7 @@ TEST(Whitted, GlassThatAbsorbsByDistanceTintsWhatIsSeenThroughIt) {
     maker.add(BoxShape{.lo = {-9, -9, 0}, .hi = {9, 9, 2}},
               maker.material(glass({0.5, 1, 0.2}, 1.5)));
     maker.description().picture.background = Rgb{1, 1, 1};
-    maker.description().conventions.refraction_tint =
+    maker.description().conventions.shading.refraction_tint =
         ShadingConventions::RefractionTint::PerDistance;
     expect_near(center(maker.compile()), {0.25, 1, 0.04});
 }
@@ -283,7 +284,8 @@ TEST(Whitted, RadianceThatIsNotFiniteIsCountedAndLeftOut) {
     m.emission.color = {1e308, 0, 0};
     maker.add(Sphere{}, maker.material(m));
     maker.light(AmbientLight{{1e308, 0, 0}});
-    maker.description().conventions.ambient_factor = ShadingConventions::AmbientFactor::Diffuse;
+    maker.description().conventions.shading.ambient_factor =
+        ShadingConventions::AmbientFactor::Diffuse;
     maker.light(AmbientLight{{1e308, 0, 0}});
     RayCounters counters;
     expect_near(center(maker.compile(), counters), {0, 0, 0});

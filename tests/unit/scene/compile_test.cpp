@@ -142,7 +142,7 @@ TEST(Compile, TruncatedColoursAreThoseOfEightBits) {
     m.diffuse.color = {0.12, 1.0, 0.5};
     maker.material(m);
     maker.add(Sphere{});
-    maker.description().conventions.truncate_material_colors = true;
+    maker.description().conventions.importing.truncate_material_colors = true;
     const Scene scene = maker.compile();
     EXPECT_EQ(scene.materials[0].diffuse.color, (Rgb{30 / 255.0, 1.0, 127 / 255.0}));
 }

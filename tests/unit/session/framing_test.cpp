@@ -135,7 +135,7 @@ TEST(Framing, WhatTheFileHasIsKept) {
 
 TEST(Framing, ScenesThatAreMeantToBeDarkStayDark) {
     SceneMaker maker = sphere_without_view();
-    maker.description().conventions.headlight = false;
+    maker.description().conventions.importing.headlight = false;
     Scene scene = maker.compile();
     EXPECT_EQ(complete_view(maker.description(), scene, {}).size(), 1u);
     EXPECT_TRUE(scene.lights.empty());

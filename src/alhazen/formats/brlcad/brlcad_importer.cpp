@@ -13,11 +13,11 @@ namespace alhazen {
 namespace {
 
 /// What BRL-CAD's pictures mean.
-ShadingConventions brlcad_conventions() {
-    ShadingConventions c;
-    c.highlight = ShadingConventions::Highlight::Phong;
-    c.air_index = 1.0;
-    c.pixel_sample = ShadingConventions::PixelSample::LowerLeftCorner;
+Conventions brlcad_conventions() {
+    Conventions c;
+    c.shading.highlight = ShadingConventions::Highlight::Phong;
+    c.shading.air_index = 1.0;
+    c.sampling.pixel_sample = SamplingConventions::PixelSample::LowerLeftCorner;
     return c;
 }
 

@@ -2,12 +2,12 @@
 
 namespace alhazen {
 
-ShadingConventions default_conventions() {
-    ShadingConventions c;
-    c.ambient_inside_times_kt = false;
-    c.clamp_attenuation = false;
-    c.air_index = 1.0;
-    c.linear_output = false;
+Conventions default_conventions() {
+    Conventions c;
+    c.shading.ambient_inside_times_kt = false;
+    c.shading.clamp_attenuation = false;
+    c.shading.air_index = 1.0;
+    c.film.linear_output = false;
     return c;
 }
 

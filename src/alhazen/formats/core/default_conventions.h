@@ -1,11 +1,11 @@
 #pragma once
 /// The conventions of native scenes, and of formats that have none of their own.
 
-#include "alhazen/shading/shading_conventions.h"
+#include "alhazen/scene_model/conventions.h"
 
 namespace alhazen {
 
 /// Pictures are sRGB, attenuation is not clamped, the air's index is 1.
-[[nodiscard]] ShadingConventions default_conventions();
+[[nodiscard]] Conventions default_conventions();
 
 }  // namespace alhazen

@@ -38,8 +38,8 @@ inline const Vocabulary<ShadingConventions::AmbientFactor>& native_words() {
     return kWords;
 }
 template <>
-inline const Vocabulary<ShadingConventions::PixelSample>& native_words() {
-    using E = ShadingConventions::PixelSample;
+inline const Vocabulary<SamplingConventions::PixelSample>& native_words() {
+    using E = SamplingConventions::PixelSample;
     static const Vocabulary<E> kWords{{"center", E::Center},
                                       {"lower_left_corner", E::LowerLeftCorner},
                                       {"frame_corners", E::FrameCorners}};

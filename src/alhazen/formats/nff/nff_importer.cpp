@@ -10,20 +10,20 @@ namespace alhazen {
 namespace {
 
 /// What the pictures of Haines' databases mean.
-ShadingConventions nff_conventions() {
-    ShadingConventions c;
-    c.highlight = ShadingConventions::Highlight::Phong;
+Conventions nff_conventions() {
+    Conventions c;
+    c.shading.highlight = ShadingConventions::Highlight::Phong;
     // A shadow ray asks whether anything is in the way, glass or not.
-    c.shadow_tint = ShadingConventions::ShadowTint::Opaque;
-    c.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
+    c.shading.shadow_tint = ShadingConventions::ShadowTint::Opaque;
+    c.shading.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
     // `ambient` of the materials is their diffuse colour, except where 'fm' gives it.
-    c.ambient_factor = ShadingConventions::AmbientFactor::Ambient;
-    c.ambient_inside_times_kt = false;
-    c.transmitting_surfaces_reflect = true;
-    c.air_index = 1.0;
+    c.shading.ambient_factor = ShadingConventions::AmbientFactor::Ambient;
+    c.shading.ambient_inside_times_kt = false;
+    c.shading.transmitting_surfaces_reflect = true;
+    c.shading.air_index = 1.0;
     // The eye ray counts as the first of five generations.
-    c.headlight = false;
-    c.max_depth = 4;
+    c.importing.headlight = false;
+    c.shading.max_depth = 4;
     return c;
 }
 

@@ -68,23 +68,23 @@ Signs signs_of(TextNode root) {
     return signs;
 }
 
-ShadingConventions conventions_of(bool dictionary) {
-    ShadingConventions c;
-    c.highlight = ShadingConventions::Highlight::Phong;
-    c.shadow_tint = dictionary ? ShadingConventions::ShadowTint::PerCrossing
-                               : ShadingConventions::ShadowTint::PerDistance;
-    c.refraction_tint = dictionary ? ShadingConventions::RefractionTint::PerEvent
-                                   : ShadingConventions::RefractionTint::PerDistance;
-    c.ambient_factor = ShadingConventions::AmbientFactor::Ambient;
-    c.ambient_inside_times_kt = false;
-    c.clamp_attenuation = true;
-    c.air_index = 1.0;
-    c.pixel_sample = ShadingConventions::PixelSample::LowerLeftCorner;
-    c.headlight = false;
-    c.linear_output = true;
+Conventions conventions_of(bool dictionary) {
+    Conventions c;
+    c.shading.highlight = ShadingConventions::Highlight::Phong;
+    c.shading.shadow_tint = dictionary ? ShadingConventions::ShadowTint::PerCrossing
+                                       : ShadingConventions::ShadowTint::PerDistance;
+    c.shading.refraction_tint = dictionary ? ShadingConventions::RefractionTint::PerEvent
+                                           : ShadingConventions::RefractionTint::PerDistance;
+    c.shading.ambient_factor = ShadingConventions::AmbientFactor::Ambient;
+    c.shading.ambient_inside_times_kt = false;
+    c.shading.clamp_attenuation = true;
+    c.shading.air_index = 1.0;
+    c.sampling.pixel_sample = SamplingConventions::PixelSample::LowerLeftCorner;
+    c.importing.headlight = false;
+    c.film.linear_output = true;
     // The programs of the courses start with 0 and leave the rest to a slider; reflection and glass
     // need more.
-    c.max_depth = 5;
+    c.shading.max_depth = 5;
     return c;
 }
 

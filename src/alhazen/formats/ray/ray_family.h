@@ -5,7 +5,7 @@
 /// Differs: neither program says which family a file is for; see `detect_ray_family` for the rule.
 
 #include "alhazen/formats/text/text_tree.h"
-#include "alhazen/shading/shading_conventions.h"
+#include "alhazen/scene_model/conventions.h"
 
 namespace alhazen {
 
@@ -14,7 +14,7 @@ struct RayFamily {
     bool dictionary = false;
     /// `shininess = 0.2` means an exponent of 0.2 * this.
     double shininess_scale = 1.0;
-    ShadingConventions conventions;
+    Conventions conventions;
 };
 
 /// A file is of the dictionary family when it spells something only that family knows (`material {

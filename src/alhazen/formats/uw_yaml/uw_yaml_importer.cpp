@@ -7,20 +7,20 @@ namespace alhazen {
 namespace {
 
 /// What the course's own pictures were found to mean.
-ShadingConventions uw_conventions() {
-    ShadingConventions c;
-    c.highlight = ShadingConventions::Highlight::BlinnPhong;
-    c.shadow_tint = ShadingConventions::ShadowTint::PerCrossing;
-    c.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
-    c.ambient_factor = ShadingConventions::AmbientFactor::Diffuse;
-    c.ambient_inside_times_kt = false;
-    c.clamp_attenuation = true;
-    c.truncate_material_colors = true;
-    c.transmitting_surfaces_reflect = false;
-    c.air_index = 1.0003;
-    c.pixel_sample = ShadingConventions::PixelSample::Center;
-    c.headlight = false;
-    c.linear_output = true;
+Conventions uw_conventions() {
+    Conventions c;
+    c.shading.highlight = ShadingConventions::Highlight::BlinnPhong;
+    c.shading.shadow_tint = ShadingConventions::ShadowTint::PerCrossing;
+    c.shading.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
+    c.shading.ambient_factor = ShadingConventions::AmbientFactor::Diffuse;
+    c.shading.ambient_inside_times_kt = false;
+    c.shading.clamp_attenuation = true;
+    c.importing.truncate_material_colors = true;
+    c.shading.transmitting_surfaces_reflect = false;
+    c.shading.air_index = 1.0003;
+    c.sampling.pixel_sample = SamplingConventions::PixelSample::Center;
+    c.importing.headlight = false;
+    c.film.linear_output = true;
     return c;
 }
 

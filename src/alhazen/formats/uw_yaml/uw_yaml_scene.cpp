@@ -260,15 +260,15 @@ void UwSceneReader::camera(const Place& place, const YAML::Node& component) {
 }
 
 void UwSceneReader::trace_settings(const YAML::Node& trace) {
-    ShadingConventions& conventions = scene_.conventions;
-    const double depth = values_.number(trace, "Maximum Recursion Depth", conventions.max_depth);
+    ShadingConventions& shading = scene_.conventions.shading;
+    const double depth = values_.number(trace, "Maximum Recursion Depth", shading.max_depth);
     if (depth >= 0.0 && depth <= 1000.0) {
-        conventions.max_depth = int(depth);
+        shading.max_depth = int(depth);
     } else {
         values_.error(trace, "the Maximum Recursion Depth must be 0 to 1000");
     }
-    conventions.trace_reflections = values_.flag(trace, "Reflections", true);
-    conventions.trace_refractions = values_.flag(trace, "Refractions", true);
+    shading.trace_reflections = values_.flag(trace, "Reflections", true);
+    shading.trace_refractions = values_.flag(trace, "Refractions", true);
     shadow_settings(trace);
     for (const char* setting : {"Monte Carlo", "Samples Per Pixel", "Aperture Size"}) {
         if (values_.number(trace, setting, 0.0) > 0.0) {
@@ -283,7 +283,7 @@ void UwSceneReader::trace_settings(const YAML::Node& trace) {
 /// `Enable Shadows`.
 void UwSceneReader::shadow_settings(const YAML::Node& trace) {
     using ShadowTint = ShadingConventions::ShadowTint;
-    ShadowTint& tint = scene_.conventions.shadow_tint;
+    ShadowTint& tint = scene_.conventions.shading.shadow_tint;
     if (!values_.flag(trace, "Enable Shadows", true)) tint = ShadowTint::None;
     const std::string text = values_.text(trace, "Shadows");
     if (text.empty() || text == "2" || text == "true") return;

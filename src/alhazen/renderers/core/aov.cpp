@@ -20,20 +20,10 @@ namespace {
 class DepthScale {
   public:
     explicit DepthScale(const Camera& camera) {
-        std::visit(
-            [&](const auto& c) {
-                Vec3 forward;
-                if constexpr (requires { c.look; }) {
-                    forward = c.look;
-                    eye_ = c.eye;
-                } else {
-                    forward = c.direction;
-                    eye_ = c.origin;
-                }
-                axis_ = normalize(cross(c.up, c.right));
-                if (dot(axis_, forward) < 0.0) axis_ = -axis_;
-            },
-            camera);
+        const PicturePlane plane = picture_plane(camera);
+        eye_ = plane.eye;
+        axis_ = normalize(cross(plane.up, plane.right));
+        if (dot(axis_, plane.forward) < 0.0) axis_ = -axis_;
     }
     [[nodiscard]] double depth(const Vec3& point) const { return dot(point - eye_, axis_); }
 

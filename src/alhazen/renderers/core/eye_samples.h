@@ -10,9 +10,9 @@ namespace alhazen {
 
 /// Film coordinates (x right, y up, both 0..1) of the only sample of pixel (i, j); j counts from
 /// the top row.
-inline Vec2 single_sample(ShadingConventions::PixelSample where, int i, int j, int width,
+inline Vec2 single_sample(SamplingConventions::PixelSample where, int i, int j, int width,
                           int height) {
-    using PixelSample = ShadingConventions::PixelSample;
+    using PixelSample = SamplingConventions::PixelSample;
     const int from_bottom = height - 1 - j;
     switch (where) {
         case PixelSample::LowerLeftCorner:
@@ -48,7 +48,7 @@ inline Vec2 jittered_sample(const RenderJob& job, int i, int j, int width, int h
 /// Film coordinates of sample `s` of pixel (i, j), as the job asks.
 inline Vec2 eye_sample(const RenderJob& job, int i, int j, int width, int height, int s) {
     return job.samples_per_pixel == 1
-               ? single_sample(job.scene.conventions.pixel_sample, i, j, width, height)
+               ? single_sample(job.scene.conventions.sampling.pixel_sample, i, j, width, height)
                : jittered_sample(job, i, j, width, height, s);
 }
 

@@ -136,7 +136,7 @@ void set_media(const Scene& scene, ShadingPoint& point) {
     }
     MaterialSample& material = own_material(point);
     point.behind.known = true;
-    double here = scene.conventions.air_index, beyond = here;
+    double here = scene.conventions.shading.air_index, beyond = here;
     Rgb before_passes{1, 1, 1};
     if (media.before) {
         const MaterialSample before = medium_at(scene, point.surface, *media.before);

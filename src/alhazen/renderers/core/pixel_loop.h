@@ -85,7 +85,8 @@ class PixelLoop {
         columns_.clear();
         rows_.clear();
         const auto sample = [&](int i, int j) {
-            return single_sample(job_.scene.conventions.pixel_sample, i, j, width_, height_);
+            return single_sample(job_.scene.conventions.sampling.pixel_sample, i, j, width_,
+                                 height_);
         };
         for (int i = tile.x0; i < tile.x1; ++i) columns_.push_back(eye_.column(sample(i, 0).x));
         for (int j = tile.y0; j < tile.y1; ++j) rows_.push_back(eye_.row(sample(0, j).y));

@@ -24,7 +24,7 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
-      opaque_(scene.all_opaque || scene.conventions.shadow_tint == ShadowTint::Opaque),
+      opaque_(scene.all_opaque || scene.conventions.shading.shadow_tint == ShadowTint::Opaque),
       met_(std::make_unique<bool[]>(kMostRays)) {
     rays_.reserve(kMostRays);
     waiting_.reserve(kMostRays);
@@ -32,7 +32,7 @@ ShadowBatch::ShadowBatch(const Scene& scene, RayCounters& counters, TraversalSta
 
 void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rgb& fraction,
                       const Path& path, Rgb& sum) {
-    if (scene_.conventions.shadow_tint == ShadowTint::None) {
+    if (scene_.conventions.shading.shadow_tint == ShadowTint::None) {
         sum += light.intensity * fraction;
         return;
     }
@@ -122,7 +122,7 @@ Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSam
                                bool leaving, double inside) const {
     const Rgb& kt = material.transmissive;
     if (material.physical || kt.is_black() ||
-        scene_.conventions.shadow_tint == ShadowTint::PerCrossing) {
+        scene_.conventions.shading.shadow_tint == ShadowTint::PerCrossing) {
         return kt;
     }
     return leaving ? power(medium.transmissive, inside) : Rgb{1, 1, 1};

@@ -22,7 +22,7 @@ std::optional<Rgb> look_of(const Scene& scene, const Material& material,
     if (!whole || sample.physical || is_unseen_from_behind(sample) || (lit && !dull)) {
         return std::nullopt;
     }
-    return unshadowed_terms(scene.conventions, ambient, point);
+    return unshadowed_terms(scene.conventions.shading, ambient, point);
 }
 
 }  // namespace

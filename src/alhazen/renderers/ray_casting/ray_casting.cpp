@@ -14,14 +14,15 @@ namespace {
 constexpr std::size_t kRaysAtOnce = 256;
 
 Rgb shade(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& point) {
-    Rgb sum = unshadowed_terms(scene.conventions, ambient, point);
+    Rgb sum = unshadowed_terms(scene.conventions.shading, ambient, point);
     for (const Light& light : scene.lights) {
         if (!illuminates(light)) continue;
         const LightSample l =
-            sample(light, point.surface.point, scene.conventions.clamp_attenuation);
+            sample(light, point.surface.point, scene.conventions.shading.clamp_attenuation);
         const double cosine = dot(point.normal, l.to_light);
         if (cosine > 0.0) {
-            sum += l.intensity * reflected_fraction(scene.conventions, point, l.to_light, cosine);
+            sum += l.intensity *
+                   reflected_fraction(scene.conventions.shading, point, l.to_light, cosine);
         }
     }
     return sum;

@@ -24,9 +24,8 @@ constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 Coherence coherence_of_shadows(std::span<const Light> lights) {
     std::size_t places = 0, directions = 0;
     for (const Light& light : lights) {
-        places +=
-            std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light);
-        directions += std::holds_alternative<DirectionalLight>(light);
+        places += place_of(light) == LightPlace::Point;
+        directions += place_of(light) == LightPlace::Direction;
     }
     return places == 1 && directions == 0 ? Coherence::Coherent : Coherence::Any;
 }
@@ -37,7 +36,7 @@ class WhittedIntegrator {
     WhittedIntegrator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
         : job_(job),
           scene_(job.scene),
-          conventions_(job.scene.conventions),
+          conventions_(job.scene.conventions.shading),
           counters_(counters),
           rays_at_once_(rays_at_once),
           eye_shadows_(coherence_of_shadows(scene_.lights)),

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "alhazen/base/overloaded.h"
+
 namespace alhazen {
 
 namespace {
-
-template <class... F>
-struct Overloaded : F... {
-    using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;  // clang 14 does not deduce this by itself
 
 /// Direction and distance to a position, and the attenuation over that distance.
 struct Approach {
@@ -26,8 +21,7 @@ Approach approach(const auto& light, const Vec3& point, bool clamp) {
     const Vec3 offset = light.position - point;
     const double d = length(offset);
     double factor = 1.0 / (a.constant + a.linear * d + a.quadratic * (d * d));
-    // A light with no falloff given (all zero) divides by zero: clamping makes it 1, as the course
-    // does.
+    // All three coefficients may be zero; clamping makes the quotient 1, as the course does.
     if (clamp && !(factor < 1.0)) factor = 1.0;
     if (light.range != kNoRange) {
         const double x = d / light.range;
@@ -48,7 +42,25 @@ double spot_falloff(const SpotLight& light, const Vec3& to_light) {
 }  // namespace
 
 bool illuminates(const Light& light) {
-    return !std::holds_alternative<AmbientLight>(light);
+    return place_of(light) != LightPlace::None;
+}
+
+LightPlace place_of(const Light& light) {
+    return std::visit(Overloaded{[](const AmbientLight&) { return LightPlace::None; },
+                                 [](const DirectionalLight&) { return LightPlace::Direction; },
+                                 [](const PointLight&) { return LightPlace::Point; },
+                                 [](const SpotLight&) { return LightPlace::Point; }},
+                      light);
+}
+
+Light with_unit_directions(const Light& light) {
+    Light result = light;
+    std::visit(
+        Overloaded{[](AmbientLight&) {},
+                   [](DirectionalLight& l) { l.to_light = normalize(l.to_light); },
+                   [](PointLight&) {}, [](SpotLight& l) { l.direction = normalize(l.direction); }},
+        result);
+    return result;
 }
 
 LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation) {

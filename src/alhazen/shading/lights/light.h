@@ -1,6 +1,15 @@
 #pragma once
-/// Lights without extent: a closed variant of plain structs. ADD A LIGHT HERE: a struct and an
-/// entry in `Light`.
+/// Lights without extent: a closed variant of plain structs.
+///
+/// ADD A LIGHT HERE: a struct with a member `ambient`, and an entry in `Light`. The compiler then
+/// names the other places:
+///   - shading/lights/light.cpp: place_of, with_unit_directions, sample;
+///   - scene_model/validate.cpp: check of the values;
+///   - formats/native/read/native_view.cpp: blocks_of (name and reader of its block);
+///   - formats/native/write/native_write_view.cpp: block_of;
+///   - session/info.cpp: light_kind;
+///   - tests/support/same_description.h: same;
+///   - tests/unit/formats/native/native_writer_test.cpp: one in the round trip.
 ///
 /// Conventions: every light may carry an ambient term, added at every point whatever is in between
 /// (the course's I_La); an `AmbientLight` is nothing else.
@@ -28,7 +37,7 @@ struct Attenuation {
     double constant = 1, linear = 0, quadratic = 0;
 };
 
-/// Where a light ends: its attenuation is multiplied by clamp(1 - (d / range)^4, 0, 1).
+/// Range of a light: its attenuation is multiplied by clamp(1 - (d / range)^4, 0, 1).
 /// Source: Khronos, KHR_lights_punctual, "Range Property".
 inline constexpr double kNoRange = std::numeric_limits<double>::infinity();
 
@@ -62,8 +71,17 @@ struct LightSample {
     Rgb intensity;
 };
 
+/// End of the shadow rays to a light.
+enum class LightPlace {
+    None,       ///< the light has an ambient term only: no shadow rays
+    Direction,  ///< parallel rays
+    Point,      ///< rays to one point
+};
+[[nodiscard]] LightPlace place_of(const Light& light);
 /// False for a light that only has an ambient term.
 [[nodiscard]] bool illuminates(const Light& light);
+/// The light with its directions normalised, as `sample` expects it.
+[[nodiscard]] Light with_unit_directions(const Light& light);
 [[nodiscard]] LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation);
 [[nodiscard]] Rgb ambient_of(const Light& light);
 

@@ -48,7 +48,7 @@ TEST(GltfViews, LightsKeepTheirUnitsUpToPi) {
           {"type": "directional", "name": "sun", "intensity": 3},
           {"type": "spot", "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}}]}})"));
     EXPECT_EQ(result.errors(), 0u) << result.messages();
-    EXPECT_FALSE(result.scene.conventions.clamp_attenuation);
+    EXPECT_FALSE(result.scene.conventions.shading.clamp_attenuation);
     ASSERT_EQ(result.scene.lights.size(), 3u);
     // Half of the way to its range: 40 cd / pi / 25 m^2 * (1 - 1/16).
     const LightSample point = sample(result.scene.lights[0].light, {0, 0, 0}, false);

@@ -62,10 +62,10 @@ class Numbers {
 inline SceneDescription empty_scene(const std::string& root = "scene") {
     SceneDescription scene;
     scene.objects.push_back({root, {}, {}});
-    scene.conventions.ambient_inside_times_kt = false;
-    scene.conventions.clamp_attenuation = false;
-    scene.conventions.air_index = 1.0;
-    scene.conventions.linear_output = false;
+    scene.conventions.shading.ambient_inside_times_kt = false;
+    scene.conventions.shading.clamp_attenuation = false;
+    scene.conventions.shading.air_index = 1.0;
+    scene.conventions.film.linear_output = false;
     return scene;
 }
 

@@ -87,17 +87,18 @@ TEST(NativeImporter, ReadsEveryConvention) {
         " pixel_sample = lower_left_corner; linear_output = true; max_depth = 9;"
         " min_contribution = 0.01 }");
     ASSERT_EQ(i.messages(), "");
-    const ShadingConventions& c = i.scene.conventions;
-    EXPECT_EQ(c.highlight, ShadingConventions::Highlight::Phong);
-    EXPECT_EQ(c.shadow_tint, ShadingConventions::ShadowTint::Opaque);
-    EXPECT_EQ(c.refraction_tint, ShadingConventions::RefractionTint::PerDistance);
-    EXPECT_EQ(c.ambient_factor, ShadingConventions::AmbientFactor::Diffuse);
-    EXPECT_TRUE(c.ambient_inside_times_kt && c.clamp_attenuation && c.truncate_material_colors &&
-                c.transmitting_surfaces_reflect && c.linear_output);
-    EXPECT_EQ(c.air_index, 1.1);
-    EXPECT_EQ(c.pixel_sample, ShadingConventions::PixelSample::LowerLeftCorner);
-    EXPECT_EQ(c.max_depth, 9);
-    EXPECT_EQ(c.min_contribution, 0.01);
+    const Conventions& c = i.scene.conventions;
+    EXPECT_EQ(c.shading.highlight, ShadingConventions::Highlight::Phong);
+    EXPECT_EQ(c.shading.shadow_tint, ShadingConventions::ShadowTint::Opaque);
+    EXPECT_EQ(c.shading.refraction_tint, ShadingConventions::RefractionTint::PerDistance);
+    EXPECT_EQ(c.shading.ambient_factor, ShadingConventions::AmbientFactor::Diffuse);
+    EXPECT_TRUE(c.shading.ambient_inside_times_kt && c.shading.clamp_attenuation &&
+                c.importing.truncate_material_colors && c.shading.transmitting_surfaces_reflect &&
+                c.film.linear_output);
+    EXPECT_EQ(c.shading.air_index, 1.1);
+    EXPECT_EQ(c.sampling.pixel_sample, SamplingConventions::PixelSample::LowerLeftCorner);
+    EXPECT_EQ(c.shading.max_depth, 9);
+    EXPECT_EQ(c.shading.min_contribution, 0.01);
 }
 
 }  // namespace

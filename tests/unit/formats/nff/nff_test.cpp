@@ -81,8 +81,8 @@ TEST(Nff, TheFillIsTakenApartAsTheFormatSays) {
     EXPECT_EQ(glass.shininess.value, 20.0);
     EXPECT_EQ(glass.index.value, 1.5);
     EXPECT_EQ(scene.materials[1].material.index.value, 1.0);
-    EXPECT_TRUE(scene.conventions.transmitting_surfaces_reflect);
-    EXPECT_EQ(scene.conventions.air_index, 1.0);
+    EXPECT_TRUE(scene.conventions.shading.transmitting_surfaces_reflect);
+    EXPECT_EQ(scene.conventions.shading.air_index, 1.0);
 }
 
 TEST(Nff, LightsWithoutColourShareTheirIntensityWithTheAmbientLight) {

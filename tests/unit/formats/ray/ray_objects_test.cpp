@@ -18,10 +18,11 @@ using testing::material_of;
 TEST(RayImporter, SmallShininessDecidesNothingWhereTheTokenFamilySpellsItself) {
     const std::string material = "sphere { material = { shininess = 0.2; } }\n";
     using ShadowTint = ShadingConventions::ShadowTint;
-    EXPECT_EQ(import_ray(material).scene.conventions.shadow_tint, ShadowTint::PerCrossing);
+    EXPECT_EQ(import_ray(material).scene.conventions.shading.shadow_tint, ShadowTint::PerCrossing);
     const std::string mesh =
         "polymesh { points = ((0,0,0),(1,0,0),(0,1,0)); faces = ((0,1,2)); gennormals; }\n";
-    EXPECT_EQ(import_ray(material + mesh).scene.conventions.shadow_tint, ShadowTint::PerDistance);
+    EXPECT_EQ(import_ray(material + mesh).scene.conventions.shading.shadow_tint,
+              ShadowTint::PerDistance);
 }
 
 TEST(RayImporter, MultipliesTransformsFromTheOutsideIn) {

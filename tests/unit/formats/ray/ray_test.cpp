@@ -52,18 +52,20 @@ TEST(RayImporter, TellsTheFamiliesApart) {
     const Imported b =
         import_ray("sphere { material = { specular = (.5,.5,.5); shininess = 25.6 } }");
     EXPECT_EQ(material_of(b, 0).reflective.color, (Rgb{.5, .5, .5}));
-    EXPECT_EQ(b.scene.conventions.shadow_tint, ShadingConventions::ShadowTint::PerDistance);
-    EXPECT_EQ(b.scene.conventions.refraction_tint, ShadingConventions::RefractionTint::PerDistance);
+    EXPECT_EQ(b.scene.conventions.shading.shadow_tint, ShadingConventions::ShadowTint::PerDistance);
+    EXPECT_EQ(b.scene.conventions.shading.refraction_tint,
+              ShadingConventions::RefractionTint::PerDistance);
     const Imported a =
         import_ray("sphere { material = { specular = (.5,.5,.5); shininess = .2 } }");
     EXPECT_EQ(material_of(a, 0).reflective.color, (Rgb{.5, .5, .5}));
-    EXPECT_EQ(a.scene.conventions.shadow_tint, ShadingConventions::ShadowTint::PerCrossing);
-    EXPECT_EQ(a.scene.conventions.refraction_tint, ShadingConventions::RefractionTint::PerEvent);
+    EXPECT_EQ(a.scene.conventions.shading.shadow_tint, ShadingConventions::ShadowTint::PerCrossing);
+    EXPECT_EQ(a.scene.conventions.shading.refraction_tint,
+              ShadingConventions::RefractionTint::PerEvent);
     for (const Imported* i : {&a, &b}) {
-        EXPECT_EQ(i->scene.conventions.pixel_sample,
-                  ShadingConventions::PixelSample::LowerLeftCorner);
-        EXPECT_EQ(i->scene.conventions.highlight, ShadingConventions::Highlight::Phong);
-        EXPECT_TRUE(i->scene.conventions.linear_output);
+        EXPECT_EQ(i->scene.conventions.sampling.pixel_sample,
+                  SamplingConventions::PixelSample::LowerLeftCorner);
+        EXPECT_EQ(i->scene.conventions.shading.highlight, ShadingConventions::Highlight::Phong);
+        EXPECT_TRUE(i->scene.conventions.film.linear_output);
     }
 }
 

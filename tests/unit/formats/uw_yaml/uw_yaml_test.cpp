@@ -68,8 +68,8 @@ TEST(UwYaml, MaterialsAreTakenAsWrittenAndMirrorsFollowTheHighlight) {
     EXPECT_EQ(m.emission.color, (Rgb{0.01, 0, 0}));
     EXPECT_EQ(m.shininess.value, 25.6);
     EXPECT_EQ(m.index.value, 1.5);
-    EXPECT_TRUE(scene.conventions.truncate_material_colors);
-    EXPECT_EQ(scene.conventions.air_index, 1.0003);
+    EXPECT_TRUE(scene.conventions.importing.truncate_material_colors);
+    EXPECT_EQ(scene.conventions.shading.air_index, 1.0003);
     EXPECT_EQ(shape_of<Sphere>(scene, 0).radius, 0.5);
 }
 
@@ -138,7 +138,7 @@ TEST(UwYaml, LightsAndCameraFollowTheirNodes) {
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.picture.width, 400);
     EXPECT_EQ(scene.picture.height, 200);
-    EXPECT_EQ(scene.conventions.max_depth, 3);
+    EXPECT_EQ(scene.conventions.shading.max_depth, 3);
     const Ray ray = eye_ray(scene.cameras[0].camera, 0.5, 1.0);
     expect_point(ray.origin, {0, 0, 5});
     // Looking along +y with +z up, half the angle (30 degrees) to the top.
@@ -154,8 +154,8 @@ TEST(UwYaml, TheCameraDecidesWhetherMirrorsAndGlassAreTraced) {
         Diagnostics found;
         const SceneDescription scene = import_text(
             scene_of("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
-        EXPECT_EQ(scene.conventions.trace_reflections, on);
-        EXPECT_EQ(scene.conventions.trace_refractions, on);
+        EXPECT_EQ(scene.conventions.shading.trace_reflections, on);
+        EXPECT_EQ(scene.conventions.shading.trace_refractions, on);
         // Shadows are still tinted by what transmits.
         EXPECT_FALSE(scene.materials.at(0).material.transmissive.color.is_black());
         EXPECT_EQ(found.warning_count(), 0u) << text_of(found);
@@ -177,7 +177,7 @@ TEST(UwYaml, ShadowsAreNoneOpaqueOrColouredAndOlderFilesSwitchThem) {
         Diagnostics found;
         const SceneDescription scene = import_text(
             scene_of("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
-        EXPECT_EQ(scene.conventions.shadow_tint, tint) << text;
+        EXPECT_EQ(scene.conventions.shading.shadow_tint, tint) << text;
         EXPECT_EQ(text_of(found), "") << text;
     }
 }
@@ -345,7 +345,7 @@ TEST(UwYaml, EverySceneOfTheCourseIsImportedAndValid) {
         EXPECT_EQ(scene.format, "uw_yaml");
         EXPECT_EQ(scene.objects[0].parts.size(), fact.parts);
         EXPECT_EQ(scene.lights.size(), fact.lights);
-        EXPECT_EQ(scene.conventions.max_depth, fact.depth);
+        EXPECT_EQ(scene.conventions.shading.max_depth, fact.depth);
         EXPECT_EQ(scene.picture.width, fact.width);
         EXPECT_EQ(scene.cameras.size(), 1u);
         const bool has_prop = std::string(fact.file) == "robotarm_with_ui";

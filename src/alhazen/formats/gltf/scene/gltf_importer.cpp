@@ -16,16 +16,16 @@ namespace alhazen {
 
 namespace {
 
-ShadingConventions gltf_conventions() {
-    ShadingConventions c;
-    c.highlight = ShadingConventions::Highlight::BlinnPhong;
-    c.shadow_tint = ShadingConventions::ShadowTint::PerCrossing;
-    c.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
-    c.ambient_inside_times_kt = false;
-    c.clamp_attenuation = false;
-    c.air_index = 1.0;
-    c.linear_output = false;
-    c.min_contribution = 1.0 / 512.0;
+Conventions gltf_conventions() {
+    Conventions c;
+    c.shading.highlight = ShadingConventions::Highlight::BlinnPhong;
+    c.shading.shadow_tint = ShadingConventions::ShadowTint::PerCrossing;
+    c.shading.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
+    c.shading.ambient_inside_times_kt = false;
+    c.shading.clamp_attenuation = false;
+    c.shading.air_index = 1.0;
+    c.film.linear_output = false;
+    c.shading.min_contribution = 1.0 / 512.0;
     return c;
 }
 

@@ -75,18 +75,10 @@ void read_defaults(const NativeBlock& block, NativeContext& context, NativeScope
 
 // Which block goes where.
 
-using ReadTop = void (*)(const NativeBlock&, NativeContext&);
-constexpr std::pair<std::string_view, ReadTop> kTopLevelBlocks[] = {
+/// Blocks of the top level besides cameras and lights.
+constexpr NativeTopBlock kSettingsBlocks[] = {
     {"picture", read_picture},
     {"conventions", read_conventions},
-    {"perspective_camera", read_perspective_camera},
-    {"sheared_camera", read_sheared_camera},
-    {"orthographic_camera", read_orthographic_camera},
-    {"sheared_orthographic_camera", read_sheared_orthographic_camera},
-    {"ambient_light", read_ambient_light},
-    {"directional_light", read_directional_light},
-    {"point_light", read_point_light},
-    {"spot_light", read_spot_light},
 };
 
 using ReadPart = void (*)(const NativeBlock&, NativeContext&, NativeScope&);
@@ -104,7 +96,8 @@ constexpr std::pair<std::string_view, ReadPart> kPartBlocks[] = {
 
 std::string known_blocks() {
     std::vector<std::string_view> names;
-    for (const auto& [name, read] : kTopLevelBlocks) names.push_back(name);
+    for (const auto& [name, read] : kSettingsBlocks) names.push_back(name);
+    for (const auto& [name, read] : native_view_blocks()) names.push_back(name);
     names.insert(names.end(), {"material", "texture", "instance", "include"});
     for (const auto& [name, read] : kPartBlocks) names.push_back(name);
     for (const std::string_view name : native_shape_names()) names.push_back(name);
@@ -114,17 +107,20 @@ std::string known_blocks() {
 /// True when `type` is a block of the top level; reads it, or reports that it stands too deep.
 bool read_top_level_block(const NativeBlock& block, NativeContext& context,
                           const NativeScope& scope) {
-    for (const auto& [name, read] : kTopLevelBlocks) {
-        if (name != block.type) continue;
-        if (scope.top_level()) {
-            read(block, context);
-        } else {
-            context.diagnostics.error(block.location,
-                                      block.type + " belongs at the top level of the file");
+    const auto read_one_of = [&](std::span<const NativeTopBlock> blocks) {
+        for (const auto& [name, read] : blocks) {
+            if (name != block.type) continue;
+            if (scope.top_level()) {
+                read(block, context);
+            } else {
+                context.diagnostics.error(block.location,
+                                          block.type + " belongs at the top level of the file");
+            }
+            return true;
         }
-        return true;
-    }
-    return false;
+        return false;
+    };
+    return read_one_of(kSettingsBlocks) || read_one_of(native_view_blocks());
 }
 
 void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {

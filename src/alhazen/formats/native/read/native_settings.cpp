@@ -36,31 +36,35 @@ void read_picture(const NativeBlock& block, NativeContext& context) {
 }
 
 void read_conventions(const NativeBlock& block, NativeContext& context) {
-    using C = ShadingConventions;
+    using S = ShadingConventions;
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);
-    C& c = context.scene.conventions;
-    reader.read_word("highlight", native_words<C::Highlight>(), c.highlight);
-    reader.read_word("shadow_tint", native_words<C::ShadowTint>(), c.shadow_tint);
-    reader.read_word("refraction_tint", native_words<C::RefractionTint>(), c.refraction_tint);
-    reader.read_word("ambient_factor", native_words<C::AmbientFactor>(), c.ambient_factor);
-    reader.read("ambient_inside_times_kt", c.ambient_inside_times_kt);
-    reader.read("clamp_attenuation", c.clamp_attenuation);
-    reader.read("truncate_material_colors", c.truncate_material_colors);
-    reader.read("transmitting_surfaces_reflect", c.transmitting_surfaces_reflect);
-    reader.read("trace_reflections", c.trace_reflections);
-    reader.read("trace_refractions", c.trace_refractions);
-    reader.read("correct_interpolated_normals", c.correct_interpolated_normals);
-    reader.read("headlight", c.headlight);
-    if (reader.read("air_index", c.air_index) && !(c.air_index > 0)) {
+    Conventions& c = context.scene.conventions;
+    reader.read_word("highlight", native_words<S::Highlight>(), c.shading.highlight);
+    reader.read_word("shadow_tint", native_words<S::ShadowTint>(), c.shading.shadow_tint);
+    reader.read_word("refraction_tint", native_words<S::RefractionTint>(),
+                     c.shading.refraction_tint);
+    reader.read_word("ambient_factor", native_words<S::AmbientFactor>(), c.shading.ambient_factor);
+    reader.read("ambient_inside_times_kt", c.shading.ambient_inside_times_kt);
+    reader.read("clamp_attenuation", c.shading.clamp_attenuation);
+    reader.read("truncate_material_colors", c.importing.truncate_material_colors);
+    reader.read("transmitting_surfaces_reflect", c.shading.transmitting_surfaces_reflect);
+    reader.read("trace_reflections", c.shading.trace_reflections);
+    reader.read("trace_refractions", c.shading.trace_refractions);
+    reader.read("correct_interpolated_normals", c.shading.correct_interpolated_normals);
+    reader.read("headlight", c.importing.headlight);
+    if (reader.read("air_index", c.shading.air_index) && !(c.shading.air_index > 0)) {
         reader.error(*reader.find("air_index"), "'air_index' must be greater than 0");
     }
-    reader.read_word("pixel_sample", native_words<C::PixelSample>(), c.pixel_sample);
-    reader.read("linear_output", c.linear_output);
-    if (reader.read("max_depth", c.max_depth) && (c.max_depth < 0 || c.max_depth > 1000)) {
+    reader.read_word("pixel_sample", native_words<SamplingConventions::PixelSample>(),
+                     c.sampling.pixel_sample);
+    reader.read("linear_output", c.film.linear_output);
+    if (reader.read("max_depth", c.shading.max_depth) &&
+        (c.shading.max_depth < 0 || c.shading.max_depth > 1000)) {
         reader.error(*reader.find("max_depth"), "'max_depth' must be from 0 to 1000");
     }
-    if (reader.read("min_contribution", c.min_contribution) && c.min_contribution < 0) {
+    if (reader.read("min_contribution", c.shading.min_contribution) &&
+        c.shading.min_contribution < 0) {
         reader.error(*reader.find("min_contribution"), "'min_contribution' must not be negative");
     }
     reader.finish();

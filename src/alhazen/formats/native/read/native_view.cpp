@@ -1,6 +1,9 @@
 #include "alhazen/formats/native/read/native_view.h"
 
+#include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/math/constants.h"
@@ -126,8 +129,6 @@ void add_light(const NativeBlock& block, NativeContext& context, Light light) {
     context.scene.lights.push_back({block.name, std::move(light), block.location});
 }
 
-}  // namespace
-
 void read_perspective_camera(const NativeBlock& block, NativeContext& context) {
     if (!block.block) return;
     BlockReader reader = context.reader(*block.block, block.type);
@@ -207,7 +208,7 @@ void read_directional_light(const NativeBlock& block, NativeContext& context) {
     const std::string_view key = require_one_of(reader, "direction", "to_light");
     if (reader.read(key, vector)) {
         if (length_squared(vector) > 0) {
-            light.to_light = key == "to_light" ? vector : -vector;  // `compile` normalises
+            light.to_light = key == "to_light" ? vector : -vector;  // normalised by `compile`
         } else {
             reader.error(reader.block(), "'" + std::string(key) + "' must not be zero");
         }
@@ -237,7 +238,7 @@ void read_spot_light(const NativeBlock& block, NativeContext& context) {
     reader.require("position");
     reader.read("position", light.position);
     if (const auto axis = read_direction(reader, light.position, "look_at", "direction")) {
-        light.direction = *axis;  // `compile` normalises
+        light.direction = *axis;  // normalised by `compile`
     }
     read_cone(reader, light);
     read_emission(reader, light.color, light.ambient);
@@ -245,6 +246,52 @@ void read_spot_light(const NativeBlock& block, NativeContext& context) {
     read_positive(reader, "range", light.range);
     reader.finish();
     add_light(block, context, light);
+}
+
+// ADD A CAMERA OR A LIGHT HERE: the blocks that make it. An alternative of `Camera` or `Light`
+// without an overload does not compile.
+
+using Blocks = std::vector<NativeTopBlock>;
+
+Blocks blocks_of(std::type_identity<PerspectiveCamera>) {
+    return {{"perspective_camera", read_perspective_camera},
+            {"sheared_camera", read_sheared_camera}};
+}
+Blocks blocks_of(std::type_identity<OrthographicCamera>) {
+    return {{"orthographic_camera", read_orthographic_camera},
+            {"sheared_orthographic_camera", read_sheared_orthographic_camera}};
+}
+Blocks blocks_of(std::type_identity<AmbientLight>) {
+    return {{"ambient_light", read_ambient_light}};
+}
+Blocks blocks_of(std::type_identity<DirectionalLight>) {
+    return {{"directional_light", read_directional_light}};
+}
+Blocks blocks_of(std::type_identity<PointLight>) {
+    return {{"point_light", read_point_light}};
+}
+Blocks blocks_of(std::type_identity<SpotLight>) {
+    return {{"spot_light", read_spot_light}};
+}
+
+template <class... Alternatives>
+void append_blocks(std::type_identity<std::variant<Alternatives...>>, Blocks& blocks) {
+    const auto append = [&](const Blocks& more) {
+        blocks.insert(blocks.end(), more.begin(), more.end());
+    };
+    (append(blocks_of(std::type_identity<Alternatives>{})), ...);
+}
+
+}  // namespace
+
+std::span<const NativeTopBlock> native_view_blocks() {
+    static const Blocks kBlocks = [] {
+        Blocks blocks;
+        append_blocks(std::type_identity<Camera>{}, blocks);
+        append_blocks(std::type_identity<Light>{}, blocks);
+        return blocks;
+    }();
+    return kBlocks;
 }
 
 void complete_cameras(NativeContext& context) {

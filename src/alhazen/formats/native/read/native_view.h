@@ -1,21 +1,23 @@
 #pragma once
 /// Cameras and lights of the native format.
 
+#include <span>
+#include <string_view>
+
 #include "alhazen/formats/native/read/native_context.h"
 
 namespace alhazen {
 
-void read_perspective_camera(const NativeBlock& block, NativeContext& context);
-void read_sheared_camera(const NativeBlock& block, NativeContext& context);
-void read_orthographic_camera(const NativeBlock& block, NativeContext& context);
-void read_sheared_orthographic_camera(const NativeBlock& block, NativeContext& context);
+/// A block of the top level: a camera, a light or settings.
+struct NativeTopBlock {
+    std::string_view name;
+    void (*read)(const NativeBlock&, NativeContext&);
+};
 
-void read_ambient_light(const NativeBlock& block, NativeContext& context);
-void read_directional_light(const NativeBlock& block, NativeContext& context);
-void read_point_light(const NativeBlock& block, NativeContext& context);
-void read_spot_light(const NativeBlock& block, NativeContext& context);
+/// The blocks of all alternatives of `Camera`, then of `Light`, in the order of the variants.
+[[nodiscard]] std::span<const NativeTopBlock> native_view_blocks();
 
-/// Gives the cameras without an aspect of their own that of the picture. Call when all is read.
+/// Gives cameras without an aspect the one of the picture. Call after the last block.
 void complete_cameras(NativeContext& context);
 
 }  // namespace alhazen

@@ -97,33 +97,37 @@ void write_native_picture(NativeWriteContext& context) {
 }
 
 void write_native_conventions(NativeWriteContext& context) {
-    const ShadingConventions& c = context.scene.conventions;
-    const ShadingConventions usual = default_conventions();
+    const Conventions& c = context.scene.conventions;
+    const Conventions usual = default_conventions();
     NativeBlockText block("conventions");
     const auto add_word = [&](std::string_view key, auto value, auto usual_value) {
         if (value != usual_value) block.add(key, std::string(native_word(value)));
     };
-    add_word("highlight", c.highlight, usual.highlight);
-    add_word("shadow_tint", c.shadow_tint, usual.shadow_tint);
-    add_word("refraction_tint", c.refraction_tint, usual.refraction_tint);
-    add_word("ambient_factor", c.ambient_factor, usual.ambient_factor);
-    block.add_unless("ambient_inside_times_kt", c.ambient_inside_times_kt,
-                     usual.ambient_inside_times_kt);
-    block.add_unless("clamp_attenuation", c.clamp_attenuation, usual.clamp_attenuation);
-    block.add_unless("truncate_material_colors", c.truncate_material_colors,
-                     usual.truncate_material_colors);
-    block.add_unless("transmitting_surfaces_reflect", c.transmitting_surfaces_reflect,
-                     usual.transmitting_surfaces_reflect);
-    block.add_unless("trace_reflections", c.trace_reflections, usual.trace_reflections);
-    block.add_unless("trace_refractions", c.trace_refractions, usual.trace_refractions);
-    block.add_unless("correct_interpolated_normals", c.correct_interpolated_normals,
-                     usual.correct_interpolated_normals);
-    block.add_unless("headlight", c.headlight, usual.headlight);
-    block.add_unless("air_index", c.air_index, usual.air_index);
-    add_word("pixel_sample", c.pixel_sample, usual.pixel_sample);
-    block.add_unless("linear_output", c.linear_output, usual.linear_output);
-    block.add_unless("max_depth", c.max_depth, usual.max_depth);
-    block.add_unless("min_contribution", c.min_contribution, usual.min_contribution);
+    add_word("highlight", c.shading.highlight, usual.shading.highlight);
+    add_word("shadow_tint", c.shading.shadow_tint, usual.shading.shadow_tint);
+    add_word("refraction_tint", c.shading.refraction_tint, usual.shading.refraction_tint);
+    add_word("ambient_factor", c.shading.ambient_factor, usual.shading.ambient_factor);
+    block.add_unless("ambient_inside_times_kt", c.shading.ambient_inside_times_kt,
+                     usual.shading.ambient_inside_times_kt);
+    block.add_unless("clamp_attenuation", c.shading.clamp_attenuation,
+                     usual.shading.clamp_attenuation);
+    block.add_unless("truncate_material_colors", c.importing.truncate_material_colors,
+                     usual.importing.truncate_material_colors);
+    block.add_unless("transmitting_surfaces_reflect", c.shading.transmitting_surfaces_reflect,
+                     usual.shading.transmitting_surfaces_reflect);
+    block.add_unless("trace_reflections", c.shading.trace_reflections,
+                     usual.shading.trace_reflections);
+    block.add_unless("trace_refractions", c.shading.trace_refractions,
+                     usual.shading.trace_refractions);
+    block.add_unless("correct_interpolated_normals", c.shading.correct_interpolated_normals,
+                     usual.shading.correct_interpolated_normals);
+    block.add_unless("headlight", c.importing.headlight, usual.importing.headlight);
+    block.add_unless("air_index", c.shading.air_index, usual.shading.air_index);
+    add_word("pixel_sample", c.sampling.pixel_sample, usual.sampling.pixel_sample);
+    block.add_unless("linear_output", c.film.linear_output, usual.film.linear_output);
+    block.add_unless("max_depth", c.shading.max_depth, usual.shading.max_depth);
+    block.add_unless("min_contribution", c.shading.min_contribution,
+                     usual.shading.min_contribution);
     if (!block.empty()) context.append(block);
 }
 
