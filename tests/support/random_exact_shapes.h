@@ -1,11 +1,11 @@
 #pragma once
-/// Random makers of the quadrics, the torus and the algebraic surfaces.
+/// Random quadrics, tori and algebraic surfaces.
 
 #include "support/shape_source.h"
 
 namespace alhazen::testing {
 
-/// Three vectors that are far from lying in one plane.
+/// Three vectors far from coplanar.
 inline Mat3 random_axes(const ShapeSource& from) {
     for (;;) {
         if (from.lattice) {
