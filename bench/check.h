@@ -1,5 +1,5 @@
 #pragma once
-/// Where Embree and wide_bvh say different things about the same rays, and who is wrong.
+/// Compares Embree and wide_bvh on the same rays, and judges their disagreements.
 
 #include <string>
 #include <vector>
@@ -11,23 +11,23 @@ namespace alhazen::bench {
 
 struct PeerScene {
     std::string group;   ///< "embree robust", "embree fast"
-    std::string suffix;  ///< of the names of its tracers; empty where there is one scene per group
+    std::string suffix;  ///< of the names of its tracers; empty with one scene per group
     const EmbreeScene* scene;
 };
 
-/// One ray set beside one way to trace it in Embree.
+/// One ray set with one way to trace it in Embree.
 struct CheckResult {
     std::string scene, rays, peer;
     std::size_t count = 0;
     std::size_t disagreements = 0;
     std::size_t ours_wrong = 0, peer_wrong = 0;
-    std::size_t both_right = 0;     ///< the ray passes through an edge or grazes
-    std::size_t batch_differs = 0;  ///< rays whose batch hit is not the single one, bit for bit
-    /// Of some rays our answer is judged although nobody disagrees; and so is a wrong answer put in
-    /// its place, which the judge must see.
+    std::size_t both_right = 0;  ///< the ray passes through an edge or grazes
+    std::size_t batch_differs =
+        0;  ///< rays whose batch hit differs from the single one, bit for bit
+    /// Rays judged without a disagreement, and planted wrong answers that the judge missed.
     std::size_t samples = 0, planted_unseen = 0;
-    std::vector<std::string> our_faults;  ///< the first few, to be looked at
-    std::vector<std::string> unseen;      ///< the same of planted errors
+    std::vector<std::string> our_faults;  ///< the first few, for inspection
+    std::vector<std::string> unseen;      ///< missed planted errors
 };
 
 /// Traces the set by `closest` or `occluded`, by the batch, and by each peer with packets of 1 and

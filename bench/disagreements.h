@@ -1,13 +1,13 @@
 #pragma once
-/// Decides between two tracers that say different things about a ray: brute force over the whole
-/// scene in extended precision (113 bits where the compiler has them, else long double).
+/// Judges two tracers that disagree about a ray: brute force over the whole scene in extended
+/// precision (113 bits where the compiler has them, else long double).
 ///
-/// Differs from the tracers: edge functions are triple products without a shear; nothing is
-/// culled but what a test in double with a wide margin excludes. A triangle whose edge function is
-/// zero, or too near to zero even for extended precision, is *touched*: the ray passes through an
-/// edge or a vertex, and both to count it and to leave it out is right. Spheres and capped
-/// cylinders by their intervals; one that is grazed within the rounding of double is touched too.
-/// Conventions: t is compared up to a tolerance in units of the distances in play.
+/// Differs from the tracers: edge functions are triple products without a shear; a test in double
+/// with a wide margin is the only culling. A triangle whose edge function is zero, or too near to
+/// zero even for extended precision, is *touched*: the ray passes through an edge or a vertex, and
+/// a hit and a miss are both right. Spheres and capped cylinders are tested by their intervals; one
+/// grazed within the rounding of double is touched too.
+/// Conventions: t is compared up to a tolerance relative to the distances involved.
 
 #include <vector>
 
@@ -15,10 +15,10 @@
 
 namespace alhazen::bench {
 
-/// Which tracers are not right about a ray.
+/// Which tracers are wrong about a ray.
 struct Verdict {
     bool ours_wrong = false, peer_wrong = false;
-    double true_t = 0;  ///< nearest sure crossing; infinite: none
+    double true_t = 0;  ///< nearest certain crossing; infinite: none
 };
 
 class Judge {
@@ -31,11 +31,11 @@ class Judge {
     [[nodiscard]] Verdict decide(const Ray& ray, bool any_hit, double ours, double peer) const;
     /// True when two answers differ by more than the noise of float.
     [[nodiscard]] bool disagree(const Ray& ray, bool any_hit, double ours, double peer) const;
-    /// By how much an answer of float may be off near t.
+    /// Error bound of a float answer near t.
     [[nodiscard]] double float_noise(const Ray& ray, double t) const;
 
   private:
-    /// The distances in play on the way to t, in units of t: what tolerances refer to.
+    /// The distances involved on the way to t, in units of t: the base of tolerances.
     [[nodiscard]] double noise_unit(const Ray& ray, double t) const;
 
     const KernelScene& scene_;

@@ -1,10 +1,9 @@
 #pragma once
-/// Circular cylinders with caps as Embree user geometry: what a user of Embree writes in float.
+/// Circular cylinders with caps as Embree user geometry in float.
 ///
-/// Source: the meeting of an interval of the infinite cylinder with one of the slab between the
-/// caps (Kay and Kajiya, SIGGRAPH 1986); the discriminant by Lagrange's identity.
-/// Differs: in float and without branches but the accepting one; constants of a cylinder are
-/// computed once.
+/// Source: the intersection of an interval of the infinite cylinder with one of the slab between
+/// the caps (Kay and Kajiya, SIGGRAPH 1986); the discriminant by Lagrange's identity.
+/// Differs: in float, with the accepting branch only; constants of a cylinder are precomputed.
 /// Conventions: both the entry and the exit are crossings; the nearest in [tnear, tfar] is
 /// reported.
 
@@ -21,7 +20,7 @@ class EmbreeCylinders {
     EmbreeCylinders() = default;
     explicit EmbreeCylinders(const std::vector<Cylinder>& cylinders);
 
-    /// Not committed. Refers to this object, which must stay where it is.
+    /// Not committed. Refers to this object, which must keep its address.
     [[nodiscard]] RTCGeometry make_geometry(RTCDevice device);
 
     struct Entry {

@@ -20,7 +20,7 @@ inline constexpr std::array<int, 4> kPacketWidths{1, 4, 8, 16};
 class EmbreePackets {
   public:
     virtual ~EmbreePackets() = default;
-    /// Makes the rays as they were before they were traced.
+    /// Restores the rays to their state before tracing.
     virtual void reset() = 0;
     /// Traces all; `coherent` sets the context's flag.
     virtual void trace(RTCScene scene, bool coherent) = 0;

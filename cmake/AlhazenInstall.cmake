@@ -1,5 +1,5 @@
 # `cmake --install`: the command line, the library with its headers, and the package that makes
-# find_package(alhazen) and alhazen::tracer work elsewhere (docs/library.md).
+# find_package(alhazen) and alhazen::tracer work elsewhere (docs/guide/library.md).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 

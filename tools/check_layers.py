@@ -90,6 +90,7 @@ INSIDE = {
         "film": ["image"],
         "codecs": ["film"],
         "figures": ["image"],
+        "svg": ["image"],
     },
     "laboratory": {
         "": [],

@@ -1,12 +1,11 @@
 #pragma once
-/// The sub-commands. Each function adds one to the command line; its callback sets `exit_status`
-/// when it ran.
+/// The sub-commands. Each function adds one to the command line; its callback sets `exit_status`.
 
 #include <CLI/CLI.hpp>
 
 namespace alhazen::cli {
 
-/// Exit statuses (docs/command_line.md).
+/// Exit statuses (docs/reference/command_line.md).
 enum ExitStatus {
     kDone = 0,
     kCheckFailed = 1,

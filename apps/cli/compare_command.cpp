@@ -32,7 +32,7 @@ struct CompareArguments {
     CompareOptions compare;
     int depth = -1;
     bool no_tuning = false, quiet = false;
-    bool of_scenes = false;  ///< an option was given that --claim has no use for
+    bool of_scenes = false;  ///< an option was given that --claim does not use
 };
 
 CompareOptions compare_options(const CompareArguments& args) {
@@ -69,7 +69,7 @@ std::vector<std::filesystem::path> checked_outputs(const CompareArguments& args)
     return outputs;
 }
 
-/// Long work on the scenes before it would be for nothing.
+/// Checks all scenes before long work on the first ones.
 void check_readable(const std::string& scene) {
     if (std::ifstream(scene).good() && std::filesystem::is_regular_file(scene)) return;
     throw Error(ErrorKind::File, fmt::format("cannot read {}: no file that may be read", scene));
@@ -102,7 +102,7 @@ PixelPlace parse_pixel(const std::string& text) {
     return pixel;
 }
 
-/// Options that would change nothing are mistakes.
+/// Refuses options without effect.
 void check_effects(const CompareArguments& args) {
     const auto need = [](bool has_effect, const char* message) {
         if (!has_effect) throw Error(ErrorKind::Usage, message);
@@ -135,7 +135,7 @@ int run_claims(const CompareArguments& args) {
         progress.finish();
         reports.push_back(report);
         if (args.markdown != "-") print("{}", claims_table({&report, 1}));
-        // What is measured stays, whatever ends the rest.
+        // Writes the results so far even if the rest fails or is stopped.
         if (!args.markdown.empty() && args.markdown != "-") {
             write_report(args.markdown, claims_markdown(reports));
         }
@@ -173,7 +173,7 @@ void write_reports(const CompareArguments& args, std::span<const Comparison> com
     if (!args.html.empty()) write_report(args.html, comparison_page(comparisons));
 }
 
-/// The reports are written after every scene: what is measured stays, whatever ends the rest.
+/// Writes the reports after every scene: results survive a later failure or stop.
 int run_scenes(const CompareArguments& args) {
     CompareOptions options = compare_options(args);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args);
@@ -223,11 +223,11 @@ void add_compare(CLI::App& app, int& exit_status) {
         ->type_name("FILE");
     command
         ->add_option("--accelerators", args->accelerators,
-                     "Which, as NAME,NAME:SETTING=VALUE,... or all; list and wide_bvh always are")
+                     "NAME,NAME:SETTING=VALUE,... or all; list and wide_bvh are always added")
         ->type_name("LIST")
         ->capture_default_str();
     command->add_flag("--no-tuning", args->no_tuning,
-                      "Do not look for the best settings of each accelerator");
+                      "Do not search the best settings of each accelerator");
     command
         ->add_option("--time-limit", args->compare.time_limit,
                      "Seconds for counting the rays of one accelerator, as many for timing them, "
@@ -260,10 +260,10 @@ void add_compare(CLI::App& app, int& exit_status) {
                      "Draw what one accelerator does for the eye ray of this pixel, from the top "
                      "left")
         ->type_name("X,Y");
-    command->add_option("--svg", args->svg, "Where to draw it")->type_name("FILE");
+    command->add_option("--svg", args->svg, "SVG file of the drawing")->type_name("FILE");
     command
         ->add_option("--along", args->along,
-                     "From where: x, y, z or isometric; default: across the ray")
+                     "View direction: x, y, z or isometric; default: across the ray")
         ->type_name("AXIS");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, command, &exit_status] {

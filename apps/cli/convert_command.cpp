@@ -19,7 +19,7 @@ struct ConvertArguments {
 };
 
 int run(const ConvertArguments& args) {
-    // Mistakes in the names are told before any work is done.
+    // Check the names before any work.
     check_convert_target(args.scene.scene, args.output);
     Diagnostics diagnostics;
     const SceneDescription description =

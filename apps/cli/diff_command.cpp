@@ -15,7 +15,7 @@ namespace alhazen::cli {
 
 namespace {
 
-/// Two pictures of 8192 x 4096 pixels pass, and stay below 1 GiB.
+/// Room for two pictures of 8192 x 4096 pixels within 1 GiB.
 constexpr std::uint64_t kDiffMiB = 960;
 
 struct Metric {
@@ -63,7 +63,7 @@ void add_diff(CLI::App& app, int& exit_status) {
     command->add_option("b", args->b, "Second picture")->required();
     std::string metrics;
     for (const Metric& m : kMetrics) metrics += fmt::format("\n  {:<16} {}", m.name, m.meaning);
-    command->add_option("--metric", args->metric, "What the bound is about:" + metrics)
+    command->add_option("--metric", args->metric, "Metric that --max bounds:" + metrics)
         ->capture_default_str();
     command->add_option("--max", args->max, "Largest value of the metric that passes")
         ->check(number_in(0.0, std::numeric_limits<double>::infinity()))
@@ -72,7 +72,7 @@ void add_diff(CLI::App& app, int& exit_status) {
         ->add_option("-o,--output", args->output,
                      "Write the difference picture, scaled to full range")
         ->type_name("FILE");
-    command->add_flag("--json", args->json, "As JSON");
+    command->add_flag("--json", args->json, "Print JSON");
     args->limits.add_to(*command);
     command->callback([args, &exit_status] {
         const Metric& metric = find_metric(args->metric);

@@ -69,9 +69,10 @@ void add_generate(CLI::App& app, int& exit_status) {
         "generate", "Write a scene of any size: the standard databases and others");
     command->footer("Names:" + names);
     const auto args = std::make_shared<GenerateArguments>();
-    command->add_option("name", args->name, "Which one; see below")->required()->type_name("NAME");
-    command->add_option("--size", args->size, "How much of it; by default as listed below")
-        ->type_name("N");
+    command->add_option("name", args->name, "Name of the scene; see below")
+        ->required()
+        ->type_name("NAME");
+    command->add_option("--size", args->size, "Size; default: as listed below")->type_name("N");
     command->add_option("--digits", args->digits,
                         "Significant digits of the numbers in .nff (6, as published)");
     command

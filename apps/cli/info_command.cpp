@@ -18,7 +18,7 @@ void add_info(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand("info", "Say what is in a scene");
     const auto args = std::make_shared<Arguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
-    command->add_flag("--json", args->json, "As JSON");
+    command->add_flag("--json", args->json, "Print JSON");
     command->add_flag("--all", args->all,
                       "Do not cut lists short; also look whether meshes of more than two million "
                       "triangles are closed");
@@ -26,8 +26,8 @@ void add_info(CLI::App& app, int& exit_status) {
         const LoadedScene loaded = load(args->scene.scene, args->scene.load_options());
         using json = nlohmann::ordered_json;
         const json info = scene_info(args->scene.scene, loaded, {args->all});
-        // Names are as the file has them: what is no UTF-8 is replaced, what is no ASCII (some of
-        // it controls terminals) escaped.
+        // Names come from the file: invalid UTF-8 is replaced, and non-ASCII characters (some
+        // control terminals) are escaped.
         print("{}", args->json ? info.dump(2, ' ', true, json::error_handler_t::replace) + "\n"
                                : info_text(info, args->all));
         exit_status = kDone;

@@ -71,8 +71,8 @@ int run(int argc, char** argv) {
     return exit_status;
 }
 
-/// A program that was started with a standard stream closed would get its number for the next file
-/// it opens, and write messages into a picture.
+/// Opens closed standard streams: otherwise the next file that is opened would get their number and
+/// receive messages.
 void open_closed_streams() {
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
         if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", O_RDWR);
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
     exit_on_signals();
     try {
         const int status = run(argc, argv);
-        // A full disk behind a redirection shows only now.
+        // A full disk behind a redirection is detected here.
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
             tell("alhazen: standard output could not be written\n");
             return kBadFile;

@@ -20,10 +20,10 @@ namespace alhazen::cli {
 
 namespace {
 
-/// More solids are measured only when they are named, or with --all.
+/// More solids are measured only when named, or with --all.
 constexpr std::size_t kMostSolids = 64;
 
-struct Arguments {
+struct MeasureArguments {
     SceneArguments scene;
     std::vector<std::string> objects;
     std::vector<std::string> overlaps, clearances;
@@ -34,7 +34,7 @@ struct Arguments {
     bool all = false, quiet = false;
 };
 
-/// Two solids by name or number, apart by a comma.
+/// Two solids by name or number, separated by a comma.
 std::pair<SolidId, SolidId> find_pair(const SolidScene& scene, const std::string& text) {
     for (std::size_t comma = text.find(','); comma != std::string::npos;
          comma = text.find(',', comma + 1)) {
@@ -49,7 +49,7 @@ std::pair<SolidId, SolidId> find_pair(const SolidScene& scene, const std::string
     throw Error(ErrorKind::Usage, fmt::format("'{}': expected two solids apart by a comma", text));
 }
 
-SolidReport measure_solid(const SolidScene& scene, SolidId id, const Arguments& args,
+SolidReport measure_solid(const SolidScene& scene, SolidId id, const MeasureArguments& args,
                           const MeasureOptions& options, const std::optional<SectionPlane>& plane) {
     const Stopwatch time;
     const IsolatedSolid solid(scene.solids(), id);
@@ -68,8 +68,8 @@ struct WantedPair {
     bool overlap = false;  ///< else their clearance
 };
 
-/// All of them, before anything is measured: names may be wrong.
-std::vector<WantedPair> find_pairs(const SolidScene& scene, const Arguments& args) {
+/// Resolves all pairs before measuring: names may be wrong.
+std::vector<WantedPair> find_pairs(const SolidScene& scene, const MeasureArguments& args) {
     std::vector<WantedPair> pairs;
     for (const std::string& text : args.overlaps) pairs.push_back({find_pair(scene, text), true});
     for (const std::string& text : args.clearances) {
@@ -78,8 +78,9 @@ std::vector<WantedPair> find_pairs(const SolidScene& scene, const Arguments& arg
     return pairs;
 }
 
-void measure_pairs(const SolidScene& scene, const Arguments& args, const MeasureOptions& options,
-                   const std::vector<WantedPair>& pairs, MeasureReport& report) {
+void measure_pairs(const SolidScene& scene, const MeasureArguments& args,
+                   const MeasureOptions& options, const std::vector<WantedPair>& pairs,
+                   MeasureReport& report) {
     for (const WantedPair& wanted : pairs) {
         const auto [a, b] = wanted.solids;
         const IsolatedSolid solid_a(scene.solids(), a), solid_b(scene.solids(), b);
@@ -95,7 +96,7 @@ void measure_pairs(const SolidScene& scene, const Arguments& args, const Measure
     }
 }
 
-MeasureReport measure_all(const SolidScene& scene, const Arguments& args,
+MeasureReport measure_all(const SolidScene& scene, const MeasureArguments& args,
                           ProgressDisplay& progress) {
     MeasureReport report;
     report.open_surfaces = scene.solids().open_surfaces();
@@ -135,7 +136,7 @@ MeasureReport measure_all(const SolidScene& scene, const Arguments& args,
     return report;
 }
 
-void add_options(CLI::App& command, Arguments& args) {
+void add_measure_options(CLI::App& command, MeasureArguments& args) {
     command
         .add_option("objects", args.objects,
                     "Solids by number, name, or the beginning or end of a name; default: all")
@@ -175,9 +176,9 @@ void add_measure(CLI::App& app, int& exit_status) {
         "measure",
         "Volume, area, centroid, inertia, mass of solids, with 95 % intervals; exit 1 when a check "
         "of them fails");
-    const auto args = std::make_shared<Arguments>();
+    const auto args = std::make_shared<MeasureArguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
-    add_options(*command, *args);
+    add_measure_options(*command, *args);
     command->callback([args, &exit_status] {
         const LoadedScene loaded = load(args->scene.scene, args->scene.load_options());
         if (!args->json.empty() && args->json != "-") {

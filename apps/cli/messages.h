@@ -1,9 +1,9 @@
 #pragma once
-/// Text for a person, on standard error and standard output.
+/// Messages on standard error and standard output.
 ///
 /// Writing may fail (a full disk, a closed pipe): messages are then lost, and the work goes on.
-/// What is lost on standard output is noticed when the program ends.
-/// Control characters, which names in files may hold, are escaped; newlines are not.
+/// Losses on standard output are detected at the end of the program. Control characters, which file
+/// names may hold, are escaped; newlines are not.
 
 #include <fmt/format.h>
 

@@ -17,10 +17,10 @@ namespace alhazen::cli {
 
 namespace {
 
-/// A flood of them would hide what follows.
+/// More warnings would hide what follows.
 constexpr std::size_t kMaxShownWarnings = 20;
 
-/// Whole numbers separated by `separator`; empty when the text is anything else.
+/// Integers separated by `separator`; empty for any other text.
 std::vector<int> parse_integers(const std::string& text, char separator) {
     std::vector<int> numbers;
     const char* at = text.data();

@@ -1,5 +1,5 @@
 #pragma once
-/// Options that several commands share, and the small parsers behind them.
+/// Options that several commands share, and their parsers.
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -20,11 +20,10 @@ struct Size {
 /// "x0,y0,x1,y1" in pixels. Throws Error (Usage).
 [[nodiscard]] PixelBox parse_crop(const std::string& text);
 
-/// A number from lo to hi. Unlike CLI::Range it refuses nan, which no comparison finds out of
-/// range.
+/// A number from lo to hi. Unlike CLI::Range it refuses nan, which passes every comparison.
 [[nodiscard]] CLI::Validator number_in(double lo, double hi);
 
-/// How large pictures may be that are read.
+/// Size limits of pictures that are read.
 struct ImageLimitArguments {
     std::uint64_t max_pixels = ImageLimits{}.max_pixels;
     int max_side = ImageLimits{}.max_side;
@@ -34,7 +33,7 @@ struct ImageLimitArguments {
     [[nodiscard]] ImageLimits limits() const;
 };
 
-/// Where a scene is and how it may be read: the positional argument and the limits.
+/// The scene argument and the limits for reading it.
 struct SceneArguments {
     std::string scene;
     std::string accelerator;
@@ -57,7 +56,7 @@ struct SceneArguments {
     [[nodiscard]] LoadOptions load_options() const;
 };
 
-/// Prints warnings to stderr, one a line.
+/// Prints warnings to stderr, one per line.
 void print_warnings(const Diagnostics& diagnostics);
 
 /// Writes a report to a file or, for "-", to stdout.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kBarWidth = 30;
 constexpr double kTerminalInterval = 0.25;  // seconds between refreshes
-constexpr double kLineInterval = 10.0;      // seconds between lines where there is no terminal
+constexpr double kLineInterval = 10.0;      // seconds between lines without a terminal
 
 std::string minutes(double seconds) {
     const long whole = static_cast<long>(seconds + 0.5);
@@ -56,7 +56,7 @@ void ProgressDisplay::show(double fraction, double elapsed, bool complete) {
         return;
     }
     const int filled = static_cast<int>(fraction * kBarWidth);
-    // Written as it is: the terminal is meant to go back and to clear the line.
+    // Written unescaped: the terminal must return and clear the line.
     const std::string bar =
         fmt::format("\r{:<7}[{}{}] {:3.0f}% {}\x1b[K", phase_, std::string(filled, '#'),
                     std::string(kBarWidth - filled, '-'), 100.0 * fraction, times);

@@ -17,7 +17,7 @@ class ProgressDisplay final : public ProgressSink {
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void update(std::string_view phase, std::size_t done, std::size_t total) override;
-    /// Ends the bar's line, so that other messages start on their own.
+    /// Ends the bar's line before other messages.
     void finish();
 
   private:

@@ -65,12 +65,12 @@ RenderOptions render_options(const RenderArguments& args) {
     return options;
 }
 
-/// AOVs go into the EXR, and into pictures of their own where there is no EXR or it is asked for.
+/// AOVs go into the EXR; pictures of their own are written without an EXR or on request.
 bool writes_aov_pictures(const RenderArguments& args) {
     return args.aov_png || !holds_layers(args.output);
 }
 
-/// Options that would change nothing are mistakes.
+/// Refuses options without effect.
 void check_effects(const RenderArguments& args) {
     const auto need = [](bool has_effect, const char* message) {
         if (!has_effect) throw Error(ErrorKind::Usage, message);
@@ -87,7 +87,7 @@ void check_effects(const RenderArguments& args) {
          "--encoding is for .png and .jpg: other pictures hold linear values");
 }
 
-/// Every file that will be written: each of them can be, and no two are one.
+/// Every output file, checked: all are writable, and no two are the same.
 std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
                                                    const RenderOptions& options) {
     check_image_suffix(args.output);
@@ -107,7 +107,7 @@ std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
     return outputs;
 }
 
-/// Camera and light where the file has none; what was done is told.
+/// Adds a camera and a light where the file has none, and reports it.
 void complete(const RenderArguments& args, const RenderOptions& options, LoadedScene& loaded) {
     FramingOptions framing;
     if (!args.view.empty()) framing.view = parse_view(args.view);
@@ -148,7 +148,7 @@ void write_pictures(const RenderArguments& args, const RenderOptions& options,
 }
 
 int run(const RenderArguments& args) {
-    // Mistakes in the options are told before any work is done.
+    // Check the options before any work.
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
     (void)make_renderer(options.renderer);

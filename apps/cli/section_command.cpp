@@ -19,7 +19,7 @@ namespace alhazen::cli {
 
 namespace {
 
-struct Arguments {
+struct SectionArguments {
     SceneArguments scene;
     std::vector<std::string> objects;
     std::string plane, output, svg, json, size = "800x800", camera;
@@ -30,7 +30,7 @@ struct Arguments {
     bool quiet = false;
 };
 
-/// What the plane cuts out of one solid.
+/// The cut of one solid.
 struct Cut {
     SolidId solid{};
     std::string name;
@@ -38,7 +38,7 @@ struct Cut {
 };
 
 Image picture_of(const SolidScene& solids, const LoadedScene& loaded, const SectionPlane& plane,
-                 const Arguments& args) {
+                 const SectionArguments& args) {
     const Size size = parse_size(args.size);
     SectionView view{.width = size.width, .height = size.height};
     if (!args.camera.empty()) {
@@ -70,7 +70,7 @@ Chosen choose(const SolidScene& solids, const std::vector<std::string>& objects)
     return chosen;
 }
 
-/// Before anything is measured.
+/// Checks the tolerance before any measurement.
 void check_tolerance(const Box3& box, std::optional<double> tolerance) {
     if (!tolerance || *tolerance >= least_tolerance(box)) return;
     throw Error(ErrorKind::Usage,
@@ -79,9 +79,9 @@ void check_tolerance(const Box3& box, std::optional<double> tolerance) {
                             *tolerance, least_tolerance(box)));
 }
 
-/// Areas of what is cut, in the order of the solids; those that the plane misses are left out.
+/// Cut areas in the order of the solids, without solids that the plane misses.
 std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
-                            const SectionPlane& plane, const Arguments& args) {
+                            const SectionPlane& plane, const SectionArguments& args) {
     const MeasureOptions options{
         .relative_error = args.error, .seconds = args.budget, .area = false};
     std::vector<Cut> cuts;
@@ -92,9 +92,9 @@ std::vector<Cut> cut_solids(const SolidScene& solids, const Chosen& chosen,
     return cuts;
 }
 
-/// The text of the SVG; `unresolved` becomes the number of places that may be wrong.
+/// The text of the SVG; sets `unresolved` to the number of doubtful places.
 std::string outlines_of(const SolidScene& solids, const Scene& scene, const PlaneFrame& frame,
-                        const Chosen& chosen, const std::vector<Cut>& cuts, Arguments& args,
+                        const Chosen& chosen, const std::vector<Cut>& cuts, SectionArguments& args,
                         std::uint64_t& unresolved) {
     Box3 box;
     for (const Cut& cut : cuts) box.include(IsolatedSolid(solids.solids(), cut.solid).box());
@@ -114,7 +114,7 @@ std::string outlines_of(const SolidScene& solids, const Scene& scene, const Plan
     return section_svg(layers, frame, args.svg_options);
 }
 
-nlohmann::ordered_json report_of(const std::vector<Cut>& cuts, const Arguments& args,
+nlohmann::ordered_json report_of(const std::vector<Cut>& cuts, const SectionArguments& args,
                                  std::uint64_t unresolved) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Cut& cut : cuts) {
@@ -133,7 +133,7 @@ nlohmann::ordered_json report_of(const std::vector<Cut>& cuts, const Arguments& 
     return out;
 }
 
-void add_options(CLI::App& command, Arguments& args) {
+void add_section_options(CLI::App& command, SectionArguments& args) {
     command
         .add_option("objects", args.objects,
                     "Solids by number, name, or the beginning or end of a name; default: all. "
@@ -178,7 +178,8 @@ void add_options(CLI::App& command, Arguments& args) {
     command.add_flag("-q,--quiet", args.quiet, "No warnings");
 }
 
-void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved, const Arguments& args) {
+void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved,
+                const SectionArguments& args) {
     if (args.json != "-") {
         for (const Cut& cut : cuts) {
             print("{} {}: area {:.12g} +- {:.2g}\n", static_cast<std::uint64_t>(cut.solid),
@@ -194,7 +195,7 @@ void print_cuts(const std::vector<Cut>& cuts, std::uint64_t unresolved, const Ar
     }
 }
 
-void run_section(Arguments& args, int& exit_status) {
+void run_section(SectionArguments& args, int& exit_status) {
     const auto n = parse_numbers(args.plane, {4}, "a plane: nx,ny,nz,d");
     const SectionPlane plane{{n[0], n[1], n[2]}, n[3]};
     const PlaneFrame frame = frame_of(plane);
@@ -220,7 +221,7 @@ void run_section(Arguments& args, int& exit_status) {
         if (!args.svg.empty()) {
             svg = outlines_of(solids, loaded.scene, frame, chosen, cuts, args, unresolved);
         }
-        // Until here a signal ends the program, which has written nothing; now all of it is.
+        // Until here a signal ends the program, and nothing is written; from here all is written.
         (void)stop_on_signals();
         if (picture) write_image(args.output, *picture);
         if (!args.svg.empty()) write_file_atomically(args.svg, svg);
@@ -240,9 +241,9 @@ void run_section(Arguments& args, int& exit_status) {
 void add_section(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand(
         "section", "A scene cut open by a plane: picture, outlines as SVG, areas");
-    const auto args = std::make_shared<Arguments>();
+    const auto args = std::make_shared<SectionArguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
-    add_options(*command, *args);
+    add_section_options(*command, *args);
     command->callback([args, &exit_status] { run_section(*args, exit_status); });
 }
 

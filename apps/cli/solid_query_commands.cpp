@@ -1,4 +1,4 @@
-/// `spans`, `inside`, `thickness`: questions about the solids of a scene, a line of JSON for each.
+/// `spans`, `inside`, `thickness`: queries about the solids of a scene, a line of JSON for each.
 
 #include <fstream>
 #include <iostream>
@@ -18,10 +18,10 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Lines that are answered together, over all threads.
+/// Lines answered together, over all threads.
 constexpr std::size_t kBatch = 16384;
 
-struct Arguments {
+struct SolidQueryArguments {
     SceneArguments scene;
     std::vector<std::string> given;  ///< --ray or --point
     std::string file;                ///< --rays or --points
@@ -33,9 +33,9 @@ void print_line(const json& line) {
     (void)std::fwrite(text.data(), 1, text.size(), stdout);
 }
 
-/// Calls answer(batch) with what was given and then with what the file holds, a batch at a time.
+/// Calls answer(batch) for the given items, then for those of the file, a batch at a time.
 template <class Question, class Parse, class Answer>
-void for_each_batch(const Arguments& args, const Parse& parse, const Answer& answer) {
+void for_each_batch(const SolidQueryArguments& args, const Parse& parse, const Answer& answer) {
     std::vector<Question> batch;
     for (const std::string& text : args.given) batch.push_back(parse(text, FileLocation{}));
     if (!batch.empty()) answer(batch);
@@ -56,9 +56,9 @@ void for_each_batch(const Arguments& args, const Parse& parse, const Answer& ans
     }
 }
 
-/// Loads the scene, and says what of it is no solid.
+/// Loads the scene and reports surfaces that are not solids.
 template <class Work>
-void with_solids(const Arguments& args, const Work& work) {
+void with_solids(const SolidQueryArguments& args, const Work& work) {
     if (args.given.empty() && args.file.empty()) {
         throw Error(ErrorKind::Usage,
                     "nothing is asked for: expected --ray, --rays, --point or "
@@ -76,10 +76,10 @@ void with_solids(const Arguments& args, const Work& work) {
     });
 }
 
-/// Adds the options of a command that asks about rays, or about points.
-std::shared_ptr<Arguments> add_arguments(CLI::App& command, const char* one, const char* what,
-                                         const char* numbers) {
-    auto args = std::make_shared<Arguments>();
+/// Adds the options of a query by rays or by points.
+std::shared_ptr<SolidQueryArguments> add_arguments(CLI::App& command, const char* one,
+                                                   const char* what, const char* numbers) {
+    auto args = std::make_shared<SolidQueryArguments>();
     args->scene.add_to(command, kDefaultAccelerator);
     command
         .add_option(std::string("--") + one, args->given,
@@ -94,7 +94,7 @@ std::shared_ptr<Arguments> add_arguments(CLI::App& command, const char* one, con
     command.add_flag("-q,--quiet", args->quiet, "No warnings");
     return args;
 }
-std::shared_ptr<Arguments> add_ray_arguments(CLI::App& command) {
+std::shared_ptr<SolidQueryArguments> add_ray_arguments(CLI::App& command) {
     return add_arguments(command, "ray", "origin and direction, perhaps the range of t",
                          "OX,OY,OZ,DX,DY,DZ[,TMIN,TMAX]");
 }

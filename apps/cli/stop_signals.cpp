@@ -13,10 +13,10 @@ namespace alhazen::cli {
 namespace {
 
 StopFlag stop_flag;
-/// Somebody looks at the flag.
+/// Work polls the stop flag.
 std::atomic<bool> work_stops{false};
 volatile std::sig_atomic_t first_signal_seconds = 0;
-/// A second signal so soon after the first is the same wish told twice (timeout(1) signals the
+/// A second signal within this time counts as the first one repeated (timeout(1) signals the
 /// process and its group).
 constexpr long kSameWishSeconds = 1;
 

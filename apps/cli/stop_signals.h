@@ -1,6 +1,6 @@
 #pragma once
-/// SIGINT and SIGTERM end the process at once with status 75 while there is nothing to write yet;
-/// later they ask running work to stop, and a second one ends the process at once.
+/// SIGINT and SIGTERM end the process at once with status 75 while there is nothing to write; later
+/// they ask running work to stop, and a second signal ends the process at once.
 
 #include "alhazen/base/progress.h"
 
@@ -9,11 +9,10 @@ namespace alhazen::cli {
 /// Installs the handlers: from now on a signal ends the process with status 75.
 void exit_on_signals();
 
-/// From now on a signal only sets the flag that is returned; a second one kills.
+/// From now on a signal only sets the returned flag; a second one ends the process.
 const StopFlag& stop_on_signals();
 
-/// Lets a write to a closed pipe or beyond a size limit fail with an error instead of ending the
-/// process.
+/// Makes a write to a closed pipe or beyond a size limit fail with an error instead of a signal.
 void fail_instead_of_dying_on_writes();
 
 }  // namespace alhazen::cli

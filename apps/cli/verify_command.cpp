@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -26,14 +27,26 @@ json to_json(const std::vector<Disagreement>& reported) {
     json disagreements = json::array();
     for (const Disagreement& d : reported) {
         const Ray& r = d.ray;
-        disagreements.push_back({{"kind", d.kind},
-                                 {"query", d.query},
-                                 {"origin", {r.origin.x, r.origin.y, r.origin.z}},
-                                 {"direction", {r.direction.x, r.direction.y, r.direction.z}},
-                                 {"found", d.found},
-                                 {"expected", d.expected}});
+        json& one = disagreements.emplace_back();
+        one = {{"kind", d.kind},
+               {"query", d.query},
+               {"origin", {r.origin.x, r.origin.y, r.origin.z}},
+               {"direction", {r.direction.x, r.direction.y, r.direction.z}},
+               {"found", d.found},
+               {"expected", d.expected}};
+        if (std::isfinite(r.t_max)) one["t_max"] = r.t_max;
+        if (!d.road.empty()) one["road"] = d.road;
     }
     return disagreements;
+}
+
+json to_json(const std::array<RoadCounts, kRoadCount>& roads) {
+    json by_name;
+    for (std::size_t i = 0; i < kRoadCount; ++i) {
+        by_name[kRoadNames[i]] = {{"rays", roads[i].rays},
+                                  {"disagreements", roads[i].disagreements}};
+    }
+    return by_name;
 }
 
 json to_json(const VerifyReport& report) {
@@ -41,6 +54,7 @@ json to_json(const VerifyReport& report) {
             {"rays", report.rays},
             {"hits", report.hits},
             {"disagreements", report.disagreements},
+            {"roads", to_json(report.roads)},
             {"closed_surfaces", report.closed_surfaces},
             {"open_meshes", report.open_meshes},
             {"parity_lines", report.parity_lines},
@@ -72,26 +86,37 @@ void print_disagreements(const std::vector<Disagreement>& reported) {
     for (const Disagreement& d : reported) {
         const Vec3& o = d.ray.origin;
         const Vec3& v = d.ray.direction;
-        print(
-            "  {} {}: origin {:.17g} {:.17g} {:.17g} direction {:.17g} {:.17g} {:.17g}\n    found "
-            "{}\n    expected {}\n",
-            d.kind, d.query, o.x, o.y, o.z, v.x, v.y, v.z, d.found, d.expected);
+        const std::string road = d.road.empty() ? "" : fmt::format(" ({})", d.road);
+        const std::string end =
+            std::isfinite(d.ray.t_max) ? fmt::format(" t_max {:.17g}", d.ray.t_max) : "";
+        print("  {} {}{}: origin {:.17g} {:.17g} {:.17g} direction {:.17g} {:.17g} {:.17g}{}\n",
+              d.kind, d.query, road, o.x, o.y, o.z, v.x, v.y, v.z, end);
+        print("    found {}\n    expected {}\n", d.found, d.expected);
     }
+}
+
+/// "single 20000, stream 20000, coherent 4992"; with the disagreements of each where there are any.
+std::string text_of(const std::array<RoadCounts, kRoadCount>& roads) {
+    std::string text;
+    for (std::size_t i = 0; i < kRoadCount; ++i) {
+        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", kRoadNames[i], roads[i].rays);
+        if (roads[i].disagreements > 0) text += fmt::format(" ({} differ)", roads[i].disagreements);
+    }
+    return text;
 }
 
 void print_report(const VerifyReport& report) {
     print(
-        "{}: {} rays, {} hits, {} disagreements with list; {} closed surfaces, {} lines, {} with "
-        "an "
-        "odd number of crossings\n",
-        report.accelerator, report.rays, report.hits, report.disagreements, report.closed_surfaces,
-        report.parity_lines, report.odd_crossings);
+        "{}: {} rays ({}), {} hits, {} disagreements with list; {} closed surfaces, {} lines, {} "
+        "with an odd number of crossings\n",
+        report.accelerator, report.rays, text_of(report.roads), report.hits, report.disagreements,
+        report.closed_surfaces, report.parity_lines, report.odd_crossings);
     print_disagreements(report.reported);
 }
 
 void print_report(const ExactReport& report) {
     print(
-        "exact: {} solids, {} rays, {} crossings in 113 digits: {} disagreements, {} rays graze; "
+        "exact: {} solids, {} rays, {} crossings in 113 bits: {} disagreements, {} rays graze; "
         "crossings and points within {:.3g} and {:.3g} of their bounds{}\n",
         report.solids, report.rays, report.crossings, report.disagreements, report.grazing,
         report.worst_crossing, report.worst_point,
@@ -127,7 +152,7 @@ void add_verify(CLI::App& app, int& exit_status) {
     command->add_option("--seed", args->verify.seed, "Seed of the rays")->capture_default_str();
     command->add_option("--camera", args->verify.camera, "Camera of the eye rays");
     command->add_flag("--exact,!--no-exact", args->exact,
-                      "Shoot the exact solids again in numbers of 113 binary digits (the default)");
+                      "Shoot the exact solids again in numbers of 113 bits (the default)");
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");

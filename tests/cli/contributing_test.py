@@ -24,7 +24,7 @@ import unittest
 BUILD = pathlib.Path(sys.argv[1])
 SOURCE = pathlib.Path(sys.argv[2])
 
-COPIED = ["apps", "docs/formats", "src", "tests/fuzz", "tests/support", "tests/unit", "tools"]
+COPIED = ["apps", "docs/reference/formats", "src", "tests/fuzz", "tests/support", "tests/unit", "tools"]
 
 SHAPE_H = """#pragma once
 /// The least shape: a sphere by another name.
@@ -314,7 +314,7 @@ class Contributing(unittest.TestCase):
                        r'#include "alhazen/shapes/quadrics/extra.h"\n\g<0>'),
                       (r"(using AnalyticShapes = ShapeTypes<[^>]*)>", r"\g<1>, Extra>"))
             copy.list_source("src/alhazen/shapes/CMakeLists.txt", "quadrics/sphere.cpp", "quadrics/extra.cpp")
-            copy.edit("docs/formats/native.md",
+            copy.edit("docs/reference/formats/native.md",
                       (r"^\| `sphere` .*?\n", r"\g<0>| `extra` | `middle`, `size` | (0, 0, 0), 1 |\n"))
             copy.write("tests/unit/shapes/quadrics/extra_test.cpp", SHAPE_TEST)
             copy.list_source("tests/unit/CMakeLists.txt", "shapes/quadrics/sphere_test.cpp", "shapes/quadrics/extra_test.cpp")
@@ -384,7 +384,7 @@ class Contributing(unittest.TestCase):
             copy.write("tests/unit/formats/extra/extra_test.cpp", IMPORTER_TEST)
             copy.list_source("tests/unit/CMakeLists.txt", "formats/nff/nff_test.cpp", "formats/extra/extra_test.cpp")
             copy.edit("tests/fuzz/CMakeLists.txt", (r"foreach\(importer native ", r"\g<0>extra "))
-            copy.write("docs/formats/extra.md", "# Extra\n")
+            copy.write("docs/reference/formats" + "/extra.md", "# Extra\n")
 
         self.check("Add a scene format", "", add, [
             ("src/alhazen/formats/extra/extra_importer.cpp", "/src/alhazen/formats/"),

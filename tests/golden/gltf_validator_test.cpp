@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kFolder = "hostile/gltf-validator/test";
 
-/// Where our verdict is another one; docs/formats/gltf_validator.md has the reasons.
+/// Where our verdict is another one; docs/reference/formats/gltf_validator.md has the reasons.
 const std::set<std::string> kKnownDifferences = {
     "ext/KHR_materials_anisotropy/data/material/no_tangent_space.gltf",
     "ext/KHR_materials_clearcoat/data/material/no_tangent_space.gltf",

@@ -1,5 +1,5 @@
 /// Meshes and glTF scenes as other libraries read them: equal sets of triangles on every model that
-/// both accept. What differs for a reason is listed here and in docs/formats/meshes.md.
+/// both accept. What differs for a reason is listed here and in docs/reference/formats/meshes.md.
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

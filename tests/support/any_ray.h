@@ -1,5 +1,5 @@
 #pragma once
-/// Rays that are hard on the test of a shape, and what two crossings are compared by.
+/// Hard rays for tests of shapes, and tolerances for comparing crossings.
 
 #include <bit>
 #include <limits>
@@ -17,8 +17,8 @@ inline bool same_bits(const ShapeHit& a, const ShapeHit& b) {
            a.part == b.part;
 }
 
-/// A ray of one of many kinds: from outside, inside, far off, grazing, along an axis with zeros of
-/// either sign, of a range that begins or ends anywhere, of any length.
+/// A ray of one of many kinds: from outside, inside, far away, grazing, along an axis with zeros of
+/// either sign, with any range, of any length.
 inline Ray any_ray(const Box3& box, Random& random) {
     Vec3 target;
     for (int k = 0; k < 3; ++k) target[k] = random.uniform(box.lo[k], box.hi[k]);

@@ -1,5 +1,5 @@
 #pragma once
-/// Large and awkward polygons, most of them simple; made from a seed where they are random.
+/// Large and awkward polygons, most of them simple; random ones come from a seed.
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ inline std::vector<Vec2> comb_polygon(std::size_t teeth) {
     return points;
 }
 
-/// Whether segments touch or cross, those that share an end by its place included.
+/// Whether segments touch or cross, a shared end included.
 inline bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     const int abc = orientation(a, b, c), abd = orientation(a, b, d);
     const int cda = orientation(c, d, a), cdb = orientation(c, d, b);
@@ -66,7 +66,7 @@ inline bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 }
 
 /// Random points on a lattice of this many steps (0: anywhere), joined in random order and then
-/// untangled by reversals (2-opt) until no two edges meet; empty when points leave no such way.
+/// untangled by reversals (2-opt) until no two edges touch; empty where that fails.
 inline std::vector<Vec2> untangled_polygon(std::size_t n, unsigned seed, int lattice) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -88,7 +88,7 @@ inline std::vector<Vec2> untangled_polygon(std::size_t n, unsigned seed, int lat
                              points.begin() + std::ptrdiff_t(j + 1));
             }
         }
-        // Neighbours may also lie upon each other.
+        // Neighbours may also overlap.
         for (std::size_t i = 0; i < n && clean; ++i) {
             const Vec2 u = at(i) - at(i + 1), v = at(i + 2) - at(i + 1);
             if (orientation(at(i), at(i + 1), at(i + 2)) == 0 && u.x * v.x + u.y * v.y > 0.0) {

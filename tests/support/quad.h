@@ -1,5 +1,5 @@
 #pragma once
-/// Arithmetic with twice the digits, to judge that in double.
+/// Arithmetic with twice the digits, as a reference for double.
 
 #include <cmath>
 

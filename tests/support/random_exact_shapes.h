@@ -63,7 +63,7 @@ template <>
 struct RandomShape<Tgc> {
     static Tgc make(const ShapeSource& from) {
         const Mat3 axes = random_axes(from);
-        // Ends without area have edges, where a normal is that of either side: tgc_test.cpp.
+        // Ends without area have edges, where the normal is that of either side: tgc_test.cpp.
         const auto scale = [&] {
             return from.lattice ? 0.5 * (1 + from.random.below(4))
                                 : from.random.log_uniform(0.3, 2);
@@ -133,7 +133,7 @@ struct RandomShape<TwoSheetHyperboloid> {
 
 template <>
 struct RandomShape<Quadric> {
-    /// Any signature, so any kind; in most cases clipped by a box, in some also by planes.
+    /// Any signature, hence any kind; mostly clipped by a box, sometimes also by planes.
     static Quadric make(const ShapeSource& from) {
         Random& random = from.random;
         const auto number = [&] {

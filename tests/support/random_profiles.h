@@ -5,8 +5,8 @@
 
 namespace alhazen::testing {
 
-/// A loop around `middle` whose points stay between 0.4 and 1 times `size` of it in each
-/// direction: lines and curves by turns at random.
+/// A loop around `middle`. Its points stay between 0.4 and 1 times `size` from it in each
+/// direction; lines and curves alternate at random.
 inline void add_random_loop(Profile& profile, Random& random, Vec2 middle, double size) {
     const int n = 3 + random.below(5);
     const auto at = [&](double turn, double r) {

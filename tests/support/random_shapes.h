@@ -93,8 +93,7 @@ struct RandomShape<Polygon> {
         for (int loop = 0; loop < loops; ++loop) {
             for (int i = 0; i < count; ++i) {
                 const double angle = 2 * 3.14159265358979 * i / count;
-                // With three corners the inner circle of radius 1/2 is all that is sure to be
-                // inside.
+                // With three corners only the inner circle of radius 1/2 is certainly inside.
                 const double r = loop == 0 ? size * from.random.uniform(0.9, 1.5) : 0.2 * size;
                 star.vertices.push_back(middle + r * std::cos(angle) * x + r * std::sin(angle) * y);
             }

@@ -1,6 +1,6 @@
 #pragma once
-/// Random solids made of others, as scene descriptions, and the truth about their points by plain
-/// evaluation of the expression.
+/// Random CSG solids as scene descriptions, and point membership by direct evaluation of the
+/// expression.
 
 #include <cmath>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace alhazen::testing {
 
-/// How far a point lies inside (negative) or outside a leaf: a function that is zero on its
+/// Signed measure of a point against a leaf, negative inside: a function that is zero on its
 /// surface, in the units of the leaf's frame.
 inline double side_of(const AnyShape& shape, const Vec3& p) {
     if (const auto* s = std::get_if<Sphere>(&shape)) return length(p - s->center) - s->radius;
@@ -37,7 +37,7 @@ inline double side_of(const AnyShape& shape, const Vec3& p) {
     return frustum(c.base, c.top, c.base_radius, c.top_radius);
 }
 
-/// Where a point lies in the object, or that it lies on the surface of one of its leaves.
+/// Position of a point relative to the object, or on the surface of one of its leaves.
 enum class Side { Outside, Inside, OnSurface };
 
 inline Side side_of(const SceneDescription& d, ObjectIndex object, const Vec3& p,
@@ -74,7 +74,7 @@ inline Side side_of(const SceneDescription& d, ObjectIndex object, const Vec3& p
 /// Makes trees of operators over spheres, boxes, cylinders and cones around the origin.
 class RandomSolids {
   public:
-    /// `lattice`: coordinates are multiples of a half, so that many surfaces coincide.
+    /// `lattice`: coordinates are multiples of one half, so that many surfaces coincide.
     RandomSolids(SceneMaker& maker, RandomStream& random, bool lattice)
         : maker_(maker), random_(random), lattice_(lattice) {}
 

@@ -15,9 +15,9 @@ struct SphereMesh {
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 
-    /// An octahedron whose triangles were split in four `levels` times, outward oriented: 8 *
-    /// 4^levels triangles. With `on_sphere` the corners are moved to the unit sphere, else they
-    /// stay on the octahedron, at multiples of 2^-levels.
+    /// An octahedron with triangles split in four `levels` times, oriented outward: 8 * 4^levels
+    /// triangles. With `on_sphere` the corners are moved to the unit sphere, else they stay on the
+    /// octahedron, at multiples of 2^-levels.
     explicit SphereMesh(int levels, bool on_sphere = true)
         : positions{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}} {
         for (std::uint32_t x : {0u, 1u}) {

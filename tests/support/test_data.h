@@ -1,5 +1,5 @@
 #pragma once
-/// Where tests find files: the real scenes and reference images, and this checkout.
+/// Paths of test files: the real scenes and reference images, and this checkout.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,7 @@ namespace alhazen::testing {
 /// The root of the checkout.
 [[nodiscard]] std::filesystem::path source_folder();
 
-/// Whether this is a run of continuous integration (CI in the environment), where nothing may be
-/// skipped for want of data.
+/// Whether this is continuous integration (CI in the environment), where missing data is an error.
 [[nodiscard]] bool data_is_required();
 
 }  // namespace alhazen::testing

@@ -1,6 +1,6 @@
 #pragma once
-/// Whole scenes as triangles in world space, and their comparison with what another program read
-/// from the same file: free of the order of triangles and vertices and of the last digits.
+/// Whole scenes as triangles in world space, and their comparison with another program's reading of
+/// the same file, independent of the order of triangles and vertices and of the last digits.
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@
 
 namespace alhazen::testing {
 
-/// Polygons as another program gives them.
+/// Polygons as read by another program.
 struct PolygonSoup {
     std::vector<Vec3> corners;
     std::vector<std::size_t> ends;  ///< [polygon] one past its last corner
 };
 
-/// Adds the triangles of an object and all it is made of, under a transform.
+/// Adds the triangles of an object and its parts, under a transform.
 inline void add_triangles(const SceneDescription& scene, const ObjectDescription& object,
                           const Affine& world_from_object, TriangleMesh& soup, int depth = 0) {
     if (depth > 64) return;
@@ -43,7 +43,7 @@ inline void add_triangles(const SceneDescription& scene, const ObjectDescription
     }
 }
 
-/// Numbers places: equal positions have equal numbers.
+/// Numbers positions: equal positions have equal numbers.
 class Places {
   public:
     explicit Places(const TriangleMesh& mesh) {
@@ -56,7 +56,7 @@ class Places {
         std::sort(positions_.begin(), positions_.end(), less);
         positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
     }
-    /// The number of the nearest place within `distance`, or -1.
+    /// The number of the nearest position within `distance`, or -1.
     [[nodiscard]] std::int64_t nearest(const Vec3& p, double distance) const {
         auto at = std::lower_bound(positions_.begin(), positions_.end(), p.x - distance,
                                    [](const Vec3& a, double x) { return a.x < x; });
@@ -78,7 +78,8 @@ class Places {
 
 using Triple = std::array<std::uint32_t, 3>;
 
-/// Each beginning with its least number; those without three different ones left out.
+/// Rotates each triple to begin with its least number; removes triples without three different
+/// numbers.
 inline std::vector<Triple> sorted_set(std::vector<Triple> triples) {
     std::erase_if(triples,
                   [](const Triple& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
@@ -87,8 +88,8 @@ inline std::vector<Triple> sorted_set(std::vector<Triple> triples) {
     return triples;
 }
 
-/// Empty when `theirs`, cut into triangles as we do it, has the same triangles as `ours`; else what
-/// differs.
+/// Empty when `theirs`, triangulated, has the same triangles as `ours`; else a description of the
+/// difference.
 inline std::string difference(const TriangleMesh& ours, const PolygonSoup& theirs,
                               double relative_distance = 1e-5) {
     Box3 box;

@@ -1,6 +1,6 @@
 #pragma once
-/// The closed list of the accelerators that visit one primitive at a time. ADD AN ACCELERATOR HERE:
-/// one include, one entry. The wide BVH tests primitives in blocks and has an aggregate of its own.
+/// The list of the accelerators that visit one primitive at a time. ADD AN ACCELERATOR HERE: one
+/// include, one entry. The wide BVH tests primitives in blocks and has its own aggregate.
 
 #include <tuple>
 
@@ -20,13 +20,13 @@
 
 namespace alhazen {
 
-// Each list is compiled in a file of its own (scene/accelerators_of_*.cpp).
+// Each list is compiled in a file of its own (aggregates/accelerators_of_*.cpp).
 
 /// Bounds around primitives.
 using BoundAccelerators = std::tuple<List, BoundingVolumes, Hierarchy, KayKajiya, GoldsmithSalmon>;
-/// Space, divided.
+/// Subdivisions of space.
 using CellAccelerators = std::tuple<UniformGrid, NestedGrid, Octree, KdTree, Bsp>;
-/// Directions, divided.
+/// Subdivisions of directions.
 using DirectionAccelerators = std::tuple<RayClassification, LightBuffer, RayCoherence>;
 
 }  // namespace alhazen

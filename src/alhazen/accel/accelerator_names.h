@@ -1,6 +1,6 @@
 #pragma once
-/// Every accelerator by name, with its settings: what can be checked and listed without a scene.
-/// The accelerators themselves: accel_list.h and the wide BVH.
+/// The accelerators by name, with their settings: everything that can be checked and listed without
+/// a scene. The accelerators themselves: accel_list.h and the wide BVH.
 
 #include <span>
 #include <string>
@@ -14,21 +14,20 @@ struct AcceleratorInfo {
     const char* name;
     const char* description;  ///< one line
     std::vector<SettingDescription> (*settings)();
-    /// Throws Error (Usage) for a setting that the accelerator does not have, or a value that it
-    /// does not take.
+    /// Throws Error (Usage) for an unknown setting or an invalid value.
     void (*check)(const AcceleratorSettings& settings);
 };
 
 inline constexpr const char* kDefaultAccelerator = "wide_bvh";
 
-/// In the order of accel_list.h, the default one first.
+/// In the order of accel_list.h, preceded by the default.
 [[nodiscard]] std::span<const AcceleratorInfo> accelerator_names();
 
-/// Throws Error (Usage) when `accelerator` ("NAME" or "NAME:SETTING=VALUE,...") is none, with what
-/// is valid.
+/// Throws Error (Usage) with the valid choices when `accelerator` ("NAME" or
+/// "NAME:SETTING=VALUE,...") is invalid.
 void check_accelerator(const std::string& accelerator);
 
-/// The position of the name in `accelerator_names`. Throws Error (Usage) with the valid names.
+/// The index of the name in `accelerator_names`. Throws Error (Usage) with the valid names.
 [[nodiscard]] std::size_t accelerator_index(const std::string& name);
 
 }  // namespace alhazen

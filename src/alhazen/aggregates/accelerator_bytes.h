@@ -1,9 +1,9 @@
 #pragma once
-/// What the acceleration structures of a scene hold now.
+/// Current size of the acceleration structures of a scene.
 ///
-/// Conventions: every aggregate once, however often it is placed. Right after the scene was
-/// compiled this is `SceneCensus::accelerator_bytes`; it grows while rays are traced through
-/// accelerators that make their lists as rays come.
+/// Conventions: every aggregate counts once, however often it is placed. Right after compilation
+/// this is `SceneCensus::accelerator_bytes`; it grows while rays are traced through accelerators
+/// that build lists on demand.
 
 #include <cstdint>
 
@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// Of the aggregate and of all that are placed in it, to any depth.
+/// Bytes of the aggregate and of all aggregates placed in it, to any depth.
 [[nodiscard]] std::uint64_t accelerator_bytes(const Aggregate& aggregate);
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// Makes aggregates of the accelerators of accel/accel_list.h; each list of accelerators in a file
+/// Makes aggregates of the accelerators of accel/accel_list.h. Each list of accelerators has a file
 /// of its own, because every traversal is compiled for every query.
 
 #include <memory>

@@ -1,6 +1,5 @@
 #pragma once
-/// Builds any accelerator by its name: accel/accelerator_names.h with what makes an aggregate of
-/// each.
+/// Builds any accelerator by its name: accel/accelerator_names.h with a factory for each.
 
 #include <memory>
 #include <span>
@@ -14,7 +13,7 @@
 
 namespace alhazen {
 
-/// Throws Error (Usage) for settings that the accelerator does not have.
+/// Throws Error (Usage) for unknown settings of the accelerator.
 using MakeAggregate = std::shared_ptr<const Aggregate> (*)(PrimitiveTable table,
                                                            const AcceleratorSettings& settings,
                                                            const BuildOptions& options);
@@ -27,7 +26,7 @@ struct AcceleratorEntry : AcceleratorInfo {
 [[nodiscard]] std::span<const AcceleratorEntry> accelerator_table();
 
 /// Builds the accelerator ("NAME" or "NAME:SETTING=VALUE,...") over a finished table. Throws as
-/// `check_accelerator` does. Build options concern the wide BVH only.
+/// `check_accelerator` does. Build options apply to the wide BVH only.
 [[nodiscard]] std::shared_ptr<const Aggregate> make_aggregate(const std::string& accelerator,
                                                               PrimitiveTable table,
                                                               const BuildOptions& options = {});

@@ -91,11 +91,11 @@ class AggregateOf final : public Aggregate {
     }
 
   private:
-    /// Where primitives lie in many cells: the crossings of one that is visited again are dropped.
+    /// For accelerators with primitives in several cells: drops the crossings of repeated visits.
     class OnlyOnce {
       public:
         explicit OnlyOnce(std::vector<Hit>& hits) : hits_(hits) {}
-        /// What was appended beyond `known` came from `id`.
+        /// The crossings beyond `known` belong to `id`.
         void keep(PrimitiveId id, std::size_t known) {
             if constexpr (visits_repeatedly<A>()) {
                 if (hits_.size() == known) return;
@@ -112,8 +112,8 @@ class AggregateOf final : public Aggregate {
         ReentrantStack<PrimitiveId> seen_;
     };
 
-    /// The reciprocal of what is smaller may be infinite, and so may be t where something is hit:
-    /// such a ray is tested against everything.
+    /// The reciprocal of a smaller component may be infinite, and so may be t of a hit: the ray is
+    /// tested against every primitive.
     static constexpr double kLeastDirection = 0x1p-960;
 
     A build(const typename A::Config& config) {
@@ -140,8 +140,8 @@ class AggregateOf final : public Aggregate {
         }
     };
 
-    /// Calls `test(id)` for every primitive the ray may meet until it returns true; true when it
-    /// did.
+    /// Calls `test(id)` for every primitive that the ray may intersect until it returns true;
+    /// returns whether it did.
     template <AsksFor kWanted, class Stats, class Test>
     bool each(const Ray& ray, Stats stats, Test&& test) const {
         for (const PrimitiveId id : unbounded_) {
@@ -160,7 +160,7 @@ class AggregateOf final : public Aggregate {
     }
 
     PrimitiveTable table_;
-    // Set by `build`, so declared before the accelerator.
+    // Set by `build`: declared before the accelerator.
     Box3 box_;
     std::vector<PrimitiveId> unbounded_;
     std::vector<std::uint32_t> bounded_;

@@ -1,11 +1,14 @@
 #pragma once
-/// A 64-bit checksum of bytes: against damage and mistakes, not against an adversary.
+/// A 64-bit checksum of bytes: detects damage and mistakes, gives no protection against an
+/// adversary.
 ///
 /// Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014
-/// (the final mixing). Differs: words go round four sums, so that no multiplication waits for the
-/// one before.
-/// Conventions: every step can be undone, so that a change within one aligned word always shows.
-/// The sum depends on how the bytes are cut into calls, and on the byte order of the machine.
+/// (the final mixing).
+/// Differs: words are distributed over four independent sums, so that no multiplication waits for
+/// the previous one.
+/// Conventions: every step is invertible, so that a change within one aligned word always changes
+/// the sum. The sum depends on how the bytes are divided into calls, and on the byte order of the
+/// machine.
 
 #include <bit>
 #include <cstddef>
@@ -46,7 +49,8 @@ class Checksum {
 
   private:
     static std::uint64_t step(std::uint64_t sum, std::uint64_t word) {
-        // Without the shift a top bit would come out alone, and one bit of a later word undo it.
+        // The shift spreads a change of the top bit; without it one bit of a later word could undo
+        // it.
         const std::uint64_t product = (sum ^ word) * 0x9E3779B97F4A7C15u;
         return product ^ product >> 32;
     }

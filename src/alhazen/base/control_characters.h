@@ -1,9 +1,9 @@
 #pragma once
-/// Text from files, made safe to show: a terminal obeys control characters, and a NUL would cut a
+/// Escapes control characters in text from files: a terminal interprets them, and a NUL ends a
 /// message.
 ///
-/// Conventions: what is escaped are the control characters of ASCII and those beyond it in UTF-8
-/// (U+0080 to U+009F), each byte as \x1b. Everything else stays, well-formed UTF-8 or not.
+/// Conventions: escapes the control characters of ASCII and those of UTF-8 beyond it (U+0080 to
+/// U+009F), each byte as \x1b. All other bytes stay, well-formed UTF-8 or not.
 
 #include <string>
 #include <string_view>

@@ -1,8 +1,7 @@
 #pragma once
-/// Everything that was found while reading and validating a scene: reported together, not one by
-/// one.
+/// Findings of reading and validating a scene, reported together.
 ///
-/// Importers and validation add findings and go on where they can; `throw_if_errors` ends the
+/// Importers and validation add findings and continue where they can; `throw_if_errors` ends the
 /// phase.
 
 #include <cstddef>

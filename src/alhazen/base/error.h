@@ -1,8 +1,8 @@
 #pragma once
-/// The one exception type of the library, and the place in a file it speaks of.
+/// The exception type of the library, with the location in a file that it refers to.
 ///
 /// Cold code (loading, building, writing) throws `Error`; kernels never do. The message says what
-/// was found and what was expected; control characters but the newline are escaped. The kind
+/// was found and what was expected; control characters except the newline are escaped. The kind
 /// decides the exit status of the command line.
 
 #include <stdexcept>

@@ -63,12 +63,12 @@ class TemporaryName {
 
 void check_path(const fs::path& path) {
     if (path.empty()) fail(path, "the name of the file is empty");
-    // The system would read the name only up to the NUL and open another file.
+    // The system reads the name up to the NUL and opens another file.
     if (path.native().find('\0') != std::string::npos)
         fail(path, "the name of the file holds a NUL");
 }
 
-/// The file that is meant by `path`: a link is followed, so that it stays a link.
+/// The target of `path`: a link is followed, so that it stays a link.
 fs::path target_of(const fs::path& path) {
     std::error_code error;
     if (!fs::is_symlink(path, error)) return path;
@@ -102,7 +102,7 @@ void write_all(int fd, std::span<const std::byte> bytes, const fs::path& path) {
     }
 }
 
-/// Some file systems cannot sync (EINVAL, ENOTSUP); that is no failure of the data.
+/// Syncs. File systems that cannot (EINVAL, ENOTSUP) count as synced.
 bool synced(int fd) {
     int result = 0;
     do {
@@ -113,7 +113,7 @@ bool synced(int fd) {
 
 void sync_folder(const fs::path& folder) {
     const FileDescriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    // The rename is done and both names hold whole files, so a failure here is nothing to undo.
+    // The rename is done and both names hold whole files, so a failure here needs no undoing.
     if (fd.get() >= 0) (void)synced(fd.get());
 }
 
@@ -121,7 +121,7 @@ void sync_folder(const fs::path& folder) {
 
 std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
     check_path(path);
-    // O_NONBLOCK: opening a FIFO without a writer would otherwise wait for ever.
+    // O_NONBLOCK: opening a FIFO without a writer would otherwise wait forever.
     const FileDescriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (fd.get() < 0) fail(path, "cannot open the file", errno);
     struct stat status {};
@@ -170,8 +170,7 @@ void write_file_atomically(const fs::path& path,
     FileDescriptor fd(create_temporary(folder, temporary_path));
     if (fd.get() < 0) fail(path, "cannot write into the folder " + folder.string(), errno);
     TemporaryName temporary(std::move(temporary_path));
-    // Keep the permissions that the user gave the old file; not being allowed to is no reason to
-    // stop.
+    // Keep the permissions of the old file where that is allowed.
     if (exists) (void)!::fchmod(fd.get(), old.st_mode & 07777);
     for (const std::span<const std::byte> bytes : pieces) write_all(fd.get(), bytes, path);
     if (!synced(fd.get())) fail(path, "cannot write the file", errno);
@@ -215,7 +214,7 @@ fs::path resolve_inside(std::span<const fs::path> roots, const fs::path& folder,
     const fs::path place = (folder / name).lexically_normal();
     std::error_code failed;
     const fs::path real = fs::weakly_canonical(whole(place), failed);
-    bool led_out = false;  // as it is written it lies in a root
+    bool led_out = false;  // the name as written lies in a root
     for (const fs::path& root : roots) {
         if (failed) break;
         const fs::path real_root = fs::weakly_canonical(whole(root), failed);

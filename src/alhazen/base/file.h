@@ -25,15 +25,14 @@ inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 /// Throws Error (File) and leaves the old file as it was when anything fails.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// The same for bytes that lie in several places, in this order.
+/// The same for the bytes of several pieces, in this order.
 void write_file_atomically(const std::filesystem::path& path,
                            std::span<const std::span<const std::byte>> pieces);
 /// The same for text.
 void write_file_atomically(const std::filesystem::path& path, const std::string& text);
 
-/// Throws Error (File) when `path` could not be written for a reason that shows already: its folder
-/// is missing or may not be written to, or it is a folder itself. For callers with long work before
-/// the write.
+/// Throws Error (File) when `path` is known not to be writable: its folder is missing or may not be
+/// written to, or it is a folder itself. For callers with long work before the write.
 void check_writable(const std::filesystem::path& path);
 
 /// Resolves `name`, as written in a scene file, against `folder`. Throws Error (Scene) when it is

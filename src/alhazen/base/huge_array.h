@@ -1,5 +1,5 @@
 #pragma once
-/// Arrays of plain values in large pages, which nobody sets before they are used.
+/// Uninitialised arrays of plain values in large pages.
 
 #include <cstddef>
 #include <memory>
@@ -9,18 +9,18 @@
 
 namespace alhazen {
 
-/// Gives back the memory of a HugeArray.
+/// Frees the memory of a HugeArray.
 template <class T>
 struct HugeArrayDelete {
     std::size_t size = 0;
     void operator()(T* memory) const { HugePageAllocator<T>().deallocate(memory, size); }
 };
 
-/// Room for values that are written before they are read.
+/// Memory for values that are written before they are read.
 template <class T>
 using HugeArray = std::unique_ptr<T[], HugeArrayDelete<T>>;
 
-/// Nothing is done to the memory. Throws std::bad_alloc.
+/// Leaves the memory uninitialised. Throws std::bad_alloc.
 template <class T>
 [[nodiscard]] HugeArray<T> make_huge_array(std::size_t size) {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

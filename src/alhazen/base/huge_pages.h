@@ -1,8 +1,8 @@
 #pragma once
-/// Memory in large pages where the system gives them: what is read all over the place, as a tree is
-/// by its rays, costs a page walk less at almost every step.
+/// Memory in large pages where the system provides them: data read at random, as a tree by its
+/// rays, save a page walk at almost every step.
 ///
-/// Where there are none all of this is ordinary memory.
+/// Elsewhere everything here is ordinary memory.
 
 #include <cstddef>
 #include <cstdlib>
@@ -14,16 +14,16 @@ namespace alhazen {
 
 inline constexpr std::size_t kHugePageBytes = std::size_t{2} << 20;
 
-/// Asks for large pages for memory that is not touched yet.
+/// Requests large pages for memory that is not touched yet.
 void prefer_huge_pages(void* memory, std::size_t bytes);
-/// Moves memory in use to large pages, where they fit inside of it.
+/// Moves memory in use to large pages, where whole ones lie inside of it.
 void collapse_to_huge_pages(const void* memory, std::size_t bytes);
 template <class T>
 void collapse_to_huge_pages(std::span<T> values) {
     collapse_to_huge_pages(values.data(), values.size_bytes());
 }
 
-/// For containers that grow large: blocks from the size of a large page on are aligned to it.
+/// Allocator for large containers: blocks of at least one large page are aligned to it.
 template <class T>
 struct HugePageAllocator {
     using value_type = T;

@@ -1,6 +1,6 @@
 #pragma once
-/// A vector of at most N trivially copyable values that lives inside its owner: no allocation, and
-/// a copy costs only the values in use.
+/// A vector of at most N trivially copyable values, stored inside its owner: no allocation, and a
+/// copy costs only the values in use.
 
 #include <algorithm>
 #include <cstddef>

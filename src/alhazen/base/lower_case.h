@@ -1,5 +1,5 @@
 #pragma once
-/// Small letters for names that computers compare: suffixes of files, words of formats.
+/// Lower case for names that programs compare: suffixes of files, keywords of formats.
 ///
 /// Conventions: A to Z only, in every locale; bytes of other characters stay as they are.
 

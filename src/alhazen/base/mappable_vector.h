@@ -1,9 +1,9 @@
 #pragma once
-/// A vector whose values are its own, in large pages, or lie in memory of another, as of a mapped
-/// file. Reading costs the same either way.
+/// A vector that owns its values, in large pages, or refers to memory of another owner, such as a
+/// mapped file. Reading costs the same either way.
 ///
-/// Conventions: whatever may change the values makes them its own first, by a copy. So does a
-/// reference that is not const: read through const ones.
+/// Conventions: every operation that may change the values copies them to own memory first. So does
+/// a reference that is not const: read through const references.
 
 #include <cstddef>
 #include <memory>
@@ -20,7 +20,7 @@ class MappableVector {
     using value_type = T;
 
     MappableVector() = default;
-    /// Values that `owner` keeps alive.
+    /// Refers to values that `owner` keeps alive.
     MappableVector(std::span<const T> values, std::shared_ptr<const void> owner)
         : values_(values), owner_(std::move(owner)) {}
     MappableVector(const MappableVector& other) : own_(other.own_), owner_(other.owner_) {
@@ -47,7 +47,7 @@ class MappableVector {
     [[nodiscard]] const T& operator[](std::size_t i) const { return values_.data()[i]; }
     [[nodiscard]] const T* begin() const { return values_.data(); }
     [[nodiscard]] const T* end() const { return values_.data() + values_.size(); }
-    /// Of its own memory, or as many as are mapped.
+    /// Capacity of own memory; the size where the values are mapped.
     [[nodiscard]] std::size_t capacity() const { return is_mapped() ? size() : own_.capacity(); }
 
     // ---- changing
@@ -91,7 +91,7 @@ class MappableVector {
     }
 
     HugeVector<T> own_;
-    std::span<const T> values_;  ///< those of `own_`, or of the owner
+    std::span<const T> values_;  ///< the values of `own_`, or of the owner
     std::shared_ptr<const void> owner_;
 };
 

@@ -1,9 +1,9 @@
 #pragma once
-/// A file as memory, read only: pages come in as they are touched, and are shared with whoever maps
-/// the same file.
+/// A read-only memory map of a file: pages are loaded when they are touched, and are shared by all
+/// processes that map the file.
 ///
-/// Regular files only. A file that is replaced as a whole (`write_file_atomically`) stays as it was
-/// for who has it mapped; one that is cut short in place kills the process that reads beyond its
+/// Regular files only. A file that is replaced as a whole (`write_file_atomically`) stays unchanged
+/// for existing maps. A file that is truncated in place kills the process that reads beyond its
 /// end.
 
 #include <cstddef>
@@ -15,13 +15,14 @@ namespace alhazen {
 
 class MappedFile {
   public:
-    /// Throws Error (File) when it cannot be opened, is not a regular file or cannot be mapped.
+    /// Throws Error (File) when the file cannot be opened, is not a regular file or cannot be
+    /// mapped.
     [[nodiscard]] static std::shared_ptr<const MappedFile> open(const std::filesystem::path& path);
     ~MappedFile();
     MappedFile(const MappedFile&) = delete;
     MappedFile& operator=(const MappedFile&) = delete;
 
-    /// Begins at a page.
+    /// Starts at a page boundary.
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
 
   private:

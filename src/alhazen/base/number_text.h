@@ -1,8 +1,9 @@
 #pragma once
-/// Numbers as messages show them.
+/// Formats numbers for messages.
 ///
-/// Source: std::to_chars. Differs: nothing. Conventions: the shortest text that reads back as the
-/// number: 1e+150, not 150 digits; 1e-75, not 0.000000.
+/// Source: std::to_chars.
+/// Conventions: the shortest text that reads back as the number: 1e+150, not 150 digits; 1e-75, not
+/// 0.000000.
 
 #include <array>
 #include <charconv>

@@ -1,5 +1,5 @@
 #pragma once
-/// How long work tells its caller how far it is, and how the caller stops it.
+/// Progress reports of long computations, and a flag that stops them.
 
 #include <atomic>
 #include <cstddef>
@@ -15,7 +15,7 @@ class ProgressSink {
     virtual void update(std::string_view phase, std::size_t done, std::size_t total) = 0;
 };
 
-/// Set from anywhere (a signal handler included); work looks at it between units.
+/// May be set from anywhere (a signal handler included); work checks it between units.
 class StopFlag {
   public:
     void request() noexcept { requested_.store(true, std::memory_order_relaxed); }

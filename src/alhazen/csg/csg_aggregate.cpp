@@ -55,11 +55,11 @@ CsgAggregate::CsgAggregate(PrimitiveTable table, CsgExpression expression,
 }
 
 Box3 CsgAggregate::box() const {
-    // Leaves that coincide with the bound may be met a little outside it.
+    // Crossings with leaves that coincide with the bound may lie slightly outside of it.
     return padded(solid_.tree().box(), 1e-15);
 }
 
-/// The smallest that is known: of the box, or of a leaf that holds the solid.
+/// The smallest known sphere: around the box, or of a leaf that contains the solid.
 BoundingSphere CsgAggregate::find_sphere() const {
     BoundingSphere smallest = bounding_sphere(box());
     for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
@@ -68,7 +68,7 @@ BoundingSphere CsgAggregate::find_sphere() const {
         const BoundingSphere sphere = primitives().sphere(primitive);
         if (sphere.radius < smallest.radius) smallest = sphere;
     }
-    // A transition is where one of the crossings is that lie together.
+    // A transition lies at any of the crossings that count as one.
     smallest.radius += 4.0 * solid_.tolerance();
     return smallest;
 }
@@ -102,7 +102,7 @@ bool CsgAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuer
             case Opacity::Opaque:
                 return true;
             case Opacity::OpaqueFromFront:
-                // The front of a solid is its outside, whichever way its parts are wound.
+                // The front of a solid is its outside, independent of the winding of its parts.
                 if (leaves) return true;
                 break;
             case Opacity::Transparent:
@@ -136,7 +136,7 @@ CsgAggregate::Look CsgAggregate::look(const CsgRay& ray, double t, PrimitiveId p
     if (of_minuend) {
         look.material = look.media.after ? look.media.after : look.media.before;
     } else if (is_wall && solid_.medium(sides.after) != CsgSolid::kMixture) {
-        // What is entered is seen, and nothing from inside of what is opaque.
+        // Shows the entered medium, except when leaving an opaque one.
         const bool opaque_before = solid_.medium(sides.before) == CsgSolid::kOpaque;
         look.material = opaque_before ? look.media.before : look.media.after;
     }
@@ -167,7 +167,7 @@ void CsgAggregate::complete(const Ray& ray, double t, PrimitiveId primitive,
         surface.normal = -surface.normal;
         surface.shading_normal = -surface.shading_normal;
     }
-    // Rays that leave the surface begin where all that coincides with it is left behind.
+    // Rays that leave the surface start beyond all surfaces that coincide with it.
     const double error = 0x1p-4 * solid_.tolerance();
     surface.error += Vec3{error, error, error};
 }

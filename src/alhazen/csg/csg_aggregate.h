@@ -1,9 +1,10 @@
 #pragma once
-/// A solid made of others (constructive solid geometry) as an aggregate: its hits are where a ray
-/// enters and leaves the solid, in turn.
+/// A solid of constructive solid geometry as an aggregate: its hits are where a ray enters and
+/// leaves the solid, alternately.
 ///
-/// Conventions: those of `Aggregate`; hits carry the primitive whose surface is seen, which for a
-/// subtracted one is turned over (`complete`). Any evaluator (csg_evaluator.h) gives the same hits.
+/// Conventions: those of `Aggregate`; a hit has the primitive whose surface is visible; the surface
+/// of a subtracted primitive is reversed (`complete`). All evaluators (csg_evaluator.h) give the
+/// same hits.
 /// Threads: const functions may be called from many threads.
 
 #include "alhazen/csg/csg_evaluator.h"
@@ -35,8 +36,8 @@ class CsgAggregate final : public SolidAggregate {
     }
 
   private:
-    /// What lies on both sides of the hit, and the material that is seen where that is not the
-    /// primitive's own.
+    /// The media on both sides of a hit, and the visible material where it is not the primitive's
+    /// own.
     struct Look {
         SurfaceMedia media;
         std::optional<MaterialId> material;
@@ -49,7 +50,7 @@ class CsgAggregate final : public SolidAggregate {
     CsgSolid solid_;
     BoundingSphere sphere_;
     std::unique_ptr<const CsgEvaluator> evaluator_;
-    std::vector<bool> shows_minuend_;  ///< [primitive], or empty: none does
+    std::vector<bool> shows_minuend_;  ///< [primitive]; empty: false for all
     std::vector<bool> turned_;         ///< [primitive] its normal points into the solid
 };
 

@@ -9,8 +9,8 @@ namespace alhazen {
 
 namespace {
 
-/// Directions are taken for at least this part of their largest component: no quotient is
-/// infinite, and what a ray moves aside by it is far below the pad.
+/// Lower bound of a direction's components relative to the largest one: no quotient is infinite,
+/// and the displacement of the ray is far below the pad.
 constexpr double kLeastDirection = 0x1p-100;
 
 /// The children of a wide node: the root's grandchildren, the largest opened first.

@@ -1,14 +1,14 @@
 #pragma once
-/// A tree of boxes around the leaves of a solid, eight to a node, each child with the range of t in
-/// which a ray passes its box.
+/// A tree of boxes around the leaves of a solid with eight children per node; traversal gives the
+/// range of t of a ray in each child's box.
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for single
 /// rays); Kay and Kajiya, SIGGRAPH 1986 (slabs).
-/// Differs: built by the binary builder of wide_bvh, then eight descendants to a node; each leaf
-/// holds one box. What is computed of a ray is double, what is stored of boxes float; the boxes of
-/// a node are tested together, with the same bits on every instruction set. Conventions: ranges
-/// hold the true ones with `pad` to spare on every side. Boxes that are not finite are listed
-/// apart.
+/// Differs: built by the binary builder of wide_bvh, then collapsed to eight descendants per node;
+/// each leaf has one box. Rays are computed in double, boxes are stored in float; the boxes of a
+/// node are tested together, with the same bits on every instruction set.
+/// Conventions: ranges contain the true ones with a margin of `pad` on every side. Unbounded boxes
+/// are listed separately.
 
 #include <bit>
 #include <cstdint>
@@ -24,30 +24,30 @@ namespace alhazen {
 class CsgBvh {
   public:
     static constexpr std::size_t kWidth = 8;
-    /// A child: a node, or a leaf (its number with this bit).
+    /// A child: a node, or a leaf (its number with this bit set).
     static constexpr std::uint32_t kLeafBit = 1u << 31;
 
     struct alignas(64) Node {
         float lo[3][kWidth];
         float hi[3][kWidth];
-        std::uint32_t child[kWidth];  ///< those that are not used have an empty box
+        std::uint32_t child[kWidth];  ///< unused ones have an empty box
     };
 
-    /// A ray in the frame of the tree, its origin moved by the pad for either side of the slabs.
+    /// A ray in the frame of the tree, its origin moved by the pad on either side of the slabs.
     struct RaySlabs {
         double near_origin[3], far_origin[3], inverse[3];
         bool negative[3];
     };
 
-    /// Where the line is in the box of each child of a node, and which of them it passes: bit i for
-    /// child i.
+    /// The ranges of the line in the boxes of a node's children. The kernel returns the children
+    /// that it passes: bit i for child i.
     struct alignas(64) Ranges {
         double enter[kWidth], exit[kWidth];
     };
     using RangesKernel = std::uint32_t (*)(const Node&, const RaySlabs&, Ranges&);
 
     CsgBvh() = default;
-    /// Empty boxes are left out.
+    /// Ignores empty boxes.
     explicit CsgBvh(std::span<const Box3> boxes);
 
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
@@ -80,7 +80,7 @@ void CsgBvh::children(std::uint32_t index, const RaySlabs& ray, Visit&& visit) c
     }
 }
 
-/// The kernel for the instruction set that was chosen.
+/// The kernel for the chosen instruction set.
 [[nodiscard]] CsgBvh::RangesKernel csg_ranges_kernel();
 
 }  // namespace alhazen

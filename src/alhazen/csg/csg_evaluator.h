@@ -1,8 +1,8 @@
 #pragma once
-/// Finds where a ray enters and leaves a solid; and the list of those who do.
+/// Interface of evaluators, which find where a ray enters and leaves a solid, and the list of them.
 ///
 /// Conventions: transitions in [ray.t_min, ray.t_max], ascending, as csg_solid.h defines them; all
-/// evaluators find the same ones, bit for bit.
+/// evaluators find the same transitions, bit for bit.
 /// Threads: const functions may be called from many threads.
 
 #include <memory>
@@ -14,8 +14,8 @@
 
 namespace alhazen {
 
-/// The leaves that fill the solid before and behind a place on a ray: of those that make it solid
-/// there, the one with the lowest number; CsgTree::kNone outside.
+/// The leaves that fill the solid before and after a point on a ray: of the leaves that make it
+/// solid there, the one with the lowest number; CsgTree::kNone outside.
 struct CsgSides {
     std::uint32_t before = CsgTree::kNone, after = CsgTree::kNone;
 };
@@ -23,16 +23,16 @@ struct CsgSides {
 class CsgEvaluator {
   public:
     virtual ~CsgEvaluator() = default;
-    /// The first transition; `hit` is left alone when there is none.
+    /// The first transition; `hit` is unchanged when there is none.
     virtual bool first(const CsgRay& ray, Hit& hit, TraversalStats* stats) const = 0;
-    /// Appends all transitions; a wall between two media twice, once for each. True when the ray
-    /// begins inside.
+    /// Appends all transitions; a wall between two media twice, once for each. Returns true when
+    /// the ray starts inside.
     virtual bool all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats* stats) const = 0;
-    /// `first` for rays side by side; null where these are no faster.
+    /// `first` for rays in lanes; null where these are no faster.
     [[nodiscard]] virtual const LaneSolid* lane_solid() const { return nullptr; }
-    /// What is on both sides of the transition at t.
+    /// The leaves on both sides of the transition at t.
     [[nodiscard]] virtual CsgSides sides(const CsgRay& ray, double t) const = 0;
-    /// Of what the evaluator adds to the solid.
+    /// Memory of the evaluator, without the solid.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 };
 
@@ -43,12 +43,12 @@ struct CsgEvaluatorEntry {
     std::unique_ptr<const CsgEvaluator> (*make)(const CsgSolid& solid);
 };
 
-/// The default one first.
+/// The default comes first.
 [[nodiscard]] std::span<const CsgEvaluatorEntry> csg_evaluator_table();
 
 inline constexpr const char* kDefaultCsgEvaluator = "event_heap";
 
-/// Throws Error (Usage) with the valid names for an unknown one.
+/// The entry called `name`. Throws Error (Usage) with the valid names for an unknown one.
 [[nodiscard]] const CsgEvaluatorEntry& find_csg_evaluator(const std::string& name);
 
 }  // namespace alhazen

@@ -10,17 +10,17 @@ namespace alhazen {
 
 namespace {
 
-/// A change of a leaf that the solid does not notice: at the ends of its S-bound.
+/// Marks a change of a leaf without a crossing: at the ends of its S-bound.
 constexpr std::uint32_t kSilent = 1u << 31;
-/// In place of a child of the tree of boxes.
+/// The root, in place of a child of the tree of boxes.
 constexpr std::uint32_t kRoot = 0;
 
-/// A box that the ray passes and that has not been opened.
+/// A box that the ray passes and that is not opened yet.
 struct Bound {
     double enter, exit;
     std::uint32_t child;
 };
-/// `top` of a heap by this is the nearest.
+/// Order of a heap with the nearest bound on top.
 struct LaterBound {
     bool operator()(const Bound& a, const Bound& b) const { return a.enter > b.enter; }
 };
@@ -31,11 +31,11 @@ struct LaterCrossing {
     }
 };
 
-/// Parts of a ray on which one operand alone decides the value of the solid: the one at hand and
-/// the next one. What is there of others changes nothing.
+/// Intervals of a ray on which one operand alone determines the value of the solid: the current and
+/// the next one. Other operands change nothing there.
 class DecidedParts {
   public:
-    /// What is within `margin` of the ends matters.
+    /// Points within `margin` of the ends are excluded.
     explicit DecidedParts(double margin) : margin_(margin) {}
 
     void add(double begin, double end) {
@@ -49,7 +49,8 @@ class DecidedParts {
         }
         if (!next_.empty() && now_.joins(next_.begin, next_.end)) next_ = {};
     }
-    /// False where nothing of the bound matters; else it is made to begin where something does.
+    /// Returns false where the whole bound is irrelevant; otherwise moves its start to the first
+    /// relevant point.
     bool shorten(Bound& bound) {
         if (bound.enter >= now_.end - margin_ && !next_.empty()) {
             now_ = next_;
@@ -67,7 +68,7 @@ class DecidedParts {
         double begin = kInfinity, end = -kInfinity;
 
         [[nodiscard]] bool empty() const { return !(begin < end); }
-        /// Takes in what overlaps it.
+        /// Merges with an overlapping interval; false when they are disjoint.
         bool joins(double other_begin, double other_end) {
             if (!(other_begin <= end && other_end >= begin)) return false;
             begin = std::min(begin, other_begin);
@@ -88,7 +89,7 @@ struct EventHeapScratch {
     CsgState state;
 };
 
-/// One query.
+/// A traversal for one query.
 class Walk {
   public:
     Walk(const CsgSolid& solid, const CsgBvh& bvh, const CsgRay& ray, EventHeapScratch& scratch,
@@ -115,7 +116,8 @@ class Walk {
 
     [[nodiscard]] bool begins_inside() const { return begins_inside_; }
 
-    /// Goes to the next transition; false when there is none any more. `found` lives until then.
+    /// Advances to the next transition; false when there is none. `found` is valid until the next
+    /// call.
     bool next(CsgCrossing& found) {
         CsgState& state = s_.state;
         while (true) {
@@ -129,7 +131,7 @@ class Walk {
             state.forget_changes();
             apply(t);
             if (place() == before) continue;
-            // What follows within tau belongs to the same place.
+            // Crossings within tau belong to the same transition.
             const double end = t + ray_.tau;
             open_to(end);
             apply(end);
@@ -140,18 +142,18 @@ class Walk {
         }
     }
 
-    /// The transition that was found last leads from one medium to another.
+    /// Whether the last transition is a wall between two media.
     [[nodiscard]] bool is_wall() const { return is_wall_; }
-    /// What fills the place: a leaf, or none.
+    /// The leaf that fills the current point, or none.
     [[nodiscard]] std::uint32_t filling_leaf() const { return s_.state.filling_leaf(); }
-    /// Goes to t, whatever there is on the way.
+    /// Advances to t, past all transitions.
     void go_to(double t) {
         open_to(t);
         apply(t);
     }
 
   private:
-    /// What a transition changes: the medium, or merely inside and outside where there is but one.
+    /// The state that a transition changes: the medium, or just inside and outside for one medium.
     [[nodiscard]] std::uint32_t place() const {
         if (!s_.state.value()) return CsgSolid::kNoMedium;
         return solid_.has_media() ? solid_.medium(s_.state.filling_leaf()) : CsgSolid::kOpaque;
@@ -190,7 +192,7 @@ class Walk {
         });
     }
 
-    /// Crossings before the bound or the ray only tell where the leaf begins.
+    /// Crossings before the bound or the ray only determine the leaf's state at the start.
     void open_leaf(std::uint32_t leaf, double enter, double exit) {
         const double begin = std::max(enter, ray_.t_min);
         s_.crossings.clear();
@@ -209,7 +211,7 @@ class Walk {
         if (decides && inside) decided_.add(since, exit);
         if (inside && exit <= last_t_) push(CsgCrossing{exit, 0, 0, 0, leaf | kSilent});
     }
-    /// Walls between media are transitions too, whatever lies inside of a union.
+    /// Walls between media are transitions too, even inside of a union.
     [[nodiscard]] bool decides_alone(std::uint32_t leaf) const {
         const CsgTree::Leaf& l = solid_.tree().leaves()[leaf];
         return l.decides && (l.complement || !solid_.has_media());
@@ -231,11 +233,11 @@ class Walk {
             open_node(bound.child);
         }
     }
-    /// Nothing that begins up to t stays unopened.
+    /// Opens all bounds that begin up to t.
     void open_to(double t) {
         while (!s_.bounds.empty() && s_.bounds.front().enter <= t) open_nearest();
     }
-    /// Nothing that begins up to the first event stays unopened. False when there is no event.
+    /// Opens all bounds that begin up to the first event. False when there is no event.
     bool open_to_first_event() {
         while (!s_.bounds.empty() &&
                (s_.events.empty() || s_.bounds.front().enter <= s_.events.front().t)) {
@@ -250,7 +252,7 @@ class Walk {
             s_.state.toggle(pop_event().leaf & ~kSilent);
         }
     }
-    /// All events up to t.
+    /// Applies all events up to t.
     void apply(double t) {
         while (!s_.events.empty() && s_.events.front().t <= t) {
             const CsgCrossing event = pop_event();
@@ -259,7 +261,7 @@ class Walk {
         }
     }
 
-    /// The crossing that makes the change of the cluster.
+    /// Finds the crossing that makes the change of the cluster.
     bool responsible(CsgCrossing& found) const {
         bool any = false;
         for (const CsgCrossing& crossing : s_.cluster) {
@@ -268,7 +270,7 @@ class Walk {
                          : !s_.state.changed_all_the_way(crossing.leaf)) {
                 continue;
             }
-            found = crossing;  // of one leaf the last
+            found = crossing;  // the last one of a leaf
             any = true;
         }
         return any;
@@ -280,7 +282,7 @@ class Walk {
     const CsgBvh::RaySlabs slabs_;
     EventHeapScratch& s_;
     TraversalStats* stats_;
-    double last_t_;  ///< events behind this are not looked at
+    double last_t_;  ///< later events are ignored
     DecidedParts decided_;
     bool begins_inside_ = false;
     bool is_wall_ = false;
@@ -310,7 +312,7 @@ bool CsgEventHeap::all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStats
 
 CsgSides CsgEventHeap::sides(const CsgRay& ray, double t) const {
     const CsgScratchLease<EventHeapScratch> lease;
-    // All that makes one transition lies within tau of it.
+    // All crossings of one transition lie within tau of it.
     CsgRay near = ray;
     near.t_min = t - 2.0 * ray.tau;
     near.t_max = t + 2.0 * ray.tau;

@@ -1,9 +1,9 @@
 #pragma once
-/// A solid as its description says it: operators over operands, the leaves of which are primitives
-/// of a table.
+/// A solid as described in the scene: operators over operands, with primitives of a table as
+/// leaves.
 ///
 /// Conventions: leaves are numbered in the order of the description; where surfaces of several
-/// leaves coincide, that of the leaf with the lowest number is seen.
+/// leaves coincide, that of the leaf with the lowest number is visible.
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace alhazen {
 
-/// A leaf or a node of an expression, as an operand.
+/// An operand of an expression: a leaf or a node.
 class CsgOperand {
   public:
     [[nodiscard]] static CsgOperand leaf(std::uint32_t index) { return CsgOperand(~index); }
@@ -33,12 +33,13 @@ struct CsgExpression {
         std::vector<CsgOperand> operands;
     };
     std::vector<Node> nodes;  ///< [0] is the root; operands come after their node
-    /// [leaf] its surface shows the material of what it is taken away from; or empty: none does.
+    /// [leaf] its surface shows the material of the solid it is subtracted from; empty: false for
+    /// all.
     std::vector<bool> shows_minuend;
     std::vector<PrimitiveId> leaves;  ///< [leaf] primitive of the table
 };
 
-/// Leaves have 31 bits for their number, one of which tells them from nodes.
+/// Numbers of leaves have 31 bits, one of which distinguishes them from nodes.
 inline constexpr std::uint32_t kMaxCsgLeaves = (1u << 30) - 1;
 
 }  // namespace alhazen

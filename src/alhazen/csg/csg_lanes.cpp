@@ -22,7 +22,7 @@ HWY_INLINE Doubles largest(const Doubles& x, const Doubles& y, const Doubles& z)
     return max_lanes(max_lanes(abs(x), abs(y)), abs(z));
 }
 
-/// How far crossings must lie apart: along an axis, where rays go by `speed`.
+/// The minimum distance between crossings: along an axis, in which rays move by `speed`.
 struct Apart {
     Doubles length, speed;
 
@@ -32,7 +32,7 @@ struct Apart {
         length = Doubles(solid.apart) * (Doubles(solid.size) + largest(away.x, away.y, away.z));
         speed = largest(d.x, d.y, d.z);
     }
-    /// Along the rays.
+    /// As a difference of the rays' parameters.
     [[nodiscard]] HWY_INLINE Doubles parameter() const { return length / speed; }
 };
 
@@ -51,19 +51,18 @@ HWY_INLINE LaneMask<double> far_outside(const CsgLanesSolid::Leaf& leaf, const V
     return margin < margin;
 }
 
-/// Whether for each ray that crosses the first leaf nothing but where it enters it matters: that
-/// leaf is the only one that is needed, and the others are far from that place. Then `hit` is those
-/// that enter the solid.
+/// Whether for each ray that crosses the first leaf only its entry matters: that leaf is the only
+/// needed one, and the others are far from the entry. Then `hit` are the rays that enter the solid.
 HWY_INLINE bool settled_by_first(const CsgLanesSolid& solid, const RayLanes& rays,
                                  const LaneSpans& first, std::uint32_t& hit) {
     const Apart apart(solid, rays);
     const Vec3Lanes o = load_vectors(rays.origin), d = load_vectors(rays.direction);
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
-    // What lies a little behind the end may be one with a crossing in front of it.
+    // A crossing slightly behind the end may count as one with a crossing before it.
     const LaneMask<double> beyond =
         ((first.entry - t_max) * apart.speed > apart.length) | (first.exit < t_min);
-    // Twice what crossings that lie apart are apart in space, at least: a length of a ray is at
-    // most 1.8 times that along the axis where it is longest.
+    // At least twice the distance in space of separate crossings: a length of a ray is at most 1.8
+    // times that along its dominant axis.
     const Doubles margin = Doubles(4.0) * apart.length;
     LaneMask<double> settled = (first.entry >= t_min) & (first.entry <= t_max) &
                                ((first.exit - first.entry) * apart.speed > margin);
@@ -76,18 +75,18 @@ HWY_INLINE bool settled_by_first(const CsgLanesSolid& solid, const RayLanes& ray
     return (hit & ~bits_of(settled)) == 0;
 }
 
-/// The spans of the leaves that some ray meets.
+/// The spans of the leaves that some ray intersects.
 struct Spans {
     std::uint32_t count = 0;
     std::uint32_t place[kMaxLeaves];  ///< among the leaves of the solid
     LaneSpans of[kMaxLeaves];         ///< an empty span where the ray misses
 
-    /// Makes room for a leaf.
+    /// Provides the spans for the next leaf.
     HWY_INLINE LaneSpans& begin() {
-        of[count].met = of[count].unsure = 0;  // the rest is written where it is met
+        of[count].met = of[count].unsure = 0;  // the rest is written where the leaf is hit
         return of[count];
     }
-    /// Keeps what is in that room, for the rays that meet it.
+    /// Keeps the provided spans, for the rays that intersect the leaf.
     HWY_INLINE void keep(std::uint32_t leaf) {
         LaneSpans& spans = of[count];
         const LaneMask<double> mask = lanes_of_bits<double>(spans.met);
@@ -95,7 +94,7 @@ struct Spans {
         spans.exit = select_lanes(mask, spans.exit, Doubles(-kInfinity));
         place[count++] = leaf;
     }
-    /// The rays of which two crossings lie closer than `apart`.
+    /// The rays with two crossings closer than `apart`.
     [[nodiscard]] HWY_INLINE std::uint32_t close(const Doubles& apart) const {
         const auto near = [&](const Doubles& a, const Doubles& b)
                               HWY_ATTR { return abs(a - b) <= apart; };
@@ -170,7 +169,7 @@ HWY_FLATTEN std::uint32_t first(const CsgLanesSolid& solid, const RayLanes& rays
         if (leaf.needed) {
             if (found.met != 0) {
                 if (spans.count == 0) apart = Apart(solid, rays).parameter();
-                // What lies a little behind the end may be one with a crossing in front of it.
+                // A crossing slightly behind the end may count as one with a crossing before it.
                 found.met &= bits_of((found.entry <= t_max + apart) & (found.exit >= t_min));
             }
             wanted &= found.met | found.unsure;

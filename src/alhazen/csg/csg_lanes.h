@@ -1,12 +1,13 @@
 #pragma once
-/// The first transitions of eight rays with a solid of a few convex leaves, side by side in lanes.
+/// Finds the first transitions of eight rays, in lanes, with a solid of a few convex leaves.
 ///
-/// Source: csg_truth_table.h, the same solid and the same rules. Differs: what is inside of what
-/// where a leaf is crossed is a comparison with the ends of the others' spans, so nothing is
-/// sorted; where all rays enter the leaf without which there is nothing far from the others, these
-/// are not crossed at all, nor counted; crossings that lie nearly together are left to the scalar
-/// text. Conventions: internal to this folder. Bit i of a set of lanes stands for lane i. Every
-/// target gives the bits of the scalar text.
+/// Source: csg_truth_table.h, the same solid and the same rules.
+/// Differs: the leaves that contain a crossing follow from comparisons with the ends of their
+/// spans, so nothing is sorted; where all rays enter the only needed leaf far from the others, the
+/// others are neither crossed nor counted; nearly coincident crossings are left to the scalar
+/// version.
+/// Conventions: internal to this folder. Bit i of a set of lanes represents lane i. Every target
+/// gives the bits of the scalar version.
 
 #include <cstdint>
 
@@ -17,7 +18,7 @@ namespace alhazen {
 
 struct Frustum;
 
-/// What the kernel knows of a solid.
+/// The data of a solid used by the kernel.
 struct CsgLanesSolid {
     static constexpr std::uint32_t kMaxLeaves = 6;
     enum class Kind : std::uint32_t { None, Sphere, Box, Frustum };
@@ -26,39 +27,37 @@ struct CsgLanesSolid {
         PrimitiveId id{0};
         Kind kind = Kind::None;
         const void* shape = nullptr;  ///< a Sphere, a BoxShape or a Frustum with its caps
-        bool needed = false;          ///< where it is not, nothing is
-        /// Bit s: where a ray is inside of the leaves (by their places here) whose bits are set in
-        /// s, this one among those that are not, it enters or leaves the solid where it enters the
-        /// leaf.
+        bool needed = false;          ///< without it the solid is empty
+        /// Bit s: for a ray inside of the leaves whose bits (by their indices here) are set in s,
+        /// and outside of this leaf, entering the leaf enters or leaves the solid.
         std::uint64_t changes = 0;
     };
     std::uint32_t leaf_count = 0;
-    /// The first leaf is the only one that is needed, and where a ray enters it alone it enters the
-    /// solid.
+    /// The first leaf is the only needed one, and a ray that enters it alone enters the solid.
     bool begins_with_first = false;
     RayMask visible_to = kAllRays;  ///< rays that see all leaves
-    // What crossings must lie apart: `apart` times the sum of `size` and the distance of the
+    // The minimum distance of crossings: `apart` times the sum of `size` and the distance of the
     // origin from the center along the axis where it is largest.
     Vec3 center;
     double size = 0, apart = 0;
-    Leaf leaves[kMaxLeaves];  ///< those that are needed first
+    Leaf leaves[kMaxLeaves];  ///< needed leaves first
 };
 
-/// What the kernel tells beside the hits.
+/// Results of the kernel besides the hits.
 struct CsgLanesReport {
-    std::uint32_t unsure;            ///< rays that the scalar text must be asked for
-    std::uint32_t tests, tests_met;  ///< of rays with leaves, where they are sure
+    std::uint32_t unsure;            ///< rays that need the scalar version
+    std::uint32_t tests, tests_met;  ///< tests of rays with leaves, without unsure ones
 };
 
-/// That of one instruction set.
+/// The kernel of one instruction set.
 struct CsgLanesKernel {
-    /// Of `wanted` rays those that hit; none that it is unsure of.
+    /// Returns the rays of `wanted` that hit, without unsure ones.
     std::uint32_t (*first)(const CsgLanesSolid&, const RayLanes&, std::uint32_t wanted, LaneHits&,
                            CsgLanesReport&);
-    bool knows_frusta;  ///< else every ray is unsure of them
+    bool knows_frusta;  ///< otherwise every ray is unsure for frusta
 };
 
-/// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
+/// The kernel for the best instruction set of this machine, or the forced one (simd/targets.h).
 [[nodiscard]] const CsgLanesKernel& csg_lanes_kernel();
 
 }  // namespace alhazen

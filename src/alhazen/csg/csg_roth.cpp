@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Whether the line comes within `pad` of the box.
+/// Whether the line passes within `pad` of the box.
 bool passes(const Ray& line, const Box3& box, double pad) {
     if (box.empty()) return false;
     double enter = line.t_min, exit = line.t_max;
@@ -29,10 +29,10 @@ bool passes(const Ray& line, const Box3& box, double pad) {
     return enter <= exit;
 }
 
-/// Where the value of an operand changes: a range of the list of all.
+/// The changes of an operand's value: a range of the common list.
 struct SpanList {
     std::size_t begin = 0, end = 0;
-    bool inside = false;  ///< where the ray begins
+    bool inside = false;  ///< where the ray starts
 
     [[nodiscard]] bool empty() const { return begin == end && !inside; }
 };
@@ -46,13 +46,13 @@ struct RothScratch {
     std::vector<Hit> hits;
 };
 
-/// Table 15.2: the value of an operator by that of its two sides.
+/// Table 15.2: the value of an operator for the values of its two sides.
 bool classify(Combine combine, bool left, bool right) {
     if (combine == Combine::Union) return left || right;
     return combine == Combine::Intersection ? left && right : left && !right;
 }
 
-/// One query.
+/// The evaluation of one query.
 class Merge {
   public:
     Merge(const CsgSolid& solid, std::span<const Box3> boxes, std::span<const Box3> leaf_boxes,
@@ -75,7 +75,7 @@ class Merge {
 
     [[nodiscard]] bool begins_inside() const { return root_.inside; }
 
-    /// The next transition; false when there is none any more.
+    /// Advances to the next transition; false when there is none.
     bool next(CsgCrossing& found) {
         while (next_ < root_.end) {
             const double t = s_.changes[next_];
@@ -119,7 +119,7 @@ class Merge {
         return s_.leaves[index] = list;
     }
 
-    /// Nesting is bounded by validation, so recursion is safe here.
+    /// Recursion is safe: validation bounds the nesting.
     SpanList node(std::uint32_t index) {
         const CsgExpression::Node& n = solid_.expression().nodes[index];
         SpanList left;
@@ -161,7 +161,7 @@ class Merge {
         return (std::upper_bound(first, end, window.hi) - first) % 2 != 0;
     }
 
-    /// Descends to the leaves that changed with everything above them.
+    /// Descends to the leaves that changed together with all nodes above them.
     void responsible(CsgOperand o, const Interval& window, CsgCrossing& found, bool& any) const {
         if (!o.is_leaf()) {
             if (!changes_within(s_.nodes[o.index()], window)) return;

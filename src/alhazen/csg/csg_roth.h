@@ -1,17 +1,16 @@
 #pragma once
-/// The classical evaluator: the crossings of a ray with every leaf, merged from the leaves up.
+/// The classical evaluator: merges the crossings of a ray with every leaf, bottom-up.
 ///
 /// Source: Roth, "Ray Casting for Modeling Solids", Computer Graphics and Image Processing 18,
 /// 1982: each operator classifies the merged crossings of its two sides by its table (Foley, van
 /// Dam et al., "Computer Graphics", table 15.2); where the left side is empty an intersection or
 /// difference skips the right one; a node whose box the ray misses is empty.
-/// Differs: (1) an operator of many operands is that of two, again and again; (2) crossings at the
-/// same t are classified together, so that faces that coincide exactly leave nothing between them;
-/// (3) a ray may begin inside: each list says whether it does; (4) a query for any transition gets
-/// no shorter cut than the first one, because a ray that begins inside may leave nothing behind;
-/// (5) walls between media in one solid, which span lists do not know, are found by the other
-/// evaluator without any bounds;
-/// (6) transitions closer than tau are one, as csg_solid.h defines them.
+/// Differs: (1) an operator of many operands is applied pairwise; (2) crossings at the same t are
+/// classified together, so that faces that coincide exactly leave nothing between them; (3) a ray
+/// may start inside: each list stores whether it does; (4) a query for any transition is no shorter
+/// than one for the first, because a ray that starts inside may leave nothing behind; (5) walls
+/// between media in one solid, which span lists do not represent, are found by the event heap
+/// without any bounds; (6) transitions closer than tau are one, as csg_solid.h defines them.
 /// Complexity and threads: O(sum of the crossings of all leaves x depth) per ray. Const functions
 /// may be called from many threads.
 
@@ -22,8 +21,7 @@ namespace alhazen {
 class CsgRoth final : public CsgEvaluator {
   public:
     static constexpr const char* kName = "roth";
-    static constexpr const char* kDescription =
-        "span lists merged bottom-up (Roth 1982): the classical one";
+    static constexpr const char* kDescription = "span lists merged bottom-up (Roth 1982)";
 
     explicit CsgRoth(const CsgSolid& solid);
 
@@ -38,9 +36,9 @@ class CsgRoth final : public CsgEvaluator {
 
   private:
     const CsgSolid& solid_;
-    std::vector<Box3> boxes_;       ///< [node] of what the operator leaves of its operands
+    std::vector<Box3> boxes_;       ///< [node] of the operator's result
     std::vector<Box3> leaf_boxes_;  ///< [leaf]
-    CsgEventHeap sweep_;            ///< every leaf for every ray
+    CsgEventHeap sweep_;            ///< tests every leaf for every ray
 };
 
 }  // namespace alhazen

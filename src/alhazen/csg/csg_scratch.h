@@ -1,8 +1,8 @@
 #pragma once
-/// Memory that a query works in, kept by its thread: no query allocates once the first few have
-/// made room. Solids within solids take one each.
+/// Working memory of queries, kept by each thread: queries do not allocate once the first few have
+/// grown it. Nested solids use one each.
 ///
-/// Conventions: what a query leaves in it the next one finds; each clears what it needs clear.
+/// Conventions: a query finds the data of the previous one; each clears what it needs cleared.
 
 #include <cstddef>
 #include <deque>
@@ -24,7 +24,7 @@ class CsgScratchLease {
 
   private:
     struct Pool {
-        std::deque<Scratch> all;  ///< addresses stay valid while it grows
+        std::deque<Scratch> all;  ///< a deque: addresses stay valid while it grows
         std::size_t used = 0;
     };
     static Pool& pool() {

@@ -11,7 +11,8 @@ namespace alhazen {
 
 namespace {
 
-/// Coordinates are rounded by an ulp of themselves: far from the origin that counts.
+/// The share of the distance from the origin in the tolerance: coordinates are rounded relative to
+/// themselves.
 constexpr double kOffsetShare = 0x1p-8;
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Bounds hardly shrink any more after these.
+/// Maximum number of sweeps; further ones hardly shrink the bounds.
 constexpr int kMostSweeps = 4;
 
 }  // namespace
@@ -32,8 +32,8 @@ CsgTree::CsgTree(const CsgExpression& expression, std::span<const Box3> boxes) {
 void CsgTree::flatten(const CsgExpression& expression, Draft& draft) {
     leaves_.resize(expression.leaves.size());
     struct Open {
-        std::uint32_t node;    ///< of the expression
-        std::uint32_t parent;  ///< here
+        std::uint32_t node;    ///< in the expression
+        std::uint32_t parent;  ///< in this tree
         bool complement;
     };
     const auto is_union = [&](std::uint32_t node, bool complement) {
@@ -69,7 +69,8 @@ void CsgTree::flatten(const CsgExpression& expression, Draft& draft) {
 }
 
 void CsgTree::set_needs(const Draft& draft) {
-    std::vector<std::int32_t> usual(nodes_.size(), 0);  // operands that are true outside
+    std::vector<std::int32_t> usual(nodes_.size(),
+                                    0);  // operands that are true outside of all leaves
     for (const Leaf& leaf : leaves_) usual[leaf.parent] += leaf.complement;
     for (std::size_t i = nodes_.size(); i-- > 0;) {
         const auto threshold =
@@ -84,7 +85,7 @@ void CsgTree::tighten(const Draft& draft, std::span<const Box3> boxes) {
     std::vector<Box3> from_below(nodes_.size());
     bounds_.assign(boxes.begin(), boxes.end());
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-        // Up: a union lies in the hull of its operands, an intersection in all of them.
+        // Up: a union is bounded by the hull of its operands, an intersection by each of them.
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             from_below[i] = draft.is_union[i] ? Box3{} : kAllSpace;
         }
@@ -102,7 +103,7 @@ void CsgTree::tighten(const Draft& draft, std::span<const Box3> boxes) {
             of_node[i] = intersection(of_node[i], from_below[i]);
             if (nodes_[i].parent != kNone) add(nodes_[i].parent, of_node[i]);
         }
-        // Down: nothing of an operand counts outside its parent.
+        // Down: an operand matters only inside its parent's bound.
         bool shrunk = false;
         for (std::size_t i = 1; i < nodes_.size(); ++i) {
             of_node[i] = intersection(of_node[i], of_node[nodes_[i].parent]);

@@ -12,14 +12,14 @@ namespace alhazen {
 
 namespace {
 
-/// [kind] how often a shape may cross a line.
+/// [kind] maximum number of crossings of a shape with a line.
 constexpr auto kMaxHitsOfKind = []<class... S>(std::type_identity<ShapeTypes<S...>>) {
     return std::array<int, sizeof...(S)>{S::kMaxHits...};
 }(std::type_identity<AnalyticShapes>{});
 
 }  // namespace
 
-/// Places where a ray crosses leaves, in order, and how far along them a query is.
+/// The sorted crossings of a ray with the leaves, and the position of a query in them.
 class CsgTruthTable::Events {
   public:
     void add(const CsgCrossing& crossing) {
@@ -30,22 +30,22 @@ class CsgTruthTable::Events {
     }
     [[nodiscard]] bool at_end() const { return at_ == size_; }
     [[nodiscard]] const CsgCrossing& front() { return data()[at_]; }
-    /// Nothing follows the front one up to `t`.
+    /// Whether no other crossing follows the front one up to `t`.
     [[nodiscard]] bool is_alone(double t) { return at_ + 1 == size_ || data()[at_ + 1].t > t; }
-    /// Takes the next one.
+    /// Takes the next crossing.
     const CsgCrossing& pass() {
         const CsgCrossing& crossing = data()[at_++];
         inside ^= LeafSet{1} << crossing.leaf;
         return crossing;
     }
 
-    LeafSet inside = 0;  ///< of what the place is inside
+    LeafSet inside = 0;  ///< the leaves that contain the current point
 
   private:
     CsgCrossing* data() { return reinterpret_cast<CsgCrossing*>(bytes_); }
 
     std::size_t size_ = 0, at_ = 0;
-    // Bytes, not values: those would be set for every ray.
+    // Bytes, to avoid initialisation for every ray.
     alignas(CsgCrossing) std::byte bytes_[kMaxLeaves * kMaxShapeHits * sizeof(CsgCrossing)];
 };
 
@@ -63,14 +63,14 @@ CsgTruthTable::CsgTruthTable(const CsgSolid& solid) : solid_(solid) {
     const std::vector<CsgTree::Node>& nodes = solid.tree().nodes();
     const std::vector<CsgTree::Leaf>& leaves = solid.tree().leaves();
     const auto leaf_count = static_cast<std::uint32_t>(leaves.size());
-    // Operands that are true, node by node, in a place inside of these leaves.
+    // Numbers of true operands per node, for a point inside of these leaves.
     std::array<std::int32_t, kMaxNodes> usual{};
     for (LeafSet inside = 0; inside < LeafSet{1} << leaf_count; ++inside) {
         std::array<std::int32_t, kMaxNodes> count{};
         for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
             count[leaves[leaf].parent] += ((inside >> leaf & 1) != 0) != leaves[leaf].complement;
         }
-        // Children come after their parents.
+        // In reverse: children come after their parents.
         for (std::size_t i = nodes.size(); i-- > 0;) {
             if (inside == 0) usual[i] = count[i];
             if (count[i] - usual[i] < nodes[i].need) continue;
@@ -121,15 +121,15 @@ void CsgTruthTable::prepare_lanes() {
         std::has_single_bit(needed_) && (lanes_.leaves[0].changes & 1) != 0 && !has_huge_leaf();
     lanes_.center = solid_.center();
     lanes_.size = solid_.size();
-    // More than tau, for the sums that lead to it round otherwise.
+    // Larger than tau, as the sums for it round differently.
     lanes_.apart = 4.0 * CsgSolid::kTolerance;
     lanes_.leaf_count = count;
     lanes_.visible_to = solid_.table().common_mask();
     first_in_lanes_ = csg_lanes_kernel().first;
 }
 
-/// Whether a leaf is so much larger than the solid that the rounding of where it is crossed, 2^-48
-/// of its size at most, is not small beside what crossings of the solid lie apart.
+/// Whether a leaf is so much larger than the solid that the rounding of its crossings, at most
+/// 2^-48 of its size, is not small compared to the minimum distance of crossings.
 bool CsgTruthTable::has_huge_leaf() const {
     constexpr double kHuge = 0x1p10;
     const std::vector<PrimitiveId>& leaves = solid_.expression().leaves;
@@ -139,7 +139,7 @@ bool CsgTruthTable::has_huge_leaf() const {
     });
 }
 
-/// Only of shapes that stand in the frame of the solid.
+/// Sets shapes in the frame of the solid; others stay unset.
 void CsgTruthTable::set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) const {
     with_column(solid_.table().columns, place.kind, [&](const auto& column) {
         using S = typename ShapeOfColumn<decltype(column)>::Type;
@@ -159,7 +159,7 @@ void CsgTruthTable::set_shape(const Place& place, CsgLanesSolid::Leaf& leaf) con
     });
 }
 
-/// Ascending; there is room for kMaxShapeHits.
+/// Crossings in ascending order; `hits` has space for kMaxShapeHits.
 CsgTruthTable::Crossings CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& ray, ShapeHit* hits,
                                               TraversalStats* stats) const {
     const PrimitiveTable& table = solid_.table();
@@ -171,7 +171,7 @@ CsgTruthTable::Crossings CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& 
             if constexpr (requires { int{shape.intersect(line, hits)}; }) {
                 return {shape.intersect(line, hits), inside_at_minus_infinity(shape, line)};
             } else {
-                return {};  // does not fit
+                return {};  // excluded by fits()
             }
         };
         const std::uint32_t placement = column.placements[place.index];
@@ -185,12 +185,12 @@ CsgTruthTable::Crossings CsgTruthTable::cross(std::uint32_t leaf, const CsgRay& 
     return found;
 }
 
-/// The crossings within the ray's range; false when it cannot meet the solid.
+/// Collects the crossings in the ray's range; false when the ray cannot hit the solid.
 bool CsgTruthTable::gather(const CsgRay& ray, Events& events, TraversalStats* stats) const {
     const double last = ray.t_max + ray.tau;
     for (std::uint32_t i = 0; i < solid_.leaf_count(); ++i) {
         const std::uint32_t leaf = order_[i];
-        // Bytes, not values: those would be set for every ray.
+        // Bytes, to avoid initialisation for every ray.
         alignas(ShapeHit) std::byte bytes[kMaxShapeHits * sizeof(ShapeHit)];
         ShapeHit* const hits = reinterpret_cast<ShapeHit*>(bytes);
         const Crossings crossings = cross(leaf, ray, hits, stats);
@@ -210,7 +210,7 @@ bool CsgTruthTable::gather(const CsgRay& ray, Events& events, TraversalStats* st
     return true;
 }
 
-/// Goes to the next transition, as the event heap does.
+/// Advances to the next transition, like the event heap.
 bool CsgTruthTable::next(const CsgRay& ray, Events& events, CsgCrossing& found) const {
     while (!events.at_end()) {
         const double t = events.front().t;
@@ -223,7 +223,7 @@ bool CsgTruthTable::next(const CsgRay& ray, Events& events, CsgCrossing& found) 
             found = crossing;
             return true;
         }
-        // What is crossed at t alone begins the transition or is none.
+        // The crossings at t alone must change the solid to begin a transition.
         CsgCrossing cluster[kMaxLeaves * kMaxShapeHits];
         std::size_t count = 0;
         while (!events.at_end() && events.front().t <= t) cluster[count++] = events.pass();
@@ -235,7 +235,7 @@ bool CsgTruthTable::next(const CsgRay& ray, Events& events, CsgCrossing& found) 
         for (std::size_t i = 0; i < count; ++i) {
             if (any && cluster[i].leaf > found.leaf) continue;
             if (!changes_all_the_way(cluster[i].leaf, before, events.inside)) continue;
-            found = cluster[i];  // of one leaf the last
+            found = cluster[i];  // the last one of a leaf
             any = true;
         }
         if (any && found.t <= ray.t_max) return true;
@@ -315,7 +315,7 @@ bool CsgTruthTable::all(const CsgRay& ray, std::vector<Hit>& hits, TraversalStat
 }
 
 CsgSides CsgTruthTable::sides(const CsgRay& ray, double t) const {
-    // All that makes one transition lies within tau of it.
+    // All crossings of one transition lie within tau of it.
     CsgRay near = ray;
     near.t_min = t - 2.0 * ray.tau;
     near.t_max = t + 2.0 * ray.tau;

@@ -1,11 +1,12 @@
-/// Where eight lines enter and leave a closed convex shape, side by side in lanes.
+/// Finds where eight lines, in lanes, enter and leave a closed convex shape.
 ///
 /// Source: sphere_roots.h, frustum.cpp, box_shape.cpp, the same operations in the same order.
-/// Differs: what is rare (a cone steeper than the line, a line along an axis, numbers out of range)
-/// is left to the scalar text. Conventions: included once per target (see simd/lanes-inl.h), the
-/// limits of the rays are not looked at, frustums have their caps. `unsure` lanes are to be asked
-/// alone; of the others that are wanted entry and exit are the bits of the two crossings that
-/// `intersect` writes for the whole line, or there are none.
+/// Differs: rare cases (a cone steeper than the line, a line along an axis, numbers out of range)
+/// are left to the scalar version.
+/// Conventions: included once per target (see simd/lanes-inl.h); ignores the limits of the rays;
+/// frustums have their caps. `unsure` lanes need the scalar version; for the other wanted lanes
+/// entry and exit have the bits of the two crossings that `intersect` writes for the whole line, or
+/// there are none.
 
 #if defined(ALHAZEN_CSG_SPAN_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_CSG_SPAN_LANES_INL_H_
@@ -49,8 +50,8 @@ HWY_INLINE Doubles dot(const Vec3& a, const Vec3Lanes& b) {
     return Doubles(a.x) * b.x + Doubles(a.y) * b.y + Doubles(a.z) * b.z;
 }
 
-/// Those of points that lie outside of a shape and farther than `margin` from it; some that do may
-/// be missing. Points must be finite.
+/// The points outside of a shape and farther than `margin` from it (conservative: some may be
+/// missing). Points must be finite.
 HWY_INLINE LaneMask<double> far_outside(const Sphere& sphere, const Vec3Lanes& point,
                                         const Doubles& margin) {
     const Vec3Lanes p = point - sphere.center;
@@ -63,7 +64,7 @@ HWY_INLINE LaneMask<double> far_outside(const BoxShape& box, const Vec3Lanes& po
     return (max_lanes(max_lanes(above.x, above.y), above.z) > margin) |
            (min_lanes(min_lanes(below.x, below.y), below.z) < -margin);
 }
-/// Of the cylinder around it.
+/// For the cylinder around it.
 HWY_INLINE LaneMask<double> far_outside(const Frustum& f, const Vec3Lanes& point,
                                         const Doubles& margin) {
     const Vec3Lanes p = point - f.center;
@@ -72,18 +73,17 @@ HWY_INLINE LaneMask<double> far_outside(const Frustum& f, const Vec3Lanes& point
     return (x * x + y * y > reach * reach) | (abs(z) > Doubles(f.half_height) + margin);
 }
 
-/// A number that no crossing is beyond, nor any that makes one; not one that overflows when it is
-/// squared either.
+/// Bound of all crossings and of the numbers they are computed from; its square does not overflow.
 constexpr double kFarNumber = 0x1p500;
 
-/// Where lines enter and leave a shape.
+/// The entries and exits of lines.
 struct LaneSpans {
-    Doubles entry, exit;            ///< of the lanes that meet it, entry <= exit
+    Doubles entry, exit;            ///< valid for lanes that hit; entry <= exit
     Doubles entry_part, exit_part;  ///< whole numbers
     std::uint32_t met = 0;          ///< the line crosses the shape
-    std::uint32_t unsure = 0;       ///< nothing is known; not in `met`
+    std::uint32_t unsure = 0;       ///< undecided; not in `met`
 
-    /// Of the lines in `maybe`: those whose crossings are not finite are asked alone.
+    /// Sets the spans of the lines in `maybe`; lines with crossings that are not finite are unsure.
     HWY_INLINE void set(const Doubles& in, const Doubles& out, std::uint32_t maybe) {
         const Doubles far(kFarNumber);
         const std::uint32_t finite = bits_of((abs(in) < far) & (abs(out) < far));
@@ -117,14 +117,14 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Sphere& sphere, std::uint
     }
     const auto roots = span_lanes::sphere_roots(line, a, f.x, f.y, f.z, radius);
     const Doubles &entry = roots.t_near, &exit = roots.t_far;
-    // As `are_plain_roots`, but for the largest numbers.
+    // As `are_plain_roots`, except for the largest numbers.
     const std::uint32_t plain = bits_of(entry <= exit) & bits_of((entry < zero) | (entry > zero)) &
                                 bits_of((exit < zero) | (exit > zero));
     spans.unsure = met & ~plain;
     spans.set(entry, exit, met & plain);
 }
 
-/// As BoxShape::intersect. What lies in the plane of a face, or along it, is asked alone.
+/// As BoxShape::intersect. Lines in the plane of a face, or parallel to it, are unsure.
 HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, std::uint32_t wanted,
                            LaneSpans& spans) {
     Doubles entry(-kFarNumber), exit(kFarNumber), entry_part(0.0), exit_part(0.0);
@@ -151,7 +151,8 @@ HWY_INLINE void find_spans(const RayLanes& rays, const BoxShape& box, std::uint3
     spans.exit_part = exit_part;
 }
 
-/// As frustum.cpp: `localise`, `inside_side` for lines flatter than the cone, `intersect_solid`.
+/// As frustum.cpp: `localise`, `inside_side` for lines flatter than the cone, and
+/// `intersect_solid`.
 HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t wanted,
                            LaneSpans& spans) {
     spans.unsure = wanted;
@@ -159,7 +160,7 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t
     const Vec3Lanes d = load_vectors(rays.direction);
     Vec3Lanes o = load_vectors(rays.origin) - f.center;
     const Doubles zero(0.0);
-    // Far away the origin is shifted to the line's nearest point.
+    // Shifts distant origins to the line's nearest point.
     const LaneMask<double> far = dot(o, o) > Doubles(16.0 * f.bounding_radius_squared);
     const Doubles by = -dot(o, d) / dot(d, d);
     const Doubles shift = select_lanes(far, by, zero);
@@ -182,7 +183,7 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t
     const Doubles b = ox * dx + oy * dy - radius * growth;
     const Doubles across = sqrt(ox * ox + oy * oy);
     const Doubles c = (across - radius) * (across + radius);
-    // In the nappe of the roots' middle.
+    // Selects the nappe of the roots' middle.
     maybe &= ~bits_of(radius + (-b / a) * growth < zero);
     const Doubles s = sqrt(discriminant);
     const LaneMask<double> safe = (Doubles(4.0) * abs(b) < s) | !((s < zero) | (s > zero));
@@ -192,7 +193,7 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t
     const LaneMask<double> swapped = t1 < t0;
     Doubles entry = select_lanes(swapped, t1, t0), exit = select_lanes(swapped, t0, t1);
     maybe &= bits_of(entry <= exit);
-    // Between the caps.
+    // Clips to the caps.
     const LaneMask<double> up = dz > zero, level = !(up | (dz < zero));
     const Doubles half(f.half_height);
     const Doubles slab_entry = (copysign(half, -dz) - oz) / dz;
@@ -214,4 +215,4 @@ HWY_INLINE void find_spans(const RayLanes& rays, const Frustum& f, std::uint32_t
 }  // namespace alhazen
 HWY_AFTER_NAMESPACE();
 
-#endif  // include guard that opens again for every target
+#endif  // include guard, toggled for every target

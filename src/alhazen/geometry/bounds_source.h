@@ -1,6 +1,6 @@
 #pragma once
-/// What a builder may ask about the things it builds over: bounds, and what little else helps to
-/// sort rays and things.
+/// The interface from which builders get the bounds of primitives, and hints for ordering rays and
+/// primitives.
 ///
 /// The one virtual interface of the build phase; traversal never calls it.
 
@@ -18,8 +18,8 @@ struct BoundingSphere {
     double radius = 0;
 };
 
-/// Where many rays end or begin, such as a light: known beforehand, so that something can be
-/// prepared for these rays.
+/// A point where many rays start or end, such as a light: known in advance, so that data for these
+/// rays can be precomputed.
 struct RayEnd {
     Vec3 place;                ///< or, at infinity, the unit direction towards it
     bool at_infinity = false;  ///< all its rays are parallel
@@ -29,28 +29,27 @@ class BoundsSource {
   public:
     virtual ~BoundsSource() = default;
     [[nodiscard]] virtual std::size_t size() const = 0;
-    /// A box that holds primitive `i`: finite, never empty, rounded outward.
+    /// A box that contains primitive `i`: finite, never empty, rounded outward.
     [[nodiscard]] virtual Box3 box(std::size_t i) const = 0;
-    /// Range of dot(axis, p) over the points p of primitive `i`. By default that of its box.
+    /// Range of dot(axis, p) over the points p of primitive `i`. Default: that of its box.
     [[nodiscard]] virtual Interval extent(std::size_t i, const Vec3& axis) const;
-    /// A sphere that holds primitive `i`. By default the one around its box.
+    /// A sphere that contains primitive `i`. Default: the one around its box.
     [[nodiscard]] virtual BoundingSphere sphere(std::size_t i) const;
-    /// Whether primitive `i` may have a point in `cell`; may say so of one that has none. By
-    /// default that of its box.
+    /// Whether primitive `i` may have a point in `cell` (conservative). Default: that of its box.
     [[nodiscard]] virtual bool overlaps(std::size_t i, const Box3& cell) const;
-    /// A box that holds the part of primitive `i` inside `cell`; empty when there is none. By
-    /// default the intersection of the two boxes.
+    /// A box that contains the part of primitive `i` inside `cell`; empty when there is none.
+    /// Default: the intersection of the two boxes.
     [[nodiscard]] virtual Box3 clipped_box(std::size_t i, const Box3& cell) const;
-    /// The vertices of primitive `i` where it is a triangle and nothing else. By default nothing.
+    /// The vertices of primitive `i` where it is a triangle and nothing else. Default: none.
     [[nodiscard]] virtual std::optional<std::array<Vec3, 3>> triangle(std::size_t i) const;
-    /// True when primitive `i` stops every ray that asks for what is in the light's way, of
-    /// whatever kind, wherever it is hit. By default not.
+    /// True when primitive `i` blocks every shadow ray, of whatever kind, wherever it is hit.
+    /// Default: false.
     [[nodiscard]] virtual bool blocks_light(std::size_t i) const;
-    /// By default none. A hint: rays are free to go elsewhere.
+    /// Default: none. A hint: rays may also go elsewhere.
     [[nodiscard]] virtual std::span<const RayEnd> ray_ends() const;
 };
 
-/// The sphere around a box.
+/// The bounding sphere of a box.
 [[nodiscard]] BoundingSphere bounding_sphere(const Box3& box);
 
 /// Range of dot(axis, p) over the points of a box.

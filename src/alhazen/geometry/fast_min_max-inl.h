@@ -1,8 +1,8 @@
-/// A double whose fmin and fmax are one instruction; a fragment without a guard, included as
-/// sphere_roots_formula-inl.h is.
+/// A double whose fmin and fmax are one instruction; a fragment without a guard, included like
+/// sphere_roots_formula-inl.h.
 
-/// Of two zeros or a NaN among the operands fmin and fmax give either, so who reads a result that
-/// is one of these has to ask again (`are_plain_roots`).
+/// For two zeros or a NaN operand, fmin and fmax return either operand: a result that is a zero or
+/// NaN has to be recomputed (`are_plain_roots`).
 struct FastMinMaxDouble {
     double x;
 
@@ -31,11 +31,11 @@ struct FastMinMaxDouble {
     }
 };
 
-/// Roots as far as this are left to those.
+/// Roots beyond this magnitude are recomputed.
 inline constexpr double kFarRoot = 0x1p1000;
 
-/// Whether both roots are what they would be by the fmin and fmax of the library. Written so that
-/// what is not finite is not plain.
+/// Whether both roots equal those computed with the fmin and fmax of the library. False for NaN and
+/// infinity.
 inline bool are_plain_roots(double t_near, double t_far) {
     return t_near <= t_far && t_near > -kFarRoot && t_far < kFarRoot && t_near != 0.0 &&
            t_far != 0.0;

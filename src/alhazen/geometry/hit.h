@@ -1,6 +1,6 @@
 #pragma once
-/// What a ray found: ids and parameters only, never pointers. Points and normals are computed once,
-/// for the winner (see `Surface`).
+/// Hits of rays: ids and parameters only, never pointers. Points and normals are computed once, for
+/// the closest hit (see `Surface`).
 
 #include <cstdint>
 #include <limits>
@@ -13,17 +13,17 @@ namespace alhazen {
 enum class PrimitiveId : std::uint32_t {};
 inline constexpr PrimitiveId kNoPrimitive{0xFFFFFFFFu};
 
-/// One crossing of a ray with one shape, in the shape's own terms.
+/// One crossing of a ray with one shape, in the shape's own parameters.
 struct ShapeHit {
     double t = 0;
-    double u = 0, v = 0;     ///< parameters of the crossing; their meaning is the shape's
+    double u = 0, v = 0;     ///< parameters of the crossing, as the shape defines them
     std::uint32_t part = 0;  ///< which of the shape's surfaces (side, cap, face)
 };
 
-/// Instances that can lie around a hit; deeper nesting is refused when a scene is compiled.
+/// Maximum depth of nested instances; the scene compiler refuses deeper nesting.
 inline constexpr std::size_t kMaxInstanceDepth = 32;
 
-/// The instance primitives that lead to a hit, innermost first.
+/// The instance primitives around a hit, innermost first.
 using InstancePath = InlineVector<PrimitiveId, kMaxInstanceDepth>;
 
 /// A crossing of a ray with a scene. `primitive` belongs to the innermost aggregate of the path.

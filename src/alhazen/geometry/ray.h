@@ -1,7 +1,7 @@
 #pragma once
 /// A ray: origin + t * direction for t in [t_min, t_max].
 ///
-/// Conventions: the direction is not normalised after a transform, so t means the same point in
+/// Conventions: the direction is not normalised after a transform, so t denotes the same point in
 /// world and in object space. One cache line.
 
 #include <limits>

@@ -1,8 +1,8 @@
 #pragma once
-/// Eight rays side by side, as the kernels take them that test several rays with one shape.
+/// Eight rays in lanes, for kernels that test several rays with one shape.
 ///
-/// Source: none. Differs: nothing. Conventions: bit i of a set of lanes stands for lane i. What
-/// lies in lanes of no set that is asked for may be anything.
+/// Conventions: bit i of a set of lanes represents lane i. Lanes outside of the queried sets may
+/// hold any values.
 
 #include <bit>
 #include <cstddef>
@@ -35,7 +35,7 @@ struct alignas(64) RayLanes {
     }
 };
 
-/// Calls f(lane) for each of a set.
+/// Calls f(lane) for each lane of a set.
 template <class F>
 inline void for_each_lane(std::uint32_t set, F&& f) {
     for (; set != 0; set &= set - 1) f(static_cast<std::size_t>(std::countr_zero(set)));

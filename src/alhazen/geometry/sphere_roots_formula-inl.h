@@ -1,4 +1,4 @@
-/// The arithmetic of the ray-sphere solution; a fragment without a guard, included by
+/// The arithmetic of the ray-sphere intersection; a fragment without a guard, included by
 /// sphere_roots.h in namespace alhazen and by kernels in the namespace of each instruction set (see
 /// watertight_triangle_formulas-inl.h for why).
 
@@ -9,8 +9,8 @@ struct SphereRoots {
     Real discriminant, t_near, t_far;
 };
 
-/// What tells whether a line meets a sphere: half the linear coefficient of the quadratic and its
-/// (scaled) discriminant, not negative where it does.
+/// A line relative to a sphere: half the linear coefficient of the quadratic, and its (scaled)
+/// discriminant, which is not negative where the line intersects the sphere.
 template <class Real>
 struct SphereLine {
     Real b, discriminant;
@@ -25,7 +25,7 @@ inline SphereLine<Real> sphere_line(const Real& dx, const Real& dy, const Real& 
                                     const Real& radius) {
     const Real b = fx * dx + fy * dy + fz * dz;
     const Real s = b / a;
-    // The point of the line nearest the centre.
+    // The point of the line nearest to the centre.
     const Real lx = fx - s * dx;
     const Real ly = fy - s * dy;
     const Real lz = fz - s * dz;
@@ -41,10 +41,10 @@ inline SphereRoots<Real> sphere_roots(const SphereLine<Real>& line, const Real& 
     const Real q = line.b + copysign(sqrt(line.discriminant * a), line.b);
     const Real f = sqrt(fx * fx + fy * fy + fz * fz);
     const Real c = (f - radius) * (f + radius);
-    // Roots of a t^2 + 2 b t + c = 0: -q / a and -c / q; the larger in magnitude is the former.
+    // Roots of a t^2 + 2 b t + c = 0: -q / a and -c / q; the former has the larger magnitude.
     const Real big = -(q / a);
-    // Where the origin lies on the sphere and the line grazes it, c and q are both noise: their
-    // quotient is anything, the true root is no larger than the other.
+    // Where the origin lies on the sphere and the line grazes it, c and q are noise and their
+    // quotient is arbitrary; the true root is no larger than the other one.
     using std::fmax;
     using std::fmin;
     const Real reach = copysign(big, a);
@@ -53,8 +53,8 @@ inline SphereRoots<Real> sphere_roots(const SphereLine<Real>& line, const Real& 
     return {line.discriminant, fmin(big, small), fmax(big, small)};
 }
 
-/// The same, bit for bit, where the origin lies outside and the line comes towards the sphere:
-/// b < 0 and c = (f - radius) (f + radius) > 0, with f as there.
+/// The same, bit for bit, where the origin lies outside and the ray approaches the sphere: b < 0
+/// and c = (f - radius) (f + radius) > 0, with f as there.
 template <class Real>
 inline SphereRoots<Real> sphere_roots_ahead(const SphereLine<Real>& line, const Real& a,
                                             const Real& c) {

@@ -1,18 +1,18 @@
 #pragma once
-/// The one ray-triangle test of the system: no ray leaks between triangles that share an edge or
-/// a vertex, and every line crosses a closed mesh an even number of times.
+/// The watertight ray-triangle test: no ray leaks between triangles that share an edge or a vertex,
+/// and every line crosses a closed mesh an even number of times.
 ///
 /// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013 (the
 /// shear that makes the ray the z axis); Edelsbrunner and Mücke, "Simulation of Simplicity", ACM
 /// TOG 9(1), 1990 (ties).
-/// Differs: (1) all in double. Rounding is monotone, so fl(ab) - fl(cd) is never of the wrong
-/// sign, it can only be a false zero; zeros (and only they) are resolved exactly by the rounding
-/// errors of the two products. (2) A true zero, the ray through an edge, is resolved as if the
-/// ray were displaced by (e, e^2), e -> 0, in the sheared plane. Each ray thus meets a mesh in
-/// general position: exactly one of the triangles around an edge or a vertex is hit, or both
-/// sheets of a fold, or none. (3) The weights of a triangle seen nearly edge on are computed
-/// precisely, so that the ray at t passes within 2^-38 of the distances in play of the triangle:
-/// bounds may be trusted to that.
+/// Differs: (1) All in double. Rounding is monotone, so fl(ab) - fl(cd) never has the wrong sign,
+/// it can only be a false zero; zeros (and only zeros) are resolved exactly by the rounding errors
+/// of the two products. (2) A true zero, the ray through an edge, is resolved as if the ray were
+/// displaced by (e, e^2), e -> 0, in the sheared plane. Each ray thus intersects a mesh in general
+/// position: exactly one of the triangles around an edge or a vertex is hit, or both sheets of a
+/// fold, or none. (3) The weights of a triangle seen nearly edge on are computed precisely, so that
+/// the point of the ray at t is within 2^-38 of the distances involved of the triangle: bounds may
+/// rely on that.
 /// Conventions: vertices shared by triangles must be equal bit for bit. A degenerate triangle and
 /// one seen edge on are never hit. Both sides are hit.
 
@@ -42,7 +42,7 @@ struct RayShear {
 
 #include "alhazen/geometry/watertight_triangle_formulas-inl.h"
 
-/// Sign of a b - c d where the products, or what is rounded off them, may underflow.
+/// The sign of a b - c d where the products, or their rounding errors, may underflow.
 inline int sign_of_tiny_difference(double a, double b, double c, double d) {
     if (a == 0.0 || b == 0.0 || c == 0.0 || d == 0.0) {
         const auto product_sign = [](double x, double y) {
@@ -55,13 +55,13 @@ inline int sign_of_tiny_difference(double a, double b, double c, double d) {
     b = std::frexp(b, &eb);
     c = std::frexp(c, &ec);
     d = std::frexp(d, &ed);
-    // Beyond 2^8 the other product only has a sign.
+    // Beyond 2^8 only the sign of the other product matters.
     b = std::ldexp(b, std::clamp(ea + eb - ec - ed, -8, 8));
     const double exact = difference_of_products(a, b, c, d);
     return (exact > 0.0) - (exact < 0.0);
 }
 
-/// Sign of the edge function with zeros resolved: exactly, then by the symbolic displacement. 0
+/// The sign of the edge function with zeros resolved: exactly, then by the symbolic displacement. 0
 /// only for a == b.
 inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVertex<double>& b) {
     const auto sign = [](double x) { return (x > 0.0) - (x < 0.0); };
@@ -78,8 +78,8 @@ inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVerte
     return sign(b.x - a.x);
 }
 
-/// True when the products of edge functions with sum `det` cancelled so much that the weights, and
-/// with them the place of the hit, would be off by more than 2^-40 of the triangle.
+/// True when the edge functions with sum `det` cancelled so much that the weights, and with them
+/// the hit point, could be off by more than 2^-40 of the triangle.
 inline bool seen_nearly_edge_on(double det, const ShearedVertex<double>& a,
                                 const ShearedVertex<double>& b, const ShearedVertex<double>& c) {
     const auto reach_of = [](const ShearedVertex<double>& v) {
@@ -89,14 +89,14 @@ inline bool seen_nearly_edge_on(double det, const ShearedVertex<double>& a,
     return !(std::abs(det) > 0x1p-8 * reach * reach);
 }
 
-/// The power of two that takes the largest of three numbers to about 1; 1 where all are 0.
+/// The power of two that scales the largest of three magnitudes to about 1; 1 where all are 0.
 inline double to_unit_size(double a, double b, double c) {
     const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
     return largest > 0.0 ? std::ldexp(1.0, std::min(-std::ilogb(largest), 1000)) : 1.0;
 }
 
-/// The edge functions of triangle (a, b, c), each to its last digits, after scaling all x and all
-/// y.
+/// The edge functions of triangle (a, b, c), precise to their last digits, after scaling all x and
+/// all y.
 inline void precise_edge_functions(ShearedVertex<double> a, ShearedVertex<double> b,
                                    ShearedVertex<double> c, double scale_x, double scale_y,
                                    double& eu, double& ev, double& ew) {
@@ -109,8 +109,8 @@ inline void precise_edge_functions(ShearedVertex<double> a, ShearedVertex<double
     ew = difference_of_products(a.x, b.y, a.y, b.x);
 }
 
-/// Tests triangle (a, b, c); on a hit inside [ray.t_min, ray.t_max] fills t, u (weight of b), v (of
-/// c).
+/// Tests triangle (a, b, c); on a hit inside [ray.t_min, ray.t_max] fills t, u (weight of b) and v
+/// (weight of c).
 inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3& a, const Vec3& b,
                                const Vec3& c, ShapeHit& hit) {
     const auto shear_vertex = [&](const Vec3& p) {
@@ -130,17 +130,17 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
             return false;
         }
     }
-    // Also when all three are false zeros; not all are true zeros.
+    // Includes three false zeros; three true zeros cannot occur here.
     if (seen_nearly_edge_on(eu + ev + ew, va, vb, vc)) {
         precise_edge_functions(va, vb, vc, 1.0, 1.0, eu, ev, ew);
-        // Only their ratios count; neither they nor their products with lengths may underflow.
+        // Only the ratios matter; neither the values nor their products with lengths may underflow.
         if (std::max({std::abs(eu), std::abs(ev), std::abs(ew)}) < 0x1p-300) {
             precise_edge_functions(va, vb, vc, to_unit_size(va.x, vb.x, vc.x),
                                    to_unit_size(va.y, vb.y, vc.y), eu, ev, ew);
         }
     }
     const TriangleSolution<double> s = solve_triangle(eu, ev, ew, va.z, vb.z, vc.z, shear.sz);
-    // A NaN (all edge functions underflowed to zero) is not covered.
+    // Rejects NaN (all edge functions underflowed to zero).
     if (!ray.covers(s.t)) return false;
     hit = {s.t, s.u, s.v, 0};
     return true;

@@ -1,10 +1,10 @@
-/// The arithmetic of the ray-triangle test, for double and for lanes of double alike: `Real` needs
-/// + - * /.
+/// The arithmetic of the ray-triangle test, for double and lanes of double alike: `Real` needs + -
+/// * /.
 ///
 /// A fragment without a guard: watertight_triangle.h includes it in namespace alhazen; code for an
-/// instruction set would include it once more in its namespace, because a compiler gives a template
-/// the instruction set of the place where it is written (tests/unit/simd does). One text, so one
-/// order of operations and the same bits.
+/// instruction set includes it again in its own namespace, because a compiler compiles a template
+/// for the instruction set of the place where it is written (tests/unit/simd does). One text gives
+/// one order of operations and the same bits.
 
 /// A vertex relative to the ray, in sheared space: x and y across the ray, z along its dominant
 /// axis.
@@ -13,7 +13,6 @@ struct ShearedVertex {
     Real x, y, z;
 };
 
-/// `Real` is double or a block of lanes of double: the operations and so the bits are the same.
 template <class Real>
 inline ShearedVertex<Real> sheared(const Real& vx, const Real& vy, const Real& vz, const Real& ox,
                                    const Real& oy, const Real& oz, const Real& sx, const Real& sy) {
@@ -21,7 +20,7 @@ inline ShearedVertex<Real> sheared(const Real& vx, const Real& vy, const Real& v
     return {(vx - ox) - sx * z, (vy - oy) - sy * z, z};
 }
 
-/// Twice the signed area of (origin, a, b); its sign is right or it is zero.
+/// Twice the signed area of (origin, a, b); its sign is correct or it is zero.
 template <class Real>
 inline Real edge_function(const ShearedVertex<Real>& a, const ShearedVertex<Real>& b) {
     return a.x * b.y - a.y * b.x;

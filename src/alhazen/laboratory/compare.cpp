@@ -16,7 +16,7 @@
 namespace alhazen {
 namespace {
 
-/// Rays that a search asks of each candidate take at most so long.
+/// Time limit for the rays of one candidate in a search.
 constexpr double kSampleSeconds = 0.3;
 
 /// `list` and `wide_bvh` first, each accelerator once.
@@ -82,12 +82,12 @@ class Comparer {
         m.figures = trial_.ask(built.scene, {.seconds = options_.time_limit,
                                              .in_batches = m.name() == kDefaultAccelerator});
         m.cost = pictures_.check(built.scene, m.figures, options_.time_limit, m.picture);
-        // Last: what accelerators find out about a scene while rays are traced counts, too.
+        // Last: includes structures that accelerators build while rays are traced.
         m.bytes = accelerator_bytes(*built.scene.aggregate);
         return m;
     }
 
-    /// Adds the accelerator with the best settings that are found, when they are not the defaults.
+    /// Adds the accelerator with the best settings found, unless they are the defaults.
     void search(Comparison& comparison, const Measurement& plain) {
         const std::string name = plain.name();
         if (!options_.tune || plain.variant != Measurement::Variant::Default ||
@@ -158,7 +158,7 @@ std::vector<std::string> parse_accelerators(std::string_view list) {
     while (true) {
         const std::size_t comma = list.find(',');
         const std::string piece(list.substr(0, comma));
-        // No name has an equals sign: such a piece is one more setting.
+        // Names have no equals sign: such a piece is one more setting.
         const std::size_t equals = piece.find('=');
         if (!accelerators.empty() && equals != std::string::npos && equals < piece.find(':')) {
             accelerators.back() += "," + piece;

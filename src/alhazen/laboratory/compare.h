@@ -1,12 +1,14 @@
 #pragma once
-/// Many accelerators on one scene, measured alike: what `alhazen compare` does (docs/compare.md).
+/// Measures many accelerators on one scene under equal conditions: `alhazen compare`
+/// (docs/reference/compare.md).
 ///
 /// Source: Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999, and
 /// Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987 (what is
-/// counted). Differs: every accelerator is asked the same recorded rays, and its answers are
-/// compared bit by bit; it also renders the picture, which must have the same bits, and cast the
-/// same rays. Conventions: seconds are of processor time on one thread. The accelerator `list` and
-/// others that would take too long are measured on a sample, and say so.
+/// counted).
+/// Differs: every accelerator traces the same recorded rays, and its hits are compared bit by bit.
+/// It also renders the picture, which must have the same bits and cast the same rays.
+/// Conventions: seconds are processor time on one thread. The accelerator `list` and others that
+/// would take too long are measured on a sample, and marked.
 
 #include <optional>
 #include <string>
@@ -19,24 +21,24 @@
 namespace alhazen {
 
 struct CompareOptions {
-    /// "NAME" or "NAME:SETTING=VALUE,..."; `list` and `wide_bvh` are added where they are missing.
+    /// "NAME" or "NAME:SETTING=VALUE,..."; `list` and `wide_bvh` are added if missing.
     std::vector<std::string> accelerators;
-    bool tune = true;        ///< also measure those without settings with the best ones found
+    bool tune = true;  ///< also measures accelerators without settings with the best settings found
     double time_limit = 10;  ///< seconds for each of: counts, times, picture; twice for the search
     TrialOptions trial;
     ProgressSink* progress = nullptr;
     const StopFlag* stop = nullptr;
 };
 
-/// Cuts "a,b:x=1,y=2,c" into its accelerators; "all" is every one there is. Throws Error (Usage)
-/// for one that is none, or for its settings.
+/// Splits "a,b:x=1,y=2,c" into its accelerators; "all" is every one. Throws Error (Usage) for an
+/// unknown accelerator or setting.
 [[nodiscard]] std::vector<std::string> parse_accelerators(std::string_view list);
 
-/// The picture by one accelerator, beside that of the reference.
+/// The picture by one accelerator, compared with the reference.
 struct PictureCheck {
     std::uint64_t pixels = 0;     ///< compared
     std::uint64_t differing = 0;  ///< of these, in any bit
-    bool complete = true;         ///< else tiles spread by chance were rendered
+    bool complete = true;         ///< else randomly spread tiles were rendered
     bool same_rays = true;        ///< cast and hit, by kind
 };
 
@@ -45,15 +47,15 @@ struct Measurement {
 
     std::string accelerator;  ///< as it was built
     Variant variant = Variant::Default;
-    std::string unavailable;  ///< why it could not be built; empty: it was
+    std::string unavailable;  ///< why it could not be built; empty if it was
     double build_seconds = 0;
     std::uint64_t bytes = 0;  ///< of the acceleration structures, after all rays
     ReplayFigures figures;
     PictureCheck picture;
     int tried = 0;  ///< builds of the search; 0 without
     bool search_cut_short = false;
-    /// Nodes and cells visited, bounds and primitives tested for each pixel, all its rays together;
-    /// NaN where it was not rendered. [height][width].
+    /// Nodes and cells visited plus bounds and primitives tested per pixel, over all its rays; NaN
+    /// where not rendered. [height][width].
     std::vector<float> cost;
 
     [[nodiscard]] bool agrees() const {
@@ -79,8 +81,8 @@ struct Comparison {
     [[nodiscard]] bool holds() const;  ///< all that could be built agree
 };
 
-/// `scene` is for messages and reports. Throws Error as SceneTrial does, and Error (Render) when it
-/// is stopped.
+/// `scene` names the scene in messages and reports. Throws Error as SceneTrial does, and Error
+/// (Render) when stopped.
 [[nodiscard]] Comparison compare(SceneDescription description, const std::string& scene,
                                  const CompareOptions& options);
 

@@ -1,8 +1,7 @@
 #pragma once
-/// Seconds of processor time that this process has used since the clock was made: what other
-/// programs do on the machine does not count, waiting neither.
+/// Processor seconds of this process since construction. Other programs and waiting do not count.
 ///
-/// Conventions: reading it costs a system call, some 0.3 microseconds.
+/// Conventions: reading takes a system call, about 0.3 microseconds.
 
 #include <ctime>
 

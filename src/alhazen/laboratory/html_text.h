@@ -1,7 +1,7 @@
 #pragma once
-/// Pieces of HTML: text made safe, pictures and bytes as data URIs.
+/// HTML fragments: escaped text, pictures and bytes as data URIs.
 ///
-/// Source: RFC 4648 (base64), section 4; RFC 2397 (the data scheme). Differs: nothing.
+/// Source: RFC 4648 (base64), section 4; RFC 2397 (the data scheme).
 
 #include <cstddef>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// For text and for attributes in double quotes; control characters become blanks.
+/// Escapes text and double-quoted attributes; control characters become blanks.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);

@@ -11,7 +11,7 @@ namespace alhazen {
 namespace {
 
 constexpr int kLargestTile = 16;
-/// A tile takes at most this share of the time, so that there are enough of them.
+/// Largest share of the time per tile, so that there are enough tiles.
 constexpr double kShareOfTile = 1.0 / 32;
 
 bool same_bits(const Rgb& a, const Rgb& b) {
@@ -25,7 +25,7 @@ bool same_rays(const RayCounters& a, const RayCounters& b) {
     return a.total_internal == b.total_internal;
 }
 
-/// Tiles of a side that takes `most` seconds at most, in an order by chance.
+/// Tiles that take at most `most` seconds each, in random order.
 std::vector<PixelBox> tiles_by_chance(const PixelBox& frame, double seconds_a_pixel, double most) {
     int side = kLargestTile;
     while (side > 1 && side * side * seconds_a_pixel > most) side /= 2;

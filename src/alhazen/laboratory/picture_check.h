@@ -1,9 +1,9 @@
 #pragma once
-/// Renders the picture of a trial by another accelerator, and compares it with the reference: every
-/// bit of every pixel, and how many rays of each kind were cast and hit something.
+/// Renders the picture of a trial with another accelerator and compares it with the reference:
+/// every bit of every pixel, and the numbers of rays and hits of each kind.
 ///
-/// Conventions: where the whole picture would take too long, square tiles of it are rendered,
-/// spread evenly by chance with a fixed seed, and compared each with its own rays.
+/// Conventions: where the whole picture would take too long, randomly spread square tiles (fixed
+/// seed) are rendered and compared, each with its own rays.
 
 #include <vector>
 

@@ -1,12 +1,12 @@
 #pragma once
-/// The rays of a picture, written down once, so that every accelerator is asked the same ones.
+/// The recorded rays of a picture, so that every accelerator traces the same rays.
 ///
 /// Source: Kirk and Arvo, "Improved Ray Tagging for Voxel-Based Ray Tracing", Graphics Gems II,
 /// 1991, and Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987 (rays
-/// and tests by kind, told apart). Differs: the rays are recorded at the border between renderer
-/// and accelerator, in the batches in which the renderer asks them.
-/// Conventions: kinds of rays are those of geometry/ray_mask.h. Of a large picture a share of the
-/// batches is recorded, chosen by chance with a fixed seed.
+/// and tests by kind).
+/// Differs: rays are recorded between renderer and accelerator, in the renderer's batches.
+/// Conventions: kinds of rays are those of geometry/ray_mask.h. Of a large picture a random share
+/// of the batches is recorded (fixed seed).
 
 #include <array>
 #include <cstdint>
@@ -17,24 +17,24 @@
 
 namespace alhazen {
 
-/// What a renderer wants to know of a ray.
+/// The kind of query.
 enum class RayQuestion : std::uint8_t { Closest, Occluded, Shadowed };
 
-/// Rays that are asked together, next to each other in the stream.
+/// A batch of rays, contiguous in the stream.
 struct RayBatch {
     std::size_t first = 0;
     std::size_t count = 0;
     RayKind kind = RayKind::Eye;
     RayQuestion question = RayQuestion::Closest;
     Coherence coherence = Coherence::Any;
-    double lot = 0;  ///< by chance, in [0, 1): those below RayStream::share are kept
+    double lot = 0;  ///< random, in [0, 1): batches below RayStream::share are kept
 };
 
 struct RayStream {
     std::vector<Ray> rays;
     std::vector<RayBatch> batches;
-    double share = 1;              ///< of the batches that are kept
-    std::size_t most = 2'000'000;  ///< rays; whenever there are more, half of the batches go
+    double share = 1;              ///< share of the batches that are kept
+    std::size_t most = 2'000'000;  ///< rays; above this, half of the batches are dropped
 
     /// Recorded rays by kind.
     [[nodiscard]] std::array<std::uint64_t, kRayKindCount> by_kind() const;
@@ -42,8 +42,8 @@ struct RayStream {
     void thin_out();
 };
 
-/// Passes every question on to another aggregate, and writes it down. One thread at a time. The
-/// queries must say of what kind the rays are (Scene::has_masks).
+/// Forwards every query to another aggregate and records it. One thread at a time. Queries must
+/// state the kind of ray (Scene::has_masks).
 class RayRecorder final : public Aggregate {
   public:
     /// Both must outlive the recorder.

@@ -14,7 +14,7 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kPiece = 64;
-/// The clock is read after so many rays.
+/// Rays between readings of the clock.
 constexpr std::size_t kRaysBetweenClocks = 256;
 constexpr std::uint64_t kNothing = 0x6E6F7468696E67;
 
@@ -42,7 +42,7 @@ std::uint64_t answer_of(const Hit& hit) {
     return digest.value();
 }
 
-/// Asks the rays of a batch, or of a part of one.
+/// Traces the rays of a batch, or of a part of one.
 class Questioner {
   public:
     Questioner(const RayStream& stream, const Aggregate& asked, RayMask mask)
@@ -71,7 +71,7 @@ class Questioner {
                 return;
         }
     }
-    /// Of ray i of the batch that was asked last.
+    /// The answer of ray i of the last batch.
     [[nodiscard]] std::uint64_t answer(const RayBatch& batch, std::size_t i) const {
         if (batch.question == RayQuestion::Closest) return answer_of(hits_[i]);
         if (met_[i]) return 1;
@@ -158,7 +158,7 @@ std::size_t count(const RayStream& stream, const std::vector<RayBatch>& pieces, 
     return asked;
 }
 
-/// Times the first `asked` of the pieces, kind by kind; false when time ran out.
+/// Times the first `asked` pieces, kind by kind; false when time ran out.
 bool time(const std::vector<RayBatch>& pieces, std::size_t asked, double seconds,
           Questioner& questioner, std::array<KindFigures, kRayKindCount>& kinds) {
     const CpuClock clock;
@@ -248,8 +248,7 @@ ReplayFigures replay(const RayStream& stream, const Aggregate& asked, const Repl
         figures.all_timed = false;
         return figures;
     }
-    // The order of the picture, where all rays are asked: neighbours find what they need near the
-    // core.
+    // Picture order, where all rays are traced: neighbouring rays share cached data.
     std::array<KindFigures, kRayKindCount> best;
     double least = std::numeric_limits<double>::infinity(), spent = 0;
     for (int i = 0; i < options.repetitions && spent <= options.seconds; ++i) {

@@ -1,11 +1,10 @@
 #pragma once
-/// Asks an accelerator the rays of a stream: what it answers, what it counts, how long it takes.
+/// Replays a ray stream on an accelerator: hits, counts and times.
 ///
-/// Conventions: times are seconds of processor time on one thread, of the questions alone: no
-/// shading. An answer is known by a number of 64 bits that depends on every bit of its hits (t, u,
-/// v, part, ids and the instances on the way); 0 is no answer.
-/// Where not all rays can be asked in the time that is given, those asked are spread evenly by
-/// chance, pieces of at most 64 neighbours each, with a fixed seed.
+/// Conventions: times are processor seconds on one thread, of the queries alone, without shading.
+/// An answer is hashed to 64 bits that depend on every bit of its hits (t, u, v, part, ids and the
+/// instances on the path); 0 is no answer. Where time does not suffice for all rays, a random
+/// sample (fixed seed) is traced, in pieces of at most 64 neighbours.
 
 #include <array>
 #include <cstdint>
@@ -16,30 +15,29 @@
 
 namespace alhazen {
 
-/// Of the rays of one kind.
+/// Figures for the rays of one kind.
 struct KindFigures {
-    std::uint64_t counted = 0;  ///< rays that were asked with counting
-    std::uint64_t hits = 0;     ///< of these, those that met something
+    std::uint64_t counted = 0;  ///< rays traced with counting
+    std::uint64_t hits = 0;     ///< of these, rays with a hit
     TraversalStats tests;       ///< of these
-    std::uint64_t timed = 0;    ///< rays that were asked for the time
+    std::uint64_t timed = 0;    ///< rays traced for timing
     double seconds = 0;         ///< for these
 
     KindFigures& operator+=(const KindFigures& other);
-    /// A figure for each counted ray; 0 without rays.
+    /// Mean per counted ray; 0 without rays.
     [[nodiscard]] double each(std::uint64_t count) const;
-    [[nodiscard]] double nanoseconds() const;  ///< for each timed ray
+    [[nodiscard]] double nanoseconds() const;  ///< per timed ray
 };
 
 struct ReplayFigures {
     std::array<KindFigures, kRayKindCount> kinds;
-    bool all_counted = true, all_timed = true;  ///< else a sample was
-    std::uint64_t disagreements = 0;            ///< answers that are not the expected ones
-    std::string first_disagreement;             ///< with the ray that repeats it
+    bool all_counted = true, all_timed = true;  ///< else a sample was traced
+    std::uint64_t disagreements = 0;            ///< answers that differ from the expected ones
+    std::string first_disagreement;             ///< with the ray that reproduces it
     std::array<std::uint64_t, kRayKindCount> recorded{};  ///< rays of the stream
 
     [[nodiscard]] KindFigures total() const;
-    /// Means over the recorded rays: where samples were asked, each kind counts as often as it is
-    /// in the stream.
+    /// Means over the recorded rays: sampled kinds are weighted by their share of the stream.
     [[nodiscard]] double each(std::uint64_t TraversalStats::*count) const;
     [[nodiscard]] double nanoseconds() const;
 };
@@ -49,14 +47,14 @@ using Answers = std::vector<std::uint64_t>;
 
 struct ReplayOptions {
     double seconds = 10;     ///< for the counts, and again for the times
-    int repetitions = 3;     ///< of the times, of which the least counts; 0: no times
-    bool in_batches = true;  ///< as the renderer does; else pieces of 64 rays
-    bool in_order = false;   ///< of the picture; else by chance, so that any part is a fair sample
-    RayMask mask = 0;        ///< what rays see instead of what their kind sees; 0: nothing instead
+    int repetitions = 3;     ///< of the timing, the fastest counts; 0: no timing
+    bool in_batches = true;  ///< as the renderer does; else in pieces of 64 rays
+    bool in_order = false;   ///< of the picture; else random, so that any part is a fair sample
+    RayMask mask = 0;        ///< visibility mask instead of the kind's; 0: the kind's
 };
 
-/// Asks all rays that time allows and compares with `expected`; where that is empty it is filled
-/// instead, whatever time that takes.
+/// Traces all rays that time allows and compares with `expected`; if `expected` is empty, it is
+/// filled instead, without a time limit.
 [[nodiscard]] ReplayFigures replay(const RayStream& stream, const Aggregate& asked,
                                    const ReplayOptions& options, Answers& expected);
 

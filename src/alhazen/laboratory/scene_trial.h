@@ -1,9 +1,9 @@
 #pragma once
-/// A scene, the rays of its picture, and what each accelerator makes of them.
+/// A scene, the recorded rays of its picture, and the results of each accelerator.
 ///
-/// Conventions: everything runs on one thread; seconds are of processor time. The rays are those
-/// that the renderer `whitted` asks of the accelerator `wide_bvh`; every accelerator finds the same
-/// hits, so they are those of every other one, too, and that is checked.
+/// Conventions: everything runs on one thread; seconds are processor time. The rays are those of
+/// the renderer `whitted` with the accelerator `wide_bvh`. Every accelerator must find the same
+/// hits, hence cast the same rays; this is checked.
 
 #include <optional>
 #include <string>
@@ -21,10 +21,10 @@ struct TrialOptions {
     std::optional<int> max_depth;      ///< default: the scene's
     std::string camera;
     std::string csg = "event_heap";
-    std::size_t most_rays = 2'000'000;  ///< that are recorded, at most; 72 bytes each
+    std::size_t most_rays = 2'000'000;  ///< recorded at most; 72 bytes each
 };
 
-/// A scene that was built.
+/// A compiled scene with its build time.
 struct BuiltScene {
     Scene scene;
     double seconds = 0;
@@ -32,8 +32,8 @@ struct BuiltScene {
 
 class SceneTrial {
   public:
-    /// Renders the picture and records its rays. `description` must be valid; it gets a camera and
-    /// a light where it has none. Throws Error as `compile`, `render` and `complete_view` do.
+    /// Renders the picture and records its rays. `description` must be valid; a missing camera or
+    /// light is added. Throws Error as `compile`, `render` and `complete_view` do.
     SceneTrial(SceneDescription description, const TrialOptions& options);
 
     [[nodiscard]] const SceneDescription& description() const { return description_; }
@@ -45,14 +45,14 @@ class SceneTrial {
     [[nodiscard]] const RenderOptions& render_options() const { return render_options_; }
     [[nodiscard]] const PictureSettings& picture_settings() const { return description_.picture; }
 
-    /// The eye ray of a pixel, counted from the top left. Throws Error (Usage) for one outside.
+    /// The eye ray of a pixel, counted from the top left. Throws Error (Usage) for a pixel outside.
     [[nodiscard]] Ray eye_ray_of(int x, int y) const;
 
     /// Throws Error as `compile` does.
     [[nodiscard]] BuiltScene build(const std::string& accelerator) const;
     /// Compares with the answers of `wide_bvh`.
     [[nodiscard]] ReplayFigures ask(const Scene& scene, const ReplayOptions& options);
-    /// Both, for callers with nothing else to do.
+    /// Builds and replays.
     [[nodiscard]] ReplayFigures ask(const std::string& accelerator, const ReplayOptions& options) {
         return ask(build(accelerator).scene, options);
     }

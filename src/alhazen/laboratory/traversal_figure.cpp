@@ -7,8 +7,8 @@
 #include <set>
 
 #include "alhazen/base/error.h"
-#include "alhazen/laboratory/convex_corners.h"
-#include "alhazen/laboratory/html_text.h"
+#include "alhazen/geometry/polygon/convex_outline.h"
+#include "alhazen/imaging/svg/svg_writer.h"
 #include "alhazen/primitives/bounded_primitives.h"
 
 namespace alhazen {
@@ -17,7 +17,7 @@ namespace {
 using Kind = TraversalStep::Kind;
 
 constexpr double kWidth = 900, kMargin = 24, kLegend = 64;
-/// Of a large scene only what is tested is drawn.
+/// In larger scenes only the tested primitives are drawn.
 constexpr std::size_t kMostDrawn = 5000;
 
 /// From the world to the paper.
@@ -69,15 +69,12 @@ class Projection {
     double scale_ = 1, left_ = 0, top_ = 0, height_ = 0;
 };
 
-std::string polygon(const Projection& project, const std::vector<Vec3>& corners,
-                    const std::string& style) {
+void draw_polygon(svg::Writer& out, const Projection& project, const std::vector<Vec3>& corners,
+                  const std::string& style) {
     std::vector<Vec2> points;
     for (const Vec3& p : corners) points.push_back(project(p));
-    std::string text;
-    for (const Vec2& p : convex_outline(std::move(points))) {
-        text += fmt::format("{}{:.2f},{:.2f}", text.empty() ? "" : " ", p.x, p.y);
-    }
-    return fmt::format("<polygon class=\"{}\" points=\"{}\"/>\n", style, text);
+    out.leaf("polygon",
+             {{"class", style}, {"points", svg::points(convex_outline(std::move(points)))}});
 }
 
 /// The position of spheres among the kinds of shapes.
@@ -90,14 +87,17 @@ std::uint32_t sphere_kind() {
 }
 
 /// A sphere as a circle, a triangle as itself, all else as its box.
-std::string primitive(const Projection& project, const PrimitiveTable& table, PrimitiveId id,
-                      const std::string& style) {
+void draw_primitive(svg::Writer& out, const Projection& project, const PrimitiveTable& table,
+                    PrimitiveId id, const std::string& style) {
     const std::uint32_t kind = table.kind(id);
     if (kind == sphere_kind() && table.placement_of(id) == nullptr) {
         const Sphere& sphere = std::get<ShapeColumn<Sphere>>(table.columns).shapes[table.index(id)];
         const Vec2 c = project(sphere.center);
-        return fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n",
-                           style, c.x, c.y, project.scale() * sphere.radius);
+        out.leaf("circle", {{"class", style},
+                            {"cx", svg::decimals(c.x, 2)},
+                            {"cy", svg::decimals(c.y, 2)},
+                            {"r", svg::decimals(project.scale() * sphere.radius, 2)}});
+        return;
     }
     std::vector<Vec3> corners;
     if (kind == kTriangleKind) {
@@ -106,7 +106,7 @@ std::string primitive(const Projection& project, const PrimitiveTable& table, Pr
         const Box3 box = table.box(static_cast<std::size_t>(id));
         for (int i = 0; i < 8; ++i) corners.push_back(box.corner(i));
     }
-    return polygon(project, corners, style);
+    draw_polygon(out, project, corners, style);
 }
 
 constexpr const char* kStyle = R"css(
@@ -133,14 +133,22 @@ class Figure {
           box_(picture_box(table_, trace)),
           project_(view, box_) {}
 
-    std::string svg() {
-        std::string text = fmt::format(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
-            "aria-label=\"{}\">\n<style>{}</style>\n<defs><marker id=\"tip\" viewBox=\"0 0 8 8\" "
-            "refX=\"7\" refY=\"4\" markerWidth=\"7\" markerHeight=\"7\" orient=\"auto\"><path "
-            "d=\"M0 0L8 4L0 8z\" fill=\"var(--ink)\"/></marker></defs>\n",
-            kWidth, project_.height(), html_escaped(summary()), kStyle);
-        return text + legend() + things() + regions() + ray() + numbers() + "</svg>\n";
+    std::string text() {
+        out_.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                          {"viewBox", fmt::format("0 0 {:.0f} {:.0f}", kWidth, project_.height())},
+                          {"role", "img"},
+                          {"aria-label", summary()}});
+        out_.raw(fmt::format("<style>{}</style>\n", kStyle));
+        out_.raw(
+            "<defs><marker id=\"tip\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" "
+            "markerWidth=\"7\" markerHeight=\"7\" orient=\"auto\"><path d=\"M0 0L8 4L0 8z\" "
+            "fill=\"var(--ink)\"/></marker></defs>\n");
+        draw_legend();
+        draw_primitives();
+        draw_regions();
+        draw_ray();
+        draw_numbers();
+        return out_.finish();
     }
 
   private:
@@ -152,7 +160,7 @@ class Figure {
         if (box.empty()) box.include(trace.ray.origin);
         const Vec3 reach = 0.5 * box.size() + Vec3{1e-9, 1e-9, 1e-9};
         const Vec3 out = abs(trace.ray.origin - box.center());
-        // Of an eye that is far away only the last part of the way is shown.
+        // For a distant eye only the last part of the ray is shown.
         if (out.x < 2 * reach.x && out.y < 2 * reach.y && out.z < 2 * reach.z) {
             box.include(trace.ray.origin);
         }
@@ -177,15 +185,18 @@ class Figure {
                fmt::format(" {} of {} primitives tested", count(Kind::Primitive), table_.size());
     }
 
-    std::string legend() const {
-        std::string text = fmt::format("<text x=\"{0}\" y=\"30\" font-size=\"19\">{1}</text>\n",
-                                       kMargin, html_escaped(summary()));
+    void draw_legend() {
+        out_.text("text", {{"x", svg::decimals(kMargin, 0)}, {"y", "30"}, {"font-size", "19"}},
+                  summary());
         double x = kMargin;
         const auto key = [&](const char* style, const char* what) {
-            text += fmt::format(
-                "<rect class=\"{}\" x=\"{:.0f}\" y=\"47\" width=\"22\" height=\"13\"/><text "
-                "x=\"{:.0f}\" y=\"59\" font-size=\"14\">{}</text>\n",
-                style, x, x + 29, what);
+            out_.leaf("rect", {{"class", style},
+                               {"x", svg::decimals(x, 0)},
+                               {"y", "47"},
+                               {"width", "22"},
+                               {"height", "13"}});
+            out_.text("text", {{"x", svg::decimals(x + 29, 0)}, {"y", "59"}, {"font-size", "14"}},
+                      what);
             x += 55 + 7.4 * static_cast<double>(std::string_view(what).size());
         };
         if (count(Kind::Beam) > 0) {
@@ -200,15 +211,13 @@ class Figure {
         }
         key("tested", "tested, not the answer");
         if (trace_.hit.found()) key("hit", "the answer");
-        return text;
     }
 
-    std::string things() const {
+    void draw_primitives() {
         std::set<std::uint32_t> tested;
         for (const TraversalStep& step : trace_.steps) {
             if (step.kind == Kind::Primitive) tested.insert(step.number);
         }
-        std::string text;
         const bool all = table_.size() <= kMostDrawn;
         for (std::uint32_t i = 0; i < table_.size(); ++i) {
             const Box3 box = table_.box(i);
@@ -216,30 +225,27 @@ class Figure {
             const bool is_tested = tested.count(i) > 0;
             if (!all && !is_tested) continue;
             const bool is_hit = trace_.hit.found() && trace_.hit.top() == PrimitiveId{i};
-            text += primitive(project_, table_, PrimitiveId{i},
-                              is_hit      ? "hit"
-                              : is_tested ? "tested"
-                                          : "thing");
+            draw_primitive(out_, project_, table_, PrimitiveId{i},
+                           is_hit      ? "hit"
+                           : is_tested ? "tested"
+                                       : "thing");
         }
-        return text;
     }
 
     /// Each cell once, however often it is visited.
-    std::string regions() const {
-        std::string text;
+    void draw_regions() {
         for (const TraversalStep& step : trace_.steps) {
             if (step.corners.empty()) continue;
-            text += polygon(project_, step.corners,
-                            step.kind == Kind::Cell   ? "cell"
-                            : step.kind == Kind::Beam ? "beam"
-                            : step.met                ? "bound"
-                                                      : "missed");
+            draw_polygon(out_, project_, step.corners,
+                         step.kind == Kind::Cell   ? "cell"
+                         : step.kind == Kind::Beam ? "beam"
+                         : step.met                ? "bound"
+                                                   : "missed");
         }
-        return text;
     }
 
-    /// Where the ray is in the picture.
-    std::string ray() const {
+    /// The part of the ray inside the picture.
+    void draw_ray() {
         const Ray& ray = trace_.ray;
         double enter = 0, leave = 1e300;
         for (int k = 0; k < 3; ++k) {
@@ -253,28 +259,26 @@ class Figure {
         const double end = trace_.hit.found() ? trace_.hit.t : leave;
         const Vec2 p = project_(ray.at(enter)), q = project_(ray.at(end)),
                    far = project_(ray.at(leave));
-        std::string text = fmt::format(
-            "<line class=\"ray\" marker-end=\"url(#tip)\" x1=\"{:.2f}\" y1=\"{:.2f}\" "
-            "x2=\"{:.2f}\" "
-            "y2=\"{:.2f}\"/>\n",
-            p.x, p.y, q.x, q.y);
+        const auto at = [](double x) { return svg::decimals(x, 2); };
+        out_.leaf("line", {{"class", "ray"},
+                           {"marker-end", "url(#tip)"},
+                           {"x1", at(p.x)},
+                           {"y1", at(p.y)},
+                           {"x2", at(q.x)},
+                           {"y2", at(q.y)}});
         if (trace_.hit.found()) {
-            text += fmt::format(
-                "<line class=\"ray behind\" x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" "
-                "y2=\"{:.2f}\"/>\n",
-                q.x, q.y, far.x, far.y);
+            out_.leaf("line", {{"class", "ray behind"},
+                               {"x1", at(q.x)},
+                               {"y1", at(q.y)},
+                               {"x2", at(far.x)},
+                               {"y2", at(far.y)}});
         }
-        return text + fmt::format(
-                          "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" "
-                          "fill=\"var(--ink)\"/>\n",
-                          p.x, p.y);
+        out_.leaf("circle", {{"cx", at(p.x)}, {"cy", at(p.y)}, {"r", "4"}, {"fill", "var(--ink)"}});
     }
 
-    /// Numbers in the lower left of cells that have room for them; of several in one place the
-    /// first.
-    std::string numbers() const {
-        if (count(Kind::Beam) > 0) return "";
-        std::string text;
+    /// Numbers in the lower left of cells with space for them; of several in one place the first.
+    void draw_numbers() {
+        if (count(Kind::Beam) > 0) return;
         int number = 0;
         for (const TraversalStep& step : trace_.steps) {
             if (step.kind != Kind::Cell) continue;
@@ -287,18 +291,20 @@ class Figure {
             }
             const double room = std::min(hi.x - lo.x, hi.y - lo.y);
             const double size = std::clamp(0.38 * room, 6.5, 18.0);
-            text += fmt::format(
-                "<text class=\"number\" x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.1f}\">{}</text>\n",
-                lo.x + std::min(0.5 * (hi.x - lo.x), 0.95 * size),
-                hi.y - std::min(0.5 * (hi.y - lo.y), 0.75 * size), size, number);
+            out_.text("text",
+                      {{"class", "number"},
+                       {"x", svg::decimals(lo.x + std::min(0.5 * (hi.x - lo.x), 0.95 * size), 2)},
+                       {"y", svg::decimals(hi.y - std::min(0.5 * (hi.y - lo.y), 0.75 * size), 2)},
+                       {"font-size", svg::decimals(size, 1)}},
+                      std::to_string(number));
         }
-        return text;
     }
 
     const PrimitiveTable& table_;
     const TraversalTrace& trace_;
     Box3 box_;
     Projection project_;
+    svg::Writer out_;
 };
 
 }  // namespace
@@ -318,7 +324,7 @@ FigureView natural_view(const Ray& ray) {
 }
 
 std::string traversal_svg(const Scene& scene, const TraversalTrace& trace, FigureView view) {
-    return Figure(scene, trace, view).svg();
+    return Figure(scene, trace, view).text();
 }
 
 }  // namespace alhazen

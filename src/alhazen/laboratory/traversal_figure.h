@@ -1,9 +1,9 @@
 #pragma once
-/// A drawing of what an accelerator does for one ray, as SVG: the cells it visits, numbered in
-/// their order, the bounds and the primitives it tests.
+/// Draws an accelerator's traversal for one ray as SVG: the visited cells, numbered in order, and
+/// the tested bounds and primitives.
 ///
 /// Conventions: a parallel projection: along an axis of the world, or isometric. Light and dark
-/// follow the reader's choice. Text sizes are those of a picture 900 units wide.
+/// mode follow the reader's setting. Text sizes are for a picture 900 units wide.
 
 #include <string>
 
@@ -15,7 +15,7 @@ enum class FigureView { AlongX, AlongY, AlongZ, Isometric };
 
 /// "x", "y", "z" or "isometric". Throws Error (Usage).
 [[nodiscard]] FigureView parse_figure_view(const std::string& name);
-/// Along the axis along which the ray goes least.
+/// The axis along which the ray extends least.
 [[nodiscard]] FigureView natural_view(const Ray& ray);
 
 [[nodiscard]] std::string traversal_svg(const Scene& scene, const TraversalTrace& trace,

@@ -11,7 +11,7 @@
 #include "alhazen/accel/cells/uniform_grid.h"
 #include "alhazen/accel/directions/ray_classification.h"
 #include "alhazen/base/error.h"
-#include "alhazen/laboratory/convex_corners.h"
+#include "alhazen/laboratory/plane_corners.h"
 #include "alhazen/primitives/bounded_primitives.h"
 
 namespace alhazen {
@@ -19,7 +19,7 @@ namespace {
 
 using Kind = TraversalStep::Kind;
 
-/// Writes down what it is told.
+/// Records the steps of a traversal.
 struct TracingStats : NoStats {
     std::vector<TraversalStep>* steps = nullptr;
     void cell(std::size_t number) const {
@@ -30,7 +30,7 @@ struct TracingStats : NoStats {
     }
 };
 
-/// Asks for the closest hit, as an aggregate does.
+/// Queries the closest hit, as an aggregate does.
 class TracingVisitor {
   public:
     TracingVisitor(const PrimitiveTable& table, const BoundedPrimitives& bounded,
@@ -91,7 +91,7 @@ std::vector<Vec3> shape_of(const Octree& octree, const TraversalStep& step) {
     return corners_of(box);
 }
 
-/// Down to the leaf: nodes lie in the order depth first, the lower child before the upper one.
+/// Descends to the leaf: nodes are stored depth first, the lower child before the upper one.
 std::vector<Vec3> shape_of(const KdTree& tree, const TraversalStep& step) {
     Box3 box = tree.box();
     std::uint32_t at = 0;
@@ -112,7 +112,7 @@ std::vector<Vec3> shape_of(const KayKajiya& kay_kajiya, const TraversalStep& ste
             sides.push_back({n, bound.range[k].hi});
             sides.push_back({-n, -bound.range[k].lo});
         }
-        return convex_corners(sides);
+        return plane_corners(sides);
     };
     return std::visit(
         [&](const auto& tree) {
@@ -134,8 +134,8 @@ void add_shapes(const A& accelerator, TraversalTrace& result) {
     }
 }
 
-/// The cell is where the rays of the class come from; the beam is where they go, as far as there
-/// are primitives.
+/// The cell is the origin region of the class; the beam is its swept region, up to the end of the
+/// primitives.
 void add_shapes(const RayClassification& made, TraversalTrace& result) {
     for (std::size_t i = 0; i < result.steps.size(); ++i) {
         if (result.steps[i].kind != Kind::Cell) continue;
@@ -170,7 +170,7 @@ void add_shapes(const RayClassification& made, TraversalTrace& result) {
             keep(across - cube.hi[slope] * forward, from);
             keep(cube.lo[slope] * forward - across, from);
         }
-        TraversalStep beam{Kind::Beam, true, 0, convex_corners(sides)};
+        TraversalStep beam{Kind::Beam, true, 0, plane_corners(sides)};
         result.steps.insert(result.steps.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                             std::move(beam));
         return;
@@ -224,7 +224,7 @@ TraversalTrace trace_traversal(const Scene& scene, const std::string& accelerato
         entry.trace(scene, choice, result);
         return result;
     }
-    throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be traced; those that can are: {}",
+    throw Error(ErrorKind::Usage, fmt::format("'{}' cannot be traced; traceable accelerators: {}",
                                               choice.name, traceable_accelerators()));
 }
 

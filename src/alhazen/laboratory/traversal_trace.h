@@ -1,10 +1,9 @@
 #pragma once
-/// What an accelerator does for one ray: the cells it visits, the bounds it tests, the primitives
-/// it tests, in order, as shapes that can be drawn.
+/// The traversal of one ray through an accelerator: visited cells, tested bounds and primitives, in
+/// order, as shapes for drawing.
 ///
 /// Source: the figures of the papers on each accelerator.
-/// Differs: the steps are those of the real traversal, told by it (accel/core/traversal_trace.h),
-/// none is drawn up for the figure.
+/// Differs: the steps are recorded from the real traversal (accel/core/traversal_trace.h).
 
 #include <string>
 #include <vector>
@@ -17,7 +16,7 @@ struct TraversalStep {
     enum class Kind { Cell, Bound, Beam, Primitive };
 
     Kind kind = Kind::Cell;
-    bool met = true;            ///< a bound that the ray goes through; a primitive that it hits
+    bool met = true;            ///< a bound that the ray intersects; a primitive that it hits
     std::uint32_t number = 0;   ///< of the cell, the node or the primitive
     std::vector<Vec3> corners;  ///< of the convex cell or bound; none for a primitive
 };
@@ -33,7 +32,7 @@ struct TraversalTrace {
 [[nodiscard]] std::string traceable_accelerators();
 
 /// The closest hit of `ray` by an accelerator ("NAME:SETTING=VALUE,...") over the outermost
-/// primitives of the scene; those inside of instances are not told. Throws Error (Usage) for an
+/// primitives of the scene, without the contents of instances. Throws Error (Usage) for an
 /// accelerator that cannot be traced.
 [[nodiscard]] TraversalTrace trace_traversal(const Scene& scene, const std::string& accelerator,
                                              const Ray& ray);

@@ -7,7 +7,7 @@
 namespace alhazen {
 namespace {
 
-/// A change that saves less is noise.
+/// Smaller savings are noise.
 constexpr double kWorthwhile = 0.97;
 
 struct TunedAccelerator {

@@ -1,14 +1,13 @@
 #pragma once
-/// The settings of an accelerator that take least time for the rays of one scene, by a small
-/// search.
+/// Searches the settings of an accelerator that take least time for the rays of one scene.
 ///
-/// Source: own choice; what each structure's authors and users vary: Havran and Sixta, "Comparison
-/// of Hierarchical Grids", Ray Tracing News 12(1), 1999 (densities, depths, objects in a leaf);
-/// Kay and Kajiya 1986 (slabs); Goldsmith and Salmon 1987 (orders of insertion).
-/// Differs: one setting after the other, in the order of the table: each of its values is built and
-/// asked a sample of the rays, and the one of least time kept when it saves at least 3 %.
-/// Conventions: times are of the rays, not of the build: a setting that takes long to build may
-/// win. To tune a new accelerator: a line of the table in tuning.cpp.
+/// Source: settings that each structure's authors and users vary: Havran and Sixta, "Comparison of
+/// Hierarchical Grids", Ray Tracing News 12(1), 1999 (densities, depths, objects in a leaf); Kay
+/// and Kajiya 1986 (slabs); Goldsmith and Salmon 1987 (orders of insertion).
+/// Differs: coordinate search in the order of the table: each value of a setting is built and timed
+/// on a sample of the rays; the fastest is kept if it saves at least 3 %.
+/// Conventions: times are of the rays, not of the build: a setting with a slow build may win. To
+/// tune a new accelerator: a line of the table in tuning.cpp.
 
 #include <functional>
 #include <span>
@@ -17,17 +16,17 @@
 
 namespace alhazen {
 
-/// A setting, and the values that are tried besides the default.
+/// A setting and its values to try besides the default.
 struct TuningStep {
     const char* setting;
     std::vector<const char*> values;
 };
 
-/// In the order in which they are tried; empty for an accelerator without settings to try.
+/// In the order of trial; empty for an accelerator without settings to try.
 [[nodiscard]] std::span<const TuningStep> tuning_steps(const std::string& accelerator);
 
 struct TuningResult {
-    std::string accelerator;  ///< with the settings that won; without any: the defaults
+    std::string accelerator;  ///< with the best settings; without any: the defaults
     int tried = 0;            ///< builds
     bool cut_short = false;   ///< `more` ended it
 };

@@ -51,7 +51,7 @@ inline Affine operator*(const Affine& a, const Affine& b) {
 }
 /// Not finite for a singular transform.
 [[nodiscard]] Affine inverse(const Affine& m);
-/// True when every entry is finite and the linear part can be inverted with finite entries.
+/// True when every entry is finite and the linear part has an inverse with finite entries.
 [[nodiscard]] bool is_invertible(const Affine& m);
 
 }  // namespace alhazen

@@ -1,21 +1,21 @@
 #pragma once
-/// All real roots, with certified signs, of a polynomial in Bernstein form on [0, 1].
+/// Finds all real roots, with certified signs, of a polynomial in Bernstein form on [0, 1].
 ///
 /// Source: Lane and Riesenfeld, "Bounds on a polynomial", BIT 21, 1981 (sign variations of
 /// Bernstein coefficients bound the number of roots, de Casteljau's split halves the interval);
 /// Rouillier and Zimmermann, "Efficient isolation of polynomial's real roots", Journal of
 /// Computational and Applied Mathematics 162, 2004.
-/// Differs: the coefficients carry a bound of their error, and a sign within it is unknown: one
-/// counts what the unknown signs could make of the variations at most. What is
-/// sought are the changes of sign, not the roots: a root of even multiplicity is none, two roots
-/// that cannot be told apart are none, an odd cluster is one, so that the number of crossings
-/// always agrees with the signs at both ends. Split where the coefficients are most unlike the
-/// ends. Conventions: p(u) = sum b[i] C(n, i) (1 - u)^(n - i) u^i. In double the search gives up
-/// where it cannot be certain; it is then repeated in double-double, with coefficients made anew,
-/// where it always answers: a value it cannot tell from 0 has the sign of its surroundings (of the
-/// next coefficient at the ends, but see shared_ends; all unknown is positive, "outside"), and
-/// roots closer than 2^-52 cancel in pairs. `find_certified_sign_changes` does both. Complexity:
-/// O(n^2) per split; mostly no split for 0 or 1 crossing, one or two for 2.
+/// Differs: the coefficients carry an error bound, and the sign of a coefficient within it is
+/// unknown; the search bounds the number of variations over all values of the unknown signs. It
+/// finds sign changes, not roots: a root of even multiplicity counts as none, two roots that cannot
+/// be separated as none, an odd cluster as one, so that the number of crossings always agrees with
+/// the signs at both ends. It splits where the coefficients differ most from the ends.
+/// Conventions: p(u) = sum b[i] C(n, i) (1 - u)^(n - i) u^i. In double the search fails where it is
+/// not certain; it is then repeated in double-double, with recomputed coefficients, where it always
+/// succeeds: a value that cannot be distinguished from 0 has the sign of its surroundings (of the
+/// next coefficient at the ends, but see shared_ends; if all are unknown, positive, "outside"), and
+/// roots closer than 2^-52 cancel in pairs. `find_certified_sign_changes` does both.
+/// Complexity: O(n^2) per split; mostly no split for 0 or 1 crossing, one or two for 2.
 
 #include <algorithm>
 #include <array>
@@ -32,10 +32,10 @@ namespace alhazen {
 template <class Real, int N>
 struct BernsteinPolynomial {
     int degree = 0;
-    double error = 0;  ///< no coefficient is farther from the true one
-    /// Both ends are also those of other polynomials: pieces of one curve, say. A value there that
-    /// cannot be told from 0 is then positive for all of them, or the crossings of all together
-    /// would not agree with the signs.
+    double error = 0;  ///< bound of the error of every coefficient
+    /// The ends are shared with other polynomials, such as the pieces of one curve. A value there
+    /// that cannot be distinguished from 0 is then positive for all of them; otherwise the
+    /// crossings of all pieces together would not agree with the signs.
     bool shared_ends = false;
     std::array<Real, N + 1> b;  ///< the first degree + 1 are used; not initialised
 };
@@ -45,16 +45,16 @@ template <int N>
 struct SignChanges {
     int count = 0;
     bool negative_at_start = false;
-    std::array<double, N> u;  ///< the first `count`, ascending; not initialised
-    /// [i] an interval that holds this sign change and no other.
+    std::array<double, N> u;  ///< the first `count` are set, ascending; not initialised
+    /// [i] an interval that contains this sign change and no other.
     std::array<double, N> lo, hi;
 
     [[nodiscard]] bool negative_at_end() const { return negative_at_start != (count % 2 != 0); }
 };
 
-/// Which sign changes a caller asks for: all of them. Another type may ask for fewer: of those that
-/// it does not want, u is anything between lo and hi. It is asked once of each, in ascending order,
-/// and may remember that.
+/// Selects the sign changes that a caller needs: all of them. Another type may select fewer: for a
+/// sign change that is not wanted, u is any value between lo and hi. `wants` is called once for
+/// each, in ascending order, and may keep state.
 struct AllSignChanges {
     [[nodiscard]] bool wants(double /*lo*/, double /*hi*/) const { return true; }
 };
@@ -68,7 +68,7 @@ inline double leading(const DoubleDouble& v) {
     return v.high;
 }
 
-/// (1 - r) a + r b; r a dyadic fraction of few bits.
+/// (1 - r) a + r b; r is a dyadic fraction of few bits.
 inline double blend(double a, double b, double r) {
     return (1.0 - r) * a + r * b;
 }
@@ -76,11 +76,11 @@ inline DoubleDouble blend(const DoubleDouble& a, const DoubleDouble& b, double r
     return DoubleDouble(1.0 - r) * a + DoubleDouble(r) * b;
 }
 
-/// A degree that the compiler knows or, as int, one that it does not.
+/// A degree known at compile time, or, as int, at run time.
 template <int N>
 using KnownDegree = std::integral_constant<int, N>;
 
-/// Calls f with the degree of the polynomial: known, where it is N and N is small.
+/// Calls f with the degree of the polynomial: as a constant where it is N and N is small.
 template <class Real, int N, class F>
 decltype(auto) with_degree(const BernsteinPolynomial<Real, N>& p, F&& f) {
     if constexpr (N <= 6 && std::is_same_v<Real, double>) {
@@ -89,7 +89,7 @@ decltype(auto) with_degree(const BernsteinPolynomial<Real, N>& p, F&& f) {
     return f(p.degree);
 }
 
-/// Calls f(i) for i from 0 to n: without a loop where n is known.
+/// Calls f(i) for i from 0 to n: unrolled where n is known.
 template <class F>
 void for_indices(int n, F&& f) {
     for (int i = 0; i <= n; ++i) f(i);
@@ -107,7 +107,7 @@ template <class Real, int N, class Degree>
 void evaluate(const BernsteinPolynomial<Real, N>& p, Degree degree, double u, Real& value,
               double& slope) {
     const DoubleDouble rest = two_sum(1.0, -u);
-    Real row[N + 2];  // the compiler does not see that the last is not read
+    Real row[N + 2];  // the compiler does not see that the last element is not read
     std::copy_n(p.b.begin(), degree + 1, row);
     slope = 0.0;
     for_indices(degree, [&](int step) {
@@ -129,8 +129,8 @@ void evaluate(const BernsteinPolynomial<Real, N>& p, double u, Real& value, doub
     with_degree(p, [&](auto degree) { evaluate(p, degree, u, value, slope); });
 }
 
-/// Newton's method within a bracket that it keeps: the root of f where f has `sign_lo` at lo and
-/// the other sign at hi. `f(x, value, slope)`; x and the value are double.
+/// Newton's method with a bracket: finds the root of f where f has `sign_lo` at lo and the other
+/// sign at hi. `f(x, value, slope)`; x and the value are double.
 template <class F>
 double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double guess) {
     double x = guess;
@@ -141,12 +141,12 @@ double bracketed_newton(F&& f, double lo, double hi, double sign_lo, double gues
         if (value == 0.0) return x;
         (value * sign_lo > 0.0 ? lo : hi) = x;
         double next = x - value / slope;
-        // Out of the bracket, no number, or no gain: halve.
+        // Outside the bracket, NaN, or no gain: bisect.
         if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
         const double step = std::abs(next - x);
         if (step > 0.5 * last_step && i > 2) next = 0.5 * (lo + hi);
-        // Convergence is quadratic and this step the last that counts; at a root that is nearly
-        // double it is not, and steps become smaller by half.
+        // Convergence is quadratic and this step is the last that matters. Near a double root it is
+        // linear, and steps shrink by half.
         const bool fast = step <= 1e-9 * std::abs(x) && step <= 1e-4 * last_step;
         last_step = std::abs(next - x);
         x = next;
@@ -174,11 +174,11 @@ inline constexpr std::array<std::array<double, N + 1>, N + 1> kBinomials = [] {
     return table;
 }();
 
-/// C(n, i) b[i]: p(u) = (1 - u)^n q(u / (1 - u)) with these as the coefficients of q.
+/// C(n, i) b[i]: p(u) = (1 - u)^n q(u / (1 - u)), where q has these coefficients.
 template <int N, class Degree>
 struct ScaledPolynomial {
     [[no_unique_address]] Degree degree;
-    std::array<double, N + 1> s{};  // the compiler does not see that no more is read than written
+    std::array<double, N + 1> s{};  // the compiler does not see that only written elements are read
 
     ScaledPolynomial(const BernsteinPolynomial<double, N>& p, Degree n) : degree(n) {
         const double* row = kBinomials<N>[static_cast<std::size_t>(static_cast<int>(n))].data();
@@ -198,7 +198,7 @@ struct ScaledPolynomial {
     }
 };
 
-/// The one search, for both kinds of numbers.
+/// The search, for double and double-double.
 template <class Real, int N, class Wanted, class Degree>
 class SignChangeSearch {
     static constexpr bool kMustAnswer = !std::is_same_v<Real, double>;
@@ -211,14 +211,14 @@ class SignChangeSearch {
                      SignChanges<N>& out)
         : p_(p), degree_(degree), wanted_(wanted), out_(out) {}
 
-    /// False when the signs are not certain (never in double-double).
+    /// Returns false when the signs are not certain (never in double-double).
     bool run() {
         out_.count = 0;
         out_.negative_at_start = false;
         const int n = degree_;
         double total = p_.error;
         for_indices(degree_, [&](int i) { total += std::abs(leading(p_.b[i])); });
-        // Overflow or no number: nothing can be said of such a polynomial; it has no crossings.
+        // Overflow or NaN: the polynomial counts as without crossings.
         if (!std::isfinite(total)) return true;
         int first = sign(p_.b[0], p_.error), last = sign(p_.b[n], p_.error);
         if (first == 0 || last == 0) {
@@ -242,7 +242,7 @@ class SignChangeSearch {
         return int(leading(v) > error) - int(leading(v) < -error);
     }
 
-    /// The sign next to an end where p is 0: that of the first coefficient that has one.
+    /// The sign next to an end where p is 0: that of the first coefficient whose sign is known.
     int sign_beside(int end, int step) const {
         if (p_.shared_ends) return 1;
         for (int i = end; i >= 0 && i <= degree_; i += step) {
@@ -252,7 +252,8 @@ class SignChangeSearch {
         return 1;
     }
 
-    /// How many changes of sign the coefficients have at most, whatever the unknown ones are.
+    /// Upper bound of the number of sign changes of the coefficients, over all signs of the unknown
+    /// ones.
     int most_variations(const Real* b, double error, int first, int last) const {
         int most = 0, previous = first, unknown = 0;
         for_indices(degree_, [&](int i) {
@@ -269,12 +270,12 @@ class SignChangeSearch {
         return most;
     }
 
-    /// Where there are at most two changes, and a place between them is found by its value: one on
-    /// either side of it. False where it is not found.
+    /// For at most two changes, where a point between them is found by its value: one change on
+    /// either side of it. Returns false when no point is found.
     bool found_between(int first) {
         const Extremes e = extremes(p_.b.data(), first);
         const bool mirrored = e.middle > 0.5;
-        const double far = mirrored ? e.middle : 1.0 - e.middle;  // the larger part
+        const double far = mirrored ? e.middle : 1.0 - e.middle;  // the larger of both parts
         double value, slope;
         const ScaledPolynomial<N, Degree> q(p_, degree_);
         if (mirrored) {
@@ -282,7 +283,8 @@ class SignChangeSearch {
         } else {
             q(e.middle / far, value, slope);
         }
-        // The value is that of p over far^n; its rounding relative to the largest coefficient.
+        // The value is p over far^n; `error` bounds its rounding relative to the largest
+        // coefficient.
         double scale = 1.0;
         for_indices(degree_, [&](int i) { scale *= i == 0 ? 1.0 : far; });
         const double error = p_.error + 4.0 * degree_ * kRounding * e.largest;
@@ -296,7 +298,7 @@ class SignChangeSearch {
 
     struct Extremes {
         double largest = 0;   ///< magnitude of a coefficient
-        double middle = 0.5;  ///< where the coefficients are most unlike the first one
+        double middle = 0.5;  ///< where the coefficients differ most from the first one
     };
     Extremes extremes(const Real* b, int first) const {
         Extremes e;
@@ -315,7 +317,7 @@ class SignChangeSearch {
         return e;
     }
 
-    /// Splits b at r: `left` and `right` are the coefficients of both sides.
+    /// Splits b at r: `left` and `right` receive the coefficients of both sides.
     void split(const Real* b, double r, Real* left, Real* right) const {
         for_indices(degree_, [&](int i) { right[i] = b[i]; });
         left[0] = right[0];
@@ -356,7 +358,7 @@ class SignChangeSearch {
                search(right, child_error, middle, hi, middle_sign, last);
     }
 
-    /// Roots that cannot be told apart.
+    /// Roots that cannot be separated.
     bool cluster(double lo, double hi, int first, int last) {
         if (!kMustAnswer) return false;
         return first == last || emit(lo, hi, first);
@@ -385,8 +387,8 @@ class SignChangeSearch {
         }
     }
 
-    /// The root in [lo, hi], as one of the scaled polynomial or of its mirror image, whichever has
-    /// it at w <= 1.
+    /// The root in [lo, hi], found as a root of the scaled polynomial or of its mirror image,
+    /// whichever has it at w <= 1.
     double polish(double lo, double hi, double sign_lo) const {
         const ScaledPolynomial<N, Degree> q(p_, degree_);
         if (lo < 0.5 && hi > 0.5) {
@@ -420,7 +422,7 @@ class SignChangeSearch {
 
 }  // namespace bernstein
 
-/// False when double cannot tell; `out` is then to be ignored.
+/// Returns false when double is not certain; `out` is then invalid.
 template <int N, class Wanted = const AllSignChanges>
 [[nodiscard]] bool find_sign_changes(const BernsteinPolynomial<double, N>& p, SignChanges<N>& out,
                                      Wanted&& wanted = {}) {
@@ -430,7 +432,7 @@ template <int N, class Wanted = const AllSignChanges>
             .run();
     });
 }
-/// Always answers; see the conventions above for what cannot be told from 0.
+/// Always succeeds; see the conventions above for values that cannot be distinguished from 0.
 template <int N, class Wanted = const AllSignChanges>
 void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChanges<N>& out,
                        Wanted&& wanted = {}) {
@@ -439,7 +441,7 @@ void find_sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p, SignChange
 }
 
 /// `make(BernsteinPolynomial<Real, N>&)` computes the coefficients and their error bound: in double
-/// and, only where that does not do, in double-double. Keep the two true to the same polynomial.
+/// and, where that is not certain, in double-double. Both calls must describe the same polynomial.
 template <int N, class Make, class Wanted = AllSignChanges>
 void find_certified_sign_changes(Make&& make, SignChanges<N>& out, const Wanted& wanted = {}) {
     BernsteinPolynomial<double, N> p;

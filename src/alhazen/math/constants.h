@@ -1,5 +1,5 @@
 #pragma once
-/// Constants. Files and the command line have degrees, all else radians.
+/// Constants. Files and the command line use degrees, everything else radians.
 
 #include <limits>
 #include <numbers>

@@ -4,19 +4,18 @@
 /// Source: Dekker, "A floating-point technique for extending the available precision", Numerische
 /// Mathematik 18, 1971; Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
 /// building blocks of double-word arithmetic", ACM TOMS 44(2), 2017: algorithms 4, 6, 9 and 12.
-/// Differs: only what exact shapes need.
-/// Conventions: |low| is at most half an ulp of high. Sums and products are right to
-/// kDoubleDoubleUlp of its result, barring over- and underflow (a sum of numbers of opposite signs
-/// as well).
+/// Differs: implements only the operations that exact shapes need.
+/// Conventions: |low| is at most half an ulp of high. Sums and products have a relative error of at
+/// most kDoubleDoubleUlp, barring over- and underflow (also sums of opposite signs).
 
 #include <cmath>
 #include <type_traits>
 
 namespace alhazen {
 
-/// Relative error bound of one operation; the source proves 5 * 2^-106 or less.
+/// Relative error bound of one operation; the source proves at most 5 * 2^-106.
 inline constexpr double kDoubleDoubleUlp = 0x1p-103;
-/// The relative rounding of one operation.
+/// Relative rounding error of one operation.
 template <class Real>
 inline constexpr double kUnitRoundoff = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
 
@@ -24,25 +23,25 @@ struct DoubleDouble {
     double high = 0, low = 0;
 
     DoubleDouble() = default;
-    constexpr DoubleDouble(double value) : high(value) {}  // NOLINT: a double is one exactly
+    constexpr DoubleDouble(double value) : high(value) {}  // NOLINT: exact for every double
     constexpr DoubleDouble(double h, double l) : high(h), low(l) {}
     explicit operator double() const { return high; }
 };
 
-/// The sum as its rounded value and the exact rest.
+/// The rounded sum and its exact error.
 inline DoubleDouble two_sum(double a, double b) {
     const double sum = a + b;
     const double b_virtual = sum - a;
     return {sum, (a - (sum - b_virtual)) + (b - b_virtual)};
 }
 
-/// The same where |a| >= |b|.
+/// The same for |a| >= |b|.
 inline DoubleDouble fast_two_sum(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }
 
-/// The product as its rounded value and the exact rest.
+/// The rounded product and its exact error.
 inline DoubleDouble two_product(double a, double b) {
     const double product = a * b;
     return {product, std::fma(a, b, -product)};
@@ -72,13 +71,13 @@ inline DoubleDouble& operator-=(DoubleDouble& a, const DoubleDouble& b) {
     return a = a - b;
 }
 
-/// The quotient, right to about 30 digits; not finite where b is 0.
+/// The quotient, to about 30 digits; not finite where b is 0.
 inline DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
     const double first = a.high / b.high;
     const DoubleDouble rest = a - b * DoubleDouble(first);
     return fast_two_sum(first, rest.high / b.high);
 }
-/// The square root of what is not negative, right to about 30 digits.
+/// The square root, to about 30 digits. Precondition: a is not negative.
 inline DoubleDouble square_root(const DoubleDouble& a) {
     if (a.high == 0.0) return {};
     const double first = std::sqrt(a.high);

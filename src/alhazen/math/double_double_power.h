@@ -1,11 +1,12 @@
 #pragma once
-/// Powers with any exponent of numbers of about 32 decimal digits.
+/// Powers of double-double numbers (about 32 decimal digits) with any exponent.
 ///
 /// Source: Hida, Li and Bailey, "Library for Double-Double and Quad-Double Arithmetic", 2008 (the
-/// exponential by a series after halving, the logarithm by one step of Newton's method). Differs:
-/// what is summed and doubled is e^x - 1, so that halving costs no digits; whole exponents are
-/// multiplied out. Conventions: slow, for what double cannot decide; bases that are not positive
-/// have the power 0.
+/// exponential by a series after halving, the logarithm by one step of Newton's method).
+/// Differs: sums and doubles e^x - 1, so that halving costs no digits; whole exponents are
+/// multiplied out.
+/// Conventions: slow, for cases that double does not resolve; a base that is not positive has the
+/// power 0.
 
 #include <array>
 
@@ -13,7 +14,7 @@
 
 namespace alhazen {
 
-/// Right to about 2^-98 relative; 0 where it underflows. Precondition: a.high < 700.
+/// e^a, to about 2^-98 relative; 0 where it underflows. Precondition: a.high < 700.
 inline DoubleDouble exponential(const DoubleDouble& a) {
     constexpr DoubleDouble kLn2(0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56);
     if (a.high < -700.0) return {};
@@ -35,15 +36,15 @@ inline DoubleDouble exponential(const DoubleDouble& a) {
     return {s.high * scale, s.low * scale};
 }
 
-/// Right to about 2^-98, absolute for arguments near 1. Precondition: a is positive and finite.
+/// ln a, to about 2^-98, absolute for arguments near 1. Precondition: a is positive and finite.
 inline DoubleDouble logarithm(const DoubleDouble& a) {
     const double first = std::log(a.high);
-    // a / e^first = 1 + rest, of which the logarithm is rest - rest^2 / 2 + ...
+    // a / e^first = 1 + rest; its logarithm is rest - rest^2 / 2 + ...
     const DoubleDouble rest = a * exponential(DoubleDouble(-first)) - DoubleDouble(1.0);
     return DoubleDouble(first) + (rest - DoubleDouble(0.5) * rest * rest);
 }
 
-/// base^exponent, right to about 2^-97 (1 + exponent) for bases near 1 and below.
+/// base^exponent, to about 2^-97 (1 + exponent) for bases near 1 and below.
 inline DoubleDouble power(const DoubleDouble& base, const DoubleDouble& exponent) {
     if (!(base.high > 0.0)) return {};
     if (exponent.low == 0.0 && exponent.high == std::floor(exponent.high) &&

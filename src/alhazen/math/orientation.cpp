@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// high + low is the exact result of an operation, high its rounded value.
+/// The exact result high + low of an operation; high is its rounded value.
 struct Pair {
     double high = 0, low = 0;
 };
@@ -27,7 +27,7 @@ Pair two_product(double a, double b) {
     return {product, std::fma(a, b, -product)};
 }
 
-/// A sum of doubles kept exactly: terms that do not overlap, in ascending order of size.
+/// An exact sum of doubles: non-overlapping terms in ascending order of magnitude.
 class ExactSum {
   public:
     void add(double term) {

@@ -1,12 +1,13 @@
 #pragma once
-/// On which side of a line through two points of the plane a third one lies: the exact sign.
+/// The exact sign of the orientation of three points in the plane: the side of the line through two
+/// of them on which the third lies.
 ///
 /// Source: Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
 /// Predicates", Discrete & Computational Geometry 18, 1997: the filter of section 4.1, two-sums and
 /// two-products of section 2.
-/// Differs: behind the filter there is one stage, the exact sum of all products that are not 0.
-/// Conventions: right for all finite points whose differences multiply without over- and underflow;
-/// those that do not are scaled by their caller. NaN gives 0.
+/// Differs: one stage follows the filter, the exact sum of all products that are not 0.
+/// Conventions: exact for all finite points whose differences multiply without over- and underflow;
+/// callers scale other points. NaN gives 0.
 
 #include <cmath>
 
@@ -14,10 +15,11 @@
 
 namespace alhazen {
 
-/// The sign behind the filter. Slower; called by orientation().
+/// The sign where the filter fails. Slower; called by orientation().
 [[nodiscard]] int exact_orientation(Vec2 a, Vec2 b, Vec2 c);
 
-/// 1 when a, b, c turn left (counter-clockwise), -1 when they turn right, 0 on one line.
+/// 1 when a, b, c turn left (counter-clockwise), -1 when they turn right, 0 when they are
+/// collinear.
 [[nodiscard]] inline int orientation(Vec2 a, Vec2 b, Vec2 c) {
     constexpr double kFilter = 3.3306690738754716e-16;  // (3 + 16 e) e with e = 2^-53
     const double left = (a.x - c.x) * (b.y - c.y);

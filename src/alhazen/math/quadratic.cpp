@@ -14,7 +14,7 @@ QuadraticRoots solve_half_b_quadratic(double a, double b, double c) {
     if (!(discriminant >= 0.0)) return {};
     const double q = -(b + std::copysign(std::sqrt(discriminant), b));
     double t0 = q / a;
-    double t1 = q == 0.0 ? t0 : c / q;  // q == 0 only for b == c == 0: both roots are zero
+    double t1 = q == 0.0 ? t0 : c / q;  // q == 0 only for b == c == 0: both roots are 0
     if (t0 > t1) std::swap(t0, t1);
     return {2, t0, t1};
 }

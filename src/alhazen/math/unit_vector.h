@@ -1,7 +1,5 @@
 #pragma once
-/// Unit vectors of vectors of any length.
-///
-/// Source: none. Differs: nothing. Conventions: what has no direction gives the fallback.
+/// Unit vectors of vectors of any length. A vector without a direction gives the fallback.
 
 #include <cmath>
 
@@ -16,7 +14,7 @@ inline Vec3 unit_or(const Vec3& v, const Vec3& fallback) {
     if (squared > 1e-200 && squared < 1e200) return v / std::sqrt(squared);
     const double largest = max_component(abs(v));
     if (!(largest > 0.0) || !is_finite(v)) return fallback;
-    // A power of two, so that scaling rounds nothing (in two steps, for subnormals).
+    // Scales by a power of two, which is exact (in two steps, for subnormals).
     const int exponent = std::ilogb(largest);
     const double half = std::ldexp(1.0, -exponent / 2);
     const double rest = std::ldexp(1.0, -exponent - (-exponent / 2));

@@ -49,7 +49,7 @@ inline Vec3 operator*(double s, const Vec3& a) {
 inline Vec3 operator*(const Vec3& a, double s) {
     return s * a;
 }
-/// Component by component.
+/// Componentwise product.
 inline Vec3 operator*(const Vec3& a, const Vec3& b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
@@ -88,7 +88,7 @@ inline double max_component(const Vec3& a) {
 inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
-/// The axis (0, 1, 2) along which `a` is longest; the lowest one of equals.
+/// The axis (0, 1, 2) along which `a` is longest; the lowest on a tie.
 inline int dominant_axis(const Vec3& a) {
     const Vec3 m = abs(a);
     if (m.x >= m.y && m.x >= m.z) return 0;

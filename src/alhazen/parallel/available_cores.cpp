@@ -19,13 +19,13 @@ int cores_by_affinity() {
     return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-/// The quota of the control group (version 2), rounded up; `otherwise` where there is none.
+/// The quota of the control group (version 2), rounded up; `otherwise` without a quota.
 int cores_by_quota(int otherwise) {
     std::ifstream file("/sys/fs/cgroup/cpu.max");
     std::string quota;
     double period = 0;
     if (!(file >> quota >> period) || quota == "max" || !(period > 0)) return otherwise;
-    // atof: a malformed file gives 0, which the test refuses.
+    // atof gives 0 for a malformed file, which the test rejects.
     const double cores = std::ceil(std::atof(quota.c_str()) / period);
     return cores >= 1 && cores < otherwise ? static_cast<int>(cores) : otherwise;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Tasks over all cores: a facade over oneTBB, or over std::jthread where TBB is not wanted
-/// (ThreadSanitizer, minimal builds; CMake option ALHAZEN_PARALLEL=tbb|jthread).
+/// Tasks over all cores: a facade over oneTBB, or over std::jthread without TBB (ThreadSanitizer,
+/// minimal builds; CMake option ALHAZEN_PARALLEL=tbb|jthread).
 ///
 /// Conventions: results never depend on the number of threads or the order of execution; floating
 /// point is never reduced in completion order. An exception thrown by a task is rethrown to the
@@ -11,14 +11,14 @@
 
 namespace alhazen {
 
-/// Cores this process may use (affinity and cgroup limits included), at least 1.
+/// Number of cores this process may use (affinity and cgroup limits included), at least 1.
 [[nodiscard]] int available_cores();
 
-/// A pool bound for the life of the object: parallel calls made inside `run` use at most `threads`
-/// threads.
+/// Bounds the threads for the life of the object: parallel calls made inside `run` use at most
+/// `threads` threads.
 class ThreadLimit {
   public:
-    /// 0 = all available cores.
+    /// 0: all available cores.
     explicit ThreadLimit(int threads);
     ~ThreadLimit();
     ThreadLimit(const ThreadLimit&) = delete;
@@ -39,7 +39,7 @@ class ThreadLimit {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// Runs both, perhaps at the same time, and returns when both are done.
+/// Runs both, possibly at the same time, and returns when both are done.
 void parallel_invoke(const std::function<void()>& a, const std::function<void()>& b);
 
 }  // namespace alhazen

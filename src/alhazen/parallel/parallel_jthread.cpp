@@ -1,6 +1,6 @@
 // Each parallel call takes as many helper threads as are free in its pool, at most one per chunk,
-// and works along itself; a nested call that finds none free runs alone, so nothing ever waits for
-// a thread that cannot come.
+// and the calling thread works too. A nested call that finds no free helper runs alone, so no call
+// ever waits for a thread.
 
 #include <algorithm>
 #include <atomic>
@@ -16,12 +16,12 @@ namespace alhazen {
 
 namespace {
 
-/// The threads that one call tree may still start.
+/// Number of threads that a call tree may still start.
 class Pool {
   public:
     explicit Pool(int threads) : free_helpers_(threads - 1) {}
 
-    /// Takes up to `wanted` helpers; the number taken must be given back.
+    /// Takes up to `wanted` helpers and returns their number; they must be given back.
     int take(int wanted) {
         int available = free_helpers_.load();
         int taken = 0;
@@ -47,7 +47,7 @@ class Pool {
     std::atomic<int> free_helpers_;
 };
 
-/// Keeps the first exception of many threads.
+/// Keeps the first exception of several threads.
 class FirstError {
   public:
     template <class Work>
@@ -86,7 +86,7 @@ void run_with_helpers(Pool& pool, int helpers, const Work& work) {
                 });
             }
         } catch (const std::system_error&) {
-            // No more threads to be had: those that run, and this one, do the work.
+            // The system starts no more threads: the running ones and this one do the work.
         }
         work();
     }

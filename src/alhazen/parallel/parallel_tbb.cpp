@@ -16,7 +16,8 @@ struct ThreadLimit::Impl {
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-    // TBB gives no more threads than the machine has, and complains on stderr when asked to.
+    // TBB uses at most the cores of the machine, and prints a warning to stderr when asked for
+    // more.
     const std::size_t most =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     threads_ = std::min(threads > 0 ? threads : available_cores(), static_cast<int>(most));

@@ -1,10 +1,12 @@
 #pragma once
-/// Many primitives behind one virtual call per ray: the border between renderers and accelerators.
+/// The interface between renderers and accelerators: many primitives behind one virtual call per
+/// ray.
 ///
 /// Conventions: hits lie in [ray.t_min, ray.t_max]. At equal t the lower primitive id wins
 /// (compared in the outermost aggregate first), so every accelerator gives the same hit. An invalid
-/// ray hits nothing, and what a query's mask does not see (geometry/ray_mask.h) is as if it were
-/// not there. Threads: const functions may be called from many threads.
+/// ray hits nothing, and primitives that a query's mask does not see (geometry/ray_mask.h) are
+/// ignored.
+/// Threads: const functions may be called from many threads.
 
 #include <cstddef>
 #include <span>
@@ -23,34 +25,34 @@ class PrimitiveTable;
 class LaneSolid;
 struct Surface;
 
-/// What is known of the rays of a batch: a hint, which never changes a hit.
+/// A hint about the rays of a batch; it never changes a hit.
 enum class Coherence {
     Any,
-    /// Neighbours in the list go nearly the same way and begin or end near a common point: eye rays
-    /// in tiles, shadow rays towards a point light. On other rays the hint costs time.
+    /// Neighbours in the list have similar directions and start or end near a common point: eye
+    /// rays in tiles, shadow rays towards a point light. For other rays the hint costs time.
     Coherent,
 };
 
-/// What goes with every query.
+/// Parameters of every query.
 struct RayQuery {
-    // Implicit, so that most callers say no more than where to count.
+    // Implicit, so that callers may pass only the statistics.
     RayQuery(TraversalStats* counted, RayMask sees = kAllRays) : stats(counted), mask(sees) {}
 
-    TraversalStats* stats;  ///< what was done is added here; null: nothing is counted
-    RayMask mask;           ///< what the rays see
+    TraversalStats* stats;  ///< work is added here; null: not counted
+    RayMask mask;           ///< mask of the rays
 };
 
 class Aggregate {
   public:
     virtual ~Aggregate() = default;
 
-    /// What the primitive ids of hits refer to.
+    /// The table that the primitive ids of hits refer to.
     [[nodiscard]] virtual const PrimitiveTable& primitives() const = 0;
-    /// Holds all primitives; unbounded when one of them is.
+    /// The bounds of all primitives; unbounded when one of them is.
     [[nodiscard]] virtual Box3 box() const = 0;
-    /// A sphere that holds them; by default the one around the box.
+    /// A sphere that contains them; by default the one around the box.
     [[nodiscard]] virtual BoundingSphere sphere() const;
-    /// Bytes of the acceleration structure, nested aggregates not included.
+    /// Bytes of the acceleration structure, without nested aggregates.
     [[nodiscard]] virtual std::size_t memory_bytes() const = 0;
 
     /// The nearest hit.
@@ -59,27 +61,27 @@ class Aggregate {
     [[nodiscard]] virtual bool occluded(const Ray& ray, RayQuery query) const = 0;
     /// Appends every hit; the appended ones are sorted by t, then by ids.
     virtual void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const = 0;
-    /// For shadow rays: true when an opaque primitive is hit (`crossings` is then meaningless);
-    /// else appends every hit, sorted as in `all_hits`: the transparent surfaces that tint the
+    /// For shadow rays: true when an opaque primitive is hit (`crossings` is then undefined);
+    /// otherwise appends every hit, sorted as in `all_hits`: the transparent surfaces that tint the
     /// light.
     [[nodiscard]] virtual bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
                                         RayQuery query) const = 0;
 
-    /// Changes what is known of the surface at a hit where the aggregate as a whole knows more than
-    /// the primitive: its own one, or the instance that the hit came through; `ray` in the frame of
-    /// the aggregate. By default nothing.
+    /// Completes the surface at a hit where the aggregate determines more than the primitive, which
+    /// is one of its own or the instance of the hit; `ray` is in the frame of the aggregate.
+    /// Default: no change.
     virtual void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const;
     /// Whether `complete` may change the material.
     [[nodiscard]] virtual bool changes_materials() const { return false; }
 
-    /// The same primitives for rays side by side; null where these are no faster.
+    /// The same primitives for rays in lanes; null where these are no faster.
     [[nodiscard]] virtual const LaneSolid* lane_solid() const { return nullptr; }
 
     /// The nearest hit of every ray, as `closest` gives it; `hits` is as long as `rays`. Faster
-    /// than ray by ray from about ten rays on, whatever their order.
+    /// than single rays from about ten rays on, in any order.
     virtual void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
                                Coherence coherence = Coherence::Any) const;
-    /// Whether there is any hit on every ray.
+    /// Whether each ray has any hit.
     virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
                                 Coherence coherence = Coherence::Any) const;
 };
@@ -89,7 +91,7 @@ class Aggregate {
 /// first of all hits is the closest hit.
 [[nodiscard]] bool hit_less(const Hit& a, const Hit& b);
 
-/// Sorts by `hit_less` what a query appended beyond `before`.
+/// Sorts the hits appended after the first `before` by `hit_less`.
 void sort_appended(std::vector<Hit>& hits, std::size_t before);
 
 }  // namespace alhazen

@@ -7,7 +7,7 @@ namespace {
 
 bool within_reach(const Box3& box) {
     const double reach = BoundedPrimitives::kReach;
-    // NaN is not within reach.
+    // False for NaN.
     return max_component(abs(box.lo)) <= reach && max_component(abs(box.hi)) <= reach &&
            is_finite(box.lo) && is_finite(box.hi);
 }
@@ -15,7 +15,7 @@ bool within_reach(const Box3& box) {
 }  // namespace
 
 BoundedPrimitives::BoundedPrimitives(const PrimitiveTable& table) : table_(table) {
-    // Mostly all are bounded: then nothing has to be written down.
+    // Usually all are bounded: then no list is made.
     constexpr std::size_t kGrain = 16384;
     struct Share {
         Box3 box;

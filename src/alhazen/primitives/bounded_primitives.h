@@ -1,6 +1,7 @@
 #pragma once
-/// The primitives of a table that an accelerator can be built over, and those it cannot: planes
-/// and whatever else has no finite box. The latter are few, and tested for every ray.
+/// Splits the primitives of a table into those an accelerator can be built over and the unbounded
+/// ones: planes and other shapes without a finite box. The latter are few, and tested for every
+/// ray.
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +13,7 @@ namespace alhazen {
 
 class BoundedPrimitives final : public BoundsSource {
   public:
-    /// Coordinates beyond this count as unbounded: room for sums of squares without overflow.
+    /// Coordinates beyond this count as unbounded: a margin for sums of squares without overflow.
     static constexpr double kReach = 1e150;
 
     /// Keeps a reference to `table`.
@@ -42,7 +43,7 @@ class BoundedPrimitives final : public BoundsSource {
     }
     [[nodiscard]] std::span<const RayEnd> ray_ends() const override { return table_.ray_ends(); }
 
-    /// The id in the table of the i-th bounded primitive; ascending.
+    /// The table id of the i-th bounded primitive; ascending.
     [[nodiscard]] std::uint32_t id(std::size_t i) const {
         return identity_ ? static_cast<std::uint32_t>(i) : bounded_[i];
     }
@@ -51,7 +52,7 @@ class BoundedPrimitives final : public BoundsSource {
         return identity_ ? std::vector<std::uint32_t>{} : std::move(bounded_);
     }
     [[nodiscard]] const std::vector<PrimitiveId>& unbounded() const { return unbounded_; }
-    /// Of all primitives; infinite where one of them is.
+    /// The box of all primitives; infinite where one of them is.
     [[nodiscard]] const Box3& all() const { return all_; }
 
   private:

@@ -1,10 +1,9 @@
 #pragma once
-/// A solid that eight rays that lie side by side are tested with at once, faster than one after the
-/// other.
+/// A solid that tests eight rays, in lanes, faster than one after another.
 ///
-/// Source: none. Differs: nothing. Conventions: numbers of the hits are doubles, for they are found
-/// in lanes of these; u and v are 0, as of all shapes that are met so. Bit i of a set of rays
-/// stands for lane i. Threads: const functions may be called from many threads.
+/// Conventions: numbers of hits are doubles, as they are computed in lanes of double; u and v are
+/// 0, as for all shapes tested in lanes. Bit i of a set of rays represents lane i.
+/// Threads: const functions may be called from many threads.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,11 +14,11 @@
 
 namespace alhazen {
 
-/// What eight rays hit.
+/// The hits of eight rays.
 struct alignas(64) LaneHits {
     double t[kRayLanes];
     double part[kRayLanes];       ///< ShapeHit::part
-    double primitive[kRayLanes];  ///< of the aggregate itself
+    double primitive[kRayLanes];  ///< id in the aggregate itself
 
     void set(std::size_t lane, const Hit& hit) {
         t[lane] = hit.t;
@@ -37,8 +36,8 @@ struct alignas(64) LaneHits {
 class LaneSolid {
   public:
     virtual ~LaneSolid() = default;
-    /// The nearest hits of the rays of `wanted`, which are valid: those that have one. Lanes of
-    /// others may hold anything.
+    /// Finds the nearest hits of the rays of `wanted`, which are valid; returns the rays with a
+    /// hit. Other lanes may hold any values.
     virtual std::uint32_t closest_of_lanes(const RayLanes& rays, std::uint32_t wanted,
                                            LaneHits& hits, RayQuery query) const = 0;
 };

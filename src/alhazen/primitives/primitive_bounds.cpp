@@ -1,9 +1,9 @@
-/// Bounds of primitives that are closer than their boxes.
+/// Bounds of primitives that are tighter than their boxes.
 ///
 /// Source: Akenine-Möller, "Fast 3D Triangle-Box Overlap Testing", Journal of Graphics Tools 6(1),
 /// 2001 (triangles: separating axes); Arvo, "A Simple Method for Box-Sphere Intersection Testing",
 /// Graphics Gems, 1990; Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
-/// Differs: each says yes where rounding leaves a doubt.
+/// Differs: all tests are conservative: true where rounding leaves a doubt.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace alhazen {
 namespace {
 
-/// Of one coordinate, relative to the largest of those that it was computed from.
+/// Rounding error of a coordinate, relative to the largest coordinate it was computed from.
 constexpr double kRounding = 0x1p-49;
 
 template <class S, class... T>
@@ -51,7 +51,7 @@ bool surface_overlaps(const Sphere& sphere, const Box3& cell) {
     return !(near2 > (1.0 + 1e-14) * radius2) && !(far2 < (1.0 - 1e-14) * radius2);
 }
 
-/// Written so that an overflow separates nothing.
+/// Written so that an overflow never separates.
 bool triangle_overlaps(const std::array<Vec3, 3>& corners, const Box3& cell) {
     const Vec3 center = cell.center();
     const Vec3 half = cell.hi - center;
@@ -80,9 +80,9 @@ bool triangle_overlaps(const std::array<Vec3, 3>& corners, const Box3& cell) {
     return true;
 }
 
-/// The part of a convex polygon on one side of a plane across an axis.
+/// A convex polygon, initially a triangle, clipped by axis-aligned planes.
 struct ClippedTriangle {
-    /// A plane adds one; where rounding has bent the outline, half as many as there are at most.
+    /// A plane adds one point; where rounding has bent the outline, at most half of their number.
     std::array<Vec3, 32> points;
     std::size_t size = 3;
 
@@ -105,8 +105,8 @@ struct ClippedTriangle {
     }
 };
 
-/// By how much a map lengthens a vector at most: the root of the largest eigenvalue of its square,
-/// which is at most the largest sum of a row (Gershgorin).
+/// Upper bound of the stretch of a map: the root of the largest eigenvalue of its square, which is
+/// at most the largest sum of a row (Gershgorin).
 double most_stretch(const Mat3& m) {
     const Vec3 columns[3] = {m.x_axis, m.y_axis, m.z_axis};
     double most = 0;
@@ -120,7 +120,7 @@ double most_stretch(const Mat3& m) {
 
 BoundingSphere placed_sphere(const Affine& to_from, const BoundingSphere& sphere) {
     const Vec3 center = to_from.point(sphere.center);
-    // Of the center, whose coordinates are sums of four.
+    // Error terms of the center, whose coordinates are sums of four terms.
     const Vec3 terms = abs(to_from.linear.x_axis) * std::abs(sphere.center.x) +
                        abs(to_from.linear.y_axis) * std::abs(sphere.center.y) +
                        abs(to_from.linear.z_axis) * std::abs(sphere.center.z) +

@@ -1,7 +1,5 @@
 #pragma once
-/// Access to the column of an analytic kind that is known at run time.
-///
-/// Source: none. Differs: nothing.
+/// Access to the column of an analytic kind known at run time.
 
 #include <tuple>
 #include <type_traits>
@@ -11,7 +9,7 @@
 
 namespace alhazen {
 
-/// The shape of a column, given the type of a reference to it.
+/// The shape type of a column, given the type of a reference to it.
 template <class Column>
 struct ShapeOfColumn {
     using Type = typename decltype(std::remove_cvref_t<Column>::shapes)::value_type;

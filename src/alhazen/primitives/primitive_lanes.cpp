@@ -81,7 +81,7 @@ std::uint32_t closest_of_shape(const PrimitiveTable& table, PrimitiveId id, RayL
     return changed;
 }
 
-// Apart, for the rays that are made need much room.
+// A separate function, as the transformed rays need much stack.
 [[gnu::noinline]] std::uint32_t closest_of_moved(const Instance& instance, const RayLanes& rays,
                                                  std::uint32_t wanted, LaneHits& hits,
                                                  RayQuery query) {

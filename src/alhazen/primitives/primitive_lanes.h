@@ -1,9 +1,10 @@
 #pragma once
-/// The test of eight rays that lie side by side with one primitive of a table.
+/// Tests eight rays, in lanes, with one primitive of a table.
 ///
-/// Source: shapes/core/first_hits.h, csg_lanes.h, where the primitive has one of these. Differs:
-/// others are tested ray by ray. Conventions: those of `PrimitiveTable::closest`, whose hits they
-/// are, bit for bit. Threads: const functions may be called from many threads.
+/// Source: shapes/core/first_hits.h, csg_lanes.h, for primitives with one of these tests.
+/// Differs: other primitives are tested ray by ray.
+/// Conventions: those of `PrimitiveTable::closest`, with the same hits, bit for bit.
+/// Threads: const functions may be called from many threads.
 
 #include <span>
 
@@ -12,12 +13,12 @@
 
 namespace alhazen {
 
-/// Whether eight rays take less time than one after the other; never for triangles.
+/// Whether a test of eight rays is faster than single tests; always false for triangles.
 [[nodiscard]] bool takes_lanes(const PrimitiveTable& table, PrimitiveId id);
 
-/// Makes `best` [lane] the better of itself and the primitive's nearest hit, for the rays of
-/// `wanted`, which are valid, and shrinks their t_max to it. Those whose t_max that changed. Other
-/// lanes may hold anything.
+/// Updates `best` [lane] by the primitive's nearest hit, for the rays of `wanted`, which are valid,
+/// and shrinks their t_max to it. Returns the rays whose t_max changed. Other lanes may hold any
+/// values.
 std::uint32_t closest_of_lanes(const PrimitiveTable& table, PrimitiveId id, RayLanes& rays,
                                std::uint32_t wanted, std::span<Hit> best, RayQuery query);
 

@@ -12,8 +12,8 @@ namespace alhazen {
 
 namespace {
 
-/// Room for what carrying a ray into the inner frame and back rounds: it grows with the condition
-/// of the transform.
+/// The bounds of a placed box, with a margin for the rounding of transforming a ray into the inner
+/// frame and back, which grows with the condition of the transform.
 Box3 placed_box(const Placement& placement, const Box3& inner) {
     const Box3 box = transformed(placement.outer_from_inner, inner);
     if (!box.bounded()) return box;
@@ -105,7 +105,7 @@ std::uint32_t PrimitiveTable::kind(PrimitiveId id) const {
     const std::uint32_t i = static_cast<std::uint32_t>(id);
     if (i >= first_[kTriangleKind])
         return i < first_[kInstanceKind] ? kTriangleKind : kInstanceKind;
-    // The last kind that begins at or before i: it is not empty.
+    // The last kind that begins at or before i; it is not empty.
     std::uint32_t kind = 0;
     for (std::uint32_t step = std::bit_floor(kTriangleKind); step > 0; step /= 2) {
         if (kind + step < kTriangleKind && first_[kind + step] <= i) kind += step;
@@ -285,7 +285,7 @@ bool PrimitiveTable::inside_at_minus_infinity(PrimitiveId id, const Ray& ray) co
 
 namespace {
 
-/// The first of what PrimitiveTable::intersect appends.
+/// The first hit that PrimitiveTable::intersect appends.
 bool first_hit_of(const PrimitiveTable& table, PrimitiveId id, const Ray& ray,
                   const RayShear& shear, ShapeHit& hit) {
     const std::uint32_t kind = table.kind(id);

@@ -1,9 +1,9 @@
 #pragma once
-/// The things that the rays of one aggregate meet, by type in contiguous columns, and the one test
-/// of a ray with each of them that every accelerator shares.
+/// The primitives of one aggregate, by type in contiguous columns, with the ray test of each that
+/// all accelerators share.
 ///
-/// Ids run through the analytic shapes in the order of `AnalyticShapes`, then the triangles mesh by
-/// mesh, then the instances; a primitive's type follows from the range its id lies in.
+/// Ids number the analytic shapes in the order of `AnalyticShapes`, then the triangles mesh by
+/// mesh, then the instances; the type of a primitive follows from the range of its id.
 
 #include <memory>
 #include <optional>
@@ -33,13 +33,13 @@ template <class S>
 struct ShapeColumn {
     std::vector<S> shapes;
     std::vector<std::uint32_t>
-        placements;  ///< [shape] index into PrimitiveTable::placements or kNoPlacement
+        placements;  ///< [shape] index into PrimitiveTable::placements, or kNoPlacement
     std::vector<MaterialId> materials;  ///< [shape]
-    std::vector<std::uint32_t> parts;   ///< [shape] number of its part, or empty: all 0
-    /// [shape]; those beyond its end are visible to all rays.
+    std::vector<std::uint32_t> parts;   ///< [shape] number of its part; empty: all 0
+    /// [shape]; shapes beyond its end are visible to all rays.
     std::vector<RayMask> visible_to;
 
-    /// Of the shape that was added last.
+    /// Sets the mask of the last shape.
     void set_last_visible_to(RayMask mask) {
         if (mask == kAllRays) return;
         visible_to.resize(shapes.size(), kAllRays);
@@ -51,45 +51,44 @@ struct ShapeColumn {
 struct PlacedMesh {
     std::shared_ptr<const TriangleMesh> mesh;
     MaterialId material{0};
-    std::uint32_t first_triangle = 0;  ///< number of triangles in the meshes before this one
-    bool mirrored = false;   ///< its transform turned the winding over: normals are flipped back
+    std::uint32_t first_triangle = 0;  ///< number of triangles in the preceding meshes
+    bool mirrored = false;   ///< its transform reversed the winding: normals are flipped back
     std::uint32_t part = 0;  ///< number of its part; see Surface
     RayMask visible_to = kAllRays;
 };
 
 struct Instance {
     std::shared_ptr<const Aggregate> aggregate;
-    /// Of the aggregate; set by PrimitiveTable::finish, as `in_place` is.
+    /// Of the aggregate; set by PrimitiveTable::finish, like `in_place`.
     const LaneSolid* lane_solid = nullptr;
-    bool in_place = false;  ///< the placement moves nothing
+    bool in_place = false;  ///< the placement is the identity
     Placement placement;
     std::uint32_t part = 0;  ///< number of the part that placed it
-    /// What is placed is one mesh that several parts share: `part` is the mesh's own part.
+    /// A single mesh shared by several parts is placed: `part` is the mesh's own part.
     bool of_shared_mesh = false;
     RayMask visible_to = kAllRays;
 };
 
-/// The ray in the frame of what is placed.
+/// The ray in the frame of the placed aggregate.
 [[nodiscard]] inline Ray inner_ray(const Instance& instance, const Ray& ray) {
     return instance.in_place ? ray : transformed(instance.placement.inner_from_outer, ray);
 }
 
-/// What crosses a ray: kind of a primitive, as the position in AnalyticShapes, or one of the two
-/// below.
+/// The kind of a primitive: the position in AnalyticShapes, or one of the two below.
 inline constexpr std::uint32_t kTriangleKind = AnalyticShapes::kCount;
 inline constexpr std::uint32_t kInstanceKind = kTriangleKind + 1;
 inline constexpr std::uint32_t kKindCount = kInstanceKind + 1;
 
-/// What a material does to light that comes to its surface.
+/// The effect of a material on light at its surface.
 enum class Opacity : std::uint8_t {
-    Transparent,      ///< some of it may pass: the renderer finds out
+    Transparent,      ///< some may pass, as the renderer computes
     Opaque,           ///< none passes
     OpaqueFromFront,  ///< none passes from the front, all from the back
 };
 
 class PrimitiveTable final : public BoundsSource {
   public:
-    // Out of line: a column per type of shape is much to make, move and destroy for each includer.
+    // Out of line: the columns of all shape types are expensive to compile for each includer.
     PrimitiveTable();
     PrimitiveTable(const PrimitiveTable&);
     PrimitiveTable& operator=(const PrimitiveTable&);
@@ -97,7 +96,7 @@ class PrimitiveTable final : public BoundsSource {
     PrimitiveTable& operator=(PrimitiveTable&&) noexcept;
     ~PrimitiveTable() override;
 
-    // ---- columns; filled by `compile`, then sealed by `finish`
+    // ---- columns: filled by `compile`, then sealed by `finish`
     AnalyticShapes::Columns<ShapeColumn> columns;
     std::vector<PlacedMesh> meshes;
     std::vector<Instance> instances;
@@ -108,87 +107,85 @@ class PrimitiveTable final : public BoundsSource {
     /// Prepares the shapes and computes the id ranges. Call once, when the columns are complete.
     void finish();
 
-    // ---- what is in it
+    // ---- contents
     [[nodiscard]] std::size_t size() const override { return first_[kKindCount]; }
     [[nodiscard]] std::uint32_t kind(PrimitiveId id) const;
     /// First id of a kind; kind + 1 gives its end.
     [[nodiscard]] std::uint32_t first(std::uint32_t kind) const { return first_[kind]; }
-    /// Position of a primitive among those of its kind.
+    /// Index of a primitive among those of its kind.
     [[nodiscard]] std::uint32_t index(PrimitiveId id) const;
-    /// The mesh that the i-th triangle of the table belongs to.
+    /// The mesh that contains the i-th triangle of the table.
     [[nodiscard]] const PlacedMesh& mesh_of(std::uint32_t triangle) const;
     /// Vertices of the i-th triangle of the table.
     [[nodiscard]] std::array<Vec3, 3> triangle_vertices(std::uint32_t triangle) const;
-    /// Where these vertices lie, and the indices that lead to them: to fetch them ahead of use.
+    /// The addresses of these vertices, and of their indices: for prefetching.
     [[nodiscard]] std::array<const Vec3*, 3> corner_positions(std::uint32_t triangle) const;
     [[nodiscard]] const std::array<std::uint32_t, 3>* triangle_corners(
         std::uint32_t triangle) const;
-    /// True when the primitive lets no light through from either side (an instance never does for
-    /// sure: false).
+    /// True when the primitive lets no light through from either side (false for every instance).
     [[nodiscard]] bool is_opaque(PrimitiveId id) const;
-    /// Of an analytic shape.
+    /// The material of an analytic shape.
     [[nodiscard]] MaterialId shape_material(PrimitiveId id) const;
-    /// Of a primitive that is no instance.
+    /// The opacity of a primitive that is not an instance.
     [[nodiscard]] Opacity opacity(PrimitiveId id) const {
         if (is_opaque(id)) return Opacity::Opaque;
         return is_opaque_from_front(id) ? Opacity::OpaqueFromFront : Opacity::Transparent;
     }
 
-    /// Which rays see the primitive; of an instance, the instance itself.
+    /// The rays that see the primitive; of an instance, the instance itself.
     [[nodiscard]] RayMask visible_to(PrimitiveId id) const;
-    /// True when rays of this mask see all there is.
+    /// True when rays of this mask see all primitives.
     [[nodiscard]] bool all_seen(RayMask mask) const { return (common_mask_ & mask) != 0; }
-    /// Rays that see all there is.
+    /// Mask bits of all primitives.
     [[nodiscard]] RayMask common_mask() const { return common_mask_; }
     [[nodiscard]] bool is_seen(PrimitiveId id, RayMask mask) const {
         return all_seen(mask) || (visible_to(id) & mask) != 0;
     }
 
-    /// What a primitive that is hit (no instance) does to a shadow ray.
+    /// The effect of a hit primitive (not an instance) on a shadow ray.
     enum class ShadowEffect {
         Blocks,
-        Tints,  ///< a crossing that the renderer looks at
-        None,   ///< the light comes to a back that is not there
+        Tints,  ///< a crossing for the renderer
+        None,   ///< the light arrives at an invisible back
     };
     [[nodiscard]] ShadowEffect shadow_effect(PrimitiveId id, const Ray& ray) const;
 
-    // ---- bounds; empty for what cannot be hit: a triangle with two equal vertices
+    // ---- bounds; empty for primitives that cannot be hit: a triangle with two equal vertices
     [[nodiscard]] Box3 box(std::size_t i) const override;
     [[nodiscard]] Interval extent(std::size_t i, const Vec3& axis) const override;
-    /// Exact for spheres that are not placed, except for rounding; of an instance
-    /// the smaller one of that of what is in it and that around its box.
+    /// Exact up to rounding for spheres without a placement; of an instance the smaller one of the
+    /// sphere of its contents and that around its box.
     [[nodiscard]] BoundingSphere sphere(std::size_t i) const override;
-    /// Exact for triangles and for spheres that are not placed (their surface, which is all that
-    /// rays meet), except for rounding.
+    /// Exact up to rounding for triangles and for spheres without a placement (their surface, which
+    /// is all that rays hit).
     [[nodiscard]] bool overlaps(std::size_t i, const Box3& cell) const override;
-    /// Of triangles exactly what is inside, except for rounding.
+    /// Exact up to rounding for triangles.
     [[nodiscard]] Box3 clipped_box(std::size_t i, const Box3& cell) const override;
     [[nodiscard]] std::optional<std::array<Vec3, 3>> triangle(std::size_t i) const override;
     [[nodiscard]] bool blocks_light(std::size_t i) const override;
     [[nodiscard]] std::span<const RayEnd> ray_ends() const override { return known_ray_ends; }
-    /// Of a shape or an instance in its own frame; not for triangles.
+    /// The box of a shape or an instance in its own frame; not for triangles.
     [[nodiscard]] Box3 inner_box(PrimitiveId id) const;
-    /// Where a shape or an instance stands; null: in the frame of the table.
+    /// The placement of a shape or an instance; null: in the frame of the table.
     [[nodiscard]] const Placement* placement_of(PrimitiveId id) const;
 
-    // ---- the one test. Crossings of analytic shapes and triangles in [ray.t_min, ray.t_max],
-    // ascending, appended; not for instances.
+    // ---- the ray test. Appends crossings of analytic shapes and triangles in [ray.t_min,
+    // ray.t_max], ascending; not for instances.
     void intersect(PrimitiveId id, const Ray& ray, const RayShear& shear, ShapeHits& hits) const;
-    /// Whether the line of the ray begins inside the primitive: only for an analytic solid without
-    /// bounds.
+    /// Whether the line of the ray starts inside the primitive: only for an unbounded analytic
+    /// solid.
     [[nodiscard]] bool inside_at_minus_infinity(PrimitiveId id, const Ray& ray) const;
 
-    // ---- the queries on one primitive of any kind, instances included; one that `mask` does not
-    // see is not hit
-    /// Makes `best` the better of itself and the primitive's nearest hit, and shrinks ray.t_max to
-    /// it.
+    // ---- queries on one primitive of any kind, including instances; primitives that `mask` does
+    // not see are not hit Updates `best` by the primitive's nearest hit, and shrinks ray.t_max to
+    // it.
     template <class Stats>
     void closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hit& best, Stats stats,
                  RayMask mask) const;
     template <class Stats>
     bool occluded(PrimitiveId id, const Ray& ray, const RayShear& shear, Stats stats,
                   RayMask mask) const;
-    /// Appends all hits, not sorted.
+    /// Appends all hits, unsorted.
     template <class Stats>
     void all_hits(PrimitiveId id, const Ray& ray, const RayShear& shear, std::vector<Hit>& hits,
                   Stats stats, RayMask mask) const;
@@ -201,20 +198,21 @@ class PrimitiveTable final : public BoundsSource {
   private:
     void collect_masks();
     [[nodiscard]] bool is_opaque_from_front(PrimitiveId id) const;
-    /// True when a ray through the triangle comes out on its front: towards a light on that side.
+    /// True when a ray through the triangle leaves on its front: towards a light on that side.
     [[nodiscard]] bool leaves_through_front(PrimitiveId id, const Ray& ray) const;
 
     std::array<std::uint32_t, kKindCount + 1> first_{};
-    /// Primitives from `first` on, up to the next entry.
+    /// Primitives from `first` up to the next entry.
     struct MaskRange {
         std::uint32_t first;
         RayMask visible_to;
     };
-    std::vector<MaskRange> masks_;    ///< ascending; empty where all are visible to all rays
-    RayMask common_mask_ = kAllRays;  ///< bits that all of them have
+    std::vector<MaskRange>
+        masks_;  ///< ascending; empty where all primitives are visible to all rays
+    RayMask common_mask_ = kAllRays;  ///< bits common to all masks
 };
 
-/// Offers one crossing as the new best: it wins when it is nearer, or equally near with a lower id.
+/// Offers a crossing as the new best: it wins when it is nearer, or equally near with a lower id.
 inline void offer(const ShapeHit& crossing, PrimitiveId id, Ray& ray, Hit& best) {
     if (crossing.t < best.t || (crossing.t == best.t && id < best.top())) {
         static_cast<ShapeHit&>(best) = crossing;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kEpsilon = 0x1p-53;
 /// The first t of a ray that leaves a surface: not zero, and far enough from the subnormal numbers
-/// that no arithmetic on it becomes slow.
+/// that no arithmetic on it is slow.
 constexpr double kBeyondZero = 0x1p-500;
 
 Vec3 times_abs(const Mat3& m, const Vec3& v) {
@@ -31,14 +31,14 @@ void carry_normals_outward(const Affine& inner, Surface& surface) {
     surface.normal = normal;
 }
 
-/// Carries a surface out of an inner frame. The new error has the old one, the rounding of the
-/// transform, and that of the ray on its way in (which the next ray will suffer again).
+/// Transforms a surface out of an inner frame. The new error is the old one plus the rounding of
+/// the transform and that of the ray on its way in (which the next ray incurs again).
 void carry_outward(const Placement& placement, bool with_uv, Surface& surface) {
     const Affine& outer = placement.outer_from_inner;
     const Affine& inner = placement.inner_from_outer;
     carry_normals_outward(inner, surface);
     if (outer == Affine{}) {
-        // The terms below, products with 0 and 1 left out: a CSG object that stands where it is.
+        // The terms below without products with 0 and 1: for a CSG object without a placement.
         const Vec3 terms = 4 * kEpsilon * abs(surface.point);
         surface.error = (surface.error + terms) + terms;
         return;
@@ -60,7 +60,7 @@ void carry_outward(const Placement& placement, bool with_uv, Surface& surface) {
     }
 }
 
-/// Sets all that nobody sets but where it is something else.
+/// Sets the defaults of all extras.
 void begin(Surface& surface) {
     if (!surface.has_extras) return;
     surface.tangent = surface.bitangent = {};
@@ -72,20 +72,20 @@ void begin(Surface& surface) {
     surface.has_extras = false;
 }
 
-/// Writes what `shape_surface()` returns in its place: it is large.
+/// Constructs the result of `shape_surface()` in place: it is large.
 template <class F>
 void set_shape_part(Surface& surface, F&& shape_surface) {
     ::new (static_cast<ShapeSurface*>(&surface)) ShapeSurface(shape_surface());
 }
 
-/// The second set of coordinates is the first.
+/// Copies the first set of coordinates to the second.
 void share_coordinates(Surface& surface) {
     surface.uv2 = surface.uv;
     surface.dpdu2 = surface.dpdu;
     surface.dpdv2 = surface.dpdv;
 }
 
-/// Farthest coordinate of a shape along each axis; where it is unbounded, that of the point.
+/// The largest coordinate of a shape along each axis; where it is unbounded, that of the point.
 Vec3 reach_of(const Box3& box, const Vec3& point) {
     Vec3 reach;
     for (int k = 0; k < 3; ++k) {
@@ -95,9 +95,9 @@ Vec3 reach_of(const Box3& box, const Vec3& point) {
     return reach;
 }
 
-/// The surface in the shape's own frame. The shape bounds the error of the point; what is added is
-/// the rounding of the next ray's test, which is relative to the size of the shape, not to where
-/// the point lies.
+/// The surface in the shape's own frame. The shape bounds the error of the point; adds the rounding
+/// of the next ray's test, which is relative to the size of the shape, not to the position of the
+/// point.
 template <class S>
 void shape_surface(const S& shape, const Ray& ray, const Hit& hit, bool with_uv, Surface& surface) {
     set_shape_part(surface, [&] { return surface_of_shape(shape, ray, hit, with_uv); });
@@ -122,7 +122,7 @@ void analytic_surface(const PrimitiveTable& table, std::uint32_t kind, std::uint
     });
 }
 
-/// What meshes may carry beyond positions, normals and one set of texture coordinates.
+/// Adds attributes of meshes beyond positions, normals and one set of texture coordinates.
 void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, const Hit& hit,
                            Surface& surface) {
     const auto& corners = mesh.triangles[triangle];
@@ -150,7 +150,7 @@ void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, con
             const VertexTangent& t = mesh.tangents[corners[i]];
             surface.tangent += weights[i] * Vec3{t.x, t.y, t.z};
         }
-        // Handedness does not vary within a triangle of a well-made mesh.
+        // Handedness is constant within a triangle of a well-made mesh.
         surface.bitangent =
             double(mesh.tangents[corners[0]].sign) * cross(surface.shading_normal, surface.tangent);
     }
@@ -165,8 +165,9 @@ void triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hi
     share_coordinates(surface);
     surface.is_of_mesh = true;
     const auto& corners = mesh.triangles[triangle];
-    // The test of the next ray rounds relative to the size of the triangle, not to where the point
-    // lies, and along any axis: in the plane z = 0 it does not find a distance of 0.
+    // The test of the next ray rounds relative to the size of the triangle, not to the position of
+    // the point, and along any axis: in the plane z = 0 it does not compute a distance of exactly
+    // 0.
     double reach = 0.0;
     for (const std::uint32_t corner : corners) {
         reach = std::fmax(reach, max_component(abs(mesh.positions[corner] - surface.point)));

@@ -1,5 +1,5 @@
 #pragma once
-/// The surface at the nearest hit: computed once per ray, for the winner.
+/// The surface at the nearest hit: computed once per ray.
 
 #include <array>
 #include <optional>
@@ -12,33 +12,32 @@
 
 namespace alhazen {
 
-/// What lies on both sides of a surface along the ray that found it, where a solid tells (CSG of
-/// several media); outside is no material.
+/// The media on both sides of a surface along its ray, where a solid provides them (CSG of several
+/// media); outside has no material.
 struct SurfaceMedia {
     bool known = false;
     std::optional<MaterialId> before, after;
 };
 
-/// World space. `normal` is the geometric one, outward for closed shapes; both normals are unit;
-/// `error` bounds the distance of `point` from the true surface, component by component.
+/// In world space. `normal` is the geometric normal, outward for closed shapes; both normals are
+/// unit; `error` bounds the distance of `point` from the true surface, componentwise.
 struct Surface : ShapeSurface {
-    Vec2 uv2;           ///< second set of texture coordinates; `uv` where there is none
+    Vec2 uv2;           ///< second set of texture coordinates; else `uv`
     Vec3 dpdu2, dpdv2;  ///< change of the point by uv2
-    /// Interpolated from tangents at the vertices, unit before they are interpolated and placed;
-    /// both zero for surfaces without.
+    /// Interpolated from tangents at the vertices; unit before interpolation and placement; both
+    /// zero for surfaces without tangents.
     Vec3 tangent, bitangent;
     Rgba color{1, 1, 1, 1};   ///< of the vertices; white without
-    bool is_of_mesh = false;  ///< else the second set of coordinates is the first
-    /// Whether colour, tangents, weights or media are other than above and below: most surfaces
-    /// have none, and are done with sooner.
+    bool is_of_mesh = false;  ///< otherwise the second set of coordinates is the first
+    /// Whether colour, tangents, weights or media differ from the defaults: most surfaces have
+    /// none, and are computed faster.
     bool has_extras = false;
     /// One material, or those of a triangle's vertices with their weights.
     std::array<MaterialId, 3> materials{};
     std::array<double, 3> weights{1, 0, 0};
     int material_count = 1;
     SurfaceMedia media;
-    /// Number of the part that was hit: parts are counted through the objects of the description,
-    /// in their order.
+    /// Number of the hit part: parts are numbered through the objects of the description, in order.
     std::uint32_t part = 0;
     /// Number of the part that placed it in the scene: the outermost instance, or `part` itself.
     std::uint32_t instance = 0;
@@ -46,18 +45,18 @@ struct Surface : ShapeSurface {
 
 /// `ray` is the world-space ray that found `hit` in `aggregate`.
 [[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit);
-/// The same into `surface`: it is large, and not copied. Without texture coordinates where
-/// `with_uv` is false: they and their derivatives are then anything.
+/// The same into `surface`, which is large and not copied. Where `with_uv` is false, texture
+/// coordinates and their derivatives are undefined.
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
                  Surface& surface);
 
-/// The material of the surface at a hit, where the primitive alone tells: it has no colours of its
-/// vertices, and no solid around it shows another one.
+/// The material of the surface at a hit, where the primitive alone determines it: without vertex
+/// colours, and without a solid around it that shows another material.
 [[nodiscard]] std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit);
 
-/// The ray that leaves the surface along `direction`, as far as `t_max`. It starts outside the
-/// error bound of the point, on the side the direction points to, and excludes t = 0, so that it
-/// does not meet the surface again.
+/// The ray that leaves the surface along `direction`, up to `t_max`. It starts outside the error
+/// bound of the point, on the side the direction points to, and excludes t = 0, so that it does not
+/// hit the surface again.
 ///
 /// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
 /// Differs: the margin is 32 times the bound, which also covers the rounding of the next

@@ -1,13 +1,14 @@
 #pragma once
-/// The shear that tests of shapes are given, which do not look at it.
+/// A placeholder shear for tests of shapes, which do not use it.
 ///
-/// Conventions: outside of all target namespaces, so that no instruction set is needed to make it.
+/// Conventions: outside of all target namespaces, so that no instruction set is needed to construct
+/// it.
 
 #include "alhazen/geometry/watertight_triangle.h"
 
 namespace alhazen {
 
-/// Only triangles look at it.
+/// Used by triangles only.
 inline const RayShear kUnusedShear(Vec3{0, 0, 1});
 
 }  // namespace alhazen

@@ -34,7 +34,7 @@ Estimate mean_of(std::span<const double> independent, double probability) {
     const double n = static_cast<double>(independent.size());
     double mean = 0;
     for (const double x : independent) mean += x / n;
-    // In units of the farthest, so that no square overflows or vanishes.
+    // In units of the largest deviation, so that no square over- or underflows.
     double farthest = 0;
     for (const double x : independent) farthest = std::fmax(farthest, std::abs(x - mean));
     double squares = 0;

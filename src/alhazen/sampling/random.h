@@ -3,14 +3,14 @@
 /// tile and machine.
 ///
 /// Source: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014
-/// (the mixing function of SplitMix64). Differs: used as a hash of the coordinates, not as a
-/// sequence.
+/// (the mixing function of SplitMix64).
+/// Differs: used as a hash of the coordinates, not as a sequence.
 
 #include <cstdint>
 
 namespace alhazen {
 
-/// A bijection of 64-bit words that spreads every input bit over all output bits.
+/// A bijection of 64-bit words in which every input bit affects all output bits.
 constexpr std::uint64_t mix64(std::uint64_t x) {
     x += 0x9E3779B97F4A7C15u;
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -29,7 +29,7 @@ constexpr double random_at(std::uint64_t seed, std::uint64_t pixel, std::uint64_
     return unit_double(mix64(mix64(mix64(mix64(seed) ^ pixel) ^ sample) ^ dimension));
 }
 
-/// A sequence for tests and checks: numbers 0, 1, 2, ... of one stream.
+/// A sequence of random numbers for tests and checks.
 class RandomStream {
   public:
     explicit RandomStream(std::uint64_t seed) : key_(mix64(seed)) {}

@@ -9,12 +9,12 @@ namespace alhazen {
 namespace {
 
 constexpr int kDigits = 32;
-/// Digits that are scrambled exactly: two points of the sequence may agree in as many.
+/// Digits that are scrambled exactly: two points of the sequence may share as many.
 constexpr int kTreeDigits = 30;
-/// Digits whose flips one hash provides: a tree of six levels has 63 nodes.
+/// Digits whose flips come from one hash: a tree of six levels has 63 nodes.
 constexpr int kLevels = 6;
 
-/// A primitive polynomial over GF(2) of that degree (its inner coefficients as bits) and the first
+/// A primitive polynomial over GF(2) of a degree (its inner coefficients as bits) and the first
 /// direction numbers, from Joe and Kuo's table new-joe-kuo-6.
 struct Direction {
     int degree;
@@ -60,7 +60,7 @@ constexpr Matrix columns_of(const Direction& d) {
 
 constexpr std::array<Matrix, kSobolDimensions> kColumns = [] {
     std::array<Matrix, kSobolDimensions> all{};
-    // The first dimension is van der Corput's sequence: digits reversed.
+    // The first dimension is van der Corput's sequence: the digits in reverse.
     for (int i = 0; i < kDigits; ++i) {
         all[0][static_cast<std::size_t>(i)] = std::uint32_t{1} << (kDigits - 1 - i);
     }
@@ -84,12 +84,12 @@ double scrambled_sobol(std::uint64_t key, std::uint32_t index, int dimension) {
     const std::uint64_t tree = mix64(mix64(key) ^ static_cast<std::uint64_t>(dimension));
     std::uint64_t scrambled = 0;
     for (int done = 0; done < kTreeDigits; done += kLevels) {
-        // All digits above decide which subtree it is; the count of them keeps levels apart.
+        // The digits above select the subtree; their number separates the levels.
         const std::uint32_t above = done == 0 ? 0 : digits >> (kDigits - done);
         const std::uint64_t flips =
             mix64(tree ^ (std::uint64_t{above} | std::uint64_t(done + 1) << 32));
         const std::uint32_t six = (digits >> (kDigits - kLevels - done)) & 63u;
-        // Node 1 is the root; below node n lie 2n and 2n + 1.
+        // Node 1 is the root; the children of node n are 2n and 2n + 1.
         std::uint32_t node = 1;
         for (int level = kLevels - 1; level >= 0; --level) {
             const std::uint32_t digit = (six >> level) & 1u;
@@ -97,7 +97,7 @@ double scrambled_sobol(std::uint64_t key, std::uint32_t index, int dimension) {
             node = 2 * node + digit;
         }
     }
-    // The rest belongs to this point alone.
+    // The remaining digits are drawn for this point alone.
     const std::uint64_t rest =
         mix64(tree ^ (std::uint64_t{digits >> (kDigits - kTreeDigits)} | std::uint64_t{63} << 32));
     scrambled = scrambled << 23 | rest >> (64 - 23);

@@ -16,7 +16,7 @@ namespace alhazen {
 
 namespace {
 
-/// Meshes of more triangles than this that are used more than once are instanced, not copied.
+/// Meshes with more triangles than this that are used more than once are instanced, not copied.
 constexpr std::size_t kInstancedMeshTriangles = 64;
 
 std::uint64_t saturating_add(std::uint64_t a, std::uint64_t b) {
@@ -30,7 +30,7 @@ Opacity opacity_of(const Material& material) {
     return material.double_sided ? Opacity::Opaque : Opacity::OpaqueFromFront;
 }
 
-/// Where shadow rays end.
+/// End points of shadow rays.
 std::vector<RayEnd> ray_ends_at(const std::vector<LightDescription>& lights) {
     std::vector<RayEnd> ends;
     for (const LightDescription& light : lights) {
@@ -44,7 +44,7 @@ std::vector<RayEnd> ray_ends_at(const std::vector<LightDescription>& lights) {
     return ends;
 }
 
-/// An aggregate with what the census needs to know about it.
+/// An aggregate and its census data.
 struct Built {
     std::shared_ptr<const Aggregate> aggregate;
     std::uint64_t effective_primitives = 0;
@@ -65,7 +65,7 @@ class Compiler {
           mesh_uses_(description.meshes.size(), 0) {}
 
     Scene run() {
-        (void)find_csg_evaluator(options_.csg);  // an unknown one is an error in any scene
+        (void)find_csg_evaluator(options_.csg);  // an unknown evaluator is an error in any scene
         Scene scene;
         compile_materials(d_, scene);
         for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
@@ -86,7 +86,8 @@ class Compiler {
     }
 
   private:
-    /// How many parts use each object and mesh; one user is flattened, several share an instance.
+    /// Counts the parts that use each object and mesh; one user is flattened, several share an
+    /// instance.
     void count_uses() {
         for (const ObjectDescription& object : d_.objects) {
             for (const Part& part : object.parts) {
@@ -99,7 +100,7 @@ class Compiler {
         }
     }
 
-    /// Parts are numbered through all objects, so that a number names a place in the description.
+    /// Numbers the parts through all objects: a number names a place in the description.
     void number_parts() {
         std::uint32_t next = 0;
         for (const ObjectDescription& object : d_.objects) {
@@ -113,7 +114,7 @@ class Compiler {
         Built built;
     };
 
-    /// Nesting is bounded by validation, so recursion is safe here.
+    /// Validation bounds the nesting: recursion is safe here.
     const Built& build_object(std::size_t index) {
         if (d_.objects[index].combine != Combine::Group) return build_solid(index);
         if (!built_objects_[index].aggregate) {
@@ -160,21 +161,20 @@ class Compiler {
         RayMask visible_to = kAllRays;
     };
 
-    /// Renderers ask with the bit of one kind of ray: what all kinds see needs no mask.
+    /// Renderers query with the bit of one kind of ray: a part visible to all kinds needs no mask.
     static RayMask without_unused_bits(RayMask mask) {
         return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
     }
 
-    // Solids.
-
     struct SolidDraft : Draft {
         CsgExpression expression;
-        /// [leaf] kind of its primitive and place among those: ids come when the table is sealed.
+        /// [leaf] kind of its primitive and its position among that kind; sealing the table assigns
+        /// ids.
         std::vector<std::pair<std::uint32_t, std::uint32_t>> leaves;
         bool any_cut = false;  ///< some leaf shows the minuend
     };
 
-    /// The object as one solid; of a group the union.
+    /// The object as one solid; for a group the union.
     const Built& build_solid(std::size_t index) {
         if (!built_solids_[index].aggregate) {
             SolidDraft draft;
@@ -194,14 +194,14 @@ class Compiler {
         return built_solids_[index];
     }
 
-    /// What holds for all operands of an object.
+    /// Properties common to all operands of an object.
     struct Operands {
         Affine outer_from_object;
         RayMask visible_to = kAllRays;
-        bool cuts = false;  ///< taken away from something whose material their surfaces show
+        bool cuts = false;  ///< subtracted from a solid whose material the cut surfaces show
     };
 
-    /// Adds the object as a node of the expression, after those that are there.
+    /// Adds the object as a node of the expression, after the existing nodes.
     void add_operands(std::size_t object, const Operands& all, SolidDraft& draft) {
         const std::size_t node = draft.expression.nodes.size();
         const Combine combine = d_.objects[object].combine;
@@ -334,7 +334,7 @@ class Compiler {
         draft.table.instances.back().of_shared_mesh = true;
     }
 
-    /// A mesh to transform: the description's own where that may be taken, so that a large mesh is
+    /// A mesh to transform: the description's own where it may be taken, so that a large mesh is
     /// not in memory twice.
     [[nodiscard]] std::shared_ptr<TriangleMesh> own_copy(std::size_t mesh) const {
         if (spare_meshes_ != nullptr && mesh_uses_[mesh] == 1 &&

@@ -1,7 +1,6 @@
 #pragma once
-/// The part of a scene that has no geometry: materials, textures, lights, cameras.
-///
-/// Internal to `compile`.
+/// Compiles the non-geometric part of a scene: materials, textures, lights, cameras. Internal to
+/// `compile`.
 
 #include <cstdint>
 
@@ -9,10 +8,10 @@
 
 namespace alhazen {
 
-/// Fills in what the description says of them.
+/// Adds materials, textures, lights and cameras of the description to the scene.
 void compile_materials(const SceneDescription& description, Scene& scene);
 
-/// Of all pictures, each once, however many textures show it.
+/// Bytes of all images, each counted once, however many textures share it.
 [[nodiscard]] std::uint64_t texture_bytes(const std::vector<Texture>& textures);
 
 }  // namespace alhazen

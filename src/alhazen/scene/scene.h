@@ -1,5 +1,5 @@
 #pragma once
-/// What rays meet: the compiled scene. Immutable while rendering.
+/// The compiled scene. Immutable while rendering.
 
 #include <cstdint>
 #include <memory>
@@ -12,15 +12,15 @@
 
 namespace alhazen {
 
-/// How much is in a scene.
+/// Sizes and counts of a scene.
 struct SceneCensus {
     std::uint64_t analytic_shapes = 0;       ///< stored, each object once
     std::uint64_t triangles = 0;             ///< stored, each object once
     std::uint64_t instances = 0;             ///< stored
-    std::uint64_t effective_primitives = 0;  ///< as seen by rays, instances expanded; saturates
+    std::uint64_t effective_primitives = 0;  ///< instances expanded; saturates
     int instance_depth = 0;                  ///< deepest nesting of instances
-    std::uint64_t solids = 0;                ///< made of others (CSG), each stored once
-    std::uint64_t solid_leaves = 0;          ///< operands of these that are no operators
+    std::uint64_t solids = 0;                ///< CSG objects, each stored once
+    std::uint64_t solid_leaves = 0;          ///< their operands that are not operators
     std::uint64_t scene_bytes = 0;           ///< shapes, meshes, textures
     std::uint64_t texture_bytes = 0;         ///< of these, the textures
     std::uint64_t accelerator_bytes = 0;
@@ -35,17 +35,17 @@ struct Scene {
     ShadingConventions conventions;
     Rgb background;
     bool all_opaque = false;   ///< no material lets light through
-    bool has_masks = false;    ///< some part is not visible to all rays
-    bool has_mipmaps = false;  ///< some texture is filtered by what the ray's cone sees
+    bool has_masks = false;    ///< some part has a visibility mask
+    bool has_mipmaps = false;  ///< some texture is filtered by the footprint of the ray's cone
     std::string accelerator;
     SceneCensus census;
 };
 
 struct CompileOptions {
     std::string accelerator = "wide_bvh";
-    std::string csg = "event_heap";  ///< who evaluates solids made of others
+    std::string csg = "event_heap";  ///< the CSG evaluator
     BuildOptions build{};
-    /// Objects that name an accelerator get it; false: everything is traced with the one above.
+    /// Objects that name an accelerator get it; false: the accelerator above traces everything.
     bool own_accelerators = true;
 };
 
@@ -54,7 +54,7 @@ struct CompileOptions {
 [[nodiscard]] Scene compile(const SceneDescription& description,
                             const CompileOptions& options = {});
 
-/// The same for callers that need the meshes of `description` no longer: those that are placed
+/// The same for callers that no longer need the meshes of `description`: meshes that are placed
 /// once, by a transform, are moved instead of copied and are null afterwards.
 [[nodiscard]] Scene compile_taking_meshes(SceneDescription& description,
                                           const CompileOptions& options = {});

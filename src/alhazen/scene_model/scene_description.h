@@ -1,11 +1,10 @@
 #pragma once
-/// What a scene file says: names, values and where each was written. Importers make it, `validate`
-/// judges it, `compile` turns it into the `Scene` that rays meet. Plain data, free to edit in
-/// between.
+/// The content of a scene file: names, values and their source locations. Importers make it,
+/// `validate` checks it, `compile` turns it into the `Scene`. Plain data, free to edit in between.
 ///
 /// Conventions: an object is a list of parts; a part is a shape, a mesh or another object under a
-/// transform. `root` is the object that is rendered; an object used by several parts is instanced,
-/// not copied.
+/// transform. `root` is the rendered object. An object used by several parts is instanced, not
+/// copied.
 
 #include <cstdint>
 #include <filesystem>
@@ -38,35 +37,35 @@ struct Part {
     MaterialId material{0};
     std::string name;
     FileLocation location;
-    /// Bits of `mask_of(RayKind)`, or kAllRays. A kind of ray sees the part where it sees all the
-    /// objects around it too.
+    /// Bits of `mask_of(RayKind)`, or kAllRays. A kind of ray sees the part if it also sees all
+    /// objects around it.
     RayMask visible_to = kAllRays;
 };
 
-/// What the parts of an object make together.
+/// How the parts of an object combine.
 enum class Combine : std::uint8_t {
-    Group,         ///< they lie side by side; as an operand of a solid: their union
+    Group,         ///< separate parts; as an operand of a solid: their union
     Union,         ///< one solid
-    Intersection,  ///< what all of them share
-    Difference,    ///< the first part without all the others
+    Intersection,  ///< the volume common to all
+    Difference,    ///< the first part minus all the others
 };
 
-/// Which material a surface shows that a subtracted part has cut.
+/// The material of a surface cut by a subtracted part.
 enum class CutMaterial : std::uint8_t {
     Own,      ///< that of the subtracted part
-    Minuend,  ///< that of the solid that is cut there
+    Minuend,  ///< that of the solid cut there
 };
 
-/// Anything but a group is a solid: its parts must bound volumes (closed shapes, closed meshes,
-/// objects of such), and it is one of them wherever it is used.
+/// Every object but a group is a solid: its parts must bound volumes (closed shapes, closed meshes,
+/// objects made of these).
 struct ObjectDescription {
     std::string name;
     std::vector<Part> parts;
     FileLocation location;
     Combine combine = Combine::Group;
     CutMaterial cut_material = CutMaterial::Own;  ///< for a difference
-    /// Of a group: "NAME" or "NAME:SETTING=VALUE,..."; such an object is never dissolved in the one
-    /// around it. Empty: it is traced like the rest of the scene.
+    /// Of a group: "NAME" or "NAME:SETTING=VALUE,..."; the object is never dissolved in its parent.
+    /// Empty: the scene's accelerator.
     std::string accelerator;
 };
 
@@ -103,7 +102,7 @@ struct MaterialDescription {
 /// Largest side of a picture, pixels.
 inline constexpr int kMaxPictureSide = 65536;
 
-/// What the file says about the picture; the command line overrides it.
+/// Picture settings of the file; the command line overrides them.
 struct PictureSettings {
     std::optional<int> width, height;  ///< pixels
     std::optional<Rgb> background;     ///< black when the file has none
@@ -115,7 +114,7 @@ struct AnimationInfo {
     double begin = 0, end = 0;  ///< seconds, of its first and last key
 };
 
-/// Which way is up where a file has no camera.
+/// The up axis where a file has no camera.
 enum class UpAxis { Y, Z };
 
 struct SceneDescription {
@@ -143,10 +142,10 @@ struct SceneDescription {
     ShadingConventions conventions;
 };
 
-/// Adds every finding about `description` to `diagnostics`: values that are not finite, singular
-/// transforms, bad shapes and meshes, ids out of range, objects that contain themselves, nesting
-/// deeper than kMaxInstanceDepth, masks of no kind of ray, operands of a solid that bound no
-/// volume, accelerators that there are not, nothing to see (warning).
+/// Adds every finding about `description` to `diagnostics`: non-finite values, singular transforms,
+/// bad shapes and meshes, ids out of range, objects that contain themselves, nesting deeper than
+/// kMaxInstanceDepth, empty ray masks, operands of a solid that bound no volume, unknown
+/// accelerators, an empty scene (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 
 }  // namespace alhazen

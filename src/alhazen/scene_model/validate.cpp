@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// What follows objects recurses this deep.
+/// Depth limit of recursion over objects.
 constexpr int kMaxSolidNesting = 500;
 
 bool finite(const Rgb& c) {
@@ -197,7 +197,8 @@ class Validator {
         return uses;
     }
 
-    /// Depth of every object by an explicit stack: hostile nesting must not overflow the real one.
+    /// Depth of every object, by an explicit stack: hostile nesting must not overflow the call
+    /// stack.
     void check_nesting() {
         enum : std::uint8_t { New, Open, Done };
         const std::size_t n = d_.objects.size();
@@ -207,7 +208,7 @@ class Validator {
         }
         std::vector<std::uint8_t> state(n, New);
         std::vector<int> depth(n, 0);
-        // Parts of a solid that are placed once become part of it: they take no level of instances.
+        // Parts of a solid that are placed once are merged into it: they take no instance level.
         std::vector<int> nesting(n, 0), uses = object_uses();
         const auto deepen = [&](std::size_t outer, std::size_t inner) {
             const bool joined = d_.objects[outer].combine != Combine::Group && uses[inner] == 1;
@@ -249,7 +250,7 @@ class Validator {
         }
         const int deepest = depth[static_cast<std::size_t>(d_.root)];
         const int nested = nesting[static_cast<std::size_t>(d_.root)];
-        // Automatic instances of meshes may add one level of their own.
+        // Automatic instances of meshes may add one level.
         if (deepest + 1 > static_cast<int>(kMaxInstanceDepth)) {
             error({}, fmt::format("objects are nested {} deep; at most {} levels are supported",
                                   deepest, kMaxInstanceDepth - 1));

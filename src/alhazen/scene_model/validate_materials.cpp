@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// The checks of one material or texture; remembers whose they are.
+/// Checks one material or texture; stores its name and location for findings.
 class Checker {
   public:
     Checker(const SceneDescription& description, FileLocation where, Diagnostics& diagnostics)

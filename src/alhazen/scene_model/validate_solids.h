@@ -1,7 +1,5 @@
 #pragma once
-/// Whether the operands of solids (objects that are no groups) bound volumes.
-///
-/// Internal to `validate`.
+/// Checks that the operands of solids bound volumes. Internal to `validate`.
 
 #include <string>
 
@@ -10,7 +8,7 @@
 namespace alhazen {
 
 /// Adds to `diagnostics` every part of a solid, or of an object that a solid uses, that bounds no
-/// volume, and every intersection or difference of nothing. Objects may contain themselves.
+/// volume, and every empty intersection or difference. Objects may contain themselves.
 void validate_solids(const SceneDescription& description, Diagnostics& diagnostics);
 
 /// "mesh 'name'", or "a mesh without a name".

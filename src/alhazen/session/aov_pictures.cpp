@@ -13,7 +13,7 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kMaxNameBytes = 64 * 1024;
-/// A few pixels that another program interrupted must not darken the picture of times.
+/// Keeps a few pixels interrupted by other programs from darkening the picture of times.
 constexpr double kTimeQuantile = 0.99;
 
 using Channels = std::vector<const LayerChannel*>;
@@ -102,7 +102,7 @@ LayerPicture normal_picture(const PixelBox& crop, const Channels& c) {
     });
 }
 
-/// All three numbers of a pixel are 0: nothing is there.
+/// All three numbers of a pixel are 0: the pixel is empty.
 bool is_empty(const Channels& c, std::size_t i) {
     return std::all_of(c.begin(), c.end(), [&](const auto* k) { return k->values[i] == 0.0f; });
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The layers of a picture as PNG files for looking, one each, and the names behind their ids
-/// (docs/aovs.md).
+/// The layers of a picture as PNG files for viewing, one each, and the names of their ids
+/// (docs/reference/layers.md).
 
 #include <filesystem>
 #include <string>
@@ -16,14 +16,14 @@ namespace alhazen {
 [[nodiscard]] std::vector<std::filesystem::path> aov_picture_paths(
     const std::filesystem::path& output, const AovSet& wanted);
 
-/// Writes them, each with its scale in the text of the PNG, and returns a line about each. Throws
-/// Error (File).
+/// Writes the pictures, each with its scale in the text of the PNG, and returns a line about each.
+/// Throws Error (File).
 std::vector<std::string> write_aov_pictures(const std::filesystem::path& output,
                                             const AovSet& wanted, const FilmLayers& layers,
                                             const ImageMetadata& metadata);
 
 /// A JSON object from id to name for each wanted kind of id, under "alhazen.id.object" and so on;
-/// each ends after at most 64 KiB.
+/// each is truncated at 64 KiB.
 [[nodiscard]] ImageMetadata id_names(const SceneDescription& description, const AovSet& wanted);
 
 }  // namespace alhazen

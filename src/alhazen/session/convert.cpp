@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSuffixes = ".alhazen (the whole scene), .ply .obj .stl (its meshes)";
-/// Placed meshes of a mesh file: some 200 bytes each while it is made.
+/// Limit of placed meshes in a mesh file: about 200 bytes each during conversion.
 constexpr std::uint64_t kMaxPlacedMeshes = 4'000'000;
 
 std::span<const std::byte> bytes_of(const std::string& text) {
@@ -66,7 +66,7 @@ void check_counts(const PlacedCounts& counts, const fs::path& path, const Conver
     }
 }
 
-/// Names that other programs read as one word.
+/// Material names as single words, for other programs.
 std::vector<std::string> material_words(const SceneDescription& description) {
     std::vector<std::string> names;
     for (const MaterialDescription& m : description.materials) {

@@ -1,15 +1,15 @@
 #pragma once
-/// A loaded scene as files of another format: all of it as native text, or its meshes as PLY, OBJ
+/// Converts a loaded scene to another format: all of it as native text, or its meshes as PLY, OBJ
 /// or STL.
 ///
 /// Conventions: OUT.alhazen names its meshes (binary PLY) and pictures (PNG, EXR) in OUT_files/
 /// beside it, OUT.obj its materials in OUT.mtl and its pictures likewise, all relative: file and
-/// folder can be moved together. The named files are written first, each in one step, OUT itself
+/// folder can be moved together. The named files are written first, each atomically, OUT itself
 /// last; files of these names are replaced, others left alone. A file of OUT_files/ that another
-/// scene beside OUT names, with other bytes, is never replaced: the new one gets another name. A
-/// target is refused, and nothing written, where it could be a file that the scene was read from.
-/// What fails takes the files and the folder that it made away again. Mesh files hold every placed
-/// mesh in the frame of the scene, in the order of the description.
+/// scene beside OUT names, with other bytes, is never replaced: the new file gets another name. A
+/// target that could be a file of the scene is refused, and nothing is written. A failed conversion
+/// removes the files and the folder that it made. Mesh files hold every placed mesh in the frame of
+/// the scene, in the order of the description.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,29 +21,30 @@
 namespace alhazen {
 
 struct ConvertOptions {
-    /// Mesh formats: leave out what is not a mesh instead of refusing the scene.
+    /// Mesh formats: leave out shapes that are not meshes instead of refusing the scene.
     bool meshes_only = false;
     /// The refusal may advise --meshes-only.
     bool offers_meshes_only = true;
-    std::uint64_t max_triangles = 400'000'000;  ///< of a mesh file, instances multiplied out
+    std::uint64_t max_triangles = 400'000'000;  ///< of a mesh file, instances expanded
 };
 
 struct ConvertReport {
     std::vector<std::filesystem::path> files;  ///< in the order they were written; the last is OUT
     std::uint64_t bytes = 0;                   ///< of all of them
-    std::uint64_t triangles = 0;     ///< written: of each mesh once, or of all placed ones
-    std::uint64_t masked_parts = 0;  ///< mesh formats: parts not seen by all rays, which are now
+    std::uint64_t triangles = 0;               ///< written: each mesh once, or all placed ones
+    std::uint64_t masked_parts = 0;  ///< mesh formats: parts whose visibility mask is lost
     std::string left_out;            ///< "2 spheres, 1 plane": what meshes_only dropped
-    std::vector<std::string> lost;   ///< OBJ: what MTL cannot say of the materials, a line each
+    std::vector<std::string>
+        lost;  ///< OBJ: material properties that MTL cannot express, a line each
 };
 
-/// Throws Error (Usage) that lists the known suffixes when `path` has none of them, or when it is
-/// the file `scene` itself: for callers that want to know before they load.
+/// Throws Error (Usage) with the known suffixes when `path` has none of them, or when it is the
+/// file `scene` itself: a check before loading.
 void check_convert_target(const std::filesystem::path& scene, const std::filesystem::path& path);
 
-/// Writes `description`, which must be valid, as the format that the suffix of `path` names. Throws
-/// Error: Usage as above and for what the format cannot hold, Scene when there is nothing to write,
-/// Resource beyond the limits, File.
+/// Writes a valid `description` in the format of the suffix of `path`. Throws Error: Usage as above
+/// and for content that the format cannot hold, Scene for an empty result, Resource beyond the
+/// limits, File.
 ConvertReport convert(const SceneDescription& description, const std::filesystem::path& path,
                       const ConvertOptions& options = {});
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Scene files larger than this are not looked into: they may name anything.
+/// Larger scene files are not searched: they may name anything.
 constexpr std::uint64_t kMaxSceneText = std::uint64_t{64} << 20;
 
 bool is_scene_text(const fs::path& path) {
@@ -128,7 +128,7 @@ void ConvertOutput::make_folder(const fs::path& folder) {
 
 fs::path ConvertOutput::free_name(const fs::path& path, std::span<const std::byte> bytes) {
     fs::path candidate = path;
-    // Each round passes over a file that is there: there are not that many.
+    // Each round skips an existing file, of which there are finitely many.
     for (int number = 2;; ++number) {
         std::error_code failed;
         const fs::file_status status = fs::symlink_status(candidate, failed);
@@ -151,7 +151,7 @@ bool ConvertOutput::is_named_by_others(const std::string& file_name) {
         for (const auto& entry : fs::directory_iterator(beside, failed)) {
             std::error_code no_file;
             if (!is_scene_text(entry.path()) || !entry.is_regular_file(no_file)) continue;
-            // What is about to be replaced does not count.
+            // The file about to be replaced does not count.
             if (is_same_file(entry.path(), path_)) continue;
             if (suffix_ == ".obj" && is_same_file(entry.path(), beside / sibling(".mtl"))) continue;
             try {

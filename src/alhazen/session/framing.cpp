@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFieldOfView = kPi / 4;
 constexpr double kMargin = 0.05;
-/// Flatter than this part of its other sides: seen from the front.
+/// Boxes flatter than this share of their other sides are seen from the front.
 constexpr double kFlat = 0.25;
 constexpr Rgb kHeadlight{0.75, 0.75, 0.75};
 constexpr Rgb kHeadlightAmbient{0.25, 0.25, 0.25};
@@ -27,7 +27,7 @@ struct Turn {
     double cosine, sine;
 };
 
-/// Exact at quarter turns, so that a view along an axis is one.
+/// Exact at quarter turns, so that a view along an axis is exact.
 Turn turn(double degrees) {
     const double quarters = degrees / 90.0;
     if (quarters == std::floor(quarters)) {
@@ -56,8 +56,8 @@ ViewFrame view_frame(UpAxis up_axis, const ViewAngles& view) {
             place(-a.cosine * e.sine, -a.sine * e.sine, e.cosine)};
 }
 
-/// How far the eye must stand back for the two sides of its pyramid, of half-width `tangent` at
-/// distance 1, to hold all points (across, towards the eye).
+/// Distance of the eye at which the two sides of its pyramid, of half-width `tangent` at distance
+/// 1, hold all points (across, towards the eye).
 double least_distance(const std::array<Vec2, 8>& points, double tangent) {
     double right = -std::numeric_limits<double>::infinity();
     double left = right;
@@ -137,7 +137,7 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
     return camera;
 }
 
-/// A light at the eye: what is seen is never in shadow.
+/// A light at the eye: visible points are never in shadow.
 Light headlight(const Camera& camera) {
     if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
         PointLight light;
@@ -210,7 +210,7 @@ PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngl
     const double tangent = (1.0 - 2.0 * kMargin) * std::tan(0.5 * kFieldOfView);
     double nearest = 0.0;
     for (const Vec2& p : across) nearest = std::max(nearest, p.y);
-    // A box without width across the view would have the eye on it.
+    // A box without width across the view would contain the eye.
     const double back = std::max(
         {least_distance(across, tangent * aspect), least_distance(along, tangent), nearest + 1e-3});
     const Vec3 eye =

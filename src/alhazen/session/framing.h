@@ -1,9 +1,8 @@
 #pragma once
-/// Makes what a mesh file leaves out: a camera that shows all of it, and a light.
+/// Adds a camera that shows the whole scene, and a light, where a file has none.
 ///
-/// Source: own derivation. The nearest eye whose pyramid of view holds the eight corners of a box:
-/// each side of the pyramid gives one linear bound on the eye's place.
-/// Differs: nothing.
+/// Derivation: the nearest eye whose view pyramid holds the eight corners of a box: each side of
+/// the pyramid gives one linear bound on the eye's position.
 /// Conventions: azimuth 0 sees the front. With Z up the front looks along +X and the azimuth turns
 /// towards +Y; with Y up the front looks along +Z and the azimuth turns towards +X. The elevation
 /// rises to the pole, 90 degrees. Boxes of any size that is a normal number.
@@ -16,7 +15,7 @@
 
 namespace alhazen {
 
-/// Where the eye stands, seen from the middle of the scene.
+/// Direction of the eye as seen from the middle of the scene.
 struct ViewAngles {
     double azimuth_deg = 30, elevation_deg = 20;
 };
@@ -24,10 +23,10 @@ struct ViewAngles {
 /// "30,20". Elevation in [-90, 90]. Throws Error (Usage).
 [[nodiscard]] ViewAngles parse_view(const std::string& text);
 
-/// The box of everything that has one: planes and other unbounded shapes are left out.
+/// The box of all bounded primitives.
 [[nodiscard]] Box3 bounded_part(const Aggregate& aggregate);
 
-/// From the front for what is flat towards the front, like a picture; else from above and one side.
+/// From the front for a box that is flat towards the front; else from above and one side.
 [[nodiscard]] ViewAngles default_view(const Box3& box, UpAxis up_axis);
 
 /// A vertical field of view of 45 degrees; the box fills all but 5 % of the picture on each side.
@@ -36,15 +35,15 @@ struct ViewAngles {
                                                const ViewAngles& view, double aspect);
 
 struct FramingOptions {
-    std::optional<ViewAngles> view;  ///< given: a framing camera in front of those of the file
-    std::string camera;              ///< the camera that will be used; empty: the first
+    std::optional<ViewAngles> view;  ///< if given: a framing camera is put before those of the file
+    std::string camera;              ///< the selected camera; empty: the first
     double aspect = 4.0 / 3.0;       ///< width / height of the picture
 };
 
 /// Adds a camera and a light to both, where they have none, and a grey background where a light was
-/// added and the file has none. Formats whose scenes are meant as they are get no light
-/// (ShadingConventions::headlight). Returns what was done, a sentence each. Throws Error: Scene
-/// when there is nothing to frame, Usage as find_camera.
+/// added and the file has none. Formats with complete lighting get no light
+/// (ShadingConventions::headlight). Returns a sentence per change. Throws Error: Scene when there
+/// is nothing to frame, Usage as find_camera.
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,
                                        const FramingOptions& options);
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Scenes of any size by name, to measure and to look at: `alhazen generate`.
+/// Generated scenes of any size by name, for measurements and pictures: `alhazen generate`.
 ///
-/// Conventions: what a size counts is the generator's, and so is whether it is met or at least
-/// reached. All have a camera and lights. The same name and size give the same scene everywhere, to
-/// the last bits of the sines of the C library.
+/// Conventions: each generator defines what its size counts, and whether the size is exact or a
+/// minimum. All scenes have a camera and lights. The same name and size give the same scene
+/// everywhere, up to the last bits of the sines of the C library.
 
 #include <cstdint>
 #include <optional>
@@ -17,11 +17,11 @@ namespace alhazen {
 
 struct GeneratorEntry {
     const char* name;
-    const char* size;            ///< what its size counts, one word
-    std::uint64_t default_size;  ///< of a database the published one
+    const char* size;            ///< unit of the size, one word
+    std::uint64_t default_size;  ///< for a database the published one
     std::uint64_t max_size;
     const char* description;  ///< one line
-    /// One of the two: a description, or the text of an NFF file.
+    /// Exactly one of the two is set: a description, or the text of an NFF file.
     SceneDescription (*make)(std::uint64_t size);
     void (*write_nff)(std::uint64_t size, NffText& out);
 };
@@ -29,15 +29,15 @@ struct GeneratorEntry {
 /// ADD A SCENE in generate.cpp: one entry of this table.
 [[nodiscard]] std::span<const GeneratorEntry> generators();
 
-/// Throws Error: Usage with the valid names for an unknown one.
+/// Throws Error (Usage) with the valid names for an unknown one.
 [[nodiscard]] const GeneratorEntry& find_generator(const std::string& name);
 
-/// The scene, valid; of a database that of its NFF file with six digits. Throws Error: Usage as
+/// The scene, valid; for a database that of its NFF file with six digits. Throws Error: Usage as
 /// above, and for a size of 0 or above the generator's largest.
 [[nodiscard]] SceneDescription generate(const std::string& name,
                                         std::optional<std::uint64_t> size = {});
 
-/// The NFF file of a database. `digits`: significant ones of its numbers, 1 to 17. Throws Error:
+/// The NFF file of a database. `digits`: significant digits of its numbers, 1 to 17. Throws Error:
 /// Usage as above, and for a scene that NFF cannot hold.
 [[nodiscard]] std::string generate_nff(const std::string& name,
                                        std::optional<std::uint64_t> size = {},

@@ -16,14 +16,14 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Larger meshes are only asked whether they close when everything is wanted.
+/// Larger meshes are tested for closedness only on request.
 constexpr std::size_t kMaxClosedTriangles = 2'000'000;
 
 json vector_json(const Vec3& v) {
     return json::array({v.x, v.y, v.z});
 }
 
-/// JSON has no infinities: what is empty or unbounded has no bounds.
+/// JSON has no infinities: empty and unbounded boxes have no bounds.
 json box_json(const Box3& box) {
     if (box.empty() || !box.bounded()) return nullptr;
     return {{"min", vector_json(box.lo)},
@@ -31,7 +31,7 @@ json box_json(const Box3& box) {
             {"size", vector_json(box.size())}};
 }
 
-/// How many parts of each kind the description has, each object counted once.
+/// Number of parts of each kind, each object counted once.
 json part_counts(const SceneDescription& description) {
     std::map<std::string, std::size_t> counts;
     for (const ObjectDescription& object : description.objects) {
@@ -63,7 +63,7 @@ json meshes_json(const SceneDescription& d, const std::vector<MeshFigures>& figu
     return meshes;
 }
 
-/// Null as soon as one of them is not known.
+/// Null if one of them is unknown.
 json all_closed(const std::vector<MeshFigures>& figures) {
     bool known = !figures.empty();
     for (const MeshFigures& f : figures) {
@@ -168,7 +168,7 @@ void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& opti
         vertices += figures.back().vertices;
         unused += figures.back().unused_vertices;
     }
-    // Asked of the accelerator, whose box has margins, is only whether there are bounds.
+    // The accelerator's box has margins: it tells only whether there are bounds.
     const Box3 box = loaded.scene.aggregate->box();
     const bool unbounded = !box.empty() && !box.bounded();
     const json bounds = box.empty() ? nullptr : box_json(exact_bounds(*loaded.scene.aggregate));

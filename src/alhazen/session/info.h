@@ -1,5 +1,5 @@
 #pragma once
-/// What a person wants to know about a scene first.
+/// Summary of a scene: `alhazen info`.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,7 +9,7 @@
 namespace alhazen {
 
 struct InfoOptions {
-    /// Whether meshes of more than two million triangles are closed, too: a sort of all their
+    /// Also tests meshes of more than two million triangles for closedness: a sort of all their
     /// edges.
     bool all = false;
 };
@@ -20,7 +20,7 @@ struct InfoOptions {
                                                 const LoadedScene& loaded,
                                                 const InfoOptions& options = {});
 
-/// The same for reading. `all`: lists are not cut short.
+/// The same as text. `all`: lists are not truncated.
 [[nodiscard]] std::string info_text(const nlohmann::ordered_json& info, bool all = false);
 
 }  // namespace alhazen

@@ -1,4 +1,4 @@
-// The layout of `alhazen info` for reading.
+// The text layout of `alhazen info`.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Entries of a list that are shown unless all are asked for.
+/// Largest number of list entries shown by default.
 constexpr std::size_t kShown = 12;
 constexpr std::uint64_t kManyTriangles = 100'000;
 
@@ -184,7 +184,7 @@ void add_memory(Report& report, const json& info) {
     if (!memory.contains("per_triangle")) return;
     const json& each = memory["per_triangle"];
     std::string peaks;
-    // The process itself would hide what a small mesh needs.
+    // The memory of the process itself would hide that of a small mesh.
     if (info["triangles"].get<std::uint64_t>() >= kManyTriangles) {
         peaks = fmt::format(", peak {:.0f} after reading, {:.0f} after building",
                             each["peak_after_load"].get<double>(),

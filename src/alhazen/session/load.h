@@ -1,5 +1,5 @@
 #pragma once
-/// From a scene file to a scene that can be traced, with the time that each phase took.
+/// Loads a scene file into a compiled scene, with the time of each phase.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// How many parts of a description are not seen by all kinds of rays.
+/// Number of parts with a visibility mask.
 
 #include <algorithm>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Each object's parts once, however often it is placed.
+/// Counts each object's parts once, however often it is placed.
 [[nodiscard]] inline std::uint64_t masked_parts(const SceneDescription& description) {
     std::uint64_t count = 0;
     for (const ObjectDescription& object : description.objects) {

@@ -6,11 +6,11 @@ namespace alhazen {
 
 namespace {
 
-/// What may be looked at one by one: a triangle is one step, a part some more.
+/// Limit of steps: a triangle is one step, a part several.
 constexpr std::uint64_t kMaxSteps = 100'000'000;
 constexpr std::uint64_t kStepsOfPart = 20;
 
-/// How much a transform enlarges lengths, when it does so evenly in all directions.
+/// The scale factor of a uniformly scaling transform.
 std::optional<double> even_scale(const Mat3& m) {
     const double x = length(m.x_axis), y = length(m.y_axis), z = length(m.z_axis);
     const double tolerance = 1e-12 * x;
@@ -33,14 +33,14 @@ double area_under(const TriangleMesh& mesh, const Mat3& m) {
     return 0.5 * twice;
 }
 
-/// Evenly scaled objects are summed once and enlarged; unevenly scaled ones part by part, because
-/// their area depends on which way each triangle faces.
+/// Uniformly scaled objects are summed once and scaled; others part by part, because their area
+/// depends on the orientation of each triangle.
 class Summer {
   public:
     Summer(const SceneDescription& description, const std::vector<MeshFigures>& meshes)
         : d_(description), meshes_(meshes), objects_(description.objects.size()) {}
 
-    /// Nesting is bounded by validation, so recursion is safe here.
+    /// Validation bounds the nesting: recursion is safe here.
     std::optional<PlacedFigures> object(std::size_t index) {
         if (!objects_[index]) {
             const auto sum = parts(index, Mat3{});

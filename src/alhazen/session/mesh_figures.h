@@ -1,9 +1,8 @@
 #pragma once
-/// How much of a mesh there is, and of all meshes as a scene places them.
+/// Counts, area and volume of a mesh, and of all meshes as placed in a scene.
 ///
-/// Conventions: volumes are signed, positive where the surface is wound outward; a placement that
-/// mirrors keeps the outside outside, so it keeps the sign. Of an open mesh the volume means
-/// little.
+/// Conventions: volumes are signed, positive where the surface is wound outward; a mirroring
+/// placement keeps the outside outside, hence the sign. The volume of an open mesh means little.
 
 #include <cstdint>
 #include <optional>
@@ -15,20 +14,20 @@ namespace alhazen {
 
 struct MeshFigures {
     std::size_t triangles = 0, vertices = 0;
-    std::size_t unused_vertices = 0;  ///< of no triangle
+    std::size_t unused_vertices = 0;  ///< used by no triangle
     double area = 0, volume = 0;
-    std::optional<bool> closed;  ///< none when it was not looked at
+    std::optional<bool> closed;  ///< none: not tested
 };
 
-/// `look_if_closed` costs a sort of all edges. O(n log n), else O(n).
+/// `look_if_closed` takes a sort of all edges: O(n log n), else O(n).
 [[nodiscard]] MeshFigures figures_of(const TriangleMesh& mesh, bool look_if_closed);
 
 struct PlacedFigures {
     double area = 0, volume = 0;
 };
 
-/// Sums over all meshes as placed, instances multiplied out. `meshes` [MeshIndex] are their own
-/// figures. None when it would take too long: many uneven scalings nested in one another.
+/// Sums over all meshes as placed, instances expanded. `meshes` [MeshIndex] are their own figures.
+/// None when it would take too long: many nested uneven scalings.
 [[nodiscard]] std::optional<PlacedFigures> placed_figures(const SceneDescription& description,
                                                           const std::vector<MeshFigures>& meshes);
 

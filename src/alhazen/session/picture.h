@@ -1,5 +1,5 @@
 #pragma once
-/// From a film to a picture file.
+/// Writes a film to a picture file.
 
 #include <filesystem>
 #include <optional>
@@ -16,13 +16,13 @@ struct PictureOptions {
     int bits = 8;
     bool full_float = false;
     ImageMetadata metadata;
-    const FilmLayers* layers = nullptr;  ///< written beside the colours where the suffix is .exr
+    const FilmLayers* layers = nullptr;  ///< written with the colours where the suffix is .exr
 };
 
-/// True for the one format that holds layers.
+/// Whether the format holds layers (EXR only).
 [[nodiscard]] bool holds_layers(const std::filesystem::path& path);
 
-/// Integer formats are encoded from the film's doubles, so that truncation is exact. Throws Error.
+/// Integer formats are encoded from the film's doubles: truncation is exact. Throws Error.
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const ShadingConventions& conventions, const PictureOptions& options);
 

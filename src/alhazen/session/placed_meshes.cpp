@@ -63,7 +63,7 @@ class Collector {
             if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
                 add_mesh(part, d_.meshes[static_cast<std::size_t>(*mesh)], world_from_part, out);
             } else if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-                // Objects without meshes must not cost time, however often they are placed.
+                // Objects without meshes take no time, however often they are placed.
                 const std::size_t index = static_cast<std::size_t>(*child);
                 if (counter_.of(index).meshes > 0) add_object(index, world_from_part, out);
             }

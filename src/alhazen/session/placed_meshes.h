@@ -1,5 +1,5 @@
 #pragma once
-/// All meshes of a scene with instances multiplied out, for formats that know triangles only.
+/// All meshes of a scene with instances expanded, for triangle-only formats.
 
 #include <array>
 #include <cstdint>
@@ -11,19 +11,19 @@
 
 namespace alhazen {
 
-/// What a scene shows, every instance counted. Sums stay at the largest number.
+/// Counts of a scene's contents, instances expanded. Sums saturate.
 struct PlacedCounts {
     std::uint64_t meshes = 0;  ///< with at least one triangle
     std::uint64_t triangles = 0;
-    std::array<std::uint64_t, AnalyticShapes::kCount> shapes{};  ///< by their place in the list
+    std::array<std::uint64_t, AnalyticShapes::kCount> shapes{};  ///< by position in the shape list
 };
 [[nodiscard]] PlacedCounts count_placed(const SceneDescription& description);
 
-/// "2 spheres, 1 plane"; empty when there are none.
+/// "2 spheres, 1 plane"; empty without shapes.
 [[nodiscard]] std::string shapes_in_words(const PlacedCounts& counts);
 
 /// In the order of the parts; meshes without triangles are left out. `material_names` [MaterialId].
-/// Call with counts that fit in memory.
+/// Precondition: the counts fit in memory.
 [[nodiscard]] std::vector<NamedMesh> placed_meshes(const SceneDescription& description,
                                                    const std::vector<std::string>& material_names);
 

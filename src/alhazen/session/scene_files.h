@@ -1,5 +1,5 @@
 #pragma once
-/// The files that a scene was read from, which no output may replace.
+/// The files of a scene, which no output may overwrite.
 
 #include <filesystem>
 #include <set>
@@ -9,10 +9,10 @@
 
 namespace alhazen {
 
-/// The scene file itself and all others that were read, or that it names.
+/// The scene file and all other files that were read, or that it names.
 [[nodiscard]] std::set<std::filesystem::path> files_of_scene(const SceneDescription& description);
 
-/// Whether both names lead to one file that exists.
+/// Whether both names denote one existing file.
 [[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Throws Error (Usage) when one of `outputs` is a file of the scene.

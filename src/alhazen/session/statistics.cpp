@@ -44,7 +44,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
                       {"cache_hits", tests.cache_hits}};
     }
     SceneCensus census = loaded.scene.census;
-    // Some accelerators make their lists as rays come.
+    // Some accelerators build their lists on demand.
     census.accelerator_bytes = accelerator_bytes(*loaded.scene.aggregate);
     const std::optional<double> each = bytes_per_effective_primitive(census);
     const json bytes_each = each ? json(*each) : json(nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-/// Seconds since it was made.
+/// Seconds since construction.
 
 #include <chrono>
 

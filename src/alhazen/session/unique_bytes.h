@@ -1,5 +1,5 @@
 #pragma once
-/// What a scene costs in memory beside what rays see of it.
+/// Memory of a scene, per stored and per effective primitive.
 
 #include <cstdint>
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace alhazen {
 
-/// All that is stored for rays, every object once.
+/// All memory for ray tracing, every object once.
 [[nodiscard]] inline std::uint64_t unique_bytes(const SceneCensus& census) {
     return census.scene_bytes + census.accelerator_bytes;
 }
 
-/// For each primitive as rays see them, instances multiplied out. None in an empty scene; too large
-/// where the count of these is saturated.
+/// Bytes per effective primitive, instances expanded. None for an empty scene; too large where the
+/// count is saturated.
 [[nodiscard]] inline std::optional<double> bytes_per_effective_primitive(
     const SceneCensus& census) {
     if (census.effective_primitives == 0) return {};

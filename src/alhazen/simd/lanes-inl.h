@@ -1,11 +1,11 @@
-/// Eight (or N) lanes of float or double with the operators of a scalar: for blocks of eight
-/// primitives, the eight children of a node, and rays made ready together.
+/// Vectors of eight (or N) lanes of float or double with the operators of a scalar: for blocks of
+/// eight primitives, the eight children of a node, and rays prepared together.
 ///
 /// A block of double is one AVX-512 register of double, two of AVX, four of SSE. Every operation is
 /// the correctly rounded IEEE one, so each lane has the bits of the scalar form on every target;
-/// only mul_add and its kind are fused where the target can. Conventions: included once per target,
-/// by the pattern of Highway's foreach_target.h; everything is in HWY_NAMESPACE and must not escape
-/// from it.
+/// only mul_add and its variants are fused where the target can.
+/// Conventions: included once per target, by the pattern of Highway's foreach_target.h; everything
+/// is in HWY_NAMESPACE and must not be used outside of it.
 
 #if defined(ALHAZEN_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SIMD_LANES_INL_H_
@@ -19,8 +19,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// Loops over parts vanish, except in plain C++, where eight copies of everything only take long to
-// compile.
+// Unrolls loops over parts, except in plain C++, where eight copies of everything only slow down
+// compilation.
 #undef ALHAZEN_UNROLL
 #if HWY_TARGET == HWY_SCALAR
 #define ALHAZEN_UNROLL
@@ -37,12 +37,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr std::size_t kLaneCount = 8;
 inline constexpr std::uint32_t kAllLanes = (1u << kLaneCount) - 1;
 
-/// Doubles lie in registers of at most four: one instruction on 512 bits now and then lowers the
-/// clock of many processors by a sixth, for everything that runs.
+/// Doubles use registers of at most four lanes: an occasional 512-bit instruction lowers the clock
+/// of many processors by a sixth, for everything that runs.
 template <class T, std::size_t N = kLaneCount>
 using LaneTag = hn::CappedTag<T, (sizeof(T) == 8 && N > 4) ? 4 : N>;
 
-/// Registers in a block.
+/// Number of registers in a block.
 template <class T, std::size_t N = kLaneCount>
 inline constexpr std::size_t kParts = N / hn::MaxLanes(LaneTag<T, N>());
 
@@ -50,7 +50,7 @@ template <class T, std::size_t N = kLaneCount>
 struct LaneMask {
     hn::Mask<LaneTag<T, N>> part[kParts<T, N>];
 
-    // Not defaulted: GCC would make it outside of the target that the masks of NEON are for.
+    // Not defaulted: GCC would generate it outside of the target that NEON's masks need.
     HWY_INLINE LaneMask() {}
 };
 
@@ -59,7 +59,6 @@ struct Lanes {
     hn::Vec<LaneTag<T, N>> part[kParts<T, N>];
 
     Lanes() = default;
-    /// All lanes the same.
     HWY_INLINE explicit Lanes(T value) {
         for (std::size_t i = 0; i < kParts<T, N>; ++i) part[i] = hn::Set(LaneTag<T, N>(), value);
     }
@@ -86,7 +85,7 @@ HWY_INLINE void store_lanes(const Lanes<T, N>& a, T* values) {
     }
 }
 
-/// Anywhere in memory.
+/// Loads from any address.
 template <std::size_t N = kLaneCount, class T>
 HWY_INLINE Lanes<T, N> load_unaligned(const T* values) {
     Lanes<T, N> r;
@@ -97,7 +96,7 @@ HWY_INLINE Lanes<T, N> load_unaligned(const T* values) {
     return r;
 }
 
-/// Rounded to float, the nearest.
+/// Rounds to the nearest float.
 template <std::size_t N>
 HWY_INLINE Lanes<float, N> as_floats(const Lanes<double, N>& a) {
     const LaneTag<double, N> d;
@@ -106,7 +105,7 @@ HWY_INLINE Lanes<float, N> as_floats(const Lanes<double, N>& a) {
         Lanes<float, N> r;
         r.part[0] = hn::DemoteTo(df, a.part[0]);
         return r;
-#if HWY_TARGET != HWY_SCALAR  // which has nothing to combine
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has nothing to combine
     } else if constexpr (kParts<double, N> == 2 && kParts<float, N> == 1) {
         Lanes<float, N> r;
         r.part[0] = hn::Combine(LaneTag<float, N>(), hn::DemoteTo(df, a.part[1]),
@@ -122,7 +121,7 @@ HWY_INLINE Lanes<float, N> as_floats(const Lanes<double, N>& a) {
     }
 }
 
-/// The fourth lane made 0.
+/// Sets the fourth lane to 0.
 HWY_INLINE Lanes<float, 4> first_three(const Lanes<float, 4>& a) {
     HWY_ALIGN static constexpr std::uint32_t kKeep[4] = {~0u, ~0u, ~0u, 0};
     Lanes<float, 4> r;
@@ -134,10 +133,10 @@ HWY_INLINE Lanes<float, 4> first_three(const Lanes<float, 4>& a) {
     }
     return r;
 }
-/// The largest, in every lane; no NaN, nothing negative.
+/// The largest lane, in every lane. Precondition: no NaN, nothing negative.
 HWY_INLINE Lanes<float, 4> largest_of(const Lanes<float, 4>& a) {
     const LaneTag<float, 4> d;
-    const hn::RebindToSigned<LaneTag<float, 4>> di;  // compared as integers, which is faster
+    const hn::RebindToSigned<LaneTag<float, 4>> di;  // integer comparison is faster
     auto most = hn::BitCast(di, a.part[0]);
     for (std::size_t i = 1; i < kParts<float, 4>; ++i) {
         most = hn::Max(most, hn::BitCast(di, a.part[i]));
@@ -147,7 +146,7 @@ HWY_INLINE Lanes<float, 4> largest_of(const Lanes<float, 4>& a) {
     for (auto& part : r.part) part = hn::BitCast(d, most);
     return r;
 }
-/// Lane i is values[place[i]]; both are aligned to 16 bytes.
+/// Lane i is values[place[i]]; both arrays are aligned to 16 bytes.
 HWY_INLINE Lanes<float, 4> permuted(const float* values, const std::int32_t* place) {
     const LaneTag<float, 4> d;
     Lanes<float, 4> r;
@@ -205,7 +204,7 @@ ALHAZEN_LANES_BINARY(operator-, hn::Sub(a.part[i], b.part[i]))
 ALHAZEN_LANES_BINARY(operator*, hn::Mul(a.part[i], b.part[i]))
 ALHAZEN_LANES_BINARY(operator/, hn::Div(a.part[i], b.part[i]))
 ALHAZEN_LANES_BINARY(copysign, hn::CopySign(a.part[i], b.part[i]))
-/// The smaller and the larger; which of them comes out for a NaN operand differs between targets.
+/// Minimum and maximum; the result for a NaN operand differs between targets.
 ALHAZEN_LANES_BINARY(min_lanes, hn::Min(a.part[i], b.part[i]))
 ALHAZEN_LANES_BINARY(max_lanes, hn::Max(a.part[i], b.part[i]))
 /// As in <cmath>: a NaN operand is dropped.
@@ -220,9 +219,9 @@ ALHAZEN_LANES_COMPARE(operator<=, hn::Le(a.part[i], b.part[i]))
 ALHAZEN_LANES_COMPARE(operator>, hn::Gt(a.part[i], b.part[i]))
 ALHAZEN_LANES_COMPARE(operator>=, hn::Ge(a.part[i], b.part[i]))
 
-/// The larger and the smaller of floats that are no NaN, compared as integers, which takes one
-/// cycle and not four: right where one (for the larger) or both (for the smaller) are at least +0;
-/// else one of the two that is negative.
+/// Maximum and minimum of floats without NaN, compared as integers, which takes one cycle instead
+/// of four. Exact where one operand (for the maximum) or both (for the minimum) are at least +0;
+/// otherwise one of the operands that is negative.
 ALHAZEN_LANES_BINARY(larger_by_bits,
                      hn::BitCast(LaneTag<T, N>(), hn::Max(bits_as_integers<T, N>(a.part[i]),
                                                           bits_as_integers<T, N>(b.part[i]))))
@@ -234,7 +233,7 @@ ALHAZEN_LANES_BINARY(smaller_by_bits,
 #undef ALHAZEN_LANES_BINARY
 #undef ALHAZEN_LANES_COMPARE
 
-/// Fused where the target can: only for bounds that carry slack for either rounding.
+/// Fused where the target can: only for bounds with a margin for either rounding.
 #define ALHAZEN_LANES_FUSED(name, operation)                                \
     template <class T, std::size_t N>                                       \
     HWY_INLINE Lanes<T, N> name(const Lanes<T, N>& a, const Lanes<T, N>& b, \
@@ -251,15 +250,15 @@ ALHAZEN_LANES_FUSED(mul_sub, hn::MulSub)         ///< a b - c
 ALHAZEN_LANES_FUSED(neg_mul_add, hn::NegMulAdd)  ///< c - a b
 #undef ALHAZEN_LANES_FUSED
 
-/// Whether mul_add and its kind are fused: else what the scalar form does with std::fma has other
-/// bits in lanes.
+/// Whether mul_add and its variants are fused: otherwise scalar code with std::fma gives other bits
+/// than lanes.
 #if (HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2) || (HWY_ARCH_ARM_A64 && HWY_TARGET == HWY_NEON)
 inline constexpr bool kFusesExactly = true;
 #else
 inline constexpr bool kFusesExactly = false;
 #endif
 
-/// a b - c d as `difference_of_products` (math/quadratic.h) has it, where kFusesExactly.
+/// a b - c d as `difference_of_products` (math/quadratic.h) computes it, where kFusesExactly.
 template <std::size_t N>
 HWY_INLINE Lanes<double, N> difference_of_products(const Lanes<double, N>& a,
                                                    const Lanes<double, N>& b,
@@ -269,7 +268,7 @@ HWY_INLINE Lanes<double, N> difference_of_products(const Lanes<double, N>& a,
     return mul_sub(a, b, cd) + neg_mul_add(c, d, cd);
 }
 
-/// Lane by lane `yes` where the mask is set.
+/// Lane by lane: `yes` where the mask is set, else `no`.
 template <class T, std::size_t N>
 HWY_INLINE Lanes<T, N> select_lanes(const LaneMask<T, N>& mask, const Lanes<T, N>& yes,
                                     const Lanes<T, N>& no) {
@@ -304,7 +303,7 @@ HWY_INLINE LaneMask<T, N> operator!(const LaneMask<T, N>& a) {
     return r;
 }
 
-/// Bit i for lane i.
+/// Bit i is lane i.
 template <class T, std::size_t N>
 HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
     const LaneTag<T, N> d;
@@ -320,7 +319,7 @@ HWY_INLINE std::uint32_t bits_of(const LaneMask<T, N>& a) {
     return bits;
 }
 
-/// Lane i where bit i is set.
+/// Sets lane i where bit i is set.
 template <class T, std::size_t N = kLaneCount>
 HWY_INLINE LaneMask<T, N> lanes_of_bits(std::uint32_t bits) {
     const LaneTag<T, N> d;
@@ -340,4 +339,4 @@ HWY_INLINE LaneMask<T, N> lanes_of_bits(std::uint32_t bits) {
 }  // namespace alhazen
 HWY_AFTER_NAMESPACE();
 
-#endif  // include guard that opens again for every target
+#endif  // include guard, toggled for every target

@@ -7,7 +7,7 @@
 namespace alhazen {
 namespace {
 
-/// Bits of the targets to choose from; a lower bit is a better target.
+/// Bits of the available targets; a lower bit is a better target.
 std::int64_t compiled_and_supported() {
     return hwy::SupportedTargets() & HWY_TARGETS;
 }

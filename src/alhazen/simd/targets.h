@@ -1,23 +1,23 @@
 #pragma once
-/// The instruction sets that kernels are compiled for, and a way to force one of them.
+/// The instruction sets that kernels are compiled for, and an override that forces one.
 ///
 /// Conventions: names are Highway's ("AVX3" is AVX-512, "EMU128" plain C++). Every target gives
 /// the same bits.
-/// Threads: objects that hold kernels choose them when they are built, so a target should be
-/// forced before, and by one thread.
+/// Threads: objects choose their kernels when they are built, so force a target before, from one
+/// thread.
 
 #include <string>
 #include <vector>
 
 namespace alhazen {
 
-/// Targets that are compiled in and that this machine can run, the best first.
+/// Targets that are compiled in and that this machine supports, the best first.
 [[nodiscard]] std::vector<std::string> simd_targets();
 
 /// The target that kernels built from now on use.
 [[nodiscard]] std::string simd_target();
 
-/// Forces a target for its life; an unknown name throws Error(Usage). They nest.
+/// Forces a target for its lifetime; an unknown name throws Error(Usage). Overrides nest.
 class SimdTargetOverride {
   public:
     explicit SimdTargetOverride(const std::string& name);

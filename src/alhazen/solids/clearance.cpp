@@ -14,14 +14,14 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::uint32_t kSurfaceLines = 1024;  ///< through each solid, for points to begin from
+constexpr std::uint32_t kSurfaceLines = 1024;  ///< per solid, for starting points
 constexpr std::size_t kStarts = 24;            ///< pairs of points that the search improves
 constexpr int kRounds = 60;
 constexpr std::size_t kTurns = 8;
 
 using SurfacePoint = IsolatedSolid::SurfacePoint;
 
-/// Points all over the surface, from lines in all directions.
+/// Points spread over the surface, from lines in all directions.
 std::vector<SurfacePoint> surface_points(const IsolatedSolid& solid, std::uint64_t key) {
     const Box3 box = solid.box();
     const double radius = 0.5 * length(box.size());
@@ -51,7 +51,7 @@ class LineGap {
   public:
     LineGap(const IsolatedSolid& a, const IsolatedSolid& b) : a_(a), b_(b) {}
 
-    /// Negative `distance`: a point of the line lies in both.
+    /// Negative `distance`: a point of the line lies in both solids.
     Pair on(const Vec3& through, const Vec3& direction) {
         const Ray line{through, direction, -kInfinity, kInfinity};
         in_a_.clear();
@@ -89,7 +89,7 @@ class LineGap {
     std::vector<SurfacePoint> in_a_, in_b_;
 };
 
-/// Moves the line through two points about, in steps that shrink, while the gap gets narrower.
+/// Moves the line through two points in shrinking steps while the gap narrows.
 Pair improve(LineGap& gap, Pair best, double size) {
     double step = 0.1 * size;
     int turn = 0;
@@ -108,7 +108,7 @@ Pair improve(LineGap& gap, Pair best, double size) {
                 better = true;
             }
         };
-        // Along the normals the feet of a perpendicular are found at once on flat ground.
+        // Along the normals: on flat ground this finds the feet of the perpendicular at once.
         attempt({}, length(best.b.point - best.a.point) * (best.a.normal - d));
         attempt(length(best.b.point - best.a.point) * (best.b.normal + d), {});
         for (std::size_t i = 0; i < kTurns && best.distance > 0; ++i) {
@@ -124,14 +124,14 @@ Pair improve(LineGap& gap, Pair best, double size) {
     return best;
 }
 
-/// The separating slabs of two solids by their directions: the width along n is b's least extent
-/// over a's largest. Times |n| it is concave in n, being the support function of the difference of
-/// the two hulls turned over.
+/// Separating slabs of two solids by direction. The width along n is b's least extent minus a's
+/// largest. Times |n| it is concave in n: it is the negated support function of the Minkowski
+/// difference of the two hulls.
 class SlabSearch {
   public:
     SlabSearch(const IsolatedSolid& a, const IsolatedSolid& b) : a_(a), b_(b) {}
 
-    /// The widest slab, from a direction near it on, into `found`; and those along the axes.
+    /// Searches the widest slab from a start direction; `found` also receives slabs along the axes.
     void run(const Vec3& start, Clearance& found) {
         best_normal_ = start;
         best_ = width(start);
@@ -146,7 +146,7 @@ class SlabSearch {
         // Where edges face each other the width has a ridge, along which small turns do not climb.
         for (double half = 0.25; half > 1e-9 && best_ > 0; half *= 0.05) climb_ridges(half);
         if (!(best_ > 0)) return;
-        // The unit normal is one but for roundings.
+        // The computed normal is unit within rounding.
         found.at_least = best_ * (1 - 1e-15);
         found.slab_normal = best_normal_;
     }
@@ -166,7 +166,7 @@ class SlabSearch {
         return w;
     }
 
-    /// Small turns in all directions, for as long as they find wider slabs.
+    /// Small turns in all directions while they find wider slabs.
     void tilt() {
         int turn = 0;
         for (double step = 0.2; step > 1e-4;) {
@@ -180,8 +180,8 @@ class SlabSearch {
         }
     }
 
-    /// The directions n + x right + y up, x and y up to `half`: where slabs have a width at all it
-    /// has one maximum over y for each x, and these have one over x.
+    /// The directions n + x right + y up, x and y up to `half`. Where the width is positive it has
+    /// one maximum over y for each x, and these maxima have one over x.
     void climb_ridges(double half) {
         const Vec3 n = best_normal_, right = perpendicular(n), up = cross(n, right);
         (void)golden_section(half, [&](double x) {
@@ -190,8 +190,8 @@ class SlabSearch {
         });
     }
 
-    /// The largest value of f on [-half, half], of one maximum. Source: Kiefer, "Sequential minimax
-    /// search for a maximum", Proc. AMS 4, 1953.
+    /// The largest value on [-half, half] of f, which has one maximum. Source: Kiefer, "Sequential
+    /// minimax search for a maximum", Proc. AMS 4, 1953.
     template <class F>
     static double golden_section(double half, F f) {
         constexpr double kGolden = 0.61803398874989485;
@@ -255,7 +255,7 @@ Clearance clearance(const IsolatedSolid& a, const IsolatedSolid& b, std::uint64_
     }
     LineGap gap(a, b);
     Pair best;
-    // Lines between the solids also tell whether they overlap.
+    // Lines between the solids also detect overlap.
     for (std::size_t i = 0; i < std::min(on_a.size(), on_b.size()); ++i) {
         const Vec3 d = unit_or(on_b[i].point - on_a[i].point, on_a[i].normal);
         const Pair found = gap.on(on_a[i].point, d);

@@ -1,15 +1,15 @@
 #pragma once
-/// The smallest distance between two solids, from above and from below.
+/// The smallest distance between two solids: a lower and an upper bound.
 ///
 /// Source: the separating slab is that of Gilbert, Johnson and Keerthi, "A Fast Procedure for
-/// Computing the Distance between Complex Objects", IEEE J. Robotics Autom. 4(2), 1988. Differs:
-/// both bounds are found by searches that need nothing but lines and extents.
-/// Conventions: `at_most` is the distance of two points that are given, each on the surface of its
-/// solid but for `error`. `at_least` is the width of a slab between the two: nothing of them can be
-/// nearer. The slab is that of the convex hulls, so it is as wide as the clearance for convex
-/// solids, and may be zero for others (a pin in a hole): then only `at_most` tells. `at_most` could
-/// be too large where a small feature is nearer than all that the search began from.
-/// Complexity and threads: some ten thousand lines.
+/// Computing the Distance between Complex Objects", IEEE J. Robotics Autom. 4(2), 1988.
+/// Differs: both bounds come from searches that use only lines and extents.
+/// Conventions: `at_most` is the distance of two given points, each on the surface of its solid
+/// within `error`. `at_least` is the width of a slab that separates the two solids. The slab is
+/// that of the convex hulls: as wide as the clearance for convex solids, possibly zero for others
+/// (a pin in a hole), where only `at_most` tells. `at_most` may be too large where a small feature
+/// is nearer than every starting point of the search.
+/// Complexity and threads: about ten thousand lines.
 
 #include <cstdint>
 
@@ -18,15 +18,15 @@
 namespace alhazen {
 
 struct Clearance {
-    /// They share volume: both bounds are zero, and `on_a`, `on_b` are one point of it.
+    /// The solids share volume: both bounds are zero, and `on_a` and `on_b` are one shared point.
     bool overlap = false;
     double at_least = 0, at_most = 0;
-    Vec3 on_a, on_b;   ///< the points that are `at_most` apart
-    double error = 0;  ///< bound of how far each is from its surface
-    Vec3 slab_normal;  ///< of the slab that `at_least` is the width of; zero where there is none
+    Vec3 on_a, on_b;   ///< points at distance `at_most`
+    double error = 0;  ///< bound of each point's distance from its surface
+    Vec3 slab_normal;  ///< normal of the slab of width `at_least`; zero without a slab
 };
 
-/// Throws Error (Usage) for solids that are not bounded.
+/// Throws Error (Usage) for unbounded solids.
 [[nodiscard]] Clearance clearance(const IsolatedSolid& a, const IsolatedSolid& b,
                                   std::uint64_t seed = 1);
 

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// A table with one shape of another table, and where that table placed it.
+/// Copies one shape of a table into a table of its own; returns its placement there.
 Placement take_shape(const PrimitiveTable& from, PrimitiveId id, PrimitiveTable& alone) {
     Placement placement;
     const std::uint32_t kind = from.kind(id);
@@ -98,8 +98,8 @@ Interval IsolatedSolid::extent(const Vec3& axis) const {
 
 namespace {
 
-/// Walls between media inside of a solid are no part of its surface: out of one and into the other
-/// at the same place.
+/// Removes walls between media inside a solid, which are not part of its surface: an exit and an
+/// entry at the same place.
 void drop_walls(std::vector<Hit>& hits) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -177,7 +177,7 @@ void Overlap::cross(const Ray& line, bool, LineSpans& found) const {
     }
     a_.cross(line, false, found);
     if (!found.consistent) return;
-    // Both lists ascend: what ends first cannot meet what follows in the other.
+    // Both lists ascend: the span that ends first cannot overlap later spans of the other list.
     std::vector<Interval>& shared = found.spans;
     const std::vector<Interval> a = shared;
     shared.clear();

@@ -83,12 +83,12 @@ json pair_json(const PairReport& r) {
     return out;
 }
 
-/// Digits down to the interval, and the interval.
+/// Digits down to the interval, then the interval.
 std::string text_of(const Estimate& e) {
     if (!(e.half_width > 0)) return fmt::format("{:.15g}", e.value);
     const double exponent = std::floor(std::log10(e.half_width)) - 1;
     const int decimals = static_cast<int>(std::clamp(-exponent, 0.0, 17.0));
-    // Numbers smaller than that many digits behind the point show are written with an exponent.
+    // Numbers too small for fixed notation are written with an exponent.
     if (e.half_width < 1e-15 || std::abs(e.value) >= 1e15) {
         return fmt::format("{:.16g} +- {:.2g}", e.value, e.half_width);
     }
@@ -175,7 +175,7 @@ std::string pair_text(const PairReport& r) {
     return out;
 }
 
-/// Volume and mass of all solids together; what solids share counts for each.
+/// Volume and mass of all solids together; overlaps count once for each solid.
 struct Totals {
     Estimate volume, area, mass;
     bool has_mass = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// What `alhazen measure` found out, as JSON and for reading.
+/// Results of `alhazen measure`, as JSON and as text.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -20,8 +20,7 @@ struct SolidReport {
     std::optional<SectionArea> section;
     double seconds = 0;
 
-    /// Everything that was checked held: crossings in pairs, directions and areas alike, numbers in
-    /// range.
+    /// All checks passed: crossings in pairs, directions and areas agree, numbers in range.
     [[nodiscard]] bool holds() const;
 };
 

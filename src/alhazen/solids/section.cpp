@@ -47,7 +47,7 @@ class SectionPainter {
     }
 
   private:
-    /// A parallel camera over all that is bounded.
+    /// Sets a parallel camera over all bounded geometry.
     void look_straight_on() {
         const Box3 box = bounded_box();
         Interval x, y;
@@ -65,7 +65,7 @@ class SectionPainter {
                                      height * frame_.up};
     }
 
-    /// The box of what is bounded of the scene; a cube around the plane's origin for nothing.
+    /// The box of the bounded geometry; a cube around the plane's origin for an empty scene.
     [[nodiscard]] Box3 bounded_box() const {
         const PrimitiveTable& table = scene_.aggregate->primitives();
         Box3 box = scene_.aggregate->box();
@@ -82,7 +82,7 @@ class SectionPainter {
     void paint_rows(int begin, int end, Image& picture) const {
         const int grid = view_.grid;
         const int width = view_.width * grid;
-        // One pixel more to the right and below: edges are seen by comparing with what lies there.
+        // One more pixel right and below: edges are found by comparing neighbours.
         const int stride = width + grid;
         const int rows = (end - begin + 1) * grid;
         std::vector<Sample> samples(static_cast<std::size_t>(stride) *
@@ -123,12 +123,12 @@ class SectionPainter {
         return edge ? kInk : here.color;
     }
 
-    /// The ray is cut to the half space that is left, and shows what it meets first there.
+    /// Clips the ray to the remaining half space and returns its first hit there.
     [[nodiscard]] Sample look(Ray ray, SpanList& list) const {
         const double across = dot(frame_.normal, ray.direction);
         const double above = dot(frame_.normal, ray.origin - frame_.origin);
         const double crossing = -above / across;
-        // The camera of the plane stands in it; others stand before it or behind.
+        // The camera of the plane lies in it; other cameras lie in front of it or behind.
         const bool through_plane = across < 0.0 && (above >= 0.0 || !view_.camera);
         if (through_plane) {
             ray.t_min = view_.camera ? crossing : 0.0;
@@ -154,11 +154,11 @@ class SectionPainter {
         const Surface surface = surface_at(*scene_.aggregate, ray, hit);
         const double cosine = std::abs(dot(surface.normal, ray.direction)) / length(ray.direction);
         const Rgb color = color_of(scene_, surface.materials[0]);
-        // Half as bright as a cut face at the most, so that those stand out.
+        // At most half as bright as a cut face, so that cut faces stand out.
         return {kNoSolid, (0.08 + 0.42 * cosine) * color};
     }
 
-    /// What fills the solid where the ray begins: of several media the one there.
+    /// The material inside the solid where the ray begins; of several media the one there.
     [[nodiscard]] MaterialId material_at(Ray ray, SolidId solid, SpanList& list) const {
         ray.t_max = ray.t_min;
         ray.t_min = -kInfinity;
@@ -184,7 +184,7 @@ Rgb color_of(const Scene& scene, MaterialId material) {
     const Material& m = scene.materials[static_cast<std::size_t>(material)];
     const MaterialSample sample = evaluate(m, scene.textures, Vec2{0.5, 0.5});
     Rgb best = sample.albedo;
-    // Glass and mirrors have next to no albedo: they show what they let through or throw back.
+    // Glass and mirrors have almost no albedo: they show their transmissive or reflective colour.
     for (const Rgb& other : {0.8 * sample.transmissive, 0.8 * sample.reflective, sample.emission}) {
         if (brightness(best) < 0.05 && brightness(other) > brightness(best)) best = other;
     }

@@ -1,10 +1,10 @@
 #pragma once
-/// A scene cut open by a plane: the picture of what is left, and the outlines of the cut.
+/// A scene cut by a plane: a picture of the remaining part, and the outlines of the cut.
 ///
-/// Conventions: what lies on the side of the normal is taken away. Without a camera the picture
-/// looks against the normal, from far away, z (or y, for a level plane) up. Cut faces show the
-/// colour of their solid, flat, with dark edges; what is seen behind is shaded by a light at the
-/// eye. Where solids overlap, the one with the lowest number shows.
+/// Conventions: the side of the normal is removed. Without a camera the view is parallel, against
+/// the normal, z up (or y, for a level plane). Cut faces show the colour of their solid, unshaded,
+/// with dark edges; surfaces behind are shaded by a light at the eye. Where solids overlap, the
+/// lowest number shows.
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@ namespace alhazen {
 
 struct SectionView {
     int width = 800, height = 800;
-    int grid = 3;                  ///< grid x grid samples in a pixel
+    int grid = 3;                  ///< grid x grid samples per pixel
     std::optional<Camera> camera;  ///< none: straight on
 };
 
@@ -33,18 +33,17 @@ struct SectionLayer {
     SectionOutlines outlines;
 };
 
-/// The colour of what a material is made of: its albedo, or what it lets through or mirrors.
+/// Display colour of a material: its albedo, or its transmissive or reflective colour.
 [[nodiscard]] Rgb color_of(const Scene& scene, MaterialId material);
 
 struct SvgOptions {
-    std::string unit = "mm";  ///< what a unit of the scene is: mm, cm, in, pt, px
+    std::string unit = "mm";  ///< unit of the scene: mm, cm, in, pt, px
     double tolerance = 1e-4;
-    /// What is shown when nothing is cut: where this box stands in the plane.
+    /// Shown when nothing is cut: the projection of this box onto the plane.
     Box3 around{};
 };
 
-/// An SVG with a layer for each solid, in units of the scene. Throws Error (Usage) for another
-/// unit.
+/// An SVG with a layer per solid, in units of the scene. Throws Error (Usage) for an unknown unit.
 [[nodiscard]] std::string section_svg(const std::vector<SectionLayer>& layers,
                                       const PlaneFrame& frame, const SvgOptions& options);
 

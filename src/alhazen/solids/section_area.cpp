@@ -19,7 +19,7 @@ constexpr std::uint32_t kFirstLinesInPlane = 512;
 constexpr std::uint32_t kMostLines = std::uint32_t{1} << 27;
 constexpr std::uint32_t kLinesPerTask = 1024;
 
-/// Lines along one direction of the plane, side by side.
+/// Parallel lines along one direction of the plane.
 class LineRow {
   public:
     LineRow(const Measurable& solid, const Vec3& origin, const Vec3& along, const Vec3& aside,
@@ -113,10 +113,10 @@ SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
         throw Error(ErrorKind::Usage, "the solid is not bounded: its section may have no area");
     }
     const Deadline deadline(options.seconds, options.stop);
-    // The middle of the box in the plane, so that numbers stay small.
+    // The middle of the box in the plane keeps numbers small.
     const Vec3 center = box.center();
     const Vec3 origin = center - dot(center - frame.origin, frame.normal) * frame.normal;
-    // Along the axes of the plane, and aslant: where an edge runs along, lines scatter.
+    // Along the axes of the plane, and oblique to them: lines along an edge have a large variance.
     double least = 0;
     Vec3 best;
     double done = 0;

@@ -13,10 +13,10 @@ namespace alhazen {
 
 namespace {
 
-/// How often a cell may be split in four, and the units of the grid that a cell has.
+/// Largest number of times that a cell is split in four, and the grid units per side of a cell.
 constexpr int kMaxSplits = 8;
 constexpr std::int64_t kUnits = std::int64_t{1} << kMaxSplits;
-/// Splits of a chord: the tolerance is reached long before, or never.
+/// Splits of a chord: the tolerance is reached far earlier, or never.
 constexpr int kMaxChordSplits = 24;
 
 struct Segment {
@@ -29,7 +29,7 @@ struct PointHash {
     }
 };
 
-/// A crossing of an edge of a cell; `enters`: when the cell is walked around counter-clockwise.
+/// A crossing of an edge of a cell; `enters`: on a counter-clockwise walk around the cell.
 struct EdgeCrossing {
     Vec2 point;
     bool enters;
@@ -50,7 +50,8 @@ class ContourFollower {
         }
         const double cell = std::max(x.width(), y.width()) / options.cells;
         unit_ = cell / static_cast<double>(kUnits);
-        // Off all round numbers, so that no line of the grid runs along an edge of the outline.
+        // An offset that avoids round numbers, so that no grid line runs along an edge of the
+        // outline.
         x0_ = x.lo - 0.6180339887 * cell;
         y0_ = y.lo - 0.7320508076 * cell;
         columns_ = static_cast<std::int64_t>(std::ceil((x.hi - x0_) / cell)) + 1;
@@ -91,7 +92,7 @@ class ContourFollower {
         return entry->second;
     }
 
-    /// Crossings of an edge [lo, hi) of a cell; `forward`: it is walked towards growing numbers.
+    /// Crossings of an edge [lo, hi) of a cell; `forward`: walked towards growing coordinates.
     void edge(const std::vector<Interval>& spans, double lo, double hi, bool is_row, double at,
               bool forward) {
         auto span = std::lower_bound(spans.begin(), spans.end(), lo,
@@ -134,7 +135,7 @@ class ContourFollower {
         }
     }
 
-    /// Curves that meet in one point, as nearly as the grid can tell: any pairs will do.
+    /// Curves closer than the grid resolves: any pairing is valid.
     void pair_up() {
         ++out_.unresolved;
         std::vector<EdgeCrossing> enters, leaves;
@@ -144,7 +145,7 @@ class ContourFollower {
         }
     }
 
-    /// The solid lies between where the walk enters it and where it leaves: the curve runs back.
+    /// The solid lies between the entry and the exit of the walk: the curve runs back.
     void add_segment(const EdgeCrossing& a, const EdgeCrossing& b) {
         const Segment s = a.enters ? Segment{b.point, a.point} : Segment{a.point, b.point};
         segments_.push_back(s);
@@ -197,7 +198,7 @@ class ContourFollower {
                     const Vec2 at = piece.from + part * chord;
                     const double off = offset_of_curve(at, chord, size);
                     if (!(std::abs(off) <= size)) {
-                        // A curve that leaves the chord so far is not this one.
+                        // A curve that leaves the chord so far is another one.
                         if (part == 0.5) ++out_.unresolved;
                         break;
                     }
@@ -216,7 +217,7 @@ class ContourFollower {
         }
     }
 
-    /// How far to the left of a point of the chord the solid begins; infinite where it does not.
+    /// Distance to the left of a chord point at which the solid begins; infinite without one.
     double offset_of_curve(const Vec2& at, const Vec2& chord, double size) {
         const Vec2 left{-chord.y / size, chord.x / size};
         double nearest = kInfinity;
@@ -226,7 +227,7 @@ class ContourFollower {
         return nearest;
     }
 
-    /// Leaves out points that are within the tolerance of what joins the others.
+    /// Removes points within the tolerance of the lines that join the others.
     void simplify(Polyline& loop) const {
         if (loop.size() < 4) return;
         // Any two points far apart divide the loop.

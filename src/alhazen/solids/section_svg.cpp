@@ -8,7 +8,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/bounds_source.h"
-#include "alhazen/imaging/image/encoding.h"
+#include "alhazen/imaging/svg/svg_writer.h"
 #include "alhazen/solids/section.h"
 
 namespace alhazen {
@@ -16,38 +16,6 @@ namespace alhazen {
 namespace {
 
 constexpr std::array<const char*, 5> kLengthUnits{"mm", "cm", "in", "pt", "px"};
-
-/// Text for XML: marks are named, control characters and what is no ASCII become '?'.
-std::string xml(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c >= ' ' && c < '\x7f' ? c : '?';
-        }
-    }
-    return out;
-}
-
-std::string css(const Rgb& color) {
-    std::string out = "#";
-    for (int i = 0; i < 3; ++i) {
-        out += fmt::format("{:02x}", encode_channel(color[i], Encoding::Srgb, 8));
-    }
-    return out;
-}
 
 /// The corners of what the SVG shows, y downward: all loops; without any, the shadow of `around`
 /// on the plane, or a square of one unit.
@@ -74,16 +42,17 @@ void find_corners(const std::vector<SectionLayer>& layers, const PlaneFrame& fra
     hi = {x.hi - level_x, level_y - y.lo};
 }
 
-/// Coordinates run down in an SVG.
+/// y points down in an SVG.
 std::string path_of(const SectionOutlines& outlines) {
-    std::string d;
+    svg::Path path;
     for (const Polyline& loop : outlines.loops) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            d += fmt::format("{}{:.10g} {:.10g}", i == 0 ? "M" : "L", loop[i].x, 0.0 - loop[i].y);
+            const Vec2 p{loop[i].x, 0.0 - loop[i].y};
+            i == 0 ? path.move_to(p) : path.line_to(p);
         }
-        d += "Z";
+        path.close();
     }
-    return d;
+    return path.data();
 }
 
 }  // namespace
@@ -99,27 +68,35 @@ std::string section_svg(const std::vector<SectionLayer>& layers, const PlaneFram
     const double margin = std::max(0.02 * std::max(hi.x - lo.x, hi.y - lo.y), 1e-9);
     const Vec2 size{hi.x - lo.x + 2 * margin, hi.y - lo.y + 2 * margin};
     const Vec3& n = frame.normal;
-    std::string out = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-        "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"{:.10g}{}\" "
-        "height=\"{:.10g}{}\" viewBox=\"{:.10g} {:.10g} {:.10g} {:.10g}\">\n",
-        size.x, options.unit, size.y, options.unit, lo.x - margin, lo.y - margin, size.x, size.y);
-    out += fmt::format(
-        "<desc>Section by the plane ({:.17g}, {:.17g}, {:.17g}) . p = {:.17g}. Right is ({:.17g}, "
-        "{:.17g}, {:.17g}), up is ({:.17g}, {:.17g}, {:.17g}); y counts downward. One user unit is "
-        "one unit of the scene. Within {:.6g} of the curves.</desc>\n",
-        n.x, n.y, n.z, dot(n, frame.origin), frame.right.x, frame.right.y, frame.right.z,
-        frame.up.x, frame.up.y, frame.up.z, options.tolerance);
+    svg::Writer out;
+    out.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                     {"xmlns:inkscape", "http://www.inkscape.org/namespaces/inkscape"},
+                     {"width", svg::digits(size.x) + options.unit},
+                     {"height", svg::digits(size.y) + options.unit},
+                     {"viewBox", fmt::format("{:.10g} {:.10g} {:.10g} {:.10g}", lo.x - margin,
+                                             lo.y - margin, size.x, size.y)}});
+    out.text("desc", {},
+             fmt::format("Section by the plane ({:.17g}, {:.17g}, {:.17g}) . p = {:.17g}. Right is "
+                         "({:.17g}, {:.17g}, {:.17g}), up is ({:.17g}, {:.17g}, {:.17g}); y counts "
+                         "downward. One user unit is one unit of the scene. Within {:.6g} of the "
+                         "curves.",
+                         n.x, n.y, n.z, dot(n, frame.origin), frame.right.x, frame.right.y,
+                         frame.right.z, frame.up.x, frame.up.y, frame.up.z, options.tolerance));
     for (const SectionLayer& layer : layers) {
-        const auto id = static_cast<std::uint64_t>(layer.solid);
-        out += fmt::format(
-            "<g id=\"solid-{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n"
-            "<title>{}</title>\n<path fill=\"{}\" fill-rule=\"evenodd\" fill-opacity=\"0.6\" "
-            "stroke=\"#101010\" stroke-width=\"1\" vector-effect=\"non-scaling-stroke\" "
-            "d=\"{}\"/>\n</g>\n",
-            id, xml(layer.name), xml(layer.name), css(layer.color), path_of(layer.outlines));
+        out.open("g", {{"id", fmt::format("solid-{}", static_cast<std::uint64_t>(layer.solid))},
+                       {"inkscape:groupmode", "layer"},
+                       {"inkscape:label", layer.name}});
+        out.text("title", {}, layer.name);
+        out.leaf("path", {{"fill", css_color(layer.color)},
+                          {"fill-rule", "evenodd"},
+                          {"fill-opacity", "0.6"},
+                          {"stroke", "#101010"},
+                          {"stroke-width", "1"},
+                          {"vector-effect", "non-scaling-stroke"},
+                          {"d", path_of(layer.outlines)}});
+        out.close();
     }
-    return out + "</svg>\n";
+    return out.finish();
 }
 
 }  // namespace alhazen

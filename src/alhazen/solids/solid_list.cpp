@@ -52,7 +52,7 @@ bool begins_inside(const S& shape, const Ray& ray) {
     }
 }
 
-/// The material of the first thing in a table of leaves, nested ones included.
+/// The material of the first primitive in a table of leaves, nested tables included.
 MaterialId first_material(const PrimitiveTable& table) {
     std::optional<MaterialId> first;
     for_each_shape(table, [&](const auto& column, std::uint32_t i, PrimitiveId) {
@@ -162,8 +162,8 @@ SolidPlace SolidList::place(SolidId id) const {
     const Node* node = root_;
     std::uint64_t number = static_cast<std::uint64_t>(id);
     bool of_shared_mesh = false;
-    // The last instance whose solids begin at or before the number; instances without solids are
-    // passed over because the one behind begins at the same number.
+    // The last instance whose solids begin at or before the number. Instances without solids are
+    // skipped, because the next one begins at the same number.
     while (node->csg == nullptr && !node->instances.empty() &&
            number >= node->instance_number.front()) {
         const auto after =

@@ -1,11 +1,10 @@
 #pragma once
-/// Which solids a compiled scene holds: every closed shape, closed mesh and CSG object at every
-/// place where instances put it, numbered without a list of them all.
+/// The solids of a compiled scene: every closed shape, closed mesh and CSG object at every place of
+/// its instances, numbered without storing a list of them all.
 ///
-/// Conventions: a solid's number counts the solids of an aggregate in the order shapes, meshes,
-/// instances (each in the order of the table), what is inside an instance in its turn. Surfaces
-/// that bound no volume (planes, open meshes) are no solids. A CSG object is one solid, whatever it
-/// is made of.
+/// Conventions: numbers count the solids of an aggregate in the order shapes, meshes, instances
+/// (each in table order), the contents of an instance in its turn. Surfaces that bound no volume
+/// (planes, open meshes) are not solids. A CSG object is one solid.
 /// Complexity and threads: built in O(shapes + instances stored) and a sort of each mesh's edges;
 /// `solid_of` takes O(depth). Const functions may be called from many threads.
 
@@ -23,18 +22,18 @@ namespace alhazen {
 /// A solid of a scene: 0 to SolidList::count() - 1.
 enum class SolidId : std::uint64_t {};
 
-/// What a solid is made of, and where it stands.
+/// Geometry and placement of a solid.
 struct SolidPlace {
-    /// The aggregate that holds it; for a CSG object the object's own.
+    /// The aggregate that holds it; for a CSG object its own.
     std::shared_ptr<const Aggregate> aggregate;
-    /// Out of the frame of that aggregate.
+    /// From the frame of that aggregate to the world.
     Placement world;
     enum class Kind { Shape, Mesh, Csg } kind = Kind::Csg;
     PrimitiveId shape = kNoPrimitive;  ///< for a shape
     std::uint32_t mesh = 0;            ///< for a mesh: its position in the table
-    /// Numbers of the parts that lead to it (see Surface::part), the outermost first.
+    /// Numbers of the parts that lead to it (see Surface::part), outermost first.
     std::vector<std::uint32_t> parts;
-    MaterialId material{0};  ///< of a shape or a mesh; of a CSG object's first leaf
+    MaterialId material{0};  ///< of a shape or a mesh; for a CSG object that of its first leaf
 };
 
 class SolidList {
@@ -45,18 +44,18 @@ class SolidList {
     [[nodiscard]] std::uint64_t count() const { return root_->count; }
     /// Stored shapes and meshes that bound no volume.
     [[nodiscard]] std::uint64_t open_surfaces() const { return open_surfaces_; }
-    /// The solid whose surface was hit; none for a surface that bounds no volume.
+    /// The solid of the surface that was hit; none for a surface that bounds no volume.
     [[nodiscard]] std::optional<SolidId> solid_of(const Hit& hit) const;
     /// Precondition: the id is below count().
     [[nodiscard]] SolidPlace place(SolidId id) const;
-    /// Appends the solids that the line of the ray is inside of where it begins (t = -inf).
+    /// Appends the solids that contain the beginning of the ray's line (t = -inf).
     void inside_at_minus_infinity(const Ray& ray, std::vector<SolidId>& solids) const;
     [[nodiscard]] const Aggregate& aggregate() const { return *root_->aggregate; }
 
   private:
     static constexpr std::uint32_t kOpen = 0xFFFFFFFFu;
 
-    /// An aggregate and the numbers that its solids have in it.
+    /// An aggregate and the numbers of its solids.
     struct Node {
         std::shared_ptr<const Aggregate> aggregate;
         const SolidAggregate* csg = nullptr;         ///< when it is one solid
@@ -67,8 +66,8 @@ class SolidList {
         std::vector<const Node*> instances;          ///< [instance]
         std::vector<PrimitiveId> solid_shapes;       ///< [own number]
         std::vector<std::uint32_t> solid_meshes;     ///< [own number, less the shapes]
-        std::vector<PrimitiveId> unbounded;          ///< shapes that may hold the end of a line
-        bool has_unbounded = false;                  ///< here or inside of an instance
+        std::vector<PrimitiveId> unbounded;          ///< shapes that may contain an end of a line
+        bool has_unbounded = false;                  ///< here or in an instance
     };
 
     const Node* build(const std::shared_ptr<const Aggregate>& aggregate);

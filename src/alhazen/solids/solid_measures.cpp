@@ -15,38 +15,37 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::uint64_t kPilotLines = 1024;  ///< of each direction
+constexpr std::uint64_t kPilotLines = 1024;  ///< per direction
 constexpr std::uint64_t kFirstLines = 4096;
-/// Where lines are slow: no pilot, and no first round, takes more than this share of the time. But
-/// fewer lines than so many tell nothing.
+/// Limits for slow lines: the pilot and the first round take at most this share of the time, but at
+/// least this many lines, below which estimates are meaningless.
 constexpr double kShareOfPilot = 1.0 / 64, kShareOfFirst = 1.0 / 32;
 constexpr std::uint64_t kLeastLines = 128;
-/// With so few more than before nothing is gained.
+/// A smaller growth gains nothing.
 constexpr double kLeastGrowth = 1.25;
-/// The interval of a bundle falls about with this power of its lines; with so many more than that
-/// says it is narrow enough for sure.
+/// The interval of a bundle falls about with this power of its lines; kReserve times the lines make
+/// it narrow enough reliably.
 constexpr double kOrder = 1.2, kReserve = 2;
 /// Growth in one step.
 constexpr double kLeastStep = 2, kMostStep = 16;
-/// Independent sets of lines for Crofton's formula, and the lines of each: a check, which converges
-/// slowly.
+/// Independent line sets for Crofton's formula and lines per set: a check, which converges slowly.
 constexpr std::size_t kCroftonSets = 16;
 constexpr std::uint32_t kCroftonLines = 2048, kLeastCroftonLines = 32;
-constexpr double kShareOfCrofton = 1.0 / 16;  ///< of the time, at the most
-/// Of the time, when also the area is measured.
+constexpr double kShareOfCrofton = 1.0 / 16;  ///< of the time, at most
+/// Share of the time for the volume when the area is measured too.
 constexpr double kShareOfVolume = 0.875;
 /// Half of an interval of the wanted width is exceeded once in twenty cases: work on the volume
-/// goes on, while there is time, until that hardly happens.
+/// continues, while there is time, until that is rare.
 constexpr double kShareOfWanted = 0.5;
-/// How much wider than both intervals a difference may be.
+/// Largest difference, as a multiple of both intervals.
 constexpr double kAgreement = 2.5;
 
 constexpr StratifiedChords::Measured kArea = StratifiedChords::Measured::Area;
 
-/// Beyond these moments of inertia overflow or lose their digits.
+/// Beyond these, moments of inertia overflow or lose their digits.
 constexpr double kLeastMoment = 1e-290, kMostMoment = 1e300;
 
-/// The world's axes, and a frame aslant to all that is usual.
+/// The world's axes, and a frame oblique to common directions.
 std::array<std::array<BundleFrame, 3>, 2> frames() {
     const Mat3 aslant = Affine::rotate({0.36, 0.48, 0.8}, 0.7236).linear *
                         Affine::rotate({1, 0.2, -0.3}, 0.5129).linear;
@@ -88,7 +87,7 @@ class Measurer {
             throw Error(ErrorKind::Usage, "the solid is not bounded: it has no volume");
         }
         center_ = box_.center();
-        // What the numbers of a span are computed from, as a multiple of the solid's size.
+        // Magnitude of the numbers that spans are computed from, as a multiple of the solid's size.
         reach_ = 1 + length(center_) / length(box_.size());
         choose_frame();
         grow();
@@ -97,11 +96,11 @@ class Measurer {
     }
 
   private:
-    /// Looks along six directions, and keeps those of the frame with the one that is best.
+    /// Runs pilots along six directions and keeps the frame of the best one.
     void choose_frame() {
         const auto all = frames();
         StratifiedChords first(solid_, all[0][0], center_, mix64(options_.seed) + 50);
-        grow_bundle(first, kLeastLines);  // tells how long a line takes
+        grow_bundle(first, kLeastLines);  // measures the time per line
         double least = 0, least_area = 0;
         for (std::size_t f = 0; f < all.size(); ++f) {
             if (f > 0 && deadline_.room(lines_) <= 0) break;
@@ -139,21 +138,21 @@ class Measurer {
         }
     }
 
-    /// So many lines, or fewer where those would take more than that share of the time.
+    /// This many lines, or fewer where they would take more than this share of the time.
     [[nodiscard]] std::uint64_t affordable(std::uint64_t lines, double share) const {
         const double room = share * deadline_.room(lines_) / StratifiedChords::kCostOfLine;
         const auto least = static_cast<double>(kLeastLines);
         return static_cast<std::uint64_t>(std::clamp(room, least, double(lines)));
     }
 
-    /// About how many lines the wanted error takes along the direction of a pilot.
+    /// Estimated number of lines for the wanted error along the direction of a pilot.
     [[nodiscard]] double work_ahead(const StratifiedChords& pilot) const {
         const Estimate e = half_sample_estimate(pilot.volumes());
         const Estimate widened = with_rare_misses(e, pilot.misses(), pilot.sparsest());
         const double wanted = options_.relative_error * std::abs(e.value);
         const double lines = static_cast<double>(pilot.lines());
         if (!(wanted > 0)) return 0;
-        // What is added for rare misses falls as 1 / lines.
+        // The term for rare misses falls as 1 / lines.
         return lines * std::max(std::pow(e.half_width / wanted, 1 / kOrder),
                                 (widened.half_width - e.half_width) / wanted);
     }
@@ -161,8 +160,8 @@ class Measurer {
     void grow_bundle(StratifiedChords& bundle, std::uint64_t lines) {
         lines_ += static_cast<double>(bundle.grow_to(lines));
     }
-    /// To as many lines as an interval takes that is to be narrower by the factor, or what there is
-    /// time for; or other lines in the same cells; false when there is no time for that either.
+    /// Adds the lines for an interval narrower by the factor, as far as time allows, or casts new
+    /// lines in the same cells; false when there is no time for that either.
     bool enlarge(StratifiedChords& bundle, double factor, const Deadline& deadline) {
         const double room = deadline.room(lines_);
         const auto round = static_cast<double>(bundle.lines_of_round());
@@ -177,7 +176,7 @@ class Measurer {
         return true;
     }
 
-    /// How much too wide the interval is; at most 1 where it is narrow enough.
+    /// Ratio of the interval to the wanted one; at most 1 where it is narrow enough.
     [[nodiscard]] static double excess(const Estimate& e, double relative) {
         const double wanted = relative * std::abs(e.value);
         return e.half_width <= wanted ? 1 : e.half_width / wanted;
@@ -230,8 +229,8 @@ class Measurer {
         return with_rounding(e, reach_ * std::abs(e.value));
     }
 
-    /// Lines in all directions alike through the ball around the box: the number of crossings
-    /// times the surface of the ball is twice the area.
+    /// Isotropic lines through the ball around the box: the mean number of crossings times the
+    /// surface of the ball is twice the area.
     [[nodiscard]] Estimate crofton() {
         const double radius = 0.5 * length(box_.size());
         std::array<double, kCroftonSets> area{};
@@ -289,13 +288,13 @@ class Measurer {
         found.reached = reached_;
     }
 
-    /// Centroid and inertia are ratios: of each half sample by itself, and then their mean.
+    /// Centroid and inertia are ratios: computed per half sample, then averaged.
     void fill_moments(SolidMeasures& found) const {
         std::array<Replicates, 3> centroid{};
         std::array<Replicates, 6> inertia{};
         for (std::size_t r = 0; r < kReplicates; ++r) {
             const Moments m = bundles_[best_].moments(r);
-            // Nothing there, or so little that hardly a line meets it: it has no middle.
+            // An empty solid, or one that almost no line hits, has no centroid.
             if (!(m.volume > 0.0)) return;
             const Vec3 c = m.first / m.volume;
             std::array<double, 6> s = m.second;  // about the centroid

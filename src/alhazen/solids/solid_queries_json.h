@@ -1,8 +1,8 @@
 #pragma once
-/// Answers about the solids of a scene as JSON, one line for each ray or point.
+/// Answers to queries about solids as JSON, one line per ray or point.
 ///
-/// Conventions: numbers have as many digits as repeat them exactly; null is infinite. `solid` is
-/// the number of the solid, `name` its name (SolidScene).
+/// Conventions: numbers round-trip exactly; null is infinite. `solid` is the number of the solid,
+/// `name` its name (SolidScene).
 
 #include <istream>
 #include <nlohmann/json_fwd.hpp>
@@ -20,19 +20,18 @@ namespace alhazen {
 [[nodiscard]] nlohmann::ordered_json inside_json(const SolidScene& scene, const Vec3& point,
                                                  std::span<const Containment> solids);
 
-/// The numbers of a text, apart by commas or white space. Throws Error (Usage) that names `what`
-/// when there are not as many as one of `counts` or one of them is none; "inf" is a number.
+/// Numbers of a text, separated by commas or white space; "inf" is a number. Throws Error (Usage)
+/// that names `what` for a count not in `counts` and for a word that is not a number.
 [[nodiscard]] std::vector<double> parse_numbers(const std::string& text,
                                                 std::initializer_list<std::size_t> counts,
                                                 const std::string& what,
                                                 const FileLocation& where = {});
-/// "ox,oy,oz,dx,dy,dz[,t_min,t_max]". Throws Error (Usage), also for a ray that cannot be traced.
+/// "ox,oy,oz,dx,dy,dz[,t_min,t_max]". Throws Error (Usage), also for an invalid ray.
 [[nodiscard]] Ray parse_ray(const std::string& text, const FileLocation& where = {});
 /// "x,y,z". Throws Error (Usage).
 [[nodiscard]] Vec3 parse_point(const std::string& text, const FileLocation& where = {});
 
-/// Lines of a text file, without empty ones and what follows '#'; as many at a time as are asked
-/// for.
+/// Reads the lines of a text file in batches, without empty lines and comments after '#'.
 class LineReader {
   public:
     struct Line {

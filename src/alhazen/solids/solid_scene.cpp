@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-/// Names of more solids are not looked through: numbers find them.
+/// Scenes with more solids are not searched by name; numbers find them.
 constexpr std::uint64_t kMostNamed = 2'000'000;
 constexpr std::uint64_t kMostListed = 30;
 
@@ -31,7 +31,7 @@ std::string own_name(const SceneDescription& description, const Part& part) {
                       std::get<AnyShape>(part.what));
 }
 
-/// Whether `word` is the name, or as much of its end or beginning as stands between slashes.
+/// Whether `word` is the name, or a beginning or end of it delimited by slashes.
 bool means(const std::string& word, const std::string& name) {
     if (word == name) return true;
     if (word.empty() || word.size() >= name.size()) return false;
@@ -85,7 +85,7 @@ void SolidScene::name_parts(const SceneDescription& description) {
         }
     }
     part_names_.resize(parts);
-    // An object that is placed once is multiplied out: the names of its parts begin with its own.
+    // An object that is placed once is flattened: the names of its parts begin with its own.
     struct Waiting {
         std::size_t object;
         std::string prefix;

@@ -1,9 +1,9 @@
 #pragma once
-/// The solids of a loaded scene by the names that the file gave them.
+/// The solids of a loaded scene by the names of the file.
 ///
-/// Conventions: a solid is called by the names of the parts that lead to it, joined by '/', the
-/// outermost first; a part without a name by what it is. Names need not be unique, numbers are.
-/// Complexity and threads: as SolidQueries; names are made when they are asked for.
+/// Conventions: a solid's name joins the names of the parts that lead to it with '/', outermost
+/// first; a part without a name is called by its type. Names need not be unique; numbers are.
+/// Complexity and threads: as SolidQueries; names are made on request.
 
 #include <optional>
 #include <span>
@@ -25,12 +25,12 @@ class SolidScene {
     [[nodiscard]] std::string name(SolidId solid) const;
     [[nodiscard]] const std::string& material_name(MaterialId material) const;
 
-    /// The solids that the words mean, in ascending order: a number, a whole name, the end or the
-    /// beginning of a name up to a '/'. No words: all solids. Throws Error (Usage) that lists names
-    /// where a word means none.
+    /// The solids that the words select, in ascending order. A word is a number, a whole name, or
+    /// the end or beginning of a name up to a '/'. No words: all solids. Throws Error (Usage) with
+    /// a list of names if a word selects none.
     [[nodiscard]] std::vector<SolidId> select(std::span<const std::string> words) const;
 
-    /// The density of the solid's material; of a CSG object that of its leaves, where it is one.
+    /// The density of the solid's material; for a CSG object that of its leaves, if they share one.
     [[nodiscard]] std::optional<double> density(SolidId solid) const;
 
   private:

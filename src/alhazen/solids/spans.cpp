@@ -23,7 +23,7 @@ void sort_by_solid(std::vector<SpanList::Crossing>& crossings) {
     });
 }
 
-/// Finds all crossings of the whole line with solids, by solid.
+/// Finds all crossings of the whole line with solids, sorted by solid.
 void cross_line(const SolidList& solids, const Ray& ray, SpanList& list) {
     Ray line = ray;
     line.t_min = -kInfinity;
@@ -45,7 +45,8 @@ bool has(const std::vector<SolidId>& sorted, SolidId solid) {
     return std::binary_search(sorted.begin(), sorted.end(), solid);
 }
 
-/// Whether the line ends (t = +inf) inside the solid: where its reverse begins. Asked rarely.
+/// Whether the line ends (t = +inf) inside the solid: tests the beginning of the reversed line.
+/// Rare.
 bool ends_inside(const SolidList& solids, const Ray& ray, SolidId solid, SpanList& list) {
     if (!list.end_is_known) {
         list.inside_at_end.clear();
@@ -57,7 +58,7 @@ bool ends_inside(const SolidList& solids, const Ray& ray, SolidId solid, SpanLis
     return has(list.inside_at_end, solid);
 }
 
-/// Makes spans of the crossings of one solid.
+/// Makes spans from the crossings of one solid.
 class Pairer {
   public:
     Pairer(const SolidList& solids, const Ray& ray, SpanList& list)
@@ -88,8 +89,8 @@ class Pairer {
     }
 
   private:
-    /// Adds the span from entry_ to `exit`. In and out again at one point, or out and in, only
-    /// touches the surface.
+    /// Adds the span from entry_ to `exit`. An entry and an exit at one point only touch the
+    /// surface.
     void close(SolidId solid, const SpanEnd& exit) {
         if (is_one_point(entry_, exit)) return;
         if (list_.spans.size() > first_ && is_one_point(list_.spans.back().exit, entry_)) {
@@ -99,12 +100,12 @@ class Pairer {
         }
     }
 
-    /// Whether two crossings, a before b, are the same but for what rounding made of them.
+    /// Whether two crossings, a before b, coincide within rounding.
     [[nodiscard]] bool is_one_point(const SpanEnd& a, const SpanEnd& b) const {
         if (a.t == b.t) return true;
         const double gap = b.t - a.t;
         const double reach = std::max(std::abs(a.t), std::abs(b.t));
-        // Far more than any bound of an error: nearly all pairs are done here.
+        // Far above any error bound: decides nearly all pairs.
         const double far = 1e-9 * (reach + length(ray_.origin) / length(ray_.direction));
         if (!(gap <= far) || !a.is_crossing || !b.is_crossing) return false;
         const Vec3 room = surface_at(solids_.aggregate(), ray_, a.hit).error +
@@ -112,7 +113,7 @@ class Pairer {
         return gap * length(ray_.direction) <= length(room);
     }
 
-    /// Cuts the spans of the solid to where the ray is.
+    /// Clips the spans of the solid to the limits of the ray.
     void clip() {
         std::size_t kept = first_;
         for (std::size_t i = first_; i < list_.spans.size(); ++i) {
@@ -131,8 +132,8 @@ class Pairer {
     std::size_t first_ = 0;
 };
 
-/// Directions of the lines through a point: near the diagonals of a cube, so that an octant or a
-/// quadrant along the axes is entered by one of them, and then anywhere.
+/// Directions of the lines through a point: near the diagonals of a cube, so that one of them
+/// enters any octant or quadrant along the axes.
 constexpr std::array<Vec3, 12> kLines{{{1.0, 0.91374, 1.10353},
                                        {-1.0, 1.08827, 0.92173},
                                        {1.0, -1.13131, 0.94721},
@@ -147,10 +148,10 @@ constexpr std::array<Vec3, 12> kLines{{{1.0, 0.91374, 1.10353},
                                        {1.0, -0.29028, -0.92387}}};
 constexpr int kUsualLines = 4;
 
-/// What the lines through a point say about one solid.
+/// Votes of the lines through a point about one solid.
 struct Votes {
     int inside = 0;
-    int undecided = 0;  ///< lines on which its crossings do not come in pairs
+    int undecided = 0;  ///< lines whose crossings do not come in pairs
     bool on_surface = false;
 };
 
@@ -213,8 +214,8 @@ class PointLocator {
 
     [[nodiscard]] bool is_at_point(const Ray& ray, const Hit& hit) const {
         const Surface surface = surface_at(solids_.aggregate(), ray, hit);
-        // The line meets the surface up to twice as far away as the surface is, and in its own
-        // direction: the bounds of the three components count together.
+        // The line intersects the surface up to twice as far away as the surface is, and along its
+        // own direction: the bounds of the three components add up.
         const Vec3 room = surface.error + 0x1p-52 * abs(point_);
         return length_squared(surface.point - point_) <= 4.0 * length_squared(room);
     }
@@ -243,7 +244,7 @@ void SolidQueries::spans(const Ray& ray, SpanList& list) const {
     }
     cross_line(solids_, ray, list);
     Pairer pairer(solids_, ray, list);
-    // Solids that the line never leaves have no crossing.
+    // Solids that contain the whole line have no crossing.
     std::size_t begin = 0;
     std::size_t start = 0;
     const auto& crossings = list.crossings;
@@ -282,7 +283,7 @@ SpanSurface SolidQueries::surface(const Ray& ray, const SpanEnd& end, double sid
     hit.t = std::ldexp(hit.t, exponent);
     const Surface surface = surface_at(solids_.aggregate(), usual, hit);
     found.point = surface.point;
-    // A mesh may be wound inside out; the order of crossings knows better.
+    // A mesh may be wound inside out; the order of crossings is reliable.
     const bool as_wound = side * dot(surface.normal, usual.direction) >= 0.0;
     found.normal = as_wound ? surface.normal : -surface.normal;
     found.error = surface.error;

@@ -1,13 +1,14 @@
 #pragma once
-/// Which parts of a ray lie inside which solids of a scene, and which solids hold a point.
+/// Spans of a ray inside the solids of a scene, and the solids that contain a point.
 ///
-/// Source: Roth, "Ray Casting for Modeling Solids", CGIP 18, 1982 (spans). Differs: of a whole
-/// scene, solid by solid; solids may overlap.
+/// Source: Roth, "Ray Casting for Modeling Solids", CGIP 18, 1982 (spans).
+/// Differs: covers a whole scene, solid by solid; solids may overlap.
 /// Conventions: every crossing of the whole line is found, from t = -inf to +inf, and taken in
 /// pairs: a crossing enters or leaves by its place in that order, never by a normal. A tangent (two
-/// crossings nearer to each other than the bounds of their errors) neither begins nor ends a span.
-/// What lies on the surface of a solid belongs to it. Complexity and threads: a span query is one
-/// query of all hits, and a sort of them. Const functions may be called from many threads at once.
+/// crossings closer than their error bounds) neither begins nor ends a span. The surface of a solid
+/// belongs to it.
+/// Complexity and threads: a span query is one all-hits query and a sort. Const functions may be
+/// called from many threads at once.
 
 #include <cstdint>
 #include <memory>
@@ -22,7 +23,7 @@ namespace alhazen {
 /// Where a span begins or ends.
 struct SpanEnd {
     double t = 0;
-    /// False: the ray begins or ends there, inside the solid; `hit` then means nothing.
+    /// False: the ray begins or ends there, inside the solid; `hit` is then undefined.
     bool is_crossing = false;
     Hit hit;
 };
@@ -36,12 +37,12 @@ struct SolidSpan {
 /// The surface at the end of a span.
 struct SpanSurface {
     Vec3 point;
-    Vec3 normal;  ///< unit, out of the solid; zero where the ray begins or ends
+    Vec3 normal;  ///< unit, outward; zero where the ray begins or ends
     Vec3 error;   ///< bound of the point's error; zero where the ray begins or ends
     MaterialId material{0};
 };
 
-/// The spans of one ray by where they begin, and room to find them in.
+/// The spans of one ray in order of entry, and scratch memory.
 struct SpanList {
     std::vector<SolidSpan> spans;
     /// Solids whose crossings do not come in pairs on the line: their spans are left out.
@@ -61,8 +62,8 @@ struct SpanList {
 /// The spans of a batch, ray after ray.
 struct SpanLists {
     std::vector<SolidSpan> spans;
-    std::vector<std::size_t> ends;   ///< [ray] where its spans end
-    std::uint64_t inconsistent = 0;  ///< pairs of a ray and a solid that had to be left out
+    std::vector<std::size_t> ends;   ///< [ray] end of its spans
+    std::uint64_t inconsistent = 0;  ///< pairs of a ray and a solid that were left out
 
     [[nodiscard]] std::span<const SolidSpan> of(std::size_t ray) const {
         const std::size_t begin = ray == 0 ? 0 : ends[ray - 1];
@@ -70,22 +71,22 @@ struct SpanLists {
     }
 };
 
-/// A solid that holds a point.
+/// A solid that contains a point.
 struct Containment {
     SolidId solid{};
-    /// The point lies on the solid's surface, as nearly as its error bound tells.
+    /// The point lies on the solid's surface, within its error bound.
     bool on_surface = false;
     friend bool operator==(const Containment&, const Containment&) = default;
 };
 
-/// How much of a ray is inside, in scene units.
+/// Length of a ray inside solids, in scene units.
 struct Thickness {
     struct OfSolid {
         SolidId solid{};
         double length = 0;
     };
-    double inside_any = 0;          ///< what several solids share is counted once
-    std::vector<OfSolid> of_solid;  ///< by number; only those that the ray meets
+    double inside_any = 0;          ///< overlaps counted once
+    std::vector<OfSolid> of_solid;  ///< by number; only solids that the ray intersects
 };
 
 class SolidQueries {
@@ -94,25 +95,25 @@ class SolidQueries {
 
     [[nodiscard]] const SolidList& solids() const { return solids_; }
 
-    /// Replaces the list by the spans of the ray in [t_min, t_max]. A span that the ray begins or
-    /// ends in is cut there and says so. An invalid ray has none.
-    /// Directions may be of any length that double holds (geometry/ray_scale.h).
+    /// Replaces the list by the spans of the ray in [t_min, t_max]. A span that contains an end of
+    /// the ray is clipped there and marked. An invalid ray has none. Directions may have any length
+    /// that double holds (geometry/ray_scale.h).
     void spans(const Ray& ray, SpanList& list) const;
-    /// Point, normal and material at the ends of a span of this very ray. The normal is turned as
-    /// the span says: against the ray where it enters, along it where it leaves.
+    /// Point, normal and material at the ends of a span of this ray. The normal points against the
+    /// ray at the entry and along it at the exit.
     [[nodiscard]] SpanSurface entry_surface(const Ray& ray, const SolidSpan& span) const;
     [[nodiscard]] SpanSurface exit_surface(const Ray& ray, const SolidSpan& span) const;
-    /// Throws nothing; an invalid ray is of no thickness.
+    /// Does not throw; an invalid ray has zero thickness.
     [[nodiscard]] Thickness thickness(const Ray& ray, SpanList& scratch) const;
 
-    /// The solids that hold the point, by number. Four lines through it, near the diagonals of a
-    /// cube, count the crossings on either side; where they do not agree (a ray grazes, a mesh is
-    /// damaged) most of up to twelve lines decide. On a face, an edge or a corner of a box along
-    /// the axes, and on any smooth surface, `on_surface` is sure; on the sharp edge of another
-    /// solid the point may also be reported as outside. A point that is not finite is in none.
+    /// The solids that contain the point, by number. Four lines through it, near the diagonals of a
+    /// cube, count the crossings on either side. Where they disagree (a grazing ray, a damaged
+    /// mesh) the majority of up to twelve lines wins. On a face, edge or corner of an axis-parallel
+    /// box, and on any smooth surface, `on_surface` is certain; on a sharp edge of another solid
+    /// the point may also be reported as outside. A non-finite point is in no solid.
     [[nodiscard]] std::vector<Containment> inside(const Vec3& point) const;
 
-    // ---- the same for many, over all threads
+    // ---- batches, over all threads
     void spans(std::span<const Ray> rays, SpanLists& lists) const;
     [[nodiscard]] std::vector<std::vector<Containment>> inside(std::span<const Vec3> points) const;
     [[nodiscard]] std::vector<Thickness> thickness(std::span<const Ray> rays) const;

@@ -15,25 +15,25 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kCellsPerTask = 256;
-/// Of the cells that are cut these are the largest, whatever was seen in them: what is too small to
-/// be seen at once must not be overlooked for good.
+/// Share of cells that are cut for their size alone, whatever was seen in them: features too small
+/// to be seen at once must not be missed for good.
 constexpr double kCutForSize = 0.15;
-/// The same where hardly a line misses: what the corners may lack was not seen.
+/// The same where hardly a line misses: the survey did not see the empty corners.
 constexpr double kCutForSizeIfFull = 0.75;
-/// So many lines that miss the solid show in the scatter.
+/// This many misses show in the variance.
 constexpr std::uint64_t kEnoughMisses = 10;
-/// Lines of the survey of a cell: one in the middle, the others on a hexagon around it, whose
-/// radius is up to so many halves of the cell's side.
+/// Survey lines per cell: one in the middle, six on a hexagon around it; the hexagon's radius is up
+/// to this many halves of the cell's side.
 constexpr std::uint64_t kSurveyLines = 7;
 constexpr double kLeastSurveyRadius = 1.1, kMostSurveyRadius = 1.7;
-/// Growth of the number of cells between surveys; after the last one.
+/// Growth of the number of cells between surveys, and after the last one.
 constexpr double kSurveyGrowth = 1.5, kLastGrowth = 2;
-/// Of the variance in a cell along a rim, what is in each of its quarters (h^5).
+/// Share of the variance of a cell along a rim that each of its quarters has (h^5).
 constexpr float kRimShare = 1.0f / 32;
-/// Weight of that guess where the quarter itself was surveyed: what seven lines did not see may
-/// still be there.
+/// Weight of that guess where the quarter itself was surveyed: seven lines may have missed a
+/// feature.
 constexpr float kWeightOfGuess = 0.1f;
-/// Ends of spans are right to a few roundings of the numbers they are computed from.
+/// Ends of spans are exact within a few roundings of the numbers they are computed from.
 constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 
 double now() {
@@ -41,7 +41,7 @@ double now() {
         .count();
 }
 
-/// Adds the span a < t < b of the line o + t d, |d| = 1, which counts `weight` times.
+/// Adds the span a < t < b of the line o + t d, |d| = 1, with a weight.
 void add_span(const Vec3& o, const Vec3& d, double a, double b, double weight, Moments& m) {
     const double l0 = weight * (b - a);
     const double l1 = l0 * (0.5 * (a + b));
@@ -121,7 +121,7 @@ std::uint64_t StratifiedChords::grow_to(std::uint64_t lines) {
     return lines_of_round() + surveyed_ - before;
 }
 
-/// Some fourth of so many cells.
+/// Makes about a fourth of this many cells.
 void StratifiedChords::make_grid(std::size_t cells) {
     std::size_t side = 1;
     while (16 * side * side <= cells) side *= 2;
@@ -146,7 +146,7 @@ std::array<StratifiedChords::Cell, 4> StratifiedChords::Cell::quarters() const {
     return all;
 }
 
-/// Cuts the cells with the largest scatter, and some of the largest, into four each.
+/// Cuts the cells of largest variance, and some of the largest, into four each.
 void StratifiedChords::cut(std::size_t cells) {
     const std::size_t wanted = std::min(cells_.size(), (cells - cells_.size() + 2) / 3);
     std::vector<std::uint32_t> order(cells_.size());
@@ -179,8 +179,7 @@ void StratifiedChords::cut(std::size_t cells) {
     cells_ = std::move(finer);
 }
 
-/// The sums that f(cell, its number, scratch, sums) adds to, in an order that does not depend on
-/// the number of threads.
+/// Sums of f(cell, its number, scratch, sums), in an order independent of the number of threads.
 template <class F>
 StratifiedChords::Sums StratifiedChords::over_cells(F&& f) {
     const std::size_t tasks = (cells_.size() + kCellsPerTask - 1) / kCellsPerTask;
@@ -201,7 +200,7 @@ StratifiedChords::Sums StratifiedChords::over_cells(F&& f) {
     return sums;
 }
 
-/// Looks at the cells that were not looked at yet.
+/// Surveys the cells not surveyed yet.
 void StratifiedChords::survey() {
     const Sums sums =
         over_cells([&](Cell& cell, std::uint64_t number, LineSpans& found, Sums& part) {
@@ -212,8 +211,8 @@ void StratifiedChords::survey() {
     surveyed_ += sums.lines;
 }
 
-/// The curvature, from a hexagon around the middle. How much it differs from that of the cell which
-/// this one was cut from says how far from a parabola the function is, in both.
+/// The curvature, from a hexagon around the middle. Its difference from the curvature of the parent
+/// cell measures how far the function is from a parabola, in both.
 void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& found,
                                    Sums& sums) const {
     const double half = 0.5 * cell.size, mx = cell.x + half, my = cell.y + half;
@@ -260,7 +259,7 @@ void StratifiedChords::survey_cell(Cell& cell, std::uint64_t bits, LineSpans& fo
     const double area = cell.area();
     const auto seen = static_cast<float>((off + odd * odd) * area * area / 80);
     const float guess = cell.quarter ? seen + kWeightOfGuess * (cell.scatter - seen) : seen;
-    // Cells are put in order by it, which a NaN would break.
+    // Cells are sorted by this value; a NaN would break the order.
     cell.scatter = std::isfinite(guess) ? guess : 0;
     cell.surveyed = true;
 }
@@ -275,7 +274,7 @@ void StratifiedChords::cast() {
 void StratifiedChords::cast_in(Cell& cell, std::uint64_t number, LineSpans& found,
                                Sums& sums) const {
     std::uint64_t bits = mix64(key_ ^ mix64(rounds_ << 40 | number));
-    // Any but that of the constant row.
+    // Any row but the constant one.
     const std::size_t row = 1 + bits % (kReplicates - 1);
     Moments pairs[2];
     for (Moments& pair : pairs) {
@@ -288,7 +287,7 @@ void StratifiedChords::cast_in(Cell& cell, std::uint64_t number, LineSpans& foun
     sums.differences[row] += pairs[1] * -1.0;
 }
 
-/// Two lines opposite of each other about the middle of the cell.
+/// Two lines opposite each other about the middle of the cell.
 void StratifiedChords::cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found,
                                  Moments& pair, Sums& sums) const {
     const double weight = cell.area() / kLinesPerCell;
@@ -303,7 +302,7 @@ void StratifiedChords::cast_pair(const Cell& cell, std::uint64_t bits, LineSpans
         }
         pair.cosines += weight * found.cosines;
     }
-    // The model less its mean over the cell, for both lines.
+    // The model minus its mean over the cell, for both lines.
     const Curvature& c = cell.curvature;
     const double model = c[0] * (u * u - 1.0 / 3) + 2 * c[1] * u * v + c[2] * (v * v - 1.0 / 3);
     pair.measured = (measured_ == Measured::Area ? pair.cosines : pair.volume) -
@@ -365,7 +364,8 @@ Estimate with_rounding(Estimate estimate, double magnitude) {
 }
 
 Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines) {
-    // Of an event that never came in n trials the share is below 3/n in 95 of 100 cases.
+    // Rule of three: the share of an event that never came in n trials is below 3/n in 95 of 100
+    // cases.
     constexpr double kRuleOfThree = 3.0;
     const bool all_alike = volume.half_width <= kRounding * std::abs(volume.value);
     if (misses >= kEnoughMisses || all_alike) return volume;
@@ -375,7 +375,7 @@ Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines) {
 
 Estimate half_sample_estimate(const Replicates& replicates) {
     Estimate e = mean_of(replicates);
-    // Of independent ones the mean would scatter less, by the root of their number.
+    // The mean of independent ones would scatter less, by the root of their number.
     e.half_width *= std::sqrt(double{kReplicates - 1});
     return e;
 }

@@ -1,7 +1,7 @@
 #pragma once
-/// Parallel lines through a solid over a net of cells, and what they sum to.
+/// Sums over parallel lines through a solid, stratified over a net of cells.
 ///
-/// Source, Differs, Conventions: see solid_measures.h, of which this is the inside.
+/// Source, Differs, Conventions: see solid_measures.h, whose implementation this is.
 
 #include <array>
 #include <vector>
@@ -12,9 +12,9 @@
 
 namespace alhazen {
 
-/// Half samples of every estimate; a power of two.
+/// Number of half samples of every estimate; a power of two.
 inline constexpr std::size_t kReplicates = 16;
-/// An estimate by each of the half samples, or by independent sets of lines.
+/// An estimate per half sample, or per independent set of lines.
 using Replicates = std::array<double, kReplicates>;
 
 /// Sums over spans of moments up to the second.
@@ -23,52 +23,53 @@ struct Moments {
     Vec3 first;
     std::array<double, 6> second{};  ///< xx, yy, zz, xy, yz, zx
     double cosines = 0;
-    double measured = 0;  ///< volume or cosines, less the model of them: as precise as can be
+    double measured = 0;  ///< volume or cosines minus their model, for precision
 
     Moments& operator+=(const Moments& other);
     [[nodiscard]] Moments operator*(double factor) const;
 };
 
-/// A right-handed frame: lines run along `d`, and stand on the plane of the other two.
+/// A right-handed frame: lines run along `d`, perpendicular to the plane of the other two.
 struct BundleFrame {
     Vec3 d, right, up;
 };
 
-/// The lines of one direction. Where they stand is cut into cells, finer where what they measure
-/// varies; in every cell there are two pairs of lines, each pair opposite of each other about the
+/// The lines of one direction. Their base plane is cut into cells, finer where the measured
+/// quantity varies. Every cell has two pairs of lines, each pair opposite each other about the
 /// middle. A half sample takes one pair of each cell, twice.
 ///
-/// Which cells are cut is told by a survey: lines that are no part of the estimate, seven for a
-/// cell, and beyond it on all sides, so that a rim which only touches a corner is seen. They also
-/// give the curvature of what is measured, a model of it that is taken away from the lines of the
+/// A survey chooses the cells to cut: seven lines per cell that are not part of the estimate. They
+/// reach beyond the cell on all sides, so that a rim that only touches a corner is seen. They also
+/// give the curvature of the measured quantity: a model that is subtracted from the lines of the
+/// cell and added as its integral.
 /// cell and added as its integral.
 class StratifiedChords {
   public:
     enum class Measured { Volume, Area };
 
-    /// `center`: moments are about it.
+    /// `center`: reference point of the moments.
     StratifiedChords(const Measurable& solid, const BundleFrame& frame, const Vec3& center,
                      std::uint64_t key, Measured measured = Measured::Volume);
 
     [[nodiscard]] const Vec3& direction() const { return frame_.d; }
-    /// That the estimates are made of.
+    /// Number of lines in the estimates.
     [[nodiscard]] std::uint64_t lines() const { return casts_ * kLinesPerCell * cells_.size(); }
-    /// As many as there would be if they lay everywhere as where they are sparsest.
+    /// Number of lines if their density were everywhere that of the sparsest cells.
     [[nodiscard]] double sparsest() const;
-    /// Cuts the cells until there are about so many lines, and casts all lines anew. Where there
-    /// are as many cells already, casts other lines and keeps the earlier ones. Returns the number
-    /// of lines cast, those of surveys included: about kCostOfLine for each.
+    /// Cuts the cells until there are about `lines` lines, and casts all lines anew. Where there
+    /// are as many cells already, casts additional lines and keeps the earlier ones. Returns the
+    /// number of lines cast, surveys included: about kCostOfLine for each.
     std::uint64_t grow_to(std::uint64_t lines);
     static constexpr double kCostOfLine = 2.25;
 
-    /// By a half sample. Cosines sum to this direction's share of the area; they are those of a
-    /// bundle that measures the area only.
+    /// Moments of a half sample. Cosines sum to this direction's share of the area, for bundles
+    /// that measure the area only.
     [[nodiscard]] Moments moments(std::size_t replicate) const;
     [[nodiscard]] Replicates volumes() const;
     [[nodiscard]] Replicates areas() const;
-    /// Lines whose crossings did not come in pairs, of all that were ever cast.
+    /// Lines ever cast whose crossings did not come in pairs.
     [[nodiscard]] std::uint64_t inconsistent() const { return inconsistent_; }
-    /// Of one round.
+    /// Number of lines in one round.
     [[nodiscard]] std::uint64_t lines_of_round() const { return kLinesPerCell * cells_.size(); }
     /// Lines that missed the solid.
     [[nodiscard]] std::uint64_t misses() const { return sums_.misses; }
@@ -76,14 +77,14 @@ class StratifiedChords {
   private:
     /// Second derivatives, xx, xy, yy, where half a cell's side is 1.
     using Curvature = std::array<float, 3>;
-    /// A part of the unit square.
+    /// A square part of the unit square.
     struct Cell {
         double x, y;
         float size;
-        float scatter = 0;  ///< guess of the variance of the two pairs, in units of scale_
+        float scatter = 0;  ///< estimated variance of the two pairs, in units of scale_
         Curvature curvature{};
-        float trust = 0;  ///< share of the curvature that the model takes: 0 where it is no model
-        bool quarter = false;  ///< of a cell that was surveyed
+        float trust = 0;       ///< share of the curvature in the model; 0: no model
+        bool quarter = false;  ///< quarter of a surveyed cell
         bool surveyed = false;
 
         [[nodiscard]] double area() const { return double{size} * size; }
@@ -92,7 +93,7 @@ class StratifiedChords {
     static constexpr std::uint64_t kLinesPerCell = 4;
     struct Sums {
         Moments all;
-        /// First pair less the second one, of the cells of each row of the Hadamard matrix.
+        /// First pair minus second, for the cells of each row of the Hadamard matrix.
         std::array<Moments, kReplicates> differences;
         std::uint64_t inconsistent = 0, misses = 0, lines = 0;  ///< lines: of surveys
 
@@ -107,7 +108,7 @@ class StratifiedChords {
     void cast_in(Cell& cell, std::uint64_t number, LineSpans& found, Sums& sums) const;
     void cast_pair(const Cell& cell, std::uint64_t bits, LineSpans& found, Moments& pair,
                    Sums& sums) const;
-    /// Casts the line at a place of the unit square; returns where it stands.
+    /// Casts the line at a point of the unit square; returns its base point.
     Vec3 cast_line(double x, double y, LineSpans& found, Sums& sums) const;
     template <class F>
     Sums over_cells(F&& f);
@@ -118,25 +119,25 @@ class StratifiedChords {
     Vec3 center_;
     std::uint64_t key_;
     Measured measured_;
-    Interval right_, up_;  ///< of what the lines stand on, from the centre
-    double scale_;         ///< what is measured by a line is some share of it
+    Interval right_, up_;  ///< extent of the base rectangle, from the centre
+    double scale_;         ///< unit of the value of a line
     std::vector<Cell> cells_;
-    std::uint64_t rounds_ = 0, casts_ = 0;  ///< in all, and since the cells were cut
+    std::uint64_t rounds_ = 0, casts_ = 0;  ///< in total, and since the cells were cut
     std::uint64_t inconsistent_ = 0;
-    std::uint64_t missed_ = 0;    ///< lines that missed, of all
+    std::uint64_t missed_ = 0;    ///< lines that missed, in total
     std::uint64_t surveyed_ = 0;  ///< lines of surveys
     Sums sums_;
 };
 
-/// The work on numbers that grow until their interval is narrow or time is over.
+/// A time limit for work whose amount grows until the interval is narrow.
 class Deadline {
   public:
     Deadline(double seconds, const StopFlag* stop);
-    /// Whether `lines` more fit in, to judge from the `lines_done` so far.
+    /// Whether `lines` more fit in, estimated from the `lines_done` so far.
     [[nodiscard]] bool allows(double lines, double lines_done) const {
         return lines <= room(lines_done);
     }
-    /// How many more fit in.
+    /// Estimated number of further lines that fit in.
     [[nodiscard]] double room(double lines_done) const;
 
   private:
@@ -145,16 +146,15 @@ class Deadline {
     double begin_;
 };
 
-/// Widens an interval by what rounding does to the spans, relative to the numbers involved.
+/// Widens an interval by the rounding of the spans, relative to the magnitude of the numbers.
 [[nodiscard]] Estimate with_rounding(Estimate estimate, double magnitude);
 
-/// Widens the interval of a volume where the solid fills its shadow's rectangle so well that hardly
-/// one of the lines missed it, yet not all lines are alike: what the corners lack is too rare to
-/// show in the scatter, and only bounded by how often it was not seen. `lines`: as many as
-/// StratifiedChords has where they are sparsest.
+/// Widens the interval of a volume where the solid fills the rectangle of its shadow so well that
+/// hardly a line missed it, yet lines differ: empty corners are too rare to show in the variance,
+/// and bounded only by the number of misses. `lines`: see StratifiedChords::sparsest.
 [[nodiscard]] Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines);
 
-/// The estimate whose half samples these are, with its interval.
+/// The estimate of these half samples, with its interval.
 [[nodiscard]] Estimate half_sample_estimate(const Replicates& half_samples);
 
 }  // namespace alhazen

@@ -115,16 +115,18 @@ void Tracer::append_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask) c
     });
 }
 
-void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, RayMask mask) const {
+void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, RayMask mask,
+                       Coherence coherence) const {
     check_lengths(rays.size(), hits.size());
     const UsualRays usual(rays);
-    aggregate_->closest_batch(usual.rays(), hits, {nullptr, mask});
+    aggregate_->closest_batch(usual.rays(), hits, {nullptr, mask}, coherence);
     usual.restore(hits);
 }
 
-void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded, RayMask mask) const {
+void Tracer::occluded(std::span<const Ray> rays, std::span<bool> occluded, RayMask mask,
+                      Coherence coherence) const {
     check_lengths(rays.size(), occluded.size());
-    aggregate_->occluded_batch(UsualRays(rays).rays(), occluded, {nullptr, mask});
+    aggregate_->occluded_batch(UsualRays(rays).rays(), occluded, {nullptr, mask}, coherence);
 }
 
 void Tracer::all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask) const {

@@ -1,15 +1,17 @@
 #pragma once
 /// All crossings of a line with a blob, in numbers of any type.
 ///
-/// Source: the definition in shapes/blobs/blob.h. Differs: between the places where components
-/// begin and end the density is summed in powers of t about the middle, and its roots lie between
+/// Source: the definition in shapes/blobs/blob.h.
+/// Differs: between the boundaries of components the density is summed in powers of t about the
+/// middle, and its roots are isolated by those of its derivatives (exact_polynomials.h); no tree,
+/// no Bernstein forms, no error bounds.
 /// those of its derivatives (exact_polynomials.h); no tree, no Bernstein forms, no error bounds.
 
 #include "alhazen/verification/exact_polynomials.h"
 
 namespace alhazen {
 
-/// Where a component is felt along a line: strength q^2, q = q[0] + q[1] t + q[2] t^2.
+/// The support of a component along a line: strength q^2, q = q[0] + q[1] t + q[2] t^2.
 template <class R>
 struct BlobPiece {
     R in, out;
@@ -97,7 +99,7 @@ CrossingsOf<R> exact_crossings(const Blob& blob, const LineOf<R>& line) {
                                     q[1] + 2 * middle * q[2], q[2]};
             sum_of = sum(sum_of, product(moved, moved), R(-piece.strength));
         }
-        // Negative is inside. Two spans may round what they share to two signs.
+        // Negative is inside. The value at a common end of two spans may round to different signs.
         if ((value_at(sum_of, R(-half)) < 0) != inside) cross(from);
         for (const R& t : sign_changes(sum_of, R(-half), half)) cross(middle + t);
     }

@@ -11,19 +11,18 @@ namespace alhazen {
 
 namespace {
 
-/// The image of a box, not widened for what rounds.
+/// The image of a box, not widened for rounding.
 Box3 placed(const Affine& outer_from_inner, const Box3& box) {
     Box3 image;
     for (int i = 0; i < 8; ++i) image.include(outer_from_inner.point(box.corner(i)));
     return image;
 }
 
-/// Boxes of shapes are a few roundings wider than they, as rays are: to 13 digits of the largest
-/// coordinate they are as they were written.
+/// Removes the margin of a few roundings by rounding to 13 digits of the largest coordinate.
 Box3 without_margin(Box3 box) {
     const double reach = std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
     const double digits = 13.0 - std::ceil(std::log10(reach));
-    constexpr double kExactPowers = 22.0;  // of ten, as doubles
+    constexpr double kExactPowers = 22.0;  // powers of ten that double represents exactly
     if (!(digits >= 0.0 && digits <= kExactPowers)) return box;
     const double scale = std::pow(10.0, digits);
     for (int i = 0; i < 3; ++i) {
@@ -35,12 +34,12 @@ Box3 without_margin(Box3 box) {
 
 class ExactBounds {
   public:
-    /// Nesting is bounded by validation, so recursion is safe here.
+    /// Validation bounds the nesting: recursion is safe here.
     const Box3& of(const Aggregate& aggregate) {
         const auto known = boxes_.find(&aggregate);
         if (known != boxes_.end()) return known->second;
         Box3 sum;
-        // What a solid leaves of its operands has no box of its own that is exact.
+        // The result of a CSG operation has no exact box of its own.
         if (dynamic_cast<const SolidAggregate*>(&aggregate) != nullptr) {
             const Box3 box = aggregate.box();
             if (!box.empty() && box.bounded()) sum = without_margin(box);

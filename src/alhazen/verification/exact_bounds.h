@@ -1,16 +1,16 @@
 #pragma once
-/// The box of a scene as it was given: without the margins that the boxes of accelerators have.
+/// The box of a scene as given, without the margins of accelerators' boxes.
 ///
-/// Conventions: endless shapes are left out, others are given to 13 digits. Corners of meshes are
-/// as they were placed; what an instance holds is looked at corner by corner while that takes
-/// little time, then by its box.
+/// Conventions: unbounded shapes are left out; boxes of others are exact to 13 digits. Corners of
+/// meshes are exact as placed. The contents of an instance are transformed corner by corner up to a
+/// limit, then by their box.
 
 #include "alhazen/geometry/box.h"
 #include "alhazen/primitives/aggregate.h"
 
 namespace alhazen {
 
-/// O(vertices), and at most as many of instances as kMaxPlacedCorners.
+/// O(vertices), and for instances at most kMaxPlacedCorners.
 [[nodiscard]] Box3 exact_bounds(const Aggregate& aggregate);
 
 inline constexpr std::size_t kMaxPlacedCorners = 20'000'000;

@@ -18,13 +18,13 @@ void with_shape(const PrimitiveTable& table, PrimitiveId id, F&& f) {
     std::apply([&](const auto&... column) { (visit(column), ...); }, table.columns);
 }
 
-/// The value of an expression where some leaves are true.
+/// The value of a CSG expression for given values of its leaves.
 class Expression {
   public:
     Expression(const CsgExpression& expression, const std::vector<bool>& leaves)
         : expression_(expression), leaves_(leaves) {}
 
-    /// Nesting is bounded by validation, so recursion is safe here.
+    /// Validation bounds the nesting: recursion is safe here.
     [[nodiscard]] bool node(std::uint32_t index) const {
         const CsgExpression::Node& n = expression_.nodes[index];
         const auto& operands = n.operands;
@@ -101,7 +101,7 @@ ExactCrossings exact_crossings(const CsgSolid& solid, const ExactLine& line, Rea
     bool now = found.begins_inside = expression.node(0);
     for (std::size_t i = 0; i < changes.size(); ++i) {
         inside[changes[i].leaf] = !inside[changes[i].leaf];
-        // Crossings in a row that are closer than that are one.
+        // Consecutive crossings closer than `least` are merged.
         if (i + 1 < changes.size() && !(changes[i + 1].t - changes[i].t > least)) continue;
         if (expression.node(0) == now) continue;
         now = !now;

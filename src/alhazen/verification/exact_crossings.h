@@ -1,11 +1,13 @@
 #pragma once
-/// All crossings of a line with a solid in 113 binary digits, from the definition of the shape and
-/// by other formulas than those that trace rays.
+/// All crossings of a line with a solid in 113 bits, from the definition of the shape, by formulas
+/// other than the ray tracer's.
 ///
-/// Source: the definitions in the headers of the shapes. Differs: written for any number type, and
-/// for plainness. To add a shape: an overload of `exact_crossings` below, or in one of the headers
-/// exact_*.h beside this one; one without is not checked. Conventions: ascending; each crossing
-/// changes between inside and outside. Infinite where an unbounded solid has no end.
+/// Source: the definitions in the headers of the shapes.
+/// Differs: written for any number type, and for simplicity. To add a shape, add an overload of
+/// `exact_crossings` below or in a header exact_*.h of this folder; a shape without one is not
+/// checked.
+/// Conventions: ascending; each crossing changes between inside and outside. Infinite where an
+/// unbounded solid has no end.
 
 #include <concepts>
 
@@ -45,8 +47,8 @@ CrossingsOf<R> exact_crossings(const BoxShape& box, const LineOf<R>& line) {
     return {false, {entry, exit}};
 }
 
-/// Points whose height along the axis is from 0 to 1 (base to top) and that are no farther from the
-/// axis than the radius, which changes evenly.
+/// Points whose height along the axis is from 0 to 1 (base to top) and whose distance from the axis
+/// is at most the radius, which is linear in the height.
 template <class R>
 CrossingsOf<R> exact_frustum(const Vec3& base, const Vec3& top, double base_radius,
                              double top_radius, const LineOf<R>& line) {
@@ -81,7 +83,7 @@ CrossingsOf<R> exact_frustum(const Vec3& base, const Vec3& top, double base_radi
         const R root = -c / (2 * b);
         return b > 0 ? clipped(ends.lo, root) : clipped(root, ends.hi);
     }
-    // Outside of the roots; the part beyond the apex lies outside of the ends.
+    // Outside the roots; the part beyond the apex lies outside the ends.
     const std::vector<R> roots = quadratic_roots<R>(a, b, c);
     if (roots.empty()) return clipped(ends.lo, ends.hi);
     const CrossingsOf<R> before = clipped(ends.lo, roots[0]);
@@ -105,7 +107,7 @@ CrossingsOf<R> exact_crossings(const HalfSpace& half, const LineOf<R>& line) {
     return {rate > 0, {dot(n, Vec3Of<R>(half.point) - line.origin) / rate}};
 }
 
-/// The faces as they were prepared: points and unit normals.
+/// The faces as prepared: points and unit normals.
 template <class R>
 CrossingsOf<R> exact_crossings(const Polyhedron& solid, const LineOf<R>& line) {
     bool has_entry = false, has_exit = false;
@@ -138,19 +140,19 @@ concept HasExactCrossings = requires(const S& shape, const ExactLine& line) {
 
 // ---- primitives of a table and solids made of them
 
-/// Whether there is a formula for a closed shape; none for meshes and instances.
+/// Whether a closed shape has a formula; false for meshes and instances.
 [[nodiscard]] bool has_exact_crossings(const PrimitiveTable& table, PrimitiveId id);
-/// Precondition: has_exact_crossings. The placement is taken as it is stored.
+/// Precondition: has_exact_crossings. Uses the stored placement.
 [[nodiscard]] ExactCrossings exact_crossings(const PrimitiveTable& table, PrimitiveId id,
                                              const ExactLine& line);
-/// Whether there are formulas for all leaves.
+/// Whether all leaves have formulas.
 [[nodiscard]] bool has_exact_crossings(const CsgSolid& solid);
-/// By the value of the expression between any two crossings of leaves; what is thinner than
-/// `least` (in t) is left out.
+/// Evaluates the expression between consecutive crossings of leaves; parts thinner than `least` (in
+/// t) are left out.
 [[nodiscard]] ExactCrossings exact_crossings(const CsgSolid& solid, const ExactLine& line,
                                              Real128 least);
 
-/// Leaves out spans and gaps that are not longer than `least`.
+/// Removes spans and gaps not longer than `least`.
 void drop_thin(ExactCrossings& crossings, Real128 least);
 
 }  // namespace alhazen

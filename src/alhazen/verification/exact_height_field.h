@@ -1,21 +1,21 @@
 #pragma once
 /// All crossings of a line with a height field, in numbers of any type.
 ///
-/// Source: the definition in shapes/meshes/height_field.h. Differs: no triangle is intersected;
-/// over the line the terrain is a polyline, whose corners are the line's crossings, seen from
-/// above, with the rows, the columns and the diagonals.
+/// Source: the definition in shapes/meshes/height_field.h.
+/// Differs: no triangle is intersected; over the line the terrain is a polyline with corners where
+/// the line, seen from above, crosses rows, columns and diagonals.
 
 #include "alhazen/verification/exact_polynomials.h"
 
 namespace alhazen {
 
-/// The terrain's height above a line at t, seen from the line.
+/// The terrain's height relative to the line at t.
 template <class R>
 class TerrainAbove {
   public:
     TerrainAbove(const HeightField& field, const LineOf<R>& line) : field_(field), line_(line) {}
 
-    /// The t of all corners between lo and hi, which they include, ascending.
+    /// The t of all corners in [lo, hi], both ends included, ascending.
     [[nodiscard]] std::vector<R> corners(const R& lo, const R& hi) const {
         std::vector<R> t{lo, hi};
         const auto add = [&](const R& at) {
@@ -37,7 +37,7 @@ class TerrainAbove {
         std::sort(t.begin(), t.end());
         return t;
     }
-    /// At t, by the triangle that lies under the line at `within`.
+    /// The height at t on the plane of the triangle under the line at `within`.
     [[nodiscard]] R at(const R& t, const R& within) const {
         return Cell(within, *this).height(t, within) - (line_.origin.z + t * line_.direction.z);
     }
@@ -63,7 +63,7 @@ class TerrainAbove {
             }
             return lo;
         }
-        /// Negative on the side of the corner of the highest column and the lowest row.
+        /// Negative on the side of the corner with the highest column and the lowest row.
         [[nodiscard]] R beside_diagonal(const R& t) const {
             const Vec3 a = of.field_.vertex(i, j), c = of.field_.vertex(i + 1, j + 1);
             return (R(c.x) - R(a.x)) * (of.y(t) - R(a.y)) - (R(c.y) - R(a.y)) * (of.x(t) - R(a.x));
@@ -93,7 +93,7 @@ CrossingsOf<R> exact_crossings(const HeightField& field, const LineOf<R>& line) 
     ClippedPart<R> part;
     part.cut(line.origin.x, line.direction.x, field.lo.x, field.hi.x);
     part.cut(line.origin.y, line.direction.y, field.lo.y, field.hi.y);
-    // Above all heights there is nothing.
+    // The solid lies below all of these heights.
     part.cut(line.origin.z, line.direction.z, field.base,
              field.bounds.hi.z + (field.bounds.hi.z - field.base));
     if (part.empty()) return {};

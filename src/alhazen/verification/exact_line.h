@@ -1,8 +1,8 @@
 #pragma once
-/// Lines, and where they are inside of something, in numbers of any type.
+/// Lines and their parts inside solids, in numbers of any type.
 ///
-/// Source: school geometry. Differs: nothing. Conventions: t counts in lengths of the direction;
-/// crossings ascend, and each changes between inside and outside.
+/// Conventions: t counts in lengths of the direction; crossings ascend, and each changes between
+/// inside and outside.
 
 #include <algorithm>
 #include <vector>
@@ -45,7 +45,7 @@ LineOf<R> transformed(const Affine& m, const LineOf<R>& line) {
     return {linear(line.origin) + Vec3Of<R>(m.translation), linear(line.direction)};
 }
 
-/// Where a line is inside of a solid: it begins there or not, and changes at each crossing.
+/// The inside of a solid along a line: whether the line begins inside, and the crossings.
 template <class R>
 struct CrossingsOf {
     bool begins_inside = false;
@@ -73,7 +73,7 @@ std::vector<R> quadratic_roots(const R& a, const R& b, const R& c) {
     return {t1, t0};
 }
 
-/// The part of a line between two numbers in one coordinate; a line along a face is outside.
+/// The part of a line between two values of one coordinate; a line along a face is outside.
 template <class R>
 struct SlabOf {
     bool empty = false, unlimited = false;

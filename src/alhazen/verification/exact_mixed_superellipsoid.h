@@ -1,14 +1,14 @@
 #pragma once
-/// All crossings of a line with a superellipsoid one of whose exponents is above 2 and the other
-/// below, in numbers of any type.
+/// All crossings of a line with a superellipsoid that has one exponent above 2 and one below, in
+/// numbers of any type.
 ///
 /// Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE CG&A 1(1), 1981; Horst
 /// and Thoai, "DC Programming: Overview", Journal of Optimization Theory and Applications 103, 1999
-/// (a function that is the difference of two convex ones is bounded by what is known of each).
+/// (bounds of a difference of two convex functions from bounds of each).
 /// Differs: on one side of all planes of symmetry the solid is where N = (|x|^p + |y|^p)^(1/p) is
 /// less than g = (1 - |z|^q)^(1/q). Along a line both are concave (p < 1 < q) or both convex, so
-/// their slopes at the ends of a part bound that of N - g in between; parts where that leaves room
-/// for a turn are halved.
+/// their slopes at the ends of a part bound the slope of N - g in between; parts that may contain
+/// an extremum are halved.
 
 #include <vector>
 
@@ -24,10 +24,10 @@ class MixedSuperellipsoid {
     struct Value {
         R t;
         R height;          ///< N - g: negative inside
-        R outward, upper;  ///< slopes of N and g; infinite or no number at a plane of symmetry
+        R outward, upper;  ///< slopes of N and g; infinite or NaN at a plane of symmetry
     };
 
-    /// `middle`: a place of the part, off the planes.
+    /// `middle`: a t inside the part, off the planes.
     MixedSuperellipsoid(const Superellipsoid& solid, const LineOf<R>& line, const R& middle)
         : p_(solid.p), q_(solid.q), line_(line) {
         for (int k = 0; k < 3; ++k) {
@@ -39,7 +39,7 @@ class MixedSuperellipsoid {
     [[nodiscard]] Value at(const R& t) const {
         const R x = size(0, t), y = size(1, t), z = size(2, t);
         const R &most = x > y ? x : y, &least = x > y ? y : x;
-        // Not by the sum of the powers, which may be too small for any number.
+        // The sum of the powers could underflow.
         const R share = most > 0 ? power_of(R(least / most), p_) : R(0);
         const R n = most * power_of(R(1 + share), 1 / p_);
         const R of_most = 1 / (1 + share), of_least = share / (1 + share);  // powers over n^p
@@ -59,14 +59,14 @@ class MixedSuperellipsoid {
     /// (a / b)^(exponent - 1) rate, where `power` is (a / b)^exponent.
     static R slope(const R& a, const R& b, const R& power, const R& exponent, const R& rate) {
         if (rate == 0) return 0;
-        if (!(b > 0)) return R(0) / R(0);  // not known, and so nothing follows from it
+        if (!(b > 0)) return R(0) / R(0);  // unknown: a NaN implies nothing
         if (a > 0) return power * (b / a) * rate;
         return exponent > 1 ? R(0) : rate / R(0);
     }
 
     R p_, q_;
     const LineOf<R>& line_;
-    R rate_[3];  ///< change of |x|, |y| and |z|
+    R rate_[3];  ///< rate of change of |x|, |y| and |z|
 };
 
 template <class R>
@@ -79,7 +79,7 @@ class MixedSearch {
 
     void search(const Value& a, const Value& b, int halvings) {
         const bool turns = (a.height < 0) != (b.height < 0);
-        // The slope of a concave function falls from the one end to the other.
+        // The slope of a concave function falls along the line.
         const Value &first = concave_ ? b : a, &last = concave_ ? a : b;
         const R least = first.outward - last.upper, most = last.outward - first.upper;
         const bool monotone = least >= 0 || most <= 0;
@@ -96,8 +96,9 @@ class MixedSearch {
     }
 
   private:
-    /// Whether such slopes do not lead from one side of 0 at both ends to the other. The lines with
-    /// the slopes `least` from a and `most` from b, or the other way round, meet farthest off.
+    /// Whether slopes in this range cannot lead from one side of 0 at both ends to the other. The
+    /// lines with slope `least` from a and `most` from b, or the reverse, meet at the extreme
+    /// value.
     static bool keeps_away(const Value& a, const Value& b, const R& least, const R& most) {
         const bool below = a.height < 0;
         const R &from_a = below ? most : least, &from_b = below ? least : most;
@@ -122,18 +123,18 @@ class MixedSearch {
     std::vector<R>& found_;
 };
 
-/// `ends`: of the part of the line that may be inside, and where it passes planes of symmetry in
-/// between; ascending.
+/// `ends`: of the part of the line that may be inside, and its crossings of planes of symmetry;
+/// ascending.
 template <class R>
 std::vector<R> mixed_crossings(const Superellipsoid& solid, const LineOf<R>& line,
                                const std::vector<R>& ends) {
-    constexpr int kMostHalvings = 105;  // about the digits of R
+    constexpr int kMostHalvings = 105;  // about the bits of R
     std::vector<R> found;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         if (!(ends[i] < ends[i + 1])) continue;
         const MixedSuperellipsoid<R> f(solid, line, (ends[i] + ends[i + 1]) / 2);
         auto from = f.at(ends[i]), to = f.at(ends[i + 1]);
-        // Beyond the clip the line is outside, and there it begins.
+        // Outside the clip the line is outside the solid, which begins there.
         if (i == 0 && from.height < 0) from.height = 0;
         if (i + 2 == ends.size() && to.height < 0) to.height = 0;
         MixedSearch<R>(f, solid.p < 1, found).search(from, to, kMostHalvings);

@@ -3,11 +3,12 @@
 /// truncated general cone and algebraic surfaces, in numbers of any type.
 ///
 /// Source: the definitions in the headers of the shapes; Yuksel, "A Fast and Robust Polynomial
-/// Solver in Computer Graphics", HPG 2022 (between the roots of the derivative a polynomial is
-/// monotone). Differs: f along the line is expanded in powers of t about the point nearest to the
-/// middle of the clip, and brackets are halved until they are as short as the numbers allow:
-/// neither Bernstein forms nor error bounds, so that nothing is shared with what is checked. The
-/// frame of a shape, as it is stored, is the shape.
+/// Solver in Computer Graphics", HPG 2022 (a polynomial is monotone between the roots of its
+/// derivative).
+/// Differs: f along the line is expanded in powers of t about the point nearest to the middle of
+/// the clip, and brackets are halved until they are as short as the numbers allow. Uses neither
+/// Bernstein forms nor error bounds: it shares nothing with the code under test. The stored frame
+/// of a shape defines the shape.
 
 #include <limits>
 #include <optional>
@@ -54,7 +55,7 @@ PowersOf<R> derivative(const PowersOf<R>& p) {
     return d;
 }
 
-/// Where `value(t)` changes its sign between lo and hi; it is negative at one of them, `slope(t)`
+/// The sign change of `value(t)` between lo and hi; it is negative at one of them, `slope(t)` is
 /// its derivative.
 template <class R, class Value, class Slope>
 R bracketed_zero(Value&& value, Slope&& slope, R lo, R hi, bool negative_at_lo) {
@@ -63,7 +64,7 @@ R bracketed_zero(Value&& value, Slope&& slope, R lo, R hi, bool negative_at_lo) 
         const R v = value(t);
         (negative_at_lo == (v < 0) ? lo : hi) = t;
         const R next = t - v / slope(t);
-        // Newton's step while it stays inside, and every fourth time a half.
+        // Newton's step while it stays inside the bracket, and bisection every fourth time.
         const R step = next > t ? next - t : t - next;
         if (next > lo && next < hi && i % 4 != 3) {
             if (step <= R(0x1p-100) * (t < 0 ? -t : t)) return next;
@@ -75,12 +76,12 @@ R bracketed_zero(Value&& value, Slope&& slope, R lo, R hi, bool negative_at_lo) 
     return t;
 }
 
-/// Where p, whose signs at lo and hi are given, changes its sign between them, ascending.
+/// Sign changes of p between lo and hi, where its signs are given, ascending.
 template <class R>
 std::vector<R> sign_changes(const PowersOf<R>& p, const R& lo, const R& hi, bool negative_at_lo,
                             bool negative_at_hi);
 
-/// Where p changes its sign in (lo, hi), ascending.
+/// Sign changes of p in (lo, hi), ascending.
 template <class R>
 std::vector<R> sign_changes(PowersOf<R> p, const R& lo, const R& hi) {
     while (!p.empty() && p.back() == 0) p.pop_back();
@@ -112,13 +113,13 @@ std::vector<R> sign_changes(const PowersOf<R>& p, const R& lo, const R& hi, bool
 
 // ---- clips
 
-/// The part of a line within a clip; everything where there is none.
+/// The part of a line within a clip; initially the whole line.
 template <class R>
 struct ClippedPart {
     R lo = -kInfinitelyFar<R>, hi = kInfinitelyFar<R>;
 
     [[nodiscard]] bool empty() const { return !(lo < hi); }
-    /// Where a + b t lies between least and most; along an end is outside.
+    /// Clips to where a + b t lies between least and most; a line along an end is outside.
     void cut(const R& a, const R& b, double least, double most) {
         if (b == 0) {
             if (!(R(least) < a && a < R(most))) hi = lo;
@@ -150,7 +151,7 @@ LineOf<R> in_frame(const SolidFrame& frame, const LineOf<R>& line) {
     return {local(line.origin - Vec3Of<R>(frame.origin)), local(line.direction)};
 }
 
-/// Where p < 0 within the part, p about t = `middle`. Precondition: the part is finite.
+/// The parts where p < 0, p about t = `middle`. Precondition: the part is finite.
 template <class R>
 CrossingsOf<R> where_negative(const PowersOf<R>& p, const R& middle, const ClippedPart<R>& part) {
     const R lo = part.lo - middle, hi = part.hi - middle;
@@ -174,7 +175,7 @@ struct CoordinatesOf {
     }
 };
 
-/// Where a polynomial `f(coordinates)` is negative in the box.
+/// The parts where a polynomial `f(coordinates)` is negative in the box.
 template <class R, class F>
 CrossingsOf<R> negative_in_box(const LineOf<R>& line, const Box3& box, F&& f) {
     ClippedPart<R> part;
@@ -204,7 +205,7 @@ CrossingsOf<R> exact_crossings(const ClippedQuadric& solid, const LineOf<R>& giv
     // a t^2 + 2 b t + c
     const R a = bilinear(d, d), b = bilinear(o, d) + dot(linear, d);
     const R c = bilinear(o, o) + 2 * dot(linear, o) + R(f.c);
-    // What is negative: between two numbers, or outside of them.
+    // The negative part lies between the roots, or outside them.
     std::vector<R> roots;
     bool negative = c < 0;
     if (a != 0) {
@@ -232,7 +233,7 @@ CrossingsOf<R> exact_crossings(const ClippedQuadric& solid, const LineOf<R>& giv
     return found;
 }
 
-/// The shapes that are nothing but a clipped quadric.
+/// Shapes that are a clipped quadric.
 template <class S>
 concept IsClippedQuadric = std::same_as<S, Ellipsoid> || std::same_as<S, EllipticCylinder> ||
     std::same_as<S, EllipticCone> || std::same_as<S, Paraboloid> || std::same_as<S, Hyperboloid> ||

@@ -1,9 +1,8 @@
 #pragma once
-/// Powers with exponents that are not whole, in numbers of any type.
+/// Powers with non-integer exponents, in numbers of any type.
 ///
 /// Source: Brent and Zimmermann, "Modern Computer Arithmetic", 2010, 4.2 and 4.4 (the series of the
 /// exponential after halving its argument; Newton's method for the logarithm, here of third order).
-/// Differs: nothing.
 
 #include <array>
 #include <cmath>
@@ -13,7 +12,7 @@
 
 namespace alhazen {
 
-/// e^x for |x| below 700, right to a few last digits of 113.
+/// e^x for |x| below 700, accurate to a few last bits of 113.
 template <class R>
 R exponential(const R& x) {
     constexpr int kTerms = 14;
@@ -34,7 +33,7 @@ R exponential(const R& x) {
 /// The natural logarithm of a number within the range of double.
 template <class R>
 R logarithm(const R& x) {
-    // Of double, and of what that leaves: r is some 1e-16.
+    // The logarithm in double, plus that of the remaining factor: r is about 1e-16.
     const R start = std::log(static_cast<double>(x));
     const R r = x * exponential(R(-start)) - 1;
     return start + r * (1 - r * (R(1) / 2 - r * (R(1) / 3)));

@@ -15,9 +15,10 @@ namespace alhazen {
 
 namespace {
 
-/// Crossings of many leaves are sums of many calls: CSG objects with more are left to `roth`.
+/// Evaluation calls every leaf for each line: CSG objects with more leaves are left to `roth`.
 constexpr std::uint32_t kMostLeaves = 4096;
-/// Solids without a formula that are named, and solids of the scene among which they are sought.
+/// Number of unchecked solids that are named, and of solids of the scene that are searched for
+/// them.
 constexpr std::size_t kMostNamed = 20;
 constexpr std::uint64_t kMostLookedThrough = 1'000'000;
 
@@ -50,7 +51,7 @@ std::string why_unchecked(const CsgSolid& solid) {
     return {};
 }
 
-/// Collects what an aggregate stores; instances inward.
+/// Collects the solids that an aggregate stores, instances included.
 class Collector {
   public:
     void add(const std::shared_ptr<const Aggregate>& aggregate) {
@@ -127,7 +128,7 @@ Real128 ExactSolid::nearest(const ExactLine& line, bool of_any_leaf) const {
         }
     };
     if (csg == nullptr || !of_any_leaf) {
-        // A thin sliver is as real as any.
+        // Thin slivers count too.
         take(crossings(line, 0));
         return nearest;
     }

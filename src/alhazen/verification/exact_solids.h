@@ -1,9 +1,9 @@
 #pragma once
-/// The solids of a scene that `verify_exact` checks: what is traced, what is true of it, and of
-/// those that it cannot check the names and the reasons.
+/// The solids of a scene that `verify_exact` checks, traced and exact; for unchecked solids their
+/// names and reasons.
 ///
 /// Conventions: each stored shape and CSG object once, in the frame of its aggregate; instances
-/// inward. Internal to this folder.
+/// included. Internal to this folder.
 
 #include <memory>
 #include <string>
@@ -17,30 +17,30 @@
 
 namespace alhazen {
 
-/// A solid by itself: what is traced, and what is true.
+/// A solid alone: the traced form and the exact crossings.
 struct ExactSolid {
     std::shared_ptr<const Aggregate> aggregate;
     const CsgSolid* csg = nullptr;
-    /// Why it is not checked; empty: it is.
+    /// Why it is not checked; empty if it is.
     std::string reason;
-    /// Where it is stored: the aggregate that holds the shape, or the CSG object itself.
+    /// The aggregate that stores the shape, or the CSG object itself.
     const Aggregate* stored_in = nullptr;
     PrimitiveId shape = kNoPrimitive;
-    /// Of this one: says where lines begin.
+    /// List of this solid alone: tells where lines begin.
     std::shared_ptr<const SolidList> solids;
 
     [[nodiscard]] bool begins_inside(const Ray& ray) const;
     [[nodiscard]] ExactCrossings crossings(const ExactLine& line, Real128 least) const;
-    /// The distance along the line from its origin to the nearest surface: of the solid, or of any
-    /// leaf, as walls between media are.
+    /// The distance along the line from its origin to the nearest surface of the solid, or of any
+    /// leaf (walls between media included).
     [[nodiscard]] Real128 nearest(const ExactLine& line, bool of_any_leaf) const;
 };
 
-/// All that the aggregate stores.
+/// All solids that the aggregate stores.
 [[nodiscard]] std::vector<ExactSolid> exact_solids(
     const std::shared_ptr<const Aggregate>& aggregate);
 
-/// The first solids without a formula, by the first place where each stands.
+/// The first solids without a formula, each with its first place.
 [[nodiscard]] std::vector<UncheckedSolid> unchecked_solids(const std::vector<ExactSolid>& all,
                                                            const SceneDescription& description,
                                                            const Scene& scene);

@@ -3,10 +3,10 @@
 ///
 /// Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE CG&A 1(1), 1981;
 /// Kelley, "The Cutting-Plane Method for Solving Convex Programs", SIAM J. 8, 1960 (a convex
-/// function lies above its tangents). Differs: where both exponents 2 / e and 2 / n are at least 1
-/// the function is convex, where both are at most 1 it is concave within each octant: either is
-/// crossed at most twice, and whether at all is told by tangents. No interval arithmetic. For
-/// others see exact_mixed_superellipsoid.h.
+/// function lies above its tangents).
+/// Differs: the function is convex where both exponents 2 / e and 2 / n are at least 1, and concave
+/// within each octant where both are at most 1. Either is crossed at most twice; tangents decide
+/// whether at all. No interval arithmetic. For other exponents see exact_mixed_superellipsoid.h.
 
 #include "alhazen/verification/exact_mixed_superellipsoid.h"
 
@@ -44,14 +44,14 @@ class SuperellipsoidAlong {
     const LineOf<R>& line_;
 };
 
-/// A function made convex, its ends known: -f where f is concave.
+/// A function made convex, with known ends: -f where f is concave.
 template <class R>
 class ConvexCrossings {
   public:
     using Function = SuperellipsoidAlong<R>;
     ConvexCrossings(const Function& f, bool concave) : f_(f), sign_(concave ? -1 : 1) {}
 
-    /// Where it changes its sign between lo and hi, ascending.
+    /// Sign changes between lo and hi, ascending.
     void add(const R& lo, const R& hi, std::vector<R>& t) const {
         const bool negative_lo = at(lo).value < 0, negative_hi = at(hi).value < 0;
         if (negative_lo && negative_hi) return;
@@ -71,8 +71,9 @@ class ConvexCrossings {
         const Value v = f_.at(t);
         return {sign_ * v.value, sign_ * v.slope};
     }
-    /// Halves, or goes where the tangents at the ends meet: no value is below that. At the first
-    /// ends there are none: they may lie in planes of symmetry, where the slope has no bound.
+    /// Bisects, or takes the intersection of the tangents at the ends, a lower bound of the values.
+    /// The first ends have no tangents: they may lie in planes of symmetry, where the slope is
+    /// unbounded.
     bool negative_between(R lo, R hi, R& found) const {
         Value a{}, b{};
         bool has_a = false, has_b = false;

@@ -1,10 +1,11 @@
 #pragma once
 /// All crossings of a line with prisms and lathes, in numbers of any type.
 ///
-/// Source: the definitions in shapes/swept/prism.h and shapes/swept/lathe.h. Differs: powers of the
-/// parameter of a curve, about a place near all of its roots, and brackets by the roots of the
-/// derivative (exact_polynomials.h); no Bernstein forms, no error bounds. Inside is what lies
-/// between an odd and an even crossing, counted from where the line is outside for sure.
+/// Source: the definitions in shapes/swept/prism.h and shapes/swept/lathe.h.
+/// Differs: powers of the curve's parameter, about a value near all roots, and brackets by the
+/// roots of the derivative (exact_polynomials.h); no Bernstein forms, no error bounds.
+/// Conventions: the inside lies between an odd and an even crossing, counted from a point certainly
+/// outside.
 
 #include "alhazen/verification/exact_polynomials.h"
 
@@ -38,8 +39,7 @@ struct ProfilePowers {
 
 // ---- prisms
 
-/// Whether a point of the profile's plane is inside of the loops: crossings of the way from it to
-/// the right.
+/// Whether a point of the profile's plane is inside the loops: counts the crossings to its right.
 template <class R>
 bool is_within(const Profile& profile, const PointOf<R>& point) {
     bool inside = false;
@@ -60,13 +60,13 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
     ClippedPart<R> part;
     part.cut(o.z, d.z, prism.h0, prism.h1);
     if (part.empty()) return {};
-    // The section has the size s0 + t s1. The line passes (x, y) of the profile where it meets the
-    // zeros of a x + b y + c.
+    // The section has the size s0 + t s1. The line intersects the profile point (x, y) at the zeros
+    // of a x + b y + c.
     const R s0 = R(1) + R(prism.growth) * (o.z - R(prism.h0)), s1 = R(prism.growth) * d.z;
     const R a = s1 * o.y - s0 * d.y, b = s0 * d.x - s1 * o.x, c = o.x * d.y - o.y * d.x;
     const auto size_at = [&](const R& t) { return s0 + t * s1; };
     if (a == 0 && b == 0) {
-        // One point of the profile all the way.
+        // The line keeps one profile point.
         if (d.z == 0) return {};
         const R middle = (part.lo + part.hi) / 2, size = size_at(middle);
         const PointOf<R> point{(o.x + middle * d.x) / size, (o.y + middle * d.y) / size};
@@ -80,7 +80,7 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
         const auto negative = [&](const Vec2& q) { return a * R(q.x) + b * R(q.y) + c < 0; };
         for (const R& u : sign_changes(p, R(0), R(1), negative(curve.p[0]), negative(curve.p[3]))) {
             const PointOf<R> q = at.point(u);
-            // Of t (d - s1 q) = s0 q - o the coordinate that says more.
+            // t (d - s1 q) = s0 q - o, solved in the better conditioned coordinate.
             const R dx = d.x - s1 * q.x, dy = d.y - s1 * q.y;
             const R x2 = dx * dx, y2 = dy * dy;
             const R crossing = x2 > y2 ? (s0 * q.x - o.x) / dx : (s0 * q.y - o.y) / dy;
@@ -88,7 +88,8 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
         }
     }
     std::sort(t.begin(), t.end());
-    // Where the size is 0 the line is outside; at either end of it, where it is not.
+    // The line is outside where the size is 0. Where the size shrinks with t, an odd number of
+    // crossings means that the line begins inside.
     CrossingsOf<R> inside{s1 < 0 && t.size() % 2 != 0, std::move(t)};
     CrossingsOf<R> found;
     if (inside.inside_at(part.lo)) found.t.push_back(part.lo);
@@ -101,8 +102,8 @@ CrossingsOf<R> exact_crossings(const Prism& prism, const LineOf<R>& line) {
 
 // ---- lathes
 
-/// A line by its distance from the axis: squared, that is a t^2 + c, t from the point nearest to
-/// the axis (or, along it, from the height of the middle), whose height is z.
+/// Squared distance of a line from the axis, as a t^2 + c. t counts from the point nearest to the
+/// axis (or, for a line along it, from the height of the middle), at height z.
 template <class R>
 struct LineAroundAxis {
     R nearest, a, c, z, climb;
@@ -116,21 +117,20 @@ struct LineAroundAxis {
         const R x = o.x + nearest * d.x, y = o.y + nearest * d.y;
         c = x * x + y * y;
     }
-    /// Positive where the line passes a point's height farther from the axis. Precondition: it
-    /// climbs.
+    /// Positive where the line is farther from the axis than the point at the point's height.
+    /// Precondition: the line is not level.
     [[nodiscard]] R beyond(const PointOf<R>& p) const {
         const R t = (p.y - z) / climb;
         return a * t * t + c - p.x * p.x;
     }
 };
 
-/// The crossings with a piece of a curve on which the height only rises or only falls; t from the
-/// nearest point.
+/// The crossings with a piece of a curve of monotone height; t from the nearest point.
 template <class R>
 void add_crossings(const LineAroundAxis<R>& line, const ProfileCurve& curve, const R& from,
                    const R& to, const PointOf<R>& first, const PointOf<R>& last,
                    std::vector<R>& t) {
-    // About where the curve has the height of the nearest point, or the end that is nearest to it.
+    // Expanded about the height of the nearest point, or the end closest to it.
     const ProfilePowers<R> whole(curve, R(0));
     PowersOf<R> rise = whole.y;
     rise[0] = rise[0] - line.z;
@@ -161,7 +161,7 @@ CrossingsOf<R> exact_crossings(const Lathe& lathe, const LineOf<R>& given) {
         const ProfilePowers<R> whole(curve, R(0));
         const auto end = [](const Vec2& p) { return PointOf<R>{R(p.x), R(p.y)}; };
         if (line.climb == 0) {
-            // The circles of the points of this height.
+            // The circles of the profile points at this height.
             PowersOf<R> rise = whole.y;
             rise[0] = rise[0] - line.z;
             const bool from = end(curve.p[0]).y < line.z, to = end(curve.p[3]).y < line.z;

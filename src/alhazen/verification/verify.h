@@ -1,7 +1,8 @@
 #pragma once
-/// Rays traced twice: by an accelerator and by brute force. Every disagreement is reported with the
-/// ray that shows it.
+/// Rays traced twice: by an accelerator, by every road that makes pictures, and by brute force.
+/// Every disagreement is reported with the ray that shows it.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,21 +24,38 @@ struct VerifyOptions {
     ProgressSink* progress = nullptr;
 };
 
+/// The calls by which a ray gets to its hit. Which schedule traces it is the accelerator's choice.
+enum class Road : std::uint8_t {
+    Single,    ///< `closest`, `occluded`, `all_hits`, `shadowed`
+    Stream,    ///< batches with Coherence::Any
+    Coherent,  ///< batches with Coherence::Coherent
+};
+inline constexpr std::size_t kRoadCount = 3;
+inline constexpr std::array<const char*, kRoadCount> kRoadNames{"single", "stream", "coherent"};
+
+struct RoadCounts {
+    std::uint64_t rays = 0;           ///< traced, per query
+    std::uint64_t disagreements = 0;  ///< of its queries
+};
+
 /// One ray on which the two differ. Coordinates are printed with 17 digits so that they repeat it
 /// exactly.
 struct Disagreement {
-    /// "random", "lattice", "eye", "aimed"; "random for shadow" where parts are masked.
+    /// "random", "lattice", "eye", "aimed", "tile", "converging", "parallel"; "random for shadow"
+    /// where parts are masked.
     std::string kind;
     std::string query;  ///< "closest", "occluded", "all_hits", "shadowed", "parity"
     Ray ray;
     std::string found, expected;
+    std::string road{};  ///< of kRoadNames; empty where no aggregates are compared
 };
 
 struct VerifyReport {
     std::string accelerator;
-    std::uint64_t rays = 0;  ///< traced, per query
-    std::uint64_t hits = 0;  ///< of the closest-hit query
-    std::uint64_t disagreements = 0;
+    std::uint64_t rays = 0;           ///< traced, per query
+    std::uint64_t hits = 0;           ///< of the closest-hit query
+    std::uint64_t disagreements = 0;  ///< of all roads
+    std::array<RoadCounts, kRoadCount> roads{};
     std::uint64_t closed_surfaces = 0;   ///< meshes and shapes whose crossings were counted
     std::uint64_t open_meshes = 0;       ///< meshes that bound no volume: nothing to count
     std::uint64_t parity_lines = 0;      ///< lines through closed surfaces

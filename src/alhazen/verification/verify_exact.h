@@ -1,5 +1,5 @@
 #pragma once
-/// The exact solids of a scene, shot once more with 113 binary digits: whether every crossing is
+/// The exact solids of a scene, shot once more with 113 bits: whether every crossing is
 /// there, where it is, and whether the bounds of errors hold.
 ///
 /// Conventions: each stored shape and CSG object by itself, in the frame of its aggregate, with the

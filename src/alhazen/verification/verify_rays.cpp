@@ -1,6 +1,33 @@
 #include "alhazen/verification/verify_rays.h"
 
+#include <cmath>
+
 namespace alhazen {
+
+namespace {
+
+constexpr int kTileSide = 8;
+
+/// Calls f(column, row) for the pixels of a tile in cells of 4x2, the order of PixelLoop.
+template <class F>
+void for_each_pixel_of_tile(F&& f) {
+    constexpr int kCellWidth = 4, kCellHeight = 2;
+    for (int y = 0; y < kTileSide; y += kCellHeight) {
+        for (int x = 0; x < kTileSide; x += kCellWidth) {
+            for (int j = y; j < y + kCellHeight; ++j) {
+                for (int i = x; i < x + kCellWidth; ++i) f(i, j);
+            }
+        }
+    }
+}
+
+/// The ray whose direction is offset by `steps` of `step` along one axis. Without steps the
+/// direction keeps its negative zero.
+void turn(Ray& ray, int axis, int steps, double step) {
+    if (steps != 0) ray.direction[axis] += steps * step;
+}
+
+}  // namespace
 
 VerifyRays::VerifyRays(const Box3& bounds, const Camera* camera, const PrimitiveTable& table,
                        std::uint64_t seed)
@@ -23,6 +50,65 @@ VerifyRays::Sample VerifyRays::next() {
         default:
             if (camera_ == nullptr) return {"random", random_line()};
             return {"eye", eye_ray(*camera_, random_.uniform(), random_.uniform())};
+    }
+}
+
+void VerifyRays::append_tile(std::vector<Sample>& samples) {
+    static_assert(kTileRays == kTileSide * kTileSide);
+    if (tiles_++ % 4 == 0 && camera_ != nullptr) {
+        const std::uint64_t tiles_across = std::uint64_t{2} << random_.below(8);
+        const double pixel = 1.0 / static_cast<double>(kTileSide * tiles_across);
+        const auto x0 = static_cast<double>(kTileSide * random_.below(tiles_across));
+        const auto y0 = static_cast<double>(kTileSide * random_.below(tiles_across));
+        for_each_pixel_of_tile([&](int i, int j) {
+            const Ray ray = eye_ray(*camera_, pixel * (x0 + i + 0.5), pixel * (y0 + j + 0.5));
+            samples.push_back({"tile", ray});
+        });
+        return;
+    }
+    const Ray middle = middle_ray();
+    const int z = dominant_axis(middle.direction);
+    const double width = std::ldexp(1.0, -3 - static_cast<int>(random_.below(8)));
+    const double step = width * std::abs(middle.direction[z]);
+    for_each_pixel_of_tile([&](int i, int j) {
+        Ray ray = middle;
+        turn(ray, (z + 1) % 3, i - kTileSide / 2, step);
+        turn(ray, (z + 2) % 3, j - kTileSide / 2, step);
+        samples.push_back({"tile", ray});
+    });
+}
+
+void VerifyRays::append_shadow_rays(std::span<const Vec3> origins, std::vector<Sample>& samples) {
+    const std::uint64_t what = random_.below(4);
+    if (what == 0) {
+        const Vec3 direction = random_line().direction;
+        for (const Vec3& origin : origins) samples.push_back({"parallel", {origin, direction}});
+        return;
+    }
+    Vec3 target = uniform_point();
+    if (what == 1) {
+        for (int k = 0; k < 3; ++k) target[k] = std::round(2.0 * target[k]) / 2.0;
+    }
+    const bool of_unit_length = random_.below(2) == 0;
+    for (const Vec3& origin : origins) {
+        Ray ray{origin, target - origin, 0.0, 1.0};
+        const double distance = length(ray.direction);
+        if (of_unit_length && distance > 0.0) {
+            ray.direction = ray.direction / distance;
+            ray.t_max = distance;
+        }
+        samples.push_back({"converging", ray});
+    }
+}
+
+Ray VerifyRays::middle_ray() {
+    switch (random_.below(3)) {
+        case 0:
+            return random_line();
+        case 1:
+            return lattice_ray();
+        default:
+            return aimed_ray();
     }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 /// Rays that find mistakes: random lines, rays on a coarse lattice (axis-parallel, through faces
-/// and edges, with negative zeros), eye rays, rays aimed exactly at vertices and edges.
+/// and edges, with negative zeros), eye rays, rays aimed exactly at vertices and edges; and sets of
+/// coherent rays: tiles of eye rays, shadow rays towards a point or in one direction.
 
-#include <functional>
-#include <string>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "alhazen/primitives/primitive_table.h"
 #include "alhazen/sampling/random.h"
@@ -14,6 +16,9 @@ namespace alhazen {
 /// Makes rays of every kind in turn.
 class VerifyRays {
   public:
+    /// Rays of a tile: a block of 8x8 pixels.
+    static constexpr std::size_t kTileRays = 64;
+
     struct Sample {
         const char* kind;
         Ray ray;
@@ -24,6 +29,13 @@ class VerifyRays {
                std::uint64_t seed);
 
     [[nodiscard]] Sample next();
+
+    /// Appends eye rays of a tile, in the order of the renderers' pixels: of the camera at some
+    /// resolution, or around a ray of another kind. Every fourth tile is the camera's. The width
+    /// of a pixel is 2^-3 to 2^-10 of the distance: some tiles are too wide for a packet.
+    void append_tile(std::vector<Sample>& samples);
+    /// Appends a ray from each origin: towards one point, where it ends, or in one direction.
+    void append_shadow_rays(std::span<const Vec3> origins, std::vector<Sample>& samples);
 
     /// A ray through two uniform points of the bounds, from outside them.
     [[nodiscard]] Ray random_line();
@@ -36,12 +48,14 @@ class VerifyRays {
 
   private:
     [[nodiscard]] Vec3 uniform_point();
+    /// The ray in the middle of a tile that is not the camera's.
+    [[nodiscard]] Ray middle_ray();
 
     Box3 bounds_;
     const Camera* camera_;
     const PrimitiveTable& table_;
     RandomStream random_;
-    std::uint64_t count_ = 0;
+    std::uint64_t count_ = 0, tiles_ = 0;
 };
 
 }  // namespace alhazen

@@ -1,4 +1,4 @@
-// Batches against few shapes, whose rays are tested side by side, have the hits of the list.
+// Treeless packets: batches against few shapes have the hits of the list.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Placement some_placement(Random& random) {
     return placement;
 }
 
-/// `count` shapes that may be tested side by side, at times a plane below them.
+/// `count` shapes that treeless packets may test, at times a plane below them.
 PrimitiveTable few_shapes(Random& random, int count) {
     PrimitiveTable table;
     table.placements.push_back(some_placement(random));

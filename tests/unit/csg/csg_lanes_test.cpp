@@ -1,4 +1,4 @@
-// Eight rays side by side find what each finds alone in a solid of a few leaves, bit for bit.
+// Eight rays in lanes find what each finds alone in a solid of a few leaves, bit for bit.
 
 #include "alhazen/csg/csg_lanes.h"
 

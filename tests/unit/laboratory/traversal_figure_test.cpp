@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "alhazen/base/error.h"
-#include "alhazen/laboratory/convex_corners.h"
+#include "alhazen/geometry/polygon/convex_outline.h"
 #include "alhazen/laboratory/html_text.h"
+#include "alhazen/laboratory/plane_corners.h"
 #include "alhazen/laboratory/scene_trial.h"
 #include "unit/laboratory/small_scene.h"
 
@@ -97,11 +98,11 @@ TEST(ConvexCorners, ACubeHasEightAndACutOneTen) {
         sides.push_back({n, 1});
         sides.push_back({-n, 1});
     }
-    EXPECT_EQ(convex_corners(sides).size(), 8u);
+    EXPECT_EQ(plane_corners(sides).size(), 8u);
     sides.push_back({Vec3{1, 1, 1}, 2});  // cuts one corner off
-    EXPECT_EQ(convex_corners(sides).size(), 10u);
+    EXPECT_EQ(plane_corners(sides).size(), 10u);
     std::vector<Vec2> points;
-    for (const Vec3& p : convex_corners(sides)) points.push_back({p.x, p.y});
+    for (const Vec3& p : plane_corners(sides)) points.push_back({p.x, p.y});
     EXPECT_EQ(convex_outline(points).size(), 4u);
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <memory>
 #include <sstream>
 
 #include "alhazen/geometry/bounds_source.h"
@@ -17,12 +19,77 @@ using testing::random_shape;
 using testing::ShapeSource;
 
 constexpr double kUlp = 0x1p-52;
-template <class>
-struct AsTestTypes;
-template <Shape... S>
-struct AsTestTypes<ShapeTypes<S...>> {
-    using Type = ::testing::Types<S...>;
+/// A shape of any type: these tests are compiled once, not once for each type.
+class TestedShape {
+  public:
+    template <class S>
+    explicit TestedShape(S shape) : shape_(std::make_shared<Model<S>>(std::move(shape))) {}
+
+    [[nodiscard]] bool closed() const { return shape_->closed(); }
+    [[nodiscard]] Box3 box() const { return shape_->box(); }
+    [[nodiscard]] Interval extent(const Vec3& axis) const { return shape_->extent(axis); }
+    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const {
+        return shape_->surface(ray, hit);
+    }
+    void validate(Diagnostics& diagnostics) const { shape_->validate(diagnostics); }
+    /// Appends the crossings.
+    void intersect(const Ray& ray, ShapeHits& hits) const { shape_->intersect(ray, hits); }
+    [[nodiscard]] bool begins_inside(const Ray& line) const { return shape_->begins_inside(line); }
+
+  private:
+    struct Concept {
+        virtual ~Concept() = default;
+        virtual bool closed() const = 0;
+        virtual Box3 box() const = 0;
+        virtual Interval extent(const Vec3& axis) const = 0;
+        virtual ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const = 0;
+        virtual void validate(Diagnostics& diagnostics) const = 0;
+        virtual void intersect(const Ray& ray, ShapeHits& hits) const = 0;
+        virtual bool begins_inside(const Ray& line) const = 0;
+    };
+    template <class S>
+    struct Model final : Concept {
+        explicit Model(S s) : shape(std::move(s)) {}
+        bool closed() const override { return shape.closed(); }
+        Box3 box() const override { return shape.box(); }
+        Interval extent(const Vec3& axis) const override { return shape.extent(axis); }
+        ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const override {
+            return shape.surface(ray, hit);
+        }
+        void validate(Diagnostics& diagnostics) const override { shape.validate({}, diagnostics); }
+        void intersect(const Ray& ray, ShapeHits& hits) const override {
+            append_hits(shape, ray, hits);
+        }
+        bool begins_inside(const Ray& line) const override {
+            return inside_at_minus_infinity(shape, line);
+        }
+        S shape;
+    };
+
+    std::shared_ptr<const Concept> shape_;
 };
+
+/// A type of shape and how random ones are made.
+struct ShapeType {
+    const char* name;
+    int max_hits;
+    bool always_closed;
+    TestedShape (*make)(const ShapeSource& from);         ///< prepared
+    TestedShape (*make_fields)(const ShapeSource& from);  ///< as a file gives it
+};
+
+template <class S>
+ShapeType shape_type() {
+    return {
+        S::kName, S::kMaxHits, S::kClosed,
+        [](const ShapeSource& from) { return TestedShape(random_shape<S>(from)); },
+        [](const ShapeSource& from) { return TestedShape(testing::RandomShape<S>::make(from)); }};
+}
+
+template <class... S>
+std::vector<ShapeType> shape_types(const ShapeTypes<S...>*) {
+    return {shape_type<S>()...};
+}
 
 std::string to_text(const Ray& ray) {
     std::ostringstream out;
@@ -31,8 +98,7 @@ std::string to_text(const Ray& ray) {
     return out.str();
 }
 
-template <class S>
-Vec3 point_near(const S& shape, Random& random) {
+Vec3 point_near(const TestedShape& shape, Random& random) {
     const Box3 box = shape.box();
     Vec3 p = random.in_cube(30);
     for (int k = 0; k < 3; ++k) {
@@ -43,8 +109,7 @@ Vec3 point_near(const S& shape, Random& random) {
 }
 
 /// Aimed at the shape's box, from inside it, from close by or from far away.
-template <class S>
-Ray random_ray(const S& shape, Random& random) {
+Ray random_ray(const TestedShape& shape, Random& random) {
     const double far[] = {0.0, 1.0, 10.0, 1e3, 1e6};
     const Vec3 target = point_near(shape, random);
     const Vec3 direction = random.log_uniform(0.01, 100) * random.unit_vector();
@@ -57,30 +122,27 @@ Ray lattice_ray(Random& random) {
 }
 
 /// The crossings, from an empty list on; how many there are.
-template <class S>
-int count_hits(const S& shape, const Ray& ray, ShapeHits& hits) {
+int count_hits(const TestedShape& shape, const Ray& ray, ShapeHits& hits) {
     hits.clear();
-    append_hits(shape, ray, hits);
+    shape.intersect(ray, hits);
     return static_cast<int>(hits.size());
 }
 
 /// Whether the number of crossings of a solid fits where its line begins and ends.
-template <class S>
-bool parity_is_right(const S& shape, const Ray& line, int count) {
+bool parity_is_right(const TestedShape& shape, const Ray& line, int count) {
     Ray back = line;
     back.direction = -back.direction;
-    const bool turned =
-        inside_at_minus_infinity(shape, line) != inside_at_minus_infinity(shape, back);
+    const bool turned = shape.begins_inside(line) != shape.begins_inside(back);
     return (count % 2 != 0) == turned;
 }
 
 /// Calls check(shape, ray, hits, count) for random shapes and rays and for those on a lattice.
-template <class S, class Check>
-void for_random_rays(std::uint64_t seed, Check check) {
+using Check = std::function<void(const TestedShape&, Ray, const ShapeHit*, int)>;
+void for_random_rays(const ShapeType& type, std::uint64_t seed, const Check& check) {
     Random random(seed);
     for (int i = 0; i < 400; ++i) {
         const bool lattice = i % 2 == 1;
-        const S shape = random_shape<S>(ShapeSource{random, lattice});
+        const TestedShape shape = type.make(ShapeSource{random, lattice});
         for (int k = 0; k < 200; ++k) {
             const Ray ray = lattice && k % 8 != 0 ? lattice_ray(random) : random_ray(shape, random);
             ShapeHits hits;
@@ -92,9 +154,10 @@ void for_random_rays(std::uint64_t seed, Check check) {
     }
 }
 
-template <class S>
-class ShapeConformance : public ::testing::Test {};
-TYPED_TEST_SUITE(ShapeConformance, AsTestTypes<AnalyticShapes>::Type);
+class ShapeConformance : public ::testing::TestWithParam<ShapeType> {};
+INSTANTIATE_TEST_SUITE_P(, ShapeConformance,
+                         ::testing::ValuesIn(shape_types(static_cast<AnalyticShapes*>(nullptr))),
+                         [](const auto& type) { return std::string(type.param.name); });
 
 /// Rounding of a point at t, as a length in each component.
 Vec3 point_slack(const Ray& ray, double t) {
@@ -110,49 +173,48 @@ Box3 grown(const Box3& box, const Vec3& by) {
     return {box.lo - by, box.hi + by};
 }
 
-TYPED_TEST(ShapeConformance, RandomShapesAreValid) {
+TEST_P(ShapeConformance, RandomShapesAreValid) {
     Random random(1);
     for (int i = 0; i < 1000; ++i) {
-        const auto shape = testing::RandomShape<TypeParam>::make({random, i % 2 == 1});
+        const auto shape = GetParam().make_fields({random, i % 2 == 1});
         Diagnostics diagnostics;
-        shape.validate({}, diagnostics);
+        shape.validate(diagnostics);
         ASSERT_EQ(diagnostics.error_count(), 0u) << diagnostics.all().front().message;
     }
 }
 
-TYPED_TEST(ShapeConformance, MostAimedRaysHit) {
+TEST_P(ShapeConformance, MostAimedRaysHit) {
     // Else the tests below would pass for a shape that is never hit.
     Random random(2);
     int hit = 0;
     for (int i = 0; i < 2000; ++i) {
-        const auto shape = random_shape<TypeParam>({random});
+        const auto shape = GetParam().make({random});
         ShapeHits hits;
         hit += count_hits(shape, random_ray(shape, random), hits) > 0;
     }
     EXPECT_GT(hit, 400);
 }
 
-TYPED_TEST(ShapeConformance, HitsAscendAndSolidsAreEnteredAndLeftByTurns) {
+TEST_P(ShapeConformance, HitsAscendAndSolidsAreEnteredAndLeftByTurns) {
     int closed_hits = 0;
-    for_random_rays<TypeParam>(3,
-                               [&](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
-                                   ASSERT_LE(n, TypeParam::kMaxHits);
-                                   for (int i = 0; i < n; ++i)
-                                       ASSERT_TRUE(std::isfinite(hits[i].t));
-                                   for (int i = 1; i < n; ++i) ASSERT_LE(hits[i - 1].t, hits[i].t);
-                                   if (!shape.closed()) return;
-                                   ASSERT_TRUE(parity_is_right(shape, ray, n)) << n;
-                                   closed_hits += n;
-                               });
-    if (TypeParam::kClosed) {
+    for_random_rays(GetParam(), 3,
+                    [&](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
+                        ASSERT_LE(n, GetParam().max_hits);
+                        for (int i = 0; i < n; ++i) ASSERT_TRUE(std::isfinite(hits[i].t));
+                        for (int i = 1; i < n; ++i) ASSERT_LE(hits[i - 1].t, hits[i].t);
+                        if (!shape.closed()) return;
+                        ASSERT_TRUE(parity_is_right(shape, ray, n)) << n;
+                        closed_hits += n;
+                    });
+    if (GetParam().always_closed) {
         EXPECT_GT(closed_hits, 10000);
     }
 }
 
-TYPED_TEST(ShapeConformance, ARangeOfTSelectsFromTheCrossingsOfTheLine) {
+TEST_P(ShapeConformance, ARangeOfTSelectsFromTheCrossingsOfTheLine) {
     Random limits(4);
-    for_random_rays<TypeParam>(
-        5, [&](const auto& shape, const Ray& line, const ShapeHit* all, int n) {
+    for_random_rays(
+        GetParam(), 5, [&](const auto& shape, const Ray& line, const ShapeHit* all, int n) {
             if (n == 0) return;
             Ray ray = line;
             // Limits exactly at a crossing are included.
@@ -173,7 +235,7 @@ TYPED_TEST(ShapeConformance, ARangeOfTSelectsFromTheCrossingsOfTheLine) {
             ASSERT_EQ(count, expected);
             // Whoever wants the first only gets the same first.
             ShapeHits first(1);
-            append_hits(shape, ray, first);
+            shape.intersect(ray, first);
             ASSERT_EQ(first.empty(), some.empty());
             if (some.empty()) return;
             ASSERT_EQ(first.front().t, some.front().t);
@@ -181,10 +243,10 @@ TYPED_TEST(ShapeConformance, ARangeOfTSelectsFromTheCrossingsOfTheLine) {
         });
 }
 
-TYPED_TEST(ShapeConformance, BoxAndExtentsHoldTheCrossings) {
+TEST_P(ShapeConformance, BoxAndExtentsHoldTheCrossings) {
     Random axes(6);
-    for_random_rays<TypeParam>(
-        7, [&](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
+    for_random_rays(
+        GetParam(), 7, [&](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
             const Vec3 axis = axes.coin() ? axes.unit_vector() : axes.lattice_direction();
             for (int i = 0; i < n; ++i) {
                 const Vec3 slack = point_slack(ray, hits[i].t);
@@ -200,10 +262,10 @@ TYPED_TEST(ShapeConformance, BoxAndExtentsHoldTheCrossings) {
         });
 }
 
-TYPED_TEST(ShapeConformance, ExtentAlongAnAxisIsTheBoxAndElsewhereWithinIt) {
+TEST_P(ShapeConformance, ExtentAlongAnAxisIsTheBoxAndElsewhereWithinIt) {
     Random random(8);
     for (int i = 0; i < 2000; ++i) {
-        const auto shape = random_shape<TypeParam>({random, i % 2 == 1});
+        const auto shape = GetParam().make({random, i % 2 == 1});
         const Box3 box = shape.box();
         for (int k = 0; k < 3; ++k) {
             Vec3 axis{};
@@ -227,9 +289,9 @@ TYPED_TEST(ShapeConformance, ExtentAlongAnAxisIsTheBoxAndElsewhereWithinIt) {
     }
 }
 
-TYPED_TEST(ShapeConformance, SurfaceIsAtTheCrossing) {
-    for_random_rays<TypeParam>(
-        9, [](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
+TEST_P(ShapeConformance, SurfaceIsAtTheCrossing) {
+    for_random_rays(
+        GetParam(), 9, [](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
             const Box3 box = shape.box();
             for (int i = 0; i < n; ++i) {
                 const ShapeSurface surface = shape.surface(ray, hits[i]);
@@ -255,25 +317,27 @@ TYPED_TEST(ShapeConformance, SurfaceIsAtTheCrossing) {
         });
 }
 
-TYPED_TEST(ShapeConformance, NormalsOfClosedShapesFaceOutward) {
-    for_random_rays<TypeParam>(10, [](const auto& shape, const Ray& ray, const ShapeHit* hits,
-                                      int n) {
-        if (!shape.closed()) return;
-        const bool inside = inside_at_minus_infinity(shape, ray);
-        for (int i = 0; i < n; ++i) {
-            const double cosine = dot(shape.surface(ray, hits[i]).normal, normalize(ray.direction));
-            // Seen from afar, a grazing ray may round to the other side of the horizon.
-            const double outward = (i % 2 == 0) != inside ? -cosine : cosine;
-            ASSERT_GE(outward, -1e-3);
-        }
-    });
+TEST_P(ShapeConformance, NormalsOfClosedShapesFaceOutward) {
+    for_random_rays(GetParam(), 10,
+                    [](const auto& shape, const Ray& ray, const ShapeHit* hits, int n) {
+                        if (!shape.closed()) return;
+                        const bool inside = shape.begins_inside(ray);
+                        for (int i = 0; i < n; ++i) {
+                            const double cosine =
+                                dot(shape.surface(ray, hits[i]).normal, normalize(ray.direction));
+                            // Seen from afar, a grazing ray may round to the other side of the
+                            // horizon.
+                            const double outward = (i % 2 == 0) != inside ? -cosine : cosine;
+                            ASSERT_GE(outward, -1e-3);
+                        }
+                    });
 }
 
-TYPED_TEST(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
+TEST_P(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
     Random random(11);
     int checked = 0;
     for (int i = 0; i < 20000; ++i) {
-        const auto shape = random_shape<TypeParam>({random});
+        const auto shape = GetParam().make({random});
         Ray ray = random_ray(shape, random);
         const double distance = length(ray.origin - point_near(shape, random));
         if (distance > 1e3) continue;
@@ -300,9 +364,9 @@ TYPED_TEST(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
     EXPECT_GT(checked, 1000);
 }
 
-TYPED_TEST(ShapeConformance, ScalingTheDirectionScalesT) {
+TEST_P(ShapeConformance, ScalingTheDirectionScalesT) {
     Random scales(12);
-    for_random_rays<TypeParam>(13, [&](const auto& shape, Ray ray, const ShapeHit* hits, int n) {
+    for_random_rays(GetParam(), 13, [&](const auto& shape, Ray ray, const ShapeHit* hits, int n) {
         // By a power of two, so that not one bit may change.
         const double scale = std::ldexp(1.0, scales.below(21) - 10);
         ray.direction = scale * ray.direction;
@@ -315,11 +379,11 @@ TYPED_TEST(ShapeConformance, ScalingTheDirectionScalesT) {
     });
 }
 
-TYPED_TEST(ShapeConformance, ExtremeRaysGiveFiniteHitsOrNone) {
+TEST_P(ShapeConformance, ExtremeRaysGiveFiniteHitsOrNone) {
     Random random(14);
     const double extremes[] = {0.0, -0.0, 1e-320, 1e-200, -1e-100, 1.0, -1.0, 1e100, -1e200, 1e308};
     for (int i = 0; i < 50000; ++i) {
-        const auto shape = random_shape<TypeParam>({random, random.coin()});
+        const auto shape = GetParam().make({random, random.coin()});
         Ray ray = line({}, {});
         for (int k = 0; k < 3; ++k) {
             ray.origin[k] = random.coin() ? extremes[random.below(10)] : random.uniform(-5, 5);

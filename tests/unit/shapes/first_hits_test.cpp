@@ -1,4 +1,4 @@
-// The first crossings of rays side by side are those of each ray alone, bit for bit.
+// The first crossings of rays in lanes are those of each ray alone, bit for bit.
 
 #include "alhazen/shapes/core/first_hits.h"
 
@@ -28,7 +28,7 @@ std::string to_text(const Ray& ray) {
     return out.str();
 }
 
-/// Checks eight rays, the first `count` of them side by side; how many of these hit.
+/// Checks eight rays, the first `count` of them in lanes; returns how many of these hit.
 template <class S>
 int check_block(const S& shape, const std::array<Ray, 8>& rays, std::size_t count) {
     std::array<const Ray*, 8> pointers;

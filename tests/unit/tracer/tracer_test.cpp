@@ -7,6 +7,8 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -160,6 +162,63 @@ TEST(Tracer, EveryAcceleratorAndBatchGivesTheHitsOfTheList) {
         }
     }
     EXPECT_GT(found, rays.size() / 4);
+}
+
+/// Tiles of rays from a point, then rays of any kind: the hint is right for the first ones only.
+std::vector<Ray> tiles_and_others() {
+    std::vector<Ray> rays;
+    for (int tile = 0; tile < 12; ++tile) {
+        for (int i = 0; i < 64; ++i) {
+            const double x = 0.02 * (8 * (tile % 4) + i % 8 - 16),
+                         y = 0.02 * (8 * tile / 4.0 + i / 8.0 - 16);
+            rays.push_back({{0, 0, 11}, {x, y, -1}});
+            // As towards a light: each ends at a common point.
+            if (tile >= 8) rays.back() = {rays.back().at(9), -9 * rays.back().direction, 0, 1};
+        }
+    }
+    for (const Ray& ray : random_rays(11, 300)) rays.push_back(ray);
+    return rays;
+}
+
+TEST(Tracer, TheHintOfCoherenceChangesNoHit) {
+    // Triangles alone and spheres alone go in packets; few shapes without a tree.
+    TracerScene spheres, few;
+    std::mt19937_64 random(12);
+    for (int i = 0; i < 60; ++i) spheres.add_sphere(testing::uniform_point(random, 6), 0.5);
+    for (int i = 0; i < 3; ++i) few.add_sphere(testing::uniform_point(random, 3), 2);
+    std::vector<Vec3> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const Vec3 center = testing::uniform_point(random, 6);
+        for (int k = 0; k < 3; ++k) corners.push_back(center + testing::uniform_point(random, 1));
+        triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    TracerScene mesh;
+    mesh.add_mesh(corners, triangles, {.visible_to = 6});
+    const std::vector<Ray> rays = tiles_and_others();
+    for (const TracerScene& scene : {mesh, spheres, few, mixed_scene(9)}) {
+        const Tracer tracer(scene);
+        for (const RayMask mask : {kAllRays, RayMask{2}, RayMask{1}}) {
+            std::vector<Hit> any(rays.size()), coherent(rays.size());
+            const auto answers = std::make_unique<bool[]>(2 * rays.size());
+            const std::span<bool> any_occluded(answers.get(), rays.size());
+            const std::span<bool> occluded(answers.get() + rays.size(), rays.size());
+            tracer.intersect(rays, any, mask);
+            tracer.intersect(rays, coherent, mask, Coherence::Coherent);
+            tracer.occluded(rays, any_occluded, mask);
+            tracer.occluded(rays, occluded, mask, Coherence::Coherent);
+            std::size_t found = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                ASSERT_EQ(any[i].found(), coherent[i].found()) << i;
+                ASSERT_TRUE(!any[i].found() || same_hit(any[i], coherent[i])) << i;
+                ASSERT_EQ(occluded[i], any[i].found()) << i;
+                ASSERT_EQ(any_occluded[i], any[i].found()) << i;
+                found += any[i].found();
+            }
+            const bool seen = tracer.geometry_count() > 1 || mask != 1;
+            EXPECT_EQ(found > 50, seen);
+        }
+    }
 }
 
 TEST(Tracer, InvalidRaysHitNothingAloneAndInBatches) {

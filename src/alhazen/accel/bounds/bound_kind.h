@@ -9,22 +9,22 @@ namespace alhazen {
 
 enum class BoundKind : std::uint8_t { Sphere, Ellipsoid, Box, Slabs3, Slabs7, Slabs13 };
 
-/// Of all kinds, in the order of the enumeration; `slabs3` is a box told by its slabs.
+/// Names in the order of the enumeration; `slabs3` is a box specified by its slabs.
 inline constexpr const char* kBoundNames[] = {"sphere", "ellipsoid", "box",
                                               "slabs3", "slabs7",    "slabs13"};
 
 [[nodiscard]] inline BoundKind read_bound(SettingsReader& reader, BoundKind fallback) {
-    return static_cast<BoundKind>(reader.choice("bound", "what lies around primitives",
+    return static_cast<BoundKind>(reader.choice("bound", "bound of primitives",
                                                 static_cast<std::size_t>(fallback), kBoundNames));
 }
 
-/// For hierarchies: ellipsoids have no union worth the name.
+/// For hierarchies, without ellipsoids: their unions are not tight.
 inline constexpr const char* kNestingBoundNames[] = {"sphere", "box", "slabs7", "slabs13"};
 enum class NestingBound : std::uint8_t { Sphere, Box, Slabs7, Slabs13 };
 
 [[nodiscard]] inline NestingBound read_nesting_bound(SettingsReader& reader,
                                                      NestingBound fallback) {
-    return static_cast<NestingBound>(reader.choice("bound", "what lies around primitives and nodes",
+    return static_cast<NestingBound>(reader.choice("bound", "bound of primitives and nodes",
                                                    static_cast<std::size_t>(fallback),
                                                    kNestingBoundNames));
 }

@@ -1,11 +1,11 @@
 #pragma once
-/// A hierarchy of bounds, any number of children to a node: what the classic hierarchies share.
+/// A hierarchy of bounds with any number of children per node, shared by the classic hierarchies.
 ///
 /// Source: Rubin and Whitted, "A 3-Dimensional Representation for Fast Rendering of Complex
 /// Scenes", SIGGRAPH 1980 (the hierarchy); Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH
-/// 1986, section 3 (division at the median, along x, y and z in turn). Differs: nothing.
-/// Conventions: node 0 is the root; the children of a node lie side by side; every leaf is one
-/// primitive, which has its own bound.
+/// 1986, section 3 (division at the median, along x, y and z in turn).
+/// Conventions: node 0 is the root; the children of a node are consecutive; every leaf is one
+/// primitive with its own bound.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct BoundTree {
     struct Node {
         B bound;
         std::uint32_t first = 0;  ///< its first child, or its primitive
-        std::uint32_t count = 0;  ///< of children; 0: a leaf
+        std::uint32_t count = 0;  ///< number of children; 0: a leaf
 
         [[nodiscard]] bool is_leaf() const { return count == 0; }
     };
@@ -29,7 +29,7 @@ struct BoundTree {
 
     [[nodiscard]] std::size_t memory_bytes() const { return nodes.capacity() * sizeof(Node); }
 
-    /// Two children to a node, each with half of the primitives. O(n log n).
+    /// A tree of two children per node, each with half of the primitives. O(n log n).
     [[nodiscard]] static BoundTree median_split(const BoundsSource& source);
 };
 

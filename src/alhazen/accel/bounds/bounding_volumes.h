@@ -1,11 +1,11 @@
 #pragma once
-/// A bound around every primitive, and no hierarchy: each ray is tested against all bounds, and
-/// against the primitives behind those it meets.
+/// Bounds around all primitives without a hierarchy: each ray is tested against all bounds, and
+/// against the primitives whose bounds it intersects.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980
 /// (spheres); Foley, van Dam, Feiner and Hughes, "Computer Graphics", 2nd ed., section 15.10.2
-/// (bounding volumes); Kay and Kajiya, SIGGRAPH 1986 (slabs). Differs: nothing. Complexity: O(n)
-/// per ray.
+/// (bounding volumes); Kay and Kajiya, SIGGRAPH 1986 (slabs).
+/// Complexity: O(n) per ray.
 
 #include <cstdint>
 #include <variant>

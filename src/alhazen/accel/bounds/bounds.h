@@ -1,15 +1,16 @@
 #pragma once
-/// Bounds that a ray can be tested against: spheres, ellipsoids, boxes, and slab sets.
+/// Ray-bound tests: spheres, ellipsoids, boxes, and slab sets.
 ///
 /// Source: Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986 (slabs shared by all bounds,
 /// S and T once per ray); Glassner (ed.), "An Introduction to Ray Tracing", 1989, chapter 6
 /// (spheres, ellipsoids and boxes as bounds).
-/// Differs: a slab is kept as the range [lo, hi] of n . p (Kay and Kajiya write the planes
-/// A x + B y + C z + D = 0), so that t = (D - S) T with S = n . origin, T = 1 / (n . direction).
-/// Every test is widened by more than it and the primitives' own tests can round, in double: a
-/// bound only skips what cannot be hit. Conventions: a bound is `Bound::of` one primitive, grows by
-/// `include`, and `enter` says where a ray comes to it: the larger of its entry and ray.t_min, or
-/// nothing when the ray misses it or is past it. `Probe` is what is computed once per ray.
+/// Differs: a slab is stored as the range [lo, hi] of n . p (Kay and Kajiya write the planes A x +
+/// B y + C z + D = 0), so that t = (D - S) T with S = n . origin, T = 1 / (n . direction). Every
+/// test is widened by more than the rounding errors, in double, of itself and of the primitives'
+/// tests: a bound only rejects rays that cannot hit.
+/// Conventions: a bound is `Bound::of` one primitive, grows by `include`, and `enter` returns where
+/// a ray enters it: the larger of its entry and ray.t_min, or nothing when the ray misses it or is
+/// past it. `Probe` holds the values computed once per ray.
 
 #include <algorithm>
 #include <array>
@@ -25,11 +26,11 @@
 
 namespace alhazen {
 
-/// Relative room for rounding: far beyond that of a primitive's test, far below what a bound saves.
+/// Relative margin for rounding: far larger than that of a primitive's test, far smaller than the
+/// savings of a bound.
 inline constexpr double kBoundSlack = 0x1p-40;
 
-/// The directions of K slabs, unit vectors: the axes; then the diagonals of the cube; then those of
-/// its faces.
+/// Unit directions of K slabs: the axes; then the diagonals of the cube; then those of its faces.
 template <int K>
 struct SlabDirections {
     static_assert(K == 3 || K == 7 || K == 13);
@@ -58,7 +59,7 @@ struct SlabDirections {
     }
 };
 
-/// K slabs. With K = 3 a box.
+/// K slabs; a box for K = 3.
 template <int K>
 struct SlabBound {
     std::array<Interval, K> range;
@@ -74,14 +75,14 @@ struct SlabBound {
     void include(const SlabBound& b) {
         for (int k = 0; k < K; ++k) range[k] = hull(range[k], b.range[k]);
     }
-    /// Half the surface of the box of the first three slabs.
+    /// Half the surface area of the box of the first three slabs.
     [[nodiscard]] double half_area() const {
         const double x = range[0].width(), y = range[1].width(), z = range[2].width();
         return x * y + y * z + z * x;
     }
     [[nodiscard]] double center(int axis) const { return 0.5 * (range[axis].lo + range[axis].hi); }
 
-    /// S and T of every slab. The steepest comes first: it is the likeliest to reject.
+    /// S and T of every slab. The steepest slab comes first: it is the most likely to reject.
     class Probe {
       public:
         explicit Probe(const Ray& ray) : t_min_(ray.t_min), reach_(max_component(abs(ray.origin))) {
@@ -133,7 +134,6 @@ struct SlabBound {
 
 using BoxBound = SlabBound<3>;
 
-/// A sphere.
 struct SphereBound {
     Vec3 center;
     double radius = 0;
@@ -142,7 +142,7 @@ struct SphereBound {
         const BoundingSphere sphere = source.sphere(i);
         return {sphere.center, sphere.radius};
     }
-    /// The smallest sphere around both, a little larger.
+    /// Grows to the smallest sphere around both, a little enlarged.
     void include(const SphereBound& b) {
         const Vec3 between = b.center - center;
         const double distance = length(between);
@@ -155,7 +155,7 @@ struct SphereBound {
         center = center + ((grown - radius) / distance) * between;
         radius = grown * (1.0 + 1e-14) + 1e-15 * max_component(abs(center));
     }
-    /// What stands for half the surface in comparisons of costs.
+    /// Half the surface area, for comparisons of costs.
     [[nodiscard]] double half_area() const { return 2.0 * std::numbers::pi * radius * radius; }
 
     class Probe {
@@ -175,7 +175,7 @@ struct SphereBound {
             const double radius = bound.radius + room;
             const Vec3 to_center = bound.center - ray_.origin;
             const double along = dot(to_center, unit_);
-            // Measured across the ray: no cancellation however far the origin is.
+            // Measured across the ray: no cancellation for distant origins.
             const double across2 = length_squared(to_center - along * unit_);
             if (across2 > radius * radius) return std::nullopt;
             const double half = std::sqrt(radius * radius - across2) + room;
@@ -192,8 +192,8 @@ struct SphereBound {
     };
 };
 
-/// An ellipsoid with its axes along those of the frame: the least one around the box of a
-/// primitive, which only moves the ray into the ellipsoid's own scale.
+/// An ellipsoid with axes along the coordinate axes: the smallest one around the box of a
+/// primitive. The test transforms the ray to the ellipsoid's scale.
 struct EllipsoidBound {
     Vec3 center, axes;
 
@@ -201,7 +201,7 @@ struct EllipsoidBound {
         const Box3 box = source.box(i);
         const Vec3 half = 0.5 * box.size();
         const double widest = max_component(half);
-        // Flat primitives have a thin ellipsoid, points a tiny one.
+        // A flat primitive has a thin ellipsoid, a point a tiny one.
         const double least = std::max(1e-9 * widest, std::numeric_limits<double>::min());
         EllipsoidBound bound{box.center(), {}};
         for (int k = 0; k < 3; ++k) bound.axes[k] = std::numbers::sqrt3 * std::max(half[k], least);

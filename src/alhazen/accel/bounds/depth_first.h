@@ -1,11 +1,11 @@
 #pragma once
-/// Depth-first traversal of a hierarchy of bounds, the children of a node in the order they are
-/// stored in, or the nearest first.
+/// Depth-first traversal of a hierarchy of bounds, with the children of a node in stored order or
+/// the nearest first.
 ///
 /// Source: Foley, van Dam, Feiner and Hughes, "Computer Graphics", 2nd ed., section 15.10.2,
 /// HIER_traverse.
-/// Differs: a stack instead of recursion; a bound that begins behind the nearest hit is left out
-/// when it comes from the stack (Haines, Ray Tracing News).
+/// Differs: uses a stack instead of recursion; a bound that begins behind the nearest hit is
+/// skipped when it is popped (Haines, Ray Tracing News).
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ namespace alhazen {
 
 enum class ChildOrder : std::uint8_t { Stored, NearestFirst };
 
-/// A node to visit, and where the ray comes to it.
+/// A node to visit, and the t at which the ray enters it.
 struct ReachedNode {
     std::uint32_t node;
     double t;
@@ -41,7 +41,7 @@ void traverse_depth_first(const BoundTree<B>& tree, ChildOrder order, const Ray&
         }
         stats.nodes(1);
         const std::size_t before = stack.size();
-        // From the last to the first, so that the first is on top.
+        // In reverse, so that the first child is on top.
         for (std::uint32_t i = node.count; i-- > 0;) {
             const auto t = probe.enter(tree.nodes[node.first + i].bound, visitor.t_max(), stats);
             if (t) stack.push({node.first + i, *t});

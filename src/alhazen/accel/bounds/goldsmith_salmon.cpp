@@ -28,7 +28,7 @@ double goldsmith_salmon_cost(const BoundTree<BoxBound>& tree) {
     const double whole = insertion_area(tree.nodes.front().bound);
     double sum = 0;
     for (const auto& node : tree.nodes) {
-        // Where everything is one point all areas are equal.
+        // All areas are equal when everything is one point.
         const double share = whole > 0 ? insertion_area(node.bound) / whole : 1.0;
         sum += static_cast<double>(node.count) * share;
     }
@@ -39,13 +39,13 @@ GoldsmithSalmon::Config GoldsmithSalmon::configure(SettingsReader& reader) {
     static constexpr const char* kOrders[] = {"stored", "nearest"};
     Config config;
     config.orders = reader.count(
-        "orders", "random orders of insertion that are tried, 0: the scene's own", 1, 0, 1000);
+        "orders", "random orders of insertion to try, 0: the scene's order", 1, 0, 1000);
     config.seed = static_cast<std::uint64_t>(
-        reader.count("seed", "of the random orders", 1, 0, std::numeric_limits<int>::max()));
+        reader.count("seed", "seed of the random orders", 1, 0, std::numeric_limits<int>::max()));
     config.reinsert =
         reader.count("reinsert", "passes that insert every primitive again", 0, 0, 100);
     config.order = static_cast<ChildOrder>(
-        reader.choice("order", "which child of a node comes first", 1, kOrders));
+        reader.choice("order", "order of the children of a node", 1, kOrders));
     return config;
 }
 

@@ -1,15 +1,15 @@
 #pragma once
-/// A hierarchy of boxes made by inserting one primitive after the other where the expected cost
-/// grows least.
+/// A hierarchy of boxes built by inserting primitives one by one where the expected cost grows
+/// least.
 ///
 /// Source: Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE
 /// CG&A 7(5), 1987.
-/// Differs: of children that grow equally the smaller one is descended into, then the one of fewer
-/// primitives (equal growth, often of zero, makes chains otherwise); a path is left where what is
-/// inherited costs more than the best place so far (Haines, Ray Tracing News). With `reinsert`
-/// primitives are taken out and inserted again, which the source does not do (Bittner, Hapala and
+/// Differs: of children with equal growth, the search descends into the smaller one, then into the
+/// one with fewer primitives (equal growth, often of zero, would make chains); it leaves a path
+/// where the inherited cost exceeds the best position so far (Haines, Ray Tracing News). `reinsert`
+/// removes primitives and inserts them again, which the source does not do (Bittner, Hapala and
 /// Havran, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies", CGF 32(1), 2013).
-/// Complexity: O(n log n) expected for each order that is tried.
+/// Complexity: O(n log n) expected for each order tried.
 
 #include <cstdint>
 #include <span>
@@ -21,20 +21,20 @@
 
 namespace alhazen {
 
-/// The expected number of bounds that a ray tests which meets the root: 1 + sum over the inner
-/// nodes of k A / A(root), with k children and area A. 0 for a tree without nodes.
+/// The expected number of bounds tested by a ray that intersects the root: 1 + sum over the inner
+/// nodes of k A / A(root), with k children and area A. 0 for an empty tree.
 [[nodiscard]] double goldsmith_salmon_cost(const BoundTree<BoxBound>& tree);
 
 class GoldsmithSalmon {
   public:
     static constexpr const char* kName = "goldsmith_salmon";
     static constexpr const char* kDescription =
-        "boxes in a hierarchy, each primitive inserted where the cost grows least";
+        "hierarchy of boxes, each primitive inserted where the cost grows least";
     struct Config {
-        int orders = 1;  ///< random orders of insertion that are tried; the cheapest tree is kept.
-                         ///< 0: the scene's own
+        int orders = 1;  ///< random orders of insertion to try, keeping the cheapest tree.
+                         ///< 0: the scene's order
         std::uint64_t seed = 1;
-        int reinsert = 0;  ///< passes that take every primitive out and insert it again
+        int reinsert = 0;  ///< passes that remove every primitive and insert it again
         ChildOrder order = ChildOrder::NearestFirst;
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);

@@ -3,8 +3,8 @@
 ///
 /// Source: Foley, van Dam, Feiner and Hughes, "Computer Graphics", 2nd ed., section 15.10.2
 /// (HIER_traverse); Kay and Kajiya, SIGGRAPH 1986 (the hierarchy, by median splits).
-/// Differs: `order=nearest` visits the nearest child first; the source does not say.
-/// Complexity: O(n log n) to build, O(log n) per ray where the bounds are good.
+/// Differs: `order=nearest` visits the nearest child first; the source leaves the order open.
+/// Complexity: O(n log n) to build, O(log n) per ray for tight bounds.
 
 #include <variant>
 
@@ -14,7 +14,7 @@
 
 namespace alhazen {
 
-/// A hierarchy of one of the kinds of bound.
+/// A hierarchy of one of the kinds of bounds.
 using AnyBoundTree = std::variant<BoundTree<BoxBound>, BoundTree<SphereBound>,
                                   BoundTree<SlabBound<7>>, BoundTree<SlabBound<13>>>;
 [[nodiscard]] AnyBoundTree median_split_tree(const BoundsSource& source, NestingBound bound);
@@ -32,7 +32,7 @@ class Hierarchy {
         static constexpr const char* kOrders[] = {"stored", "nearest"};
         return {read_nesting_bound(reader, NestingBound::Box),
                 static_cast<ChildOrder>(
-                    reader.choice("order", "which child of a node comes first", 1, kOrders))};
+                    reader.choice("order", "order of the children of a node", 1, kOrders))};
     }
 
     [[nodiscard]] static Hierarchy build(const BoundsSource& source, const Config& config) {

@@ -57,8 +57,8 @@ InsertionTree::Place InsertionTree::best_place(const BoxBound& bound) {
     Place best;
     double inherited = 0;
     const auto offer = [&](std::uint32_t node, bool as_child, double increase) {
-        // At the same cost beside the deeper node: where boxes coincide no chain is made. Also
-        // where areas are so large that costs overflow there is a place.
+        // At equal cost, beside the deeper node: coincident boxes make no chain. The first offer is
+        // always taken, also when areas are so large that costs overflow.
         const bool better = as_child ? increase < best.increase : increase <= best.increase;
         if (best.node == kNone || better) best = {node, as_child, increase};
     };
@@ -154,7 +154,7 @@ void InsertionTree::remove(std::uint32_t primitive) {
         shrink_upward(above);
         return;
     }
-    // A node of one child gives way to it.
+    // A node with one child left is replaced by the child.
     const std::uint32_t left = children.front();
     const std::uint32_t top = nodes_[above].parent;
     nodes_[left].parent = top;
@@ -184,7 +184,7 @@ BoundTree<BoxBound> InsertionTree::flattened() const {
     BoundTree<BoxBound> flat;
     if (root_ == kNone) return flat;
     flat.nodes.resize(nodes_.size() - free_.size());
-    // Breadth first: the children of a node get consecutive places.
+    // Breadth first: the children of a node get consecutive indices.
     std::vector<std::uint32_t> order{root_};
     order.reserve(flat.nodes.size());
     for (std::size_t i = 0; i < order.size(); ++i) {

@@ -1,9 +1,9 @@
 #pragma once
-/// The hierarchy that Goldsmith and Salmon's insertion works on: nodes with any number of children,
+/// The mutable hierarchy of Goldsmith and Salmon's insertion: nodes with any number of children,
 /// linked both ways.
 ///
 /// Source: Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE
-/// CG&A 7(5), 1987; the increments of the cost as Haines writes them.
+/// CG&A 7(5), 1987; the increments of the cost as given by Haines.
 /// Differs: a node has at most 64 children.
 /// Conventions: the cost is the sum of k A over the inner nodes: that of the source times the area
 /// of the root, less the root's own test.
@@ -19,20 +19,20 @@ class InsertionTree {
   public:
     explicit InsertionTree(std::size_t primitives);
 
-    /// Inserts a primitive where the cost grows least; returns by how much.
+    /// Inserts a primitive where the cost grows least; returns the growth.
     double insert(std::uint32_t primitive, const BoxBound& bound);
-    /// Takes a primitive out that is in the tree.
+    /// Removes a primitive. Precondition: it is in the tree.
     void remove(std::uint32_t primitive);
 
-    /// The sum of k A, added up anew.
+    /// The sum of k A, recomputed.
     [[nodiscard]] double cost() const;
     [[nodiscard]] BoundTree<BoxBound> flattened() const;
-    /// By all insertions, to find their places.
+    /// Number of nodes examined by all insertions.
     [[nodiscard]] std::uint64_t nodes_looked_at() const { return looked_at_; }
 
   private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    /// Where many boxes coincide the cost is the same however many children a node has.
+    /// Limits the children of coincident boxes, whose cost is the same for any number of children.
     static constexpr std::size_t kMostChildren = 64;
     struct Node {
         BoxBound bound;
@@ -43,7 +43,7 @@ class InsertionTree {
     };
     struct Place {
         std::uint32_t node = kNone;
-        bool as_child = false;  ///< else beside the node, under a new parent of both
+        bool as_child = false;  ///< otherwise as its sibling, under a new parent
         double increase = std::numeric_limits<double>::infinity();
     };
 
@@ -62,7 +62,8 @@ class InsertionTree {
     std::uint64_t looked_at_ = 0;
 };
 
-/// Half the surface and a little of the edges: flat boxes are compared, too.
+/// Half the surface area plus a small multiple of the squared edges, so that flat boxes are
+/// compared too.
 [[nodiscard]] double insertion_area(const BoxBound& bound);
 
 }  // namespace alhazen

@@ -1,11 +1,12 @@
 #pragma once
-/// Slabs that all bounds share, and a heap that always opens the nearest bound next.
+/// A hierarchy of slabs with common directions, and a heap that always opens the nearest bound
+/// next.
 ///
 /// Source: Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; the traversal as in Foley,
-/// van Dam, Feiner and Hughes, "Computer Graphics", 2nd ed., figure 15.59. Differs: a bound behind
-/// the nearest hit so far is not put into the heap (Haines, Ray Tracing News); bounds that a ray
-/// starts inside of have the key t_min. Complexity: O(n log n) to build; the heap holds at most as
-/// many bounds as there are primitives.
+/// van Dam, Feiner and Hughes, "Computer Graphics", 2nd ed., figure 15.59.
+/// Differs: bounds behind the nearest hit so far are not pushed onto the heap (Haines, Ray Tracing
+/// News); bounds that contain the ray's start have the key t_min.
+/// Complexity: O(n log n) to build; the heap holds at most as many bounds as there are primitives.
 
 #include <algorithm>
 #include <variant>
@@ -21,7 +22,7 @@ class KayKajiya {
   public:
     static constexpr const char* kName = "kay_kajiya";
     static constexpr const char* kDescription =
-        "slabs shared by all bounds, the nearest bound first by a heap";
+        "slabs of common directions, nearest bound first by a heap";
     struct Config {
         int slabs = 7;  ///< 3, 7 or 13
     };
@@ -66,7 +67,7 @@ class KayKajiya {
         while (!heap.empty()) {
             std::pop_heap(heap.begin(), heap.end(), farther);
             const ReachedNode reached = heap.pop();
-            // All that is left lies behind the nearest hit.
+            // All remaining bounds lie behind the nearest hit.
             if (reached.t > visitor.t_max()) return;
             const auto& node = tree.nodes[reached.node];
             if (node.is_leaf()) {

@@ -1,13 +1,15 @@
 #pragma once
-/// Brute force: every ray is tested against every primitive, in the order of their ids. The oracle.
-/// Or, with `transform=z`, against those whose bounds it meets, from front to back.
+/// Brute force: tests every ray against every primitive, in the order of their ids; the reference
+/// for all other accelerators. With `transform=z`, tests the primitives whose bounds the ray
+/// intersects, from front to back.
 ///
 /// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968; Rubin and
 /// Whitted, "A 3-Dimensional Representation for Fast Rendering of Complex Scenes", SIGGRAPH 1980
-/// (`transform=z`: space is turned so that the ray runs along the z axis; what it may meet has a
-/// bound around x = y = 0, and the nearest is first by z). Differs: what is turned are boxes around
-/// primitives, widened by more than the turn rounds; primitives themselves are tested as they are.
-/// Complexity: O(n) per ray; no memory, with `transform=z` a box for each primitive.
+/// (`transform=z`: space is rotated so that the ray runs along the z axis; candidates have a bound
+/// around x = y = 0, and are sorted by z).
+/// Differs: rotates boxes around primitives, widened by more than the rounding of the rotation;
+/// primitives themselves are tested unrotated.
+/// Complexity: O(n) per ray; no memory, with `transform=z` a box per primitive.
 
 #include <cmath>
 #include <vector>
@@ -23,7 +25,7 @@ class List {
     static constexpr const char* kName = "list";
     static constexpr const char* kDescription = "brute force: every ray against every primitive";
     struct Config {
-        bool to_z = false;  ///< the ray is turned into the z axis
+        bool to_z = false;  ///< rotate the ray to the z axis
     };
     [[nodiscard]] static Config configure(SettingsReader& reader) {
         static constexpr const char* kTransforms[] = {"none", "z"};
@@ -58,10 +60,10 @@ class List {
         double depth;
         std::uint32_t primitive;
     };
-    /// The frame of a ray: its origin, and axes of length 1 with z along it.
+    /// The frame of a ray: its origin, and unit axes with z along the ray.
     struct RayFrame {
         Vec3 origin, x, y, z;
-        double per_t;  ///< depth for each unit of t
+        double per_t;  ///< depth per unit of t
         double reach;
 
         explicit RayFrame(const Ray& ray)
@@ -74,7 +76,7 @@ class List {
             x = normalize(cross(beside, z));
             y = cross(z, x);
         }
-        /// The range of a box along one of the axes.
+        /// The range of a box along an axis of the frame.
         [[nodiscard]] Interval range(const Box3& box, const Vec3& axis) const {
             const double middle = dot(axis, box.center() - origin);
             const double half = 0.5 * dot(abs(axis), box.size());
@@ -102,7 +104,7 @@ class List {
             return a.depth != b.depth ? a.depth < b.depth : a.primitive < b.primitive;
         });
         for (std::size_t i = 0, n = met.size(); i < n; ++i) {
-            // Asked for anew each time: a visit may need more room, and move it.
+            // Fetched again each time: a visit may grow the stack and move it.
             const Met next = met.begin()[i];
             if (next.depth > visitor.t_max() * frame.per_t) return;
             if (visitor.visit(next.primitive)) return;

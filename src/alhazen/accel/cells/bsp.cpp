@@ -12,30 +12,30 @@
 namespace alhazen {
 namespace {
 
-/// Of so many primitives of a node the bounds are candidates; they are chosen evenly.
+/// Number of primitives of a node whose bounds are candidates, evenly chosen.
 constexpr std::size_t kSampled = 256;
-/// Splits in a row that do not pay, in the hope of later ones.
+/// Maximum number of successive splits that do not pay, in the hope of later ones.
 constexpr int kForgivenSplits = 4;
 
-/// A primitive; of a flat polygon the part in the node.
+/// A primitive; of a flat polygon, the part in the node.
 struct Piece {
     std::uint32_t primitive;
-    std::vector<Vec3> outline;  ///< empty where it is none
+    std::vector<Vec3> outline;  ///< empty where it is not a flat polygon
 };
 
 struct Plane {
-    std::uint32_t direction;  ///< among those of all nodes, or Bsp::Node::kLeaf: its own
+    std::uint32_t direction;  ///< index of a common direction, or Bsp::Node::kLeaf: its own
     Vec3 normal;
     double offset;
 };
 
 struct Candidate {
     Plane plane;
-    std::size_t lower = 0, upper = 0;  ///< how many pieces come there
-    double least = 0;                  ///< what it costs at least
+    std::size_t lower = 0, upper = 0;  ///< number of pieces on each side
+    double least = 0;                  ///< lower bound of the cost
 };
 
-/// Unit, or nothing where the cross product vanishes.
+/// The unit normal, or nothing where the cross product vanishes.
 std::optional<Vec3> unit_normal(const Vec3& a, const Vec3& b) {
     const double scale_a = max_component(abs(a)), scale_b = max_component(abs(b));
     if (!(scale_a > 0.0) || !(scale_b > 0.0)) return std::nullopt;
@@ -47,7 +47,6 @@ std::optional<Vec3> unit_normal(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-/// Builds depth first.
 class BspBuilder {
   public:
     BspBuilder(const BoundsSource& source, Bsp& tree)
@@ -82,7 +81,7 @@ class BspBuilder {
         for (const Vec3& p : piece.outline) range.include(dot(normal, p));
         return range;
     }
-    /// In the frame of the cells, which has numbers of the order of 1.
+    /// The offset in the frame of the cells, with coordinates of the order of 1.
     [[nodiscard]] double local_offset(const Plane& plane) const {
         return scale_ * (plane.offset - dot(plane.normal, center_));
     }
@@ -95,22 +94,22 @@ class BspBuilder {
         return plane.direction < 3 ? config_.axis_cost : config_.traversal_cost;
     }
     [[nodiscard]] double cost(const Candidate& c, double p_lower, double p_upper) const {
-        // Empty space is there to cut off in every direction: with a bonus for all of them nothing
-        // else would be done.
+        // Every direction can cut off empty space: with a bonus for all of them the builder would
+        // do nothing else.
         const bool bonus = c.plane.direction < 3 && (c.lower == 0 || c.upper == 0);
         const double factor = bonus ? config_.empty_factor : 1.0;
         return factor * (step_cost(c.plane) + config_.test_cost * (p_lower * double(c.lower) +
                                                                    p_upper * double(c.upper)));
     }
 
-    /// Adds what divides the pieces; the chances of both parts sum to 1 at least.
+    /// Adds a candidate that divides the pieces; the probabilities of both parts sum to at least 1.
     void offer(const Candidate& c, std::size_t size, std::vector<Candidate>& candidates) const {
         if (c.lower == size && c.upper == size) return;
         candidates.push_back(c);
         candidates.back().least = c.lower < c.upper ? cost(c, 1.0, 0.0) : cost(c, 0.0, 1.0);
     }
 
-    /// Planes beside the bounds of pieces, by rank, and those that cut off empty space.
+    /// Adds planes beside the bounds of pieces, by rank, and planes that cut off empty space.
     void add_candidates_across(std::uint32_t k, const std::vector<Piece>& pieces,
                                const ConvexCell& cell, std::vector<Candidate>& candidates) const {
         const Vec3& normal = tree_.normals_[k];
@@ -140,7 +139,7 @@ class BspBuilder {
         });
         std::sort(offsets.begin(), offsets.end());
         offsets.erase(std::unique(offsets.begin(), offsets.end()), offsets.end());
-        // How many lie below an offset first, and above it last.
+        // Counts of the pieces that begin below an offset, and of those that end above it.
         std::vector<std::size_t> lower(offsets.size() + 1, 0), upper(offsets.size() + 1, 0);
         for (const Interval& e : extents) {
             ++lower[static_cast<std::size_t>(
@@ -159,7 +158,7 @@ class BspBuilder {
         }
     }
 
-    /// The planes of flat polygons and those through their edges, across them.
+    /// Adds the planes of flat polygons, and planes through their edges, perpendicular to them.
     void add_polygon_candidates(const std::vector<Piece>& pieces,
                                 std::vector<Candidate>& candidates) const {
         const auto most = static_cast<std::size_t>(config_.candidates);
@@ -179,7 +178,7 @@ class BspBuilder {
         }
     }
 
-    /// The planes that bound a piece on both sides.
+    /// Adds the planes that bound a piece on both sides.
     void add_beside(const Vec3& normal, const Piece& piece, const std::vector<Piece>& pieces,
                     std::vector<Candidate>& candidates) const {
         const Interval own = extent(piece, normal);
@@ -209,7 +208,7 @@ class BspBuilder {
             add_candidates_across(k, pieces, cell, candidates);
         }
         if (config_.polygons) add_polygon_candidates(pieces, candidates);
-        // Most are out before their areas are needed.
+        // Most candidates are rejected before their areas are needed.
         std::stable_sort(candidates.begin(), candidates.end(),
                          [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
         Split best;
@@ -217,7 +216,7 @@ class BspBuilder {
             if (!(c.least < best.cost)) break;
             const ConvexCell::Areas areas =
                 cell.areas_of_parts(c.plane.normal, local_offset(c.plane));
-            // Beside the cell.
+            // The plane misses the cell.
             if (!(areas.lower > 1e-12 * cell.area()) || !(areas.upper > 1e-12 * cell.area())) {
                 continue;
             }
@@ -227,7 +226,7 @@ class BspBuilder {
         return best;
     }
 
-    /// The part of a piece below a plane.
+    /// The part of an outline below a plane.
     [[nodiscard]] std::vector<Vec3> clipped(const std::vector<Vec3>& outline, const Vec3& normal,
                                             double offset) const {
         std::vector<Vec3> part;
@@ -262,8 +261,8 @@ class BspBuilder {
         }
     }
 
-    /// Leaves out what is no flat polygon and does not reach into a cell: planes alone do not tell
-    /// of a corner.
+    /// Removes pieces that are not flat polygons and do not overlap the cell: single planes do not
+    /// separate them at corners.
     void drop_beside(const ConvexCell& cell, std::vector<Piece>& pieces) const {
         std::array<Interval, 13> ranges;
         for (std::uint32_t k = 0; k < fixed_; ++k) {
@@ -343,22 +342,22 @@ Bsp::Config Bsp::configure(SettingsReader& reader) {
     static constexpr int kDirections[] = {3, 7, 13, 3};
     Config config;
     const std::size_t planes = reader.choice(
-        "planes", "across so many directions, or the axes and all that polygons have", 2, kPlanes);
+        "planes", "number of plane directions, or the axes and the planes of polygons", 2, kPlanes);
     config.directions = kDirections[planes];
     config.polygons = planes == 3;
     config.candidates = reader.count(
-        "candidates", "planes weighed for each direction, polygons that offer theirs", 16, 1, 1000);
+        "candidates", "planes weighed per direction, polygons that contribute planes", 16, 1, 1000);
     config.axis_cost =
-        reader.number("axis_cost", "of a step at a plane across an axis", 15, 0.001, 1e6);
+        reader.number("axis_cost", "cost of a step at an axis-aligned plane", 15, 0.001, 1e6);
     config.traversal_cost =
-        reader.number("traversal_cost", "of a step at any other plane", 25, 0.001, 1e6);
-    config.test_cost = reader.number("test_cost", "of a primitive", 20, 0.001, 1e6);
+        reader.number("traversal_cost", "cost of a step at any other plane", 25, 0.001, 1e6);
+    config.test_cost = reader.number("test_cost", "cost of testing a primitive", 20, 0.001, 1e6);
     config.empty_factor = reader.number(
-        "empty_factor", "of the cost of a split across an axis that cuts off empty space", 0.8,
-        0.01, 1);
+        "empty_factor", "cost factor of an axis-aligned split that cuts off empty space", 0.8, 0.01,
+        1);
     config.max_depth =
-        reader.count("max_depth", "of the tree, 0: by the number of primitives", 0, 0, 64);
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+        reader.count("max_depth", "depth of the tree, 0: by the number of primitives", 0, 0, 64);
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     return config;
 }
 

@@ -1,18 +1,19 @@
 #pragma once
-/// A BSP tree: every node divides its convex cell by any plane, by the surface area heuristic over
-/// the exact cells.
+/// A BSP tree: every node divides its convex cell by an arbitrary plane, chosen by the surface area
+/// heuristic over the exact cells.
 ///
 /// Source: Fuchs, Kedem and Naylor, "On Visible Surface Generation by A Priori Tree Structures",
 /// SIGGRAPH 1980 (the tree); Ize, Wald and Parker, "Ray Tracing with the BSP Tree", RT 2008
 /// (`planes=polygons`: planes of flat polygons and through their edges, exact areas of cells, a
-/// cheaper step at planes across an axis); Kammaje and Mora, "A Study of Restricted BSP Trees for
-/// Ray Tracing", RT 2007 (`planes=directions7` or `directions13`: few directions, prepared once a
-/// ray, as Kay and Kajiya do). Differs: in nodes of many primitives the planes that are weighed are
-/// a fixed number, chosen by rank among those of evenly chosen primitives; a polygon is never in a
-/// plane of its own but beside it, so that it lies on one side. What is no flat polygon is clipped
-/// to nothing, only left out of cells that it does not reach into. Rays from so far away that
-/// rounding could lead past a cell are tested against everything. Complexity: O(n log n) to build,
-/// with a large factor.
+/// cheaper step at axis-aligned planes); Kammaje and Mora, "A Study of Restricted BSP Trees for Ray
+/// Tracing", RT 2007 (`planes=directions7` or `directions13`: few directions, prepared once per
+/// ray, like Kay and Kajiya's slabs).
+/// Differs: nodes of many primitives weigh a fixed number of planes, chosen by rank among those of
+/// evenly chosen primitives; the plane of a polygon is placed beside it, so that the polygon lies
+/// on one side. Primitives that are not flat polygons are not clipped, only removed from cells that
+/// they do not overlap. Rays from so far away that rounding could make them miss a cell are tested
+/// against all primitives.
+/// Complexity: O(n log n) to build, with a large factor.
 
 #include <array>
 #include <cstdint>
@@ -34,14 +35,14 @@ class Bsp {
         "planes of any direction by the surface area heuristic";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        int directions = 13;         ///< 3, 7 or 13: those that planes across them are looked for
-        bool polygons = false;       ///< planes of flat polygons as well
-        int candidates = 16;         ///< planes for each direction; polygons that offer theirs
-        double axis_cost = 15;       ///< of a step at a plane across an axis
-        double traversal_cost = 25;  ///< of a step at any other plane
-        double test_cost = 20;       ///< of a primitive
+        int directions = 13;         ///< 3, 7 or 13 common directions of candidate planes
+        bool polygons = false;       ///< also use planes of flat polygons
+        int candidates = 16;         ///< planes per direction; polygons that contribute planes
+        double axis_cost = 15;       ///< cost of a step at an axis-aligned plane
+        double traversal_cost = 25;  ///< cost of a step at any other plane
+        double test_cost = 20;       ///< cost of a primitive
         double empty_factor =
-            0.8;            ///< of the cost of a split across an axis that cuts off empty space
+            0.8;            ///< cost factor of an axis-aligned split that cuts off empty space
         int max_depth = 0;  ///< 0: 8 + 1.3 log2 n
         bool mailbox = true;
     };
@@ -51,8 +52,8 @@ class Bsp {
     [[nodiscard]] static Bsp build(const BoundsSource& source, const Config& config);
 
     /// A leaf has `normal` kLeaf and the primitives entries[index .. index + count); an inner node
-    /// divides by normals[normal] . p = offset, with its lower child right after it and the upper
-    /// one at `index`.
+    /// divides by normals[normal] . p = offset, its lower child follows it, the upper one is at
+    /// `index`.
     struct Node {
         static constexpr std::uint32_t kLeaf = 0xFFFFFFFFu;
         double offset = 0;
@@ -66,7 +67,6 @@ class Bsp {
     /// Unit vectors; the axes first.
     [[nodiscard]] const std::vector<Vec3>& normals() const { return normals_; }
     [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
-    /// The root's cell.
     [[nodiscard]] const Box3& box() const { return space_.box; }
 
     template <class Visitor, class Stats>
@@ -79,7 +79,7 @@ class Bsp {
 
   private:
     friend class BspBuilder;
-    /// Where a ray is along a direction, and how fast it goes there.
+    /// Position and inverse speed of a ray along a direction.
     struct Along {
         double place, inverse;
     };

@@ -1,11 +1,12 @@
 #pragma once
-/// The cells of a regular grid over a box, and the walk of a ray through them.
+/// The cells of a regular grid over a box, and the traversal of them by a ray.
 ///
 /// Source: Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
-/// 1987. Differs: where the ray comes to the next plane is computed from the plane's number, not
-/// added up, so that long walks do not drift. Primitives are put into all cells within `pad` of
-/// them; the walk is off by far less for rays that `covers` says yes to. Conventions: cells are
-/// numbered x + nx (y + ny z).
+/// 1987.
+/// Differs: computes the t of the next plane from the plane's number instead of adding increments,
+/// so that long traversals do not drift. Primitives are stored in all cells within `pad` of them;
+/// the error of the traversal is far smaller for rays accepted by `covers`.
+/// Conventions: cells are numbered x + nx (y + ny z).
 
 #include <algorithm>
 #include <array>
@@ -22,9 +23,9 @@ struct CellGrid : PaddedBox {
     Vec3 cell_size, per_cell_size;
 
     CellGrid() = default;
-    /// About `count` cells, as near to cubes as can be, at most `most` along an axis.
+    /// About `count` cells, as cubical as possible, at most `most` along an axis.
     CellGrid(const Box3& around, double count, int most);
-    /// So many along each axis.
+    /// The given number of cells along each axis.
     CellGrid(const Box3& around, const std::array<int, 3>& along);
 
     [[nodiscard]] std::size_t size() const {
@@ -45,17 +46,17 @@ struct CellGrid : PaddedBox {
         return place >= last ? last : place > 0.0 ? static_cast<int>(place) : 0;
     }
     [[nodiscard]] Box3 cell_box(const std::array<int, 3>& cell) const;
-    /// The first and the last cell that come within `pad` of a box.
+    /// The first and the last cell within `pad` of a box.
     [[nodiscard]] std::array<std::array<int, 3>, 2> range(const Box3& b) const;
 
   private:
     void divide(const std::array<int, 3>& along);
 };
 
-/// The cells that a ray goes through, one after the other.
+/// The cells that a ray traverses, in order.
 class CellWalk {
   public:
-    /// `outside` when the ray misses the grid on its way to t_max.
+    /// `outside` when the ray misses the grid up to t_max.
     CellWalk(const CellGrid& grid, const Ray& ray, double t_max) : grid_(grid), ray_(ray) {
         const RaySpan span(grid.box, ray, t_max);
         if (span.empty()) return;
@@ -71,7 +72,7 @@ class CellWalk {
 
     [[nodiscard]] bool outside() const { return outside_; }
     [[nodiscard]] const std::array<int, 3>& cell() const { return cell_; }
-    /// Where the ray comes into the cell, and where it leaves it.
+    /// The t at which the ray enters the cell, and that at which it leaves it.
     [[nodiscard]] double entry() const { return entry_; }
     [[nodiscard]] double exit() const { return std::min(next_[0], std::min(next_[1], next_[2])); }
 

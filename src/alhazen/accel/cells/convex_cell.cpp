@@ -7,7 +7,7 @@
 namespace alhazen {
 namespace {
 
-/// Twice the vector area of a polygon, point by point.
+/// Twice the vector area of a polygon, accumulated point by point.
 struct VectorArea {
     Vec3 first, last, sum;
     int count = 0;
@@ -29,8 +29,8 @@ double area_of(std::span<const Vec3> polygon) {
     return 0.5 * length(area.sum);
 }
 
-/// Calls keep(point) for the outline of the part below the plane, cut(point) where the plane cuts
-/// it.
+/// Calls keep(point) for the outline of the part below the plane, cut(point) for intersections with
+/// the plane.
 template <class Keep, class Cut>
 void clip(std::span<const Vec3> polygon, const Vec3& normal, double offset, const Keep& keep,
           const Cut& cut) {
@@ -57,7 +57,7 @@ std::span<const Vec3> face(const std::vector<Vec3>& points,
 }  // namespace
 
 ConvexCell::ConvexCell(const Box3& box) {
-    // The corners of a face, counterclockwise from outside; bit k: the upper end of axis k.
+    // The corners of a face, counterclockwise from outside; bit k selects the upper end of axis k.
     constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                   {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (const auto& corners : kFaces) {
@@ -76,7 +76,7 @@ void ConvexCell::add_face(const std::vector<Vec3>& points) {
 
 double ConvexCell::volume() const {
     if (points_.empty()) return 0;
-    // Pyramids over the faces with their top in one point.
+    // Pyramids over the faces with a common apex.
     const Vec3 top = points_.front();
     double six_volumes = 0;
     for (std::size_t f = 0; f + 1 < starts_.size(); ++f) {
@@ -96,7 +96,7 @@ Interval ConvexCell::extent(const Vec3& normal) const {
 
 ConvexCell::Areas ConvexCell::areas_of_parts(const Vec3& normal, double offset) const {
     double lower = 0;
-    Vec3 open;  // the vector area that the lower part lacks
+    Vec3 open;  // the vector area missing from the lower part
     for (std::size_t f = 0; f + 1 < starts_.size(); ++f) {
         VectorArea area;
         clip(
@@ -139,7 +139,7 @@ void ConvexCell::close(std::vector<Vec3> rim, const Vec3& normal) {
     std::sort(by_angle.begin(), by_angle.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Vec3> outline;
-    // Neighbouring faces share their points of the cut.
+    // Neighbouring faces share points of the cut.
     for (const auto& [a, p] : by_angle) {
         if (outline.empty() || max_component(abs(p - outline.back())) > 1e-13) outline.push_back(p);
     }

@@ -8,14 +8,14 @@
 namespace alhazen {
 namespace {
 
-/// A primitive, or the part of it in the box of a node.
+/// A primitive, or its part in the box of a node.
 struct ClippedPrimitive {
     std::uint32_t primitive;
     Box3 box;
 };
 
-/// What a sweep along an axis meets. At one position ends come before flat pieces, these before
-/// begins.
+/// An event of the sweep along an axis. At equal positions ends come before flat pieces, flat
+/// pieces before begins.
 struct Event {
     enum Type : std::uint8_t { End, Planar, Begin };
     double position;
@@ -44,8 +44,8 @@ enum class Side : std::uint8_t { Low, High, Both };
 
 }  // namespace
 
-/// Builds depth first. Both ways to find a plane look at the same candidates with the same counts,
-/// so they find the same one.
+/// Builds depth first. Both methods of finding a plane examine the same candidates with the same
+/// counts, so they find the same plane.
 class KdTreeBuilder {
   public:
     KdTreeBuilder(const BoundsSource& source, KdTree& tree)
@@ -70,7 +70,7 @@ class KdTreeBuilder {
 
   private:
     static constexpr int kForgivenSplits =
-        4;  // in a row that do not pay, in the hope of later ones
+        4;  // maximum number of successive splits that do not pay
 
     [[nodiscard]] static double area(const Box3& b) {
         const Vec3 s = b.size();
@@ -92,7 +92,7 @@ class KdTreeBuilder {
         }
     }
 
-    /// The cost of a plane with so many pieces below, in and above it; improves `best`.
+    /// Weighs a plane with these numbers of pieces below, in and above it; improves `best`.
     void weigh(const Box3& box, std::uint8_t axis, double position, std::size_t low,
                std::size_t planar, std::size_t high, Split& best) const {
         if (position <= box.lo[axis] || position >= box.hi[axis]) return;
@@ -106,8 +106,7 @@ class KdTreeBuilder {
                              config_.test_cost * (p_low * double(n_low) + p_high * double(n_high)));
         };
         const auto offer = [&](double c, bool planar_low) {
-            // Strictly less, and candidates come in one order: ties fall the same way for both
-            // builders.
+            // Strict comparison, and one order of candidates: both builders resolve ties alike.
             if (c < best.cost) best = {c, position, axis, planar_low};
         };
         offer(cost(low + planar, high), true);
@@ -134,7 +133,7 @@ class KdTreeBuilder {
         return best;
     }
 
-    /// The same by counting the pieces anew at every candidate.
+    /// Finds the same plane by recounting the pieces at every candidate.
     [[nodiscard]] Split count_all(const std::vector<ClippedPrimitive>& pieces,
                                   const Box3& box) const {
         std::vector<Event> candidates;
@@ -168,7 +167,7 @@ class KdTreeBuilder {
         return lo >= split.position ? Side::High : Side::Both;
     }
 
-    /// The part of a piece in the box of a child; what clips to nothing is left out there.
+    /// The part of a piece in the box of a child; empty parts are left out there.
     [[nodiscard]] Box3 clipped(const ClippedPrimitive& piece, const Box3& box) const {
         Box3 b = widened(source_.clipped_box(piece.primitive, widened(box)));
         for (int k = 0; k < 3; ++k) {
@@ -183,8 +182,8 @@ class KdTreeBuilder {
         std::vector<Event> events;
     };
 
-    /// Deals the pieces out, and splices their events: those of whole pieces stay in order, only
-    /// those of clipped ones are sorted, and merged in.
+    /// Distributes the pieces and splices their events: events of whole pieces stay in order, those
+    /// of clipped pieces are sorted and merged.
     void deal(const std::vector<ClippedPrimitive>& pieces, const std::vector<Event>& events,
               const Split& split, const Box3& low_box, const Box3& high_box, Half& low,
               Half& high) const {
@@ -255,7 +254,7 @@ class KdTreeBuilder {
         low_box.hi[split.axis] = high_box.lo[split.axis] = split.position;
         Half low, high;
         deal(pieces, events, split, low_box, high_box, low, high);
-        // Freed before the recursion: only one path of lists lives at a time.
+        // Freed before the recursion: only the lists of one path are in memory at a time.
         pieces = {};
         events = {};
         tree_.expected_cost_ += config_.traversal_cost * share(box);
@@ -290,16 +289,17 @@ class KdTreeBuilder {
 
 KdTree::Config KdTree::configure(SettingsReader& reader) {
     Config config;
-    config.traversal_cost = reader.number("traversal_cost", "of a step to a child", 15, 0.001, 1e6);
-    config.test_cost = reader.number("test_cost", "of a primitive", 20, 0.001, 1e6);
+    config.traversal_cost =
+        reader.number("traversal_cost", "cost of a step to a child", 15, 0.001, 1e6);
+    config.test_cost = reader.number("test_cost", "cost of testing a primitive", 20, 0.001, 1e6);
     config.empty_factor = reader.number(
-        "empty_factor", "of the cost of a split that cuts off empty space", 0.8, 0.01, 1);
+        "empty_factor", "cost factor of a split that cuts off empty space", 0.8, 0.01, 1);
     config.max_depth =
-        reader.count("max_depth", "of the tree, 0: by the number of primitives", 0, 0, 64);
+        reader.count("max_depth", "depth of the tree, 0: by the number of primitives", 0, 0, 64);
     static constexpr const char* kBuilders[] = {"nlogn", "n2"};
     config.quadratic =
-        reader.choice("build", "how the cheapest planes are found", 0, kBuilders) == 1;
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+        reader.choice("build", "method of finding the cheapest planes", 0, kBuilders) == 1;
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     return config;
 }
 

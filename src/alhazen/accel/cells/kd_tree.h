@@ -1,15 +1,15 @@
 #pragma once
-/// A k-d tree by the surface area heuristic: every node divides its box by a plane across an axis,
-/// and primitives on both sides go into both, clipped to them.
+/// A k-d tree by the surface area heuristic: every node divides its box by an axis-aligned plane;
+/// primitives on both sides are stored in both, clipped.
 ///
 /// Source: Kaplan, "Space-Tracing: a Constant Time Ray-Tracer", SIGGRAPH 1985 course notes (the
 /// structure); MacDonald and Booth, "Heuristics for Ray Tracing Using Space Subdivision", The
 /// Visual Computer 6, 1990 (the cost); Wald and Havran, "On Building Fast kd-Trees for Ray Tracing,
 /// and on Doing that in O(N log N)", RT 2006 (the builder); Havran, "Heuristic Ray Shooting
-/// Algorithms", 2000, section 4 (the traversal with a stack). Differs: every box is widened a
-/// little, so that rounding cannot lead a ray past a cell; rays from so far away that it could are
-/// tested against everything. Complexity: O(n log n) to build; `build=n2` finds the same tree, bit
-/// for bit, in O(n^2).
+/// Algorithms", 2000, section 4 (the traversal with a stack).
+/// Differs: every box is widened a little, so that rounding cannot make a ray miss a cell; rays
+/// from so far away that it could are tested against all primitives.
+/// Complexity: O(n log n) to build; `build=n2` finds the same tree, bit for bit, in O(n^2).
 
 #include <cstdint>
 #include <vector>
@@ -26,24 +26,22 @@ namespace alhazen {
 class KdTree {
   public:
     static constexpr const char* kName = "kd_tree";
-    static constexpr const char* kDescription =
-        "planes across the axes by the surface area heuristic";
+    static constexpr const char* kDescription = "axis-aligned planes by the surface area heuristic";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        double traversal_cost = 15;  ///< of a step to a child
-        double test_cost = 20;       ///< of a primitive
-        double empty_factor = 0.8;   ///< of the cost of a split that cuts off empty space
+        double traversal_cost = 15;  ///< cost of a step to a child
+        double test_cost = 20;       ///< cost of a primitive
+        double empty_factor = 0.8;   ///< cost factor of a split that cuts off empty space
         int max_depth = 0;           ///< 0: 8 + 1.3 log2 n
-        bool quadratic =
-            false;  ///< count anew for every candidate: the oracle of the other builder
+        bool quadratic = false;      ///< recount for every candidate: the reference builder
         bool mailbox = true;
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
 
     [[nodiscard]] static KdTree build(const BoundsSource& source, const Config& config);
 
-    /// A leaf has `axis` 3 and the primitives entries[index .. index + count); an inner node its
-    /// lower child right after it and the upper one at `index`.
+    /// A leaf has `axis` 3 and the primitives entries[index .. index + count); an inner node is
+    /// followed by its lower child, with the upper one at `index`.
     struct Node {
         double plane = 0;
         std::uint32_t index = 0;
@@ -55,9 +53,9 @@ class KdTree {
     };
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<std::uint32_t>& entries() const { return entries_; }
-    /// The root's, a little wider than what is in it.
+    /// The root's box, a little wider than its contents.
     [[nodiscard]] const Box3& box() const { return space_.box; }
-    /// The expected cost of a ray that meets the root's box, by the heuristic.
+    /// The expected cost, by the heuristic, of a ray that intersects the root's box.
     [[nodiscard]] double expected_cost() const { return expected_cost_; }
 
     template <class Visitor, class Stats>

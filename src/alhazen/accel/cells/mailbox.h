@@ -1,13 +1,13 @@
 #pragma once
-/// Remembers which primitives a ray was tested against, so that one that lies in many cells is
+/// Records the primitives that a ray was tested against, so that a primitive in many cells is
 /// tested once.
 ///
 /// Source: Arnaldi, Priol and Bouatouch, "A New Space Subdivision Method for Ray Tracing CSG
 /// Modelled Scenes", The Visual Computer 3, 1987; Amanatides and Woo, "A Fast Voxel Traversal
-/// Algorithm for Ray Tracing", Eurographics 1987 (ray ids in the primitives). Differs: a small
-/// table for each thread, found by a hash of the primitive, instead of an id in every primitive:
-/// threads do not share it, and a traversal inside another one only costs savings. A primitive
-/// whose place was taken is tested again.
+/// Algorithm for Ray Tracing", Eurographics 1987 (ray ids in the primitives).
+/// Differs: a small hash table per thread instead of an id in every primitive: threads do not share
+/// it, and a nested traversal only reduces the savings. A primitive whose entry was overwritten is
+/// tested again.
 
 #include <array>
 #include <cstdint>
@@ -17,10 +17,10 @@ namespace alhazen {
 
 class Mailbox {
   public:
-    /// For one ray.
+    /// A mailbox for one ray.
     Mailbox() : ray_(++table().last_ray) {}
 
-    /// True the first time, as far as is remembered.
+    /// True when the primitive is not recorded; records it.
     [[nodiscard]] bool is_new(std::uint32_t primitive) {
         Entry& entry = table().entries[(primitive * 0x9E3779B1u) >> (32 - kBits)];
         if (entry.ray == ray_ && entry.primitive == primitive) return false;
@@ -46,8 +46,8 @@ class Mailbox {
     std::uint64_t ray_;
 };
 
-/// Tests what is listed in a cell; true when the visitor stops. Where `remembers` is false, the
-/// mailbox is not asked.
+/// Tests the primitives of a cell; returns true when the visitor stops. Without `remembers` the
+/// mailbox is not used.
 template <class Visitor, class Stats>
 bool visit_entries(std::span<const std::uint32_t> entries, bool remembers, Mailbox& mailbox,
                    Visitor& visitor, Stats stats) {

@@ -11,18 +11,19 @@ namespace {
 
 constexpr double kMostAlongAxis = 1024;
 constexpr double kMostCells = 1 << 27;
-/// What a step to a cell costs, in tests of primitives.
+/// The cost of a step to a cell, in tests of primitives.
 constexpr double kStepCost = 0.5;
-/// A grid must save at least a quarter: what saves less is not worth its memory.
+/// A grid must save at least a quarter of the cost to be worth its memory.
 constexpr double kSaving = 0.75;
 
-/// So many primitives that all lie in the same cells are not parted by finer ones.
+/// A heap: at least this many primitives that nearly all lie in the same cells, which finer cells
+/// would not separate.
 constexpr std::size_t kHeap = 16;
 constexpr double kSameCells = 0.9;
 constexpr std::size_t kCellsAroundHeap = 8;
 
-/// About how many cells along each axis make `count` that are as near to cubes as can be; flat axes
-/// have one.
+/// The numbers of cells along each axis that make about `count` cells, as cubical as possible; flat
+/// axes have one.
 std::array<std::uint32_t, 3> resolution(const Vec3& size, double count, double least_edge) {
     const double widest = max_component(size);
     int flat = 0;
@@ -44,7 +45,7 @@ std::array<std::uint32_t, 3> resolution(const Vec3& size, double count, double l
     return cells;
 }
 
-/// Half the surface.
+/// Half the surface area.
 double area(const Vec3& s) {
     return s.x * s.y + s.y * s.z + s.z * s.x;
 }
@@ -65,7 +66,7 @@ class NestedGridBuilder {
   private:
     using Cell = NestedGrid::Cell;
 
-    /// A grid that is not yet part of the whole: its planes, and the lists of its cells.
+    /// A grid that is not yet stored: its planes, and the lists of its cells.
     struct Draft {
         std::array<std::vector<double>, 3> planes;
         std::array<std::uint32_t, 3> cells{};
@@ -95,7 +96,7 @@ class NestedGridBuilder {
     Cell make_cell(const std::vector<std::uint32_t>& inside, const Box3& box, int depth) {
         const bool divides = depth < config_.max_depth &&
                              inside.size() > static_cast<std::size_t>(config_.leaf_size);
-        // The outermost one is always there: a list of everything would be no grid at all.
+        // The outermost grid is always made: otherwise the structure would be a plain list.
         if (!divides || (depth > 0 && fill(inside, box))) return make_list(inside);
         const Draft draft = divide(inside, box);
         if (depth > 0 && !pays(draft, inside.size(), box)) return make_list(inside);
@@ -129,7 +130,7 @@ class NestedGridBuilder {
         draft.for_cells(draft.all(), [&](std::size_t c, const Box3& box) {
             inside.assign(draft.entries.begin() + draft.starts[c],
                           draft.entries.begin() + draft.starts[c + 1]);
-            // Through a temporary: the recursion makes more cells.
+            // A temporary, since the recursion grows `cells_`.
             const Cell cell = make_cell(inside, box, depth + 1);
             made_.cells_[first + c] = cell;
         });
@@ -162,8 +163,8 @@ class NestedGridBuilder {
         return draft;
     }
 
-    /// Whether the primitives are so large in the box that a ray through it comes near most of
-    /// them anyway: known before a grid is made.
+    /// Whether the primitives are so large in the box that a ray through it comes near most of them
+    /// anyway. Decided before a grid is made.
     [[nodiscard]] bool fill(const std::vector<std::uint32_t>& inside, const Box3& box) const {
         double met = 0;
         for (const std::uint32_t i : inside) {
@@ -180,7 +181,8 @@ class NestedGridBuilder {
         return planes;
     }
 
-    /// As many primitives' centers between any two planes, as far as cells are thick enough.
+    /// Planes with equal numbers of primitives' centers between them, as far as cells are thick
+    /// enough.
     [[nodiscard]] std::vector<double> balanced_planes(const std::vector<std::uint32_t>& inside,
                                                       const Box3& box, int axis,
                                                       std::uint32_t cells) const {
@@ -203,7 +205,7 @@ class NestedGridBuilder {
         return planes;
     }
 
-    /// Calls body(cell, primitive) for every cell that a primitive may have a point in.
+    /// Calls body(cell, primitive) for every cell that may contain a point of a primitive.
     template <class Body>
     void for_overlaps(const std::vector<std::uint32_t>& inside, const Draft& draft,
                       const Body& body) const {
@@ -220,7 +222,7 @@ class NestedGridBuilder {
                 const int axis = static_cast<int>(k);
                 ends[0][k] = cell_of(b.lo[axis]);
                 ends[1][k] = cell_of(b.hi[axis]);
-                // On a plane, which the cell below ends at.
+                // On a plane: the cell below also contains it.
                 if (ends[0][k] > 0 && planes[ends[0][k]] == b.lo[axis]) --ends[0][k];
             }
             const bool one = ends[0] == ends[1];
@@ -230,21 +232,21 @@ class NestedGridBuilder {
         }
     }
 
-    /// Whether the cells that hold any primitives hold nearly all of them: they lie upon each
-    /// other, and finer cells would copy their list over and over.
+    /// Whether the nonempty cells hold nearly all of the primitives: these overlap, and finer cells
+    /// would only copy their list.
     static bool parts_nothing(const Draft& draft, std::size_t count) {
         std::size_t used = 0;
         for (std::size_t c = 0; c + 1 < draft.starts.size(); ++c) {
             used += draft.starts[c + 1] > draft.starts[c];
         }
-        // In a few cells they may be a small heap in a large box, which is worth finding.
+        // In a few cells the primitives may be a small heap in a large box, which is worth finding.
         if (used <= kCellsAroundHeap) return false;
         return static_cast<double>(draft.entries.size()) >=
                kSameCells * static_cast<double>(used) * static_cast<double>(count);
     }
 
-    /// Whether a ray that meets the box is expected to cost less with the grid than with the list:
-    /// it meets a cell in it with the chance of their areas.
+    /// Whether a ray that intersects the box is expected to cost less with the grid than with the
+    /// list: it intersects a cell with the probability of their areas.
     static bool pays(const Draft& draft, std::size_t count, const Box3& box) {
         if (count >= kHeap && parts_nothing(draft, count)) return false;
         double cost = 0;
@@ -270,14 +272,15 @@ class NestedGridBuilder {
 
 NestedGrid::Config NestedGrid::configure(SettingsReader& reader) {
     Config config;
-    config.density = reader.number("density", "cells for each primitive of a grid", 3, 1e-3, 1000);
-    config.max_depth = reader.count("max_depth", "grids in each other", 3, 1, 8);
-    config.leaf_size = reader.count("leaf_size", "so many primitives are a list", 8, 1, 1000000);
+    config.density = reader.number("density", "cells per primitive of a grid", 3, 1e-3, 1000);
+    config.max_depth = reader.count("max_depth", "nesting depth of grids", 3, 1, 8);
+    config.leaf_size =
+        reader.count("leaf_size", "at most this many primitives stay a list", 8, 1, 1000000);
     static constexpr const char* kPlanes[] = {"equal", "balanced"};
     config.balanced =
         reader.choice("planes", "equally spaced, or at equal shares of the primitives", 0,
                       kPlanes) == 1;
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     return config;
 }
 

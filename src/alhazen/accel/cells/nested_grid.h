@@ -1,20 +1,18 @@
 #pragma once
-/// Grids in the cells of grids: a cell with many primitives is divided by a grid of its own, where
-/// that pays.
+/// Nested grids: a cell with many primitives is divided by a grid of its own, where that pays.
 ///
 /// Source: Jevans and Wyvill, "Adaptive Voxel Subdivision for Ray Tracing", Graphics Interface 1989
 /// (grids in cells); Cazals, Drettakis and Puech, "Filtering, Clustering and Hierarchy
-/// Construction", Eurographics 1995 (why: scenes of unequal density); Dippe and Swensen, "An
+/// Construction", Eurographics 1995 (the reason: scenes of unequal density); Dippe and Swensen, "An
 /// Adaptive Subdivision Algorithm and Parallel Architecture for Realistic Image Synthesis",
-/// SIGGRAPH 1984
-/// (`planes=balanced`: a grid whose planes stand where the load is even).
-/// Differs: few primitives stay a list; a cell keeps its list, too, where by the areas of its cells
-/// a grid would not save tests, or its used cells would all hold the same primitives: where they
-/// lie upon each other. Dippe and Swensen move the
-/// corners of cells during rendering; here whole planes are placed once, at equal shares of the
-/// primitives' centers along their axis. Clusters of Cazals are not sought: recursion finds them.
-/// Conventions: cells are numbered x + nx (y + ny z) in their grid; a ray's walk is that of
-/// Amanatides and Woo (accel/cells/cell_grid.h), planes are looked up, not computed.
+/// SIGGRAPH 1984 (`planes=balanced`: planes that balance the load).
+/// Differs: few primitives stay a list. A cell also keeps its list where, by the areas of its
+/// cells, a grid would not save tests, or where all nonempty cells would hold the same, overlapping
+/// primitives. Dippe and Swensen move the corners of cells during rendering; here whole planes are
+/// placed once, at equal shares of the primitives' centers along their axis. The clusters of Cazals
+/// et al. are not searched for: recursion finds them.
+/// Conventions: cells are numbered x + nx (y + ny z) in their grid; traversal is that of Amanatides
+/// and Woo (accel/cells/cell_grid.h), with planes looked up, not computed.
 
 #include <array>
 #include <cstdint>
@@ -31,12 +29,12 @@ namespace alhazen {
 class NestedGrid {
   public:
     static constexpr const char* kName = "nested_grid";
-    static constexpr const char* kDescription = "grids in the cells of grids";
+    static constexpr const char* kDescription = "nested grids: cells divided by grids of their own";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        double density = 3;     ///< cells for each primitive of a grid
-        int max_depth = 3;      ///< grids in each other
-        int leaf_size = 8;      ///< so many primitives are a list
+        double density = 3;     ///< cells per primitive of a grid
+        int max_depth = 3;      ///< nesting depth
+        int leaf_size = 8;      ///< at most this many primitives stay a list
         bool balanced = false;  ///< planes at equal shares of the primitives, not equally spaced
         bool mailbox = true;
     };
@@ -53,8 +51,8 @@ class NestedGrid {
     /// A list of primitives, or a grid.
     struct Cell {
         static constexpr std::uint32_t kIsGrid = 0xFFFFFFFFu;
-        std::uint32_t index = 0;  ///< of its first entry, or of the grid
-        std::uint32_t count = 0;  ///< of its entries, or kIsGrid
+        std::uint32_t index = 0;  ///< index of its first entry, or of the grid
+        std::uint32_t count = 0;  ///< number of its entries, or kIsGrid
     };
     [[nodiscard]] const std::vector<Grid>& grids() const { return grids_; }
     [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
@@ -72,14 +70,14 @@ class NestedGrid {
   private:
     friend class NestedGridBuilder;
 
-    /// Where a ray is in a grid.
+    /// The position of a ray in a grid.
     struct Place {
         std::uint32_t grid;
         std::array<std::uint32_t, 3> cell;
-        std::array<double, 3> next;  ///< where it comes to the next plane of each axis
+        std::array<double, 3> next;  ///< t of the next plane of each axis
         double entry;
     };
-    /// The walk through one grid after the other.
+    /// The traversal through one grid after another.
     struct Walk {
         const NestedGrid& made;
         const Ray& ray;
@@ -91,7 +89,7 @@ class NestedGrid {
         [[nodiscard]] double exit() const {
             return std::min(at.next[0], std::min(at.next[1], at.next[2]));
         }
-        /// False when that leads out of the grid.
+        /// False when the step leaves the grid.
         [[nodiscard]] bool step();
         void set_next(std::size_t axis);
     };
@@ -112,7 +110,7 @@ inline void NestedGrid::Walk::enter(std::uint32_t grid, double t) {
     const Grid& g = made.grids_[grid];
     const Vec3 p = ray.at(t);
     for (std::size_t k = 0; k < 3; ++k) {
-        // The cell below the first inner plane that lies above the point.
+        // The cell below the first inner plane above the point.
         const auto inner = made.planes_.begin() + g.first_plane[k] + 1;
         const auto above = std::upper_bound(inner, inner + g.cells[k] - 1, p[static_cast<int>(k)]);
         at.cell[k] = static_cast<std::uint32_t>(above - inner);
@@ -143,7 +141,7 @@ inline bool NestedGrid::Walk::step() {
     const std::size_t k =
         next[0] <= next[1] ? (next[0] <= next[2] ? 0 : 2) : (next[1] <= next[2] ? 1 : 2);
     at.entry = next[k];
-    // Below zero it wraps around, and is out of the grid as well.
+    // Below zero it wraps around and is outside of the grid as well.
     at.cell[k] += ray.direction[static_cast<int>(k)] > 0.0 ? 1u : 0xFFFFFFFFu;
     if (at.cell[k] >= made.grids_[at.grid].cells[k]) return false;
     set_next(k);
@@ -172,7 +170,7 @@ void NestedGrid::traverse(const Ray& ray, Visitor& visitor, Stats stats) const {
         }
         const std::span entries(entries_.data() + cell.index, cell.count);
         if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
-        // A hit beyond the cell may lie behind another one in the cells up to it.
+        // A hit beyond the cell may lie behind another one in a cell before it.
         if (visitor.t_max() < walk.exit()) return;
         while (!walk.step()) {
             if (outer.empty()) return;

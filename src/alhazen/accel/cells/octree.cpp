@@ -9,11 +9,12 @@ Octree::Config Octree::configure(SettingsReader& reader) {
     static constexpr const char* kWalks[] = {"point_location", "neighbor_finding", "smart",
                                              "parametric"};
     Config config;
-    config.walk = static_cast<Walk>(reader.choice("walk", "the way through the cells", 3, kWalks));
-    config.max_depth = reader.count("max_depth", "of the tree", 8, 1, OctreeCells::kMostDepth);
+    config.walk = static_cast<Walk>(reader.choice("walk", "traversal algorithm", 3, kWalks));
+    config.max_depth =
+        reader.count("max_depth", "depth of the tree", 8, 1, OctreeCells::kMostDepth);
     config.leaf_size =
-        reader.count("leaf_size", "primitives in a cell that is not divided further", 1, 1, 1000);
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+        reader.count("leaf_size", "primitives in a cell that is not divided", 1, 1, 1000);
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     return config;
 }
 

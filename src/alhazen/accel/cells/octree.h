@@ -1,11 +1,12 @@
 #pragma once
-/// An octree: cells divided at their middles until few primitives are in each, and four ways
-/// through them.
+/// An octree: cells are divided at their middles until they hold few primitives; four traversal
+/// algorithms.
 ///
-/// Source: Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984; the ways
-/// through it in octree_walks.h. Differs: rays from so far away that rounding could lead past a
-/// cell are tested against everything. Complexity: O(n d) to build for depth d, where primitives
-/// are small.
+/// Source: Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984; the
+/// traversals in octree_walks.h.
+/// Differs: rays from so far away that rounding could make them miss a cell are tested against all
+/// primitives.
+/// Complexity: O(n d) to build for depth d, for small primitives.
 
 #include "alhazen/accel/cells/mailbox.h"
 #include "alhazen/accel/cells/octree_walks.h"
@@ -18,14 +19,14 @@ namespace alhazen {
 class Octree {
   public:
     static constexpr const char* kName = "octree";
-    static constexpr const char* kDescription = "cells divided at their middles; four ways through";
+    static constexpr const char* kDescription = "cells divided at their middles; four traversals";
     static constexpr bool kVisitsRepeatedly = true;
 
     enum class Walk : std::uint8_t { PointLocation, NeighborFinding, Smart, Parametric };
     struct Config {
         Walk walk = Walk::Parametric;
-        int max_depth = 0;  ///< 0: three levels more than a full tree of the primitives would have
-        int leaf_size = 1;  ///< primitives in a cell that is not divided further
+        int max_depth = 0;  ///< 0: three levels more than a full tree of the primitives
+        int leaf_size = 1;  ///< primitives in a cell that is not divided
         bool mailbox = true;
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
@@ -58,8 +59,8 @@ class Octree {
     [[nodiscard]] std::size_t memory_bytes() const { return cells_.memory_bytes(); }
 
   private:
-    /// True when the ray need not go on: stopped, or its nearest hit lies in the cell (one beyond
-    /// it may lie behind others).
+    /// Tests a leaf. True when the ray is done: stopped, or its nearest hit lies in the cell (a hit
+    /// beyond it may lie behind others).
     template <class Visitor, class Stats>
     bool test(std::uint32_t leaf, double exit, Mailbox& mailbox, Visitor& visitor,
               Stats stats) const {

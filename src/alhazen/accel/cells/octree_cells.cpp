@@ -9,8 +9,8 @@ namespace alhazen {
 
 namespace {
 
-/// So many primitives that all lie in the same cells are not parted by smaller ones; the first
-/// levels cut away the empty space around them.
+/// A heap: at least this many primitives that nearly all lie in the same cells, which smaller cells
+/// would not separate. The first levels cut off the empty space around it.
 constexpr std::size_t kHeap = 16;
 constexpr double kSameCells = 0.9;
 constexpr int kLevelsAroundHeaps = 3;
@@ -21,7 +21,7 @@ OctreeCells::OctreeCells(const BoundsSource& source, int max_depth, int leaf_siz
     : space_(source), max_depth_(max_depth) {
     if (source.size() == 0) return;
     Box3& box = space_.box;
-    // Cells as flat as rounding would divide primitives that lie side by side.
+    // Cells as flat as the rounding would divide adjacent primitives.
     const double least = std::max(1e-6 * max_component(box.size()), 4 * space_.pad);
     for (int k = 0; k < 3; ++k) {
         if (box.hi[k] - box.lo[k] < least) box.hi[k] = box.lo[k] + least;
@@ -81,9 +81,10 @@ void OctreeCells::divide(std::uint32_t index, std::vector<std::uint32_t> inside,
         sum += parts[octant].size();
         used += !parts[octant].empty();
     }
-    // Most lie in most children: they fill the cell, and smaller ones would not part them.
+    // Most primitives lie in most children: they fill the cell, and smaller cells would not
+    // separate them.
     if (sum > 5 * inside.size()) return make_leaf(index, inside);
-    // Or they lie upon each other.
+    // A heap of overlapping primitives.
     if (inside.size() >= kHeap && used > 1 && nodes_[index].level >= kLevelsAroundHeaps &&
         static_cast<double>(sum) >= kSameCells * static_cast<double>(used * inside.size())) {
         return make_leaf(index, inside);

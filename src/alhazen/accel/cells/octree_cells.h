@@ -1,14 +1,14 @@
 #pragma once
-/// An octree over the bounds of primitives, and the geometry of its cells in whole numbers: what
-/// the four traversals share.
+/// An octree over the bounds of primitives, with integer cell geometry, shared by the four
+/// traversals.
 ///
 /// Source: Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984.
-/// Differs: children lie side by side and are found by index, not by hashing their names; a cell is
-/// not divided further where the lists of its children together would be more than five times as
-/// long as its own: its primitives fill it; nor where sixteen or more of them lie in the same
-/// children: they lie upon each other. Conventions: an axis of the root is 2^max_depth units long.
-/// Octant bit k is set for the upper half along axis k. Primitives are in every leaf that comes
-/// within `pad` of them.
+/// Differs: children are consecutive and found by index, not by hashing their names. A cell is not
+/// divided further where the lists of its children would together be more than five times as long
+/// as its own, as its primitives fill it; nor where sixteen or more of them lie in the same
+/// children, as they overlap.
+/// Conventions: an axis of the root is 2^max_depth units long. Octant bit k is set for the upper
+/// half along axis k. Primitives are stored in every leaf within `pad` of them.
 
 #include <array>
 #include <cstdint>
@@ -25,12 +25,12 @@ class OctreeCells {
     using Units = std::array<std::int32_t, 3>;
 
     struct Node {
-        std::uint32_t first = 0;  ///< of its eight children, or of its entries
-        std::uint32_t count = 0;  ///< of a leaf's entries
+        std::uint32_t first = 0;  ///< index of its eight children, or of its entries
+        std::uint32_t count = 0;  ///< number of a leaf's entries
         std::uint32_t parent = kNone;
         Units origin{};           ///< its lowest corner
         std::uint8_t level = 0;   ///< 0: the root
-        std::uint8_t octant = 0;  ///< which child of its parent
+        std::uint8_t octant = 0;  ///< index among its parent's children
         bool leaf = true;
     };
 
@@ -53,12 +53,12 @@ class OctreeCells {
         return unit == std::int32_t{1} << max_depth_ ? box().hi[axis]
                                                      : box().lo[axis] + unit * unit_size_[axis];
     }
-    /// The unit that a coordinate lies in; the nearest one of those in [lo, hi].
+    /// The unit that contains a coordinate, clamped to [lo, hi].
     [[nodiscard]] std::int32_t unit(int axis, double x, std::int32_t lo, std::int32_t hi) const {
         const double place = (x - box().lo[axis]) * per_unit_size_[axis];
         return place >= hi ? hi : place <= lo ? lo : static_cast<std::int32_t>(place);
     }
-    /// The octant of a unit in a node that is no leaf.
+    /// The octant of a unit in an inner node.
     [[nodiscard]] std::uint32_t octant_of(const Node& node, const Units& at) const {
         const int bit = max_depth_ - node.level - 1;
         std::uint32_t octant = 0;
@@ -68,7 +68,7 @@ class OctreeCells {
         return octant;
     }
 
-    /// Whether the ray begins so near that rounding stays far below `pad`.
+    /// Whether the ray starts so near that rounding errors stay far below `pad`.
     [[nodiscard]] bool covers(const Ray& ray) const { return space_.covers(ray); }
     [[nodiscard]] std::size_t memory_bytes() const {
         return nodes_.capacity() * sizeof(Node) + entries_.capacity() * sizeof(std::uint32_t);

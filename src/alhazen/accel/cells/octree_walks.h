@@ -1,17 +1,17 @@
 #pragma once
-/// Four ways of a ray through the leaves of an octree. All go through the same leaves in the same
-/// order, but for leaves that a ray only touches.
+/// Four traversals of the leaves of an octree. All visit the same leaves in the same order, except
+/// for leaves that a ray only touches.
 ///
 /// Source: Glassner, "Space Subdivision for Fast Ray Tracing", IEEE CG&A 4(10), 1984
 /// (`PointLocation`); Samet, "Implementing Ray Tracing with Octrees and Neighbor Finding",
 /// Computers & Graphics 13(4), 1989 (`NeighborFinding`); Spackman and Willis, "The SMART Navigation
 /// of a Ray Through an Oct-tree", Computers & Graphics 15(2), 1991 (`Smart`); Revelles, Urena and
 /// Lastra, "An Efficient Parametric Algorithm for Octree Traversal", WSCG 2000 (`Parametric`).
-/// Differs: the first three know the next cell's place along the axis they step over in whole
-/// numbers, so a point just beyond a face never falls back; the fourth computes the middle planes
-/// anew instead of halving t, so that directions with zeros need no case of their own. Conventions:
-/// `walk(visit)` calls visit(leaf, exit t) in order until it returns true. `stats.nodes` counts
-/// every node that is looked at, inner ones too.
+/// Differs: the first three compute the next cell's position along the crossed axis in integers, so
+/// a point just beyond a face never falls back; the fourth recomputes the middle planes instead of
+/// halving t, so that directions with zeros need no special case.
+/// Conventions: `walk(visit)` calls visit(leaf, exit t) in order until it returns true.
+/// `stats.nodes` counts every examined node, including inner ones.
 
 #include <algorithm>
 #include <bit>
@@ -23,7 +23,7 @@
 
 namespace alhazen {
 
-/// A ray in an octree: where it comes in, and its planes.
+/// A ray in an octree: its entry, and its crossings with planes.
 class OctreeRay {
   public:
     OctreeRay(const OctreeCells& cells, const Ray& ray, double t_max)
@@ -36,12 +36,12 @@ class OctreeRay {
     [[nodiscard]] bool moves(int axis) const { return moves_[axis]; }
     [[nodiscard]] bool upward(int axis) const { return ray_.direction[axis] > 0.0; }
     [[nodiscard]] double origin(int axis) const { return ray_.origin[axis]; }
-    /// Where it crosses a plane; never, where it runs along the axis' planes.
+    /// The t at which the ray crosses a plane; infinite where it runs parallel to it.
     [[nodiscard]] double at_plane(int axis, std::int32_t unit) const {
         if (!moves_[axis]) return std::numeric_limits<double>::infinity();
         return (cells_.plane(axis, unit) - ray_.origin[axis]) * span_.inverse[axis];
     }
-    /// The axis across which it leaves a cell, and when.
+    /// The axis across which the ray leaves a cell, and its t there.
     struct Exit {
         int axis;
         double t;
@@ -55,7 +55,7 @@ class OctreeRay {
         }
         return exit;
     }
-    /// The unit it is in at t, among those of a cell.
+    /// The unit at t, clamped to a cell.
     [[nodiscard]] OctreeCells::Units units_at(double t, const OctreeCells::Node& cell) const {
         OctreeCells::Units at;
         for (int k = 0; k < 3; ++k) {
@@ -65,7 +65,7 @@ class OctreeRay {
         }
         return at;
     }
-    /// The same just beyond the face of a cell; false outside the root.
+    /// The unit just beyond the face of a cell; false outside the root.
     [[nodiscard]] bool units_beyond(const Exit& exit, const OctreeCells::Node& cell,
                                     OctreeCells::Units& at) const {
         if (std::isinf(exit.t)) return false;
@@ -84,7 +84,7 @@ class OctreeRay {
 
 namespace octree_detail {
 
-/// Down to the leaf that holds a unit.
+/// Descends to the leaf that contains a unit.
 template <class Stats>
 std::uint32_t descend(const OctreeCells& cells, std::uint32_t node, const OctreeCells::Units& at,
                       Stats stats) {
@@ -96,20 +96,19 @@ std::uint32_t descend(const OctreeCells& cells, std::uint32_t node, const Octree
     return node;
 }
 
-/// The octant across a face, in the same parent or in the neighbor: the table reflect(direction,
+/// The octant across a face, in the same parent or in the neighbor: table reflect(direction,
 /// octant) of Samet.
 inline std::uint32_t reflected(std::uint32_t octant, int axis) {
     return octant ^ 1u << axis;
 }
-/// Whether an octant touches the face of its parent that lies across `axis`: Samet's table
-/// adjacent.
+/// Whether an octant touches the face of its parent across `axis`: Samet's table adjacent.
 inline bool adjacent(std::uint32_t octant, int axis, bool upper_face) {
     return (octant >> axis & 1u) == (upper_face ? 1u : 0u);
 }
 
 }  // namespace octree_detail
 
-/// Every leaf is located from the root.
+/// Locates every leaf from the root.
 template <class Stats, class Visit>
 void walk_by_point_location(const OctreeCells& cells, const OctreeRay& ray, Stats stats,
                             Visit&& visit) {
@@ -122,8 +121,8 @@ void walk_by_point_location(const OctreeCells& cells, const OctreeRay& ray, Stat
     }
 }
 
-/// From a leaf up to the nearest ancestor that has the face inside, across, and down again by the
-/// mirrored path as far as there are nodes on it, then by the point.
+/// Goes up from a leaf to the nearest ancestor that contains the face inside, across it, and down
+/// again by the mirrored path as far as nodes exist on it, then by the point.
 template <class Stats, class Visit>
 void walk_by_neighbors(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Visit&& visit) {
     OctreeCells::Units at = ray.units_at(ray.enter(), cells.nodes().front());
@@ -138,7 +137,7 @@ void walk_by_neighbors(const OctreeCells& cells, const OctreeRay& ray, Stats sta
         bool crossed = false;
         while (!crossed) {
             const OctreeCells::Node& n = cells.nodes()[node];
-            // The root's face is the end: units_beyond has said so.
+            // Never reaches the root: units_beyond returned true.
             path[static_cast<std::size_t>(depth++)] = n.octant;
             crossed = !octree_detail::adjacent(n.octant, exit.axis, ray.upward(exit.axis));
             node = n.parent;
@@ -153,11 +152,12 @@ void walk_by_neighbors(const OctreeCells& cells, const OctreeRay& ray, Stats sta
     }
 }
 
-/// By whole numbers alone: for every axis when the ray leaves the present node, in ticks. A step
-/// adds the time through a cell of its size; a level up or down adds or takes half of that.
+/// Uses integers only: for every axis, the time at which the ray leaves the current node, in ticks.
+/// A step adds the time through a cell of its size; a level up or down adds or subtracts half of
+/// it.
 template <class Stats, class Visit>
 void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Visit&& visit) {
-    // A tick is such that the slowest crossing that matters still fits, and all halves are whole.
+    // The tick is chosen so that the slowest relevant crossing fits, and all halves are whole.
     constexpr int kTickBits = 44;
     constexpr double kNever = 0x1p61;
     const OctreeCells::Node& root = cells.nodes().front();
@@ -173,7 +173,7 @@ void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Vis
     }
     const double per_tick = std::ldexp(1.0, kTickBits) / fastest;
     using Ticks = std::array<std::int64_t, 3>;
-    Ticks leaves, step;  // when the root is left; how long it takes through it
+    Ticks leaves, step;  // leaves: when the root is left; step: time through it
     for (int k = 0; k < 3; ++k) {
         const auto a = static_cast<std::size_t>(k);
         const double ticks = ray.moves(k) ? through[a] * per_tick : kNever;
@@ -186,7 +186,7 @@ void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Vis
     }
     std::uint32_t node = 0;
     std::int64_t now = 0;
-    // The first leaf is found by the point: where a ray begins is no matter of steps.
+    // The first leaf is found by its point.
     OctreeCells::Units at = ray.units_at(ray.enter(), root);
     const auto down = [&](std::uint32_t octant) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -231,7 +231,7 @@ void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Vis
         node = cells.nodes()[n.parent].first + octree_detail::reflected(n.octant, axis);
         leaves[a] += step[a];
         stats.nodes(1);
-        // Down, along every axis into the half that the ray is in now.
+        // Down: along every axis into the half that contains the ray now.
         while (!cells.nodes()[node].leaf) {
             std::uint32_t octant = 0;
             for (int k = 0; k < 3; ++k) {
@@ -251,8 +251,8 @@ void walk_smart(const OctreeCells& cells, const OctreeRay& ray, Stats stats, Vis
     }
 }
 
-/// From the root down: which children a ray goes through follows from where it crosses the middle
-/// planes.
+/// Descends from the root: the crossings with the middle planes determine the children that a ray
+/// traverses.
 template <class Stats, class Visit>
 class ParametricWalk {
   public:
@@ -264,7 +264,7 @@ class ParametricWalk {
         }
     }
 
-    /// True when the visit has ended the walk.
+    /// True when the visit ended the traversal.
     bool walk(std::uint32_t index, const Vec3& t0, const Vec3& t1) {
         stats_.nodes(1);
         const OctreeCells::Node& node = cells_.nodes()[index];
@@ -277,7 +277,7 @@ class ParametricWalk {
             const std::int32_t plane = node.origin[static_cast<std::size_t>(k)] + half;
             middle[k] = ray_.moves(k) ? ray_.at_plane(k, plane) : side_of(k, plane);
         }
-        // In mirrored octants the ray goes upward along every axis: 1, 2, 4 for x, y, z.
+        // In mirrored octants the ray runs upward along every axis: 1, 2, 4 for x, y, z.
         const double begin = std::max(t0.x, std::max(t0.y, t0.z));
         std::uint32_t octant = 0;
         for (int k = 0; k < 3; ++k) {
@@ -298,7 +298,7 @@ class ParametricWalk {
     }
 
   private:
-    /// Of a ray that runs along the planes: it is always before the plane, or always behind it.
+    /// For a ray parallel to the plane: it is always before or always behind the plane.
     [[nodiscard]] double side_of(int axis, std::int32_t plane) const {
         const bool upper = ray_.origin(axis) >= cells_.plane(axis, plane);
         const bool behind = upper != ((mirror_ >> axis & 1) != 0);

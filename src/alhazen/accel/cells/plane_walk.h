@@ -1,11 +1,11 @@
 #pragma once
-/// The way of a ray through a tree whose nodes are divided by planes: nearer cells first, the
-/// farther ones wait on a stack.
+/// Traversal of a tree whose nodes are divided by planes: nearer cells first, farther cells on a
+/// stack.
 ///
 /// Source: Havran, "Heuristic Ray Shooting Algorithms", 2000, section 4 (the traversal with a
-/// stack). Differs: both sides are gone through where the ray runs within the room for rounding of
-/// a plane.
-/// Conventions: the lower child of a node lies right after it, the upper one at `index`.
+/// stack).
+/// Differs: visits both sides where the ray runs within the rounding margin of a plane.
+/// Conventions: the lower child of a node follows it, the upper one is at `index`.
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +17,20 @@
 
 namespace alhazen {
 
-/// Where a ray is from a plane, along its normal, and one over how fast it goes there; infinite
-/// where it runs along the plane.
+/// The distance of a ray from a plane along its normal, and its inverse speed in that direction;
+/// infinite where it runs parallel to the plane.
 struct FromPlane {
     double distance, inverse;
 };
 
-/// Part of a ray, and the node whose cell it lies in.
+/// A part of a ray, and the node whose cell contains it.
 struct RaySegment {
     std::uint32_t node;
     double begin, end;
 };
 
-/// `from_plane(node)` says how the ray comes to its plane; `test_leaf(number)` returns true to
-/// stop.
+/// `from_plane(node)` gives the ray relative to the node's plane; `test_leaf(number)` returns true
+/// to stop.
 template <class Node, class FromPlaneOf, class TestLeaf, class Visitor, class Stats>
 void walk_through_planes(const std::vector<Node>& nodes, const RaySpan& span, double room,
                          const FromPlaneOf& from_plane, const TestLeaf& test_leaf,
@@ -39,7 +39,7 @@ void walk_through_planes(const std::vector<Node>& nodes, const RaySpan& span, do
     stack.push({0, span.begin, span.end});
     while (!stack.empty()) {
         RaySegment at = stack.pop();
-        // Not the end: where the ray runs in a plane, nearer segments may lie deeper in the stack.
+        // Not the end: for a ray that runs in a plane, nearer segments may lie deeper in the stack.
         if (at.begin > visitor.t_max()) continue;
         for (;;) {
             const Node& node = nodes[at.node];

@@ -5,11 +5,11 @@
 namespace alhazen {
 namespace {
 
-/// Cells along an axis, and in all.
+/// Maximum numbers of cells along an axis and in total.
 constexpr int kMostAlongAxis = 1024;
 constexpr double kMostCells = 1 << 27;
 
-/// Throws Error (Usage) for too many cells. 0: as many as the density asks for.
+/// Throws Error (Usage) for too many cells. 0: by the density.
 void check_cell_count(const std::array<int, 3>& cells) {
     double count = 1;
     for (const int n : cells) count *= std::max(n, 1);
@@ -17,7 +17,7 @@ void check_cell_count(const std::array<int, 3>& cells) {
     throw Error(ErrorKind::Usage, "uniform_grid: nx, ny and nz make more than 134217728 cells");
 }
 
-/// Calls add(cell number) for all cells that the primitive, or its box, may have a point in.
+/// Calls add(cell number) for all cells that may contain a point of the primitive, or of its box.
 template <class Add>
 void for_cells(const CellGrid& grid, const BoundsSource& source, std::size_t i, bool by_box,
                const Add& add) {
@@ -39,7 +39,7 @@ void for_cells(const CellGrid& grid, const BoundsSource& source, std::size_t i, 
 
 UniformGrid::Config UniformGrid::configure(SettingsReader& reader) {
     Config config;
-    config.density = reader.number("density", "cells for each primitive", 3, 1e-6, 1000);
+    config.density = reader.number("density", "cells per primitive", 3, 1e-6, 1000);
     static constexpr const char* kAlong[] = {"nx", "ny", "nz"};
     for (std::size_t k = 0; k < 3; ++k) {
         config.cells[k] = reader.count(kAlong[k], "cells along the axis, 0: by the density", 0, 0,
@@ -47,10 +47,9 @@ UniformGrid::Config UniformGrid::configure(SettingsReader& reader) {
     }
     check_cell_count(config.cells);
     static constexpr const char* kLists[] = {"exact", "boxes"};
-    config.by_boxes =
-        reader.choice("lists", "what must reach into a cell: the primitive, or its box", 0,
-                      kLists) == 1;
-    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once a ray", true);
+    config.by_boxes = reader.choice("lists", "what must overlap a cell: the primitive, or its box",
+                                    0, kLists) == 1;
+    config.mailbox = reader.flag("mailbox", "test a primitive in many cells once per ray", true);
     config.hit_in_cell =
         reader.flag("hit_in_cell", "off: a hit beyond its cell counts (wrong pictures)", true);
     return config;

@@ -1,11 +1,13 @@
 #pragma once
-/// A grid of equal cells, each with a list of the primitives in it.
+/// A grid of equal cells, each with a list of its primitives.
 ///
 /// Source: Fujimoto, Tanaka and Iwata, "ARTS: Accelerated Ray-Tracing System", IEEE CG&A 6(4),
 /// 1986; Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987;
 /// Lagae and Dutre, "Compact, Fast and Robust Grids for Ray Tracing", EGSR 2008 (lists by
-/// counting). Differs: rays from so far away that rounding could lead past a cell are tested
-/// against everything. Complexity: O(n + cells) to build and in memory.
+/// counting).
+/// Differs: rays from so far away that rounding could make them miss a cell are tested against all
+/// primitives.
+/// Complexity: O(n + cells) to build and in memory.
 
 #include <cstdint>
 #include <vector>
@@ -21,14 +23,14 @@ namespace alhazen {
 class UniformGrid {
   public:
     static constexpr const char* kName = "uniform_grid";
-    static constexpr const char* kDescription = "equal cells, walked along the ray";
+    static constexpr const char* kDescription = "equal cells, traversed along the ray";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        double density = 3;          ///< cells for each primitive
-        std::array<int, 3> cells{};  ///< along each axis, by hand; 0: by the density
-        bool by_boxes = false;       ///< a primitive is in all cells that its box reaches into
-        bool mailbox = true;         ///< a primitive in many cells is tested once a ray
-        bool hit_in_cell = true;     ///< false shows what goes wrong without the rule
+        double density = 3;          ///< cells per primitive
+        std::array<int, 3> cells{};  ///< number along each axis; 0: by the density
+        bool by_boxes = false;       ///< store a primitive in all cells that its box overlaps
+        bool mailbox = true;         ///< test a primitive in many cells once per ray
+        bool hit_in_cell = true;     ///< end only at hits inside the cell; false shows the errors
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
 
@@ -49,7 +51,7 @@ class UniformGrid {
             const std::span entries(entries_.data() + starts_[cell],
                                     starts_[cell + 1] - starts_[cell]);
             if (visit_entries(entries, config_.mailbox, mailbox, visitor, stats)) return;
-            // A hit beyond the cell may lie behind another one in the cells up to it.
+            // A hit beyond the cell may lie behind another one in a cell before it.
             const double known = config_.hit_in_cell ? walk.exit() : t_max;
             if (visitor.t_max() < known) return;
         }
@@ -64,8 +66,8 @@ class UniformGrid {
     Config config_;
     CellGrid grid_;
     std::uint32_t primitives_ = 0;
-    std::vector<std::uint32_t> starts_;   ///< [cell] and one more: its part of `entries_`
-    std::vector<std::uint32_t> entries_;  ///< primitives, cell after cell
+    std::vector<std::uint32_t> starts_;   ///< [cell], with an end: its part of `entries_`
+    std::vector<std::uint32_t> entries_;  ///< primitives, by cell
 };
 static_assert(Accelerator<UniformGrid>);
 

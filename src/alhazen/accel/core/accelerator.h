@@ -1,12 +1,12 @@
 #pragma once
-/// What every accelerator offers. To add one: CONTRIBUTING.md.
+/// The interface of all accelerators. To add one: CONTRIBUTING.md.
 ///
-/// An accelerator knows bounds and ids, nothing of shapes: the visitor tests the primitives. It may
-/// only skip what a ray cannot hit, so every accelerator gives the same hits. Visitor: `double
-/// t_max()` is how far the ray still needs to go (it shrinks as hits are found; primitives at
+/// An accelerator has bounds and ids only, no shapes: the visitor tests the primitives. It may only
+/// skip primitives that a ray cannot hit, so every accelerator gives the same hits. Visitor:
+/// `double t_max()` is the remaining length of the ray (it shrinks as hits are found; primitives at
 /// exactly t_max must still be visited), `bool visit(std::uint32_t primitive)` tests one primitive
-/// and returns true to stop. An accelerator that may visit a primitive more than once for a ray
-/// says so: `kVisitsRepeatedly = true`. A visitor may say what its rays ask for (`kAsksFor`).
+/// and returns true to stop. An accelerator that may visit a primitive more than once per ray
+/// declares `kVisitsRepeatedly = true`. A visitor may declare the kind of its query (`kAsksFor`).
 
 #include <concepts>
 #include <cstddef>
@@ -19,15 +19,15 @@
 
 namespace alhazen {
 
-/// What a ray wants to know: an accelerator that knows may leave out more.
+/// The kind of a query: an accelerator may use it to skip more.
 enum class AsksFor {
     AllHits,    ///< every primitive that is hit
     Closest,    ///< the nearest hit
-    AnyHit,     ///< whether there is any
-    AnyBlocker  ///< whether light is blocked, or else every primitive that is hit
+    AnyHit,     ///< whether there is a hit
+    AnyBlocker  ///< whether light is blocked; otherwise every primitive that is hit
 };
 
-/// A visitor to check the concept with.
+/// The visitor used to check the concept.
 struct ArchetypeVisitor {
     [[nodiscard]] double t_max() const;
     bool visit(std::uint32_t primitive);
@@ -39,7 +39,7 @@ concept Accelerator = requires(const A& accelerator, const BoundsSource& source,
                                ArchetypeVisitor& visitor, NoStats stats, SettingsReader& reader) {
     { A::kName } -> std::convertible_to<const char*>;         // as on the command line
     { A::kDescription } -> std::convertible_to<const char*>;  // one line for the user
-    /// Reads every setting it has.
+    /// Reads every setting.
     { A::configure(reader) } -> std::same_as<typename A::Config>;
     { A::build(source, config) } -> std::same_as<A>;
     { accelerator.traverse(ray, visitor, stats) } -> std::same_as<void>;

@@ -1,9 +1,9 @@
 #pragma once
-/// The settings of accelerators as users write them: `name=value`, each checked and described in
-/// one place.
+/// Settings of accelerators as users write them: `name=value`, each checked and described in one
+/// place.
 ///
-/// An accelerator states its settings by reading them (`A::configure`); the same calls, recorded,
-/// make the list that `alhazen list accelerators` prints.
+/// An accelerator declares its settings by reading them (`A::configure`); the recorded calls are
+/// the list that `alhazen list accelerators` prints.
 
 #include <map>
 #include <span>
@@ -13,15 +13,15 @@
 
 namespace alhazen {
 
-/// As written: name to value.
+/// Name to value, as written.
 using AcceleratorSettings = std::map<std::string, std::string>;
 
-/// What a user may set, and to what.
+/// A setting and its valid values.
 struct SettingDescription {
     std::string name;
     std::string what;      ///< one line
     std::string values;    ///< "3 to 20", "sphere, box"
-    std::string fallback;  ///< what it is when it is not set
+    std::string fallback;  ///< the default
 };
 
 class SettingsReader {
@@ -30,16 +30,16 @@ class SettingsReader {
     SettingsReader(std::string accelerator, const AcceleratorSettings& settings)
         : accelerator_(std::move(accelerator)), settings_(settings) {}
 
-    /// Throw Error(Usage) for a value that is none, or out of range.
+    /// Throw Error(Usage) for an invalid value or one out of range.
     [[nodiscard]] double number(const char* name, const char* what, double fallback, double least,
                                 double most);
     [[nodiscard]] int count(const char* name, const char* what, int fallback, int least, int most);
     [[nodiscard]] bool flag(const char* name, const char* what, bool fallback);
-    /// The position of the value among `names`.
+    /// The index of the value among `names`.
     [[nodiscard]] std::size_t choice(const char* name, const char* what, std::size_t fallback,
                                      std::span<const char* const> names);
 
-    /// Throws Error(Usage) when something was set that nobody read.
+    /// Throws Error(Usage) when a setting was given that was not read.
     void finish() const;
     [[nodiscard]] const std::vector<SettingDescription>& described() const { return described_; }
 

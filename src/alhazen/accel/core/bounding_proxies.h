@@ -1,6 +1,6 @@
 #pragma once
-/// What is kept of primitives to find out, while rays are traced, which of them a set of rays may
-/// meet: boxes and spheres around them, and the corners of flat ones.
+/// Bounding proxies of primitives: boxes, spheres, and the corners of flat polygons, for culling
+/// sets of rays.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,8 @@
 
 namespace alhazen {
 
-/// The corners, in order, of what is a flat convex polygon and nothing else: of a triangle.
+/// The corners, in order, of a primitive that is a flat convex polygon and nothing else (a
+/// triangle).
 [[nodiscard]] inline std::vector<Vec3> outline_of(const BoundsSource& source, std::size_t i) {
     const auto corners = source.triangle(i);
     return corners ? std::vector<Vec3>(corners->begin(), corners->end()) : std::vector<Vec3>{};
@@ -33,7 +34,7 @@ class BoundingProxies {
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(bodies_.size()); }
     [[nodiscard]] const Box3& box(std::uint32_t i) const { return bodies_[i].box; }
     [[nodiscard]] const BoundingSphere& sphere(std::uint32_t i) const { return bodies_[i].sphere; }
-    /// The corners of a flat convex polygon; none where it is something else.
+    /// The corners of a flat convex polygon; empty for all other primitives.
     [[nodiscard]] std::span<const Vec3> outline(std::uint32_t i) const {
         return {corners_.data() + bodies_[i].first, bodies_[i].count};
     }
@@ -57,7 +58,7 @@ class BoundingProxies {
     struct Body {
         Box3 box;
         BoundingSphere sphere;
-        std::size_t first = 0;  ///< of its corners
+        std::size_t first = 0;  ///< index of its first corner
         std::uint32_t count = 0;
     };
     std::vector<Body> bodies_;

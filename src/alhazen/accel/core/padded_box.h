@@ -1,9 +1,10 @@
 #pragma once
-/// The box around all primitives, widened so that rounding cannot lead a ray past a cell in it:
-/// what the structures that divide space begin with.
+/// The box around all primitives, widened so that rounding cannot make a ray miss a cell in it;
+/// used by all space subdivisions.
 ///
-/// Conventions: primitives are put into all cells within `pad` of them; where rays that begin at
-/// most 2^44 `pad` from the origin of coordinates come to a plane is off by far less (`covers`).
+/// Conventions: primitives are stored in all cells within `pad` of them. For rays that start at
+/// most 2^44 `pad` from the origin of coordinates, the error of their crossings with planes is far
+/// smaller (`covers`).
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ struct PaddedBox {
         for (std::size_t i = 0; i < source.size(); ++i) all.include(source.box(i));
         *this = PaddedBox(all);
     }
-    /// Around a box that is not empty.
+    /// The padded box of a nonempty box.
     explicit PaddedBox(const Box3& all) {
         const double reach = std::max(max_component(abs(all.lo)), max_component(abs(all.hi)));
         pad = 0x1p-32 * max_component(all.size()) + 0x1p-46 * reach +
@@ -37,21 +38,21 @@ struct PaddedBox {
     [[nodiscard]] Box3 widened(const Box3& b) const {
         return {b.lo - Vec3{pad, pad, pad}, b.hi + Vec3{pad, pad, pad}};
     }
-    /// Whether the ray begins so near that rounding stays far below `pad`.
+    /// Whether the ray starts so near that rounding errors stay far below `pad`.
     [[nodiscard]] bool covers(const Ray& ray) const {
         return max_component(abs(ray.origin)) <= 0x1p44 * pad;
     }
 };
 
-/// The part of a ray that lies in a box.
+/// The part of a ray inside a box.
 struct RaySpan {
     double begin, end;  ///< begin > end where the ray misses the box
-    Vec3 inverse;       ///< of the direction; infinite where it runs across the axis
+    Vec3 inverse;       ///< of the direction; infinite where the ray is perpendicular to the axis
 
     RaySpan(const Box3& box, const Ray& ray, double t_max) : begin(ray.t_min), end(t_max) {
         for (int k = 0; k < 3; ++k) {
             inverse[k] = 1.0 / ray.direction[k];
-            // Also for components so small that only infinity tells how far they lead.
+            // Also for components so small that the inverse overflows.
             if (std::isinf(inverse[k])) {
                 if (ray.origin[k] < box.lo[k] || ray.origin[k] > box.hi[k]) {
                     begin = std::numeric_limits<double>::infinity();
@@ -68,7 +69,7 @@ struct RaySpan {
     [[nodiscard]] bool empty() const { return begin > end; }
 };
 
-/// For rays that a structure does not cover: every primitive.
+/// Visits every primitive, for rays that a structure does not cover.
 template <class Visitor>
 void visit_all(std::uint32_t primitives, Visitor& visitor) {
     for (std::uint32_t i = 0; i < primitives; ++i) {

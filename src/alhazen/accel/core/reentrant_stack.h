@@ -1,8 +1,8 @@
 #pragma once
-/// Room for the stack or heap of a traversal, kept by each thread from ray to ray.
+/// Memory of a traversal's stack or heap, kept by each thread from ray to ray.
 ///
-/// A traversal may begin inside another one on the same thread (an instance lies in a leaf): each
-/// has the part of the room that lies above those it is inside of.
+/// A traversal may start inside another one on the same thread (an instance in a leaf): each uses
+/// the part of the memory above those around it.
 
 #include <cstddef>
 #include <vector>
@@ -26,7 +26,7 @@ class ReentrantStack {
         return value;
     }
     [[nodiscard]] const T& top() const { return room().back(); }
-    /// Valid until the next push, here or inside.
+    /// Valid until the next push, here or in a nested traversal.
     [[nodiscard]] T* begin() { return room().data() + base_; }
     [[nodiscard]] T* end() { return room().data() + room().size(); }
 

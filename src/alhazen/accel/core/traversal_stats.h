@@ -1,5 +1,5 @@
 #pragma once
-/// What a traversal did, counted by a policy that costs nothing when it is off.
+/// Statistics of a traversal, counted by a policy that costs nothing when it is off.
 ///
 /// Names follow Havran and Sixta, "Comparison of Hierarchical Grids", Ray Tracing News 12(1), 1999.
 
@@ -9,16 +9,16 @@
 namespace alhazen {
 
 struct TraversalStats {
-    std::uint64_t box_tests = 0;        ///< ray-bound tests, one for each child of a wide node
+    std::uint64_t box_tests = 0;        ///< ray-bound tests, one per child of a wide node
     std::uint64_t primitive_tests = 0;  ///< ray-primitive tests, padding lanes not counted
     std::uint64_t primitive_hits = 0;   ///< tests that found a crossing in the ray's range
     std::uint64_t mailbox_saved = 0;    ///< tests avoided by a mailbox
     std::uint64_t node_visits = 0;      ///< nodes or cells entered
     std::uint64_t empty_cells = 0;      ///< of these, cells without primitives
     std::uint64_t slab_tests = 0;       ///< slabs examined in the tests of bounds made of slabs
-    std::uint64_t heap_pushes = 0;      ///< bounds put into a heap
-    std::uint64_t cache_lookups = 0;    ///< questions to a cache: of cells, of last occluders
-    std::uint64_t cache_hits = 0;       ///< of these, the ones it had the answer to
+    std::uint64_t heap_pushes = 0;      ///< bounds pushed onto a heap
+    std::uint64_t cache_lookups = 0;    ///< lookups in caches: of cells, of last occluders
+    std::uint64_t cache_hits = 0;       ///< of these, lookups with a result
 
     TraversalStats& operator+=(const TraversalStats& other) {
         box_tests += other.box_tests;
@@ -35,7 +35,7 @@ struct TraversalStats {
     }
 };
 
-/// The policy that counts.
+/// The counting policy.
 struct CountingStats {
     TraversalStats* stats;
     void boxes(std::uint64_t n) const { stats->box_tests += n; }
@@ -53,7 +53,7 @@ struct CountingStats {
     [[nodiscard]] TraversalStats* sink() const { return stats; }  ///< for nested aggregates
 };
 
-/// The policy that does not.
+/// The policy that counts nothing.
 struct NoStats {
     void boxes(std::uint64_t) const {}
     void primitives(std::uint64_t) const {}
@@ -67,7 +67,7 @@ struct NoStats {
     [[nodiscard]] TraversalStats* sink() const { return nullptr; }
 };
 
-/// Calls `body(policy)` with the policy that counts into `stats`, or the one that does not.
+/// Calls `body(policy)` with the counting policy for `stats`, or with NoStats when it is null.
 template <class Body>
 decltype(auto) with_stats(TraversalStats* stats, Body&& body) {
     if (stats != nullptr) return body(CountingStats{stats});

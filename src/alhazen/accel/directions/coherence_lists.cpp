@@ -7,7 +7,7 @@
 namespace alhazen {
 namespace {
 
-/// A cell of directions as a cone around it.
+/// A cell of directions as its bounding cone.
 struct DirectionCone {
     Vec3 axis;  ///< unit
     double cosine = 1, sine = 0;
@@ -23,7 +23,7 @@ struct DirectionCone {
     }
 };
 
-/// As it is given, or for about two cells for each primitive.
+/// The given resolution, or, for 0, one with about two cells per primitive.
 int resolution_for(std::size_t primitives, int given) {
     if (given > 0) return given;
     return static_cast<int>(
@@ -144,7 +144,7 @@ const CoherenceLists::List* CoherenceLists::find(std::uint32_t origin,
     const std::size_t bytes = sizeof(List) + made->capacity() * sizeof(Candidate);
     if (known != nullptr) return known;
     if (used_ + bytes > most_bytes_) {
-        // Else every ray of this cell would make the list anew, for nothing.
+        // Otherwise every ray of this cell would make the list again, in vain.
         full_ = true;
         return nullptr;
     }
@@ -166,7 +166,7 @@ CoherenceLists::List CoherenceLists::make(std::uint32_t origin, std::size_t cell
         const double radii = from.radius + spheres_[i].radius + 2 * room_;
         double begin = 0;
         if (distance > radii) {
-            // The cosine of the sum of the angles of both cones, less what that rounds.
+            // The cosine of the sum of the angles of both cones, minus its rounding error.
             const double sine = radii / distance;
             const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
             const double least = cone.cosine * cosine - cone.sine * sine - 1e-12;

@@ -1,16 +1,16 @@
 #pragma once
-/// For each sphere around a primitive, and each light, cells of directions whose lists say what
-/// rays that begin in the sphere may meet.
+/// Candidate lists by origin and direction: each sphere around a primitive, and each light, has
+/// cells of directions with lists of the primitives that rays starting in the sphere may intersect.
 ///
 /// Source: Ohta and Maekawa, "Ray Coherence Theorem and Constant Time Ray Tracing Algorithm",
-/// Computer Graphics International 1987: a ray from a sphere of radius r1 meets another one of
+/// Computer Graphics International 1987: a ray from a sphere of radius r1 intersects another one of
 /// radius r2 at distance d only when its angle with the line between the centers is at most
 /// asin((r1 + r2) / d).
 /// Differs: stated in accel/directions/ray_coherence.h.
 /// Conventions: origins are the primitives, then the lights. Lists are ascending by the least
 /// distance between the two spheres.
-/// Threads: `find` may be called from many; lists do not depend on who asks first, unless memory
-/// runs out.
+/// Threads: `find` may be called from many threads; lists do not depend on the order of calls,
+/// unless memory runs out.
 
 #include <array>
 #include <atomic>
@@ -29,15 +29,14 @@ namespace alhazen {
 class CoherenceLists {
   public:
     struct Candidate {
-        double begin;  ///< no nearer than this to where a ray begins
+        double begin;  ///< lower bound of the distance from a ray's start
         std::uint32_t primitive;
     };
     using List = std::vector<Candidate>;
 
-    /// A cube of directions has `resolution` cells along an edge, 0: so many that there are two
-    /// cells for each primitive. Lights have four times as many: they are points, so their cones
-    /// are thin. `room` is how far rays may pass beside where they should; lists take `most_bytes`
-    /// at most.
+    /// A cube of directions has `resolution` cells along an edge, 0: about two cells per primitive.
+    /// Lights have four times as many: they are points, so their cones are thin. `room`: how far
+    /// rays may deviate; `most_bytes`: the memory limit of the lists.
     CoherenceLists(const BoundsSource& source, const std::vector<Vec3>& lights, double room,
                    int resolution, std::size_t most_bytes);
     CoherenceLists(const CoherenceLists&) = delete;
@@ -45,24 +44,24 @@ class CoherenceLists {
 
     struct Origin {
         std::optional<std::uint32_t> primitive;  ///< none where the point is in no sphere
-        std::uint32_t tested = 0;                ///< spheres that were looked at
+        std::uint32_t tested = 0;                ///< number of spheres examined
     };
-    /// The primitive with the least sphere that holds the point.
+    /// The primitive with the smallest sphere that contains the point.
     [[nodiscard]] Origin origin_at(const Vec3& point) const;
     [[nodiscard]] std::uint32_t origin_of_light(std::size_t light) const {
         return static_cast<std::uint32_t>(primitives_ + light);
     }
-    /// Null when there is no memory left for the list.
+    /// Null when no memory is left for the list.
     [[nodiscard]] const List* find(std::uint32_t origin, const Vec3& direction) const;
 
     [[nodiscard]] std::size_t memory_bytes() const { return used_; }
-    /// What has been made so far.
+    /// Numbers of lists and candidates made so far.
     [[nodiscard]] std::size_t lists_made() const { return lists_made_; }
     [[nodiscard]] std::size_t candidates_made() const { return candidates_made_; }
 
   private:
     using Slot = std::atomic<const List*>;
-    /// Cells of an origin side by side: most are never asked for.
+    /// Neighbouring cells of an origin: most are never used.
     using Block = std::array<Slot, 64>;
     using Blocks = std::atomic<Block*>;
 
@@ -70,7 +69,7 @@ class CoherenceLists {
     [[nodiscard]] const DirectionCube& cube_of(std::uint32_t origin) const {
         return origin < primitives_ ? cube_ : light_cube_;
     }
-    /// Null when there is no memory left.
+    /// Null when no memory is left.
     [[nodiscard]] Slot* slot_of(std::uint32_t origin, std::size_t cell) const;
     template <class T>
     [[nodiscard]] T* made_at(std::atomic<T*>& place, std::size_t count,
@@ -82,7 +81,7 @@ class CoherenceLists {
     double room_;
     DirectionCube cube_, light_cube_;
     std::size_t most_bytes_;
-    /// Which spheres a point may be in, by radius.
+    /// The spheres that may contain a point, by radius.
     CellGrid grid_;
     std::vector<std::uint32_t> starts_, entries_;
 
@@ -92,7 +91,7 @@ class CoherenceLists {
     mutable std::vector<std::unique_ptr<Block[]>> made_blocks_;
     mutable std::vector<std::unique_ptr<const List>> made_lists_;
     mutable std::atomic<std::size_t> used_{0}, lists_made_{0}, candidates_made_{0};
-    mutable std::atomic<bool> full_{false};  ///< a list had no room: no more are made
+    mutable std::atomic<bool> full_{false};  ///< memory is used up: no more lists are made
 };
 
 }  // namespace alhazen

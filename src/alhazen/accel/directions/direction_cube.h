@@ -2,9 +2,10 @@
 /// All directions from a point, divided into cells: a cube around it whose faces are grids.
 ///
 /// Source: Haines and Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", IEEE CG&A 6(9),
-/// 1986. Conventions: face 2 k looks along axis k, 2 k + 1 against it; with x along the face and
-/// y, z the next two axes in a circle, a direction is (u, v) = (y / x, z / x) in [-1, 1]. Cells are
-/// numbered face after face, row after row of v.
+/// 1986.
+/// Conventions: face 2 k looks along axis k, 2 k + 1 against it; with x along the face and y, z the
+/// next two axes cyclically, a direction is (u, v) = (y / x, z / x) in [-1, 1]. Cells are numbered
+/// by face, then by row of v.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,6 @@ namespace alhazen {
 class DirectionCube {
   public:
     DirectionCube() = default;
-    /// With `resolution` x `resolution` cells on a face.
     explicit DirectionCube(int resolution) : resolution_(resolution) {}
 
     [[nodiscard]] int resolution() const { return resolution_; }
@@ -30,7 +30,7 @@ class DirectionCube {
                    std::size_t(resolution_) +
                std::size_t(column);
     }
-    /// Of a direction of any length but zero.
+    /// The cell of a direction of any length except zero.
     [[nodiscard]] std::size_t cell_of(const Vec3& d) const {
         int axis = 0;
         for (int k = 1; k < 3; ++k) {
@@ -40,7 +40,7 @@ class DirectionCube {
         return number(2 * axis + (d[axis] > 0.0 ? 0 : 1), index(d[(axis + 1) % 3] / x),
                       index(d[(axis + 2) % 3] / x));
     }
-    /// Where the i-th cell of a row begins.
+    /// The lower end of the i-th cell of a row.
     [[nodiscard]] double bound(int i) const { return -1.0 + 2.0 * i / resolution_; }
     /// The direction (u, v) on a face; not unit.
     [[nodiscard]] static Vec3 direction(int face, double u, double v) {

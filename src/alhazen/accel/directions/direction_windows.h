@@ -1,12 +1,13 @@
 #pragma once
-/// The directions in which boxes are seen from a place: on each face of a cube around it a
-/// rectangle, divided into cells.
+/// The directions from a point to boxes: a rectangle on each face of a cube around the point,
+/// divided into cells.
 ///
 /// Source: Haines and Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", IEEE CG&A 6(9),
-/// 1986 (the cube). Differs: of a face only the rectangle is divided that something is seen in:
-/// from far away all of a scene lies in a few cells of whole faces.
+/// 1986 (the cube).
+/// Differs: divides only the rectangle of a face in which something is visible: from far away a
+/// whole scene lies in a few cells of complete faces.
 /// Conventions: faces and their slopes u, v are those of accel/directions/direction_cube.h; boxes
-/// are relative to the place; cells are numbered face after face, row after row of v.
+/// are relative to the point; cells are numbered by face, then by row of v.
 
 #include <algorithm>
 #include <array>
@@ -24,11 +25,11 @@ namespace alhazen {
 class DirectionWindows {
   public:
     static constexpr std::size_t kNone = ~std::size_t{0};
-    /// Sides of a face: u and v.
+    /// Ranges of u and v on a face.
     using Slopes = std::array<Interval, 2>;
 
-    /// The slopes in which points of a box may be seen on a face; none where they are not. Those of
-    /// a box around the place are all.
+    /// The slopes of the points of a box on a face; nothing where none are visible. A box around
+    /// the point has all slopes.
     [[nodiscard]] static std::optional<Slopes> slopes_of(const Box3& box, int face) {
         const Interval along = range(box, face / 2, face % 2 != 0);
         if (!(along.hi > 0.0)) return std::nullopt;
@@ -46,7 +47,8 @@ class DirectionWindows {
         return slopes;
     }
 
-    /// Not farther along the axis of the face than the part of a box in a range of slopes.
+    /// Lower bound of the depth, along the axis of the face, of the part of a box in a range of
+    /// slopes.
     [[nodiscard]] static double depth_of(const Box3& box, int face, const Slopes& slopes) {
         double depth = std::max(0.0, range(box, face / 2, face % 2 != 0).lo);
         for (int side = 0; side < 2; ++side) {
@@ -59,7 +61,7 @@ class DirectionWindows {
         return depth;
     }
 
-    /// Widens the rectangles by those in which a box is seen.
+    /// Extends the rectangles to those of a box.
     void include(const Box3& box) {
         for (int f = 0; f < 6; ++f) {
             const auto slopes = slopes_of(box, f);
@@ -70,7 +72,7 @@ class DirectionWindows {
             }
         }
     }
-    /// Sum of the rectangles, in units of slopes.
+    /// Sum of the areas of the rectangles, in units of slopes.
     [[nodiscard]] double area() const {
         double sum = 0;
         for (const Face& f : faces_) sum += f.slopes[0].width() * f.slopes[1].width();
@@ -83,7 +85,7 @@ class DirectionWindows {
         }
         return longest;
     }
-    /// Into cells with edges of about so much slope, at most `most` in a row.
+    /// Divides the rectangles into cells with edges of about this slope, at most `most` in a row.
     void divide(double edge, int most) {
         std::size_t first = 0;
         for (Face& f : faces_) {
@@ -106,7 +108,7 @@ class DirectionWindows {
         const Face& f = faces_[static_cast<std::size_t>(face)];
         return f.first + std::size_t(row) * std::size_t(f.cells[0]) + std::size_t(column);
     }
-    /// Of a direction of any length but zero; kNone where nothing is seen in it.
+    /// The cell of a direction of any length except zero; kNone outside of the rectangles.
     [[nodiscard]] std::size_t cell_of(const Vec3& d) const {
         int axis = 0;
         for (int k = 1; k < 3; ++k) {
@@ -125,14 +127,14 @@ class DirectionWindows {
         int face;
         std::array<std::array<int, 2>, 2> ends;
     };
-    /// Those that slopes lie in; none where they lie in no rectangle.
+    /// The cells that overlap the slopes; nothing outside of the rectangles.
     [[nodiscard]] std::optional<Cells> cells_of(const Slopes& slopes, int face) const {
         const Face& f = faces_[static_cast<std::size_t>(face)];
         Cells cells{face, {}};
         for (std::size_t side = 0; side < 2; ++side) {
             const Interval within = {f.slopes[side].lo - kSlack, f.slopes[side].hi + kSlack};
             if (intersection(slopes[side], within).empty()) return std::nullopt;
-            // A bound that rounding puts on the other side belongs to both.
+            // A bound that rounding moves to the other side belongs to both.
             const double slack = kSlack * f.per_slope[side];
             const double lo = (slopes[side].lo - f.slopes[side].lo) * f.per_slope[side] - slack;
             const double hi = (slopes[side].hi - f.slopes[side].lo) * f.per_slope[side] + slack;
@@ -140,7 +142,7 @@ class DirectionWindows {
         }
         return cells;
     }
-    /// Where the i-th column (side 0) or row (side 1) begins.
+    /// The lower end of the i-th column (side 0) or row (side 1).
     [[nodiscard]] double bound(int face, std::size_t side, int i) const {
         const Face& f = faces_[static_cast<std::size_t>(face)];
         return i == f.cells[side] ? f.slopes[side].hi : f.slopes[side].lo + i * f.per_cell[side];
@@ -152,7 +154,7 @@ class DirectionWindows {
     }
 
   private:
-    /// Of slopes: more than rounding makes of them.
+    /// Margin of slopes, larger than their rounding errors.
     static constexpr double kSlack = 1e-12;
 
     struct Face {

@@ -1,5 +1,5 @@
 #pragma once
-/// What traces the rays that a structure for some rays has no lists for.
+/// The fallback accelerator: traces the rays for which a structure has no lists.
 
 #include <utility>
 #include <variant>
@@ -16,7 +16,8 @@ class FallbackAccelerator {
     enum class Kind { Hierarchy, KdTree, List };
     [[nodiscard]] static Kind configure(SettingsReader& reader) {
         static constexpr const char* kNames[] = {Hierarchy::kName, KdTree::kName, List::kName};
-        return static_cast<Kind>(reader.choice("others", "what traces other rays", 0, kNames));
+        return static_cast<Kind>(
+            reader.choice("others", "fallback accelerator for other rays", 0, kNames));
     }
 
     FallbackAccelerator() : accelerator_(List{}) {}

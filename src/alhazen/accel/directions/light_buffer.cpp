@@ -25,7 +25,7 @@ std::uint64_t LastOccluders::new_number() {
     return ++last;
 }
 
-/// Makes the lists of one light after the other.
+/// Makes the lists of all lights, one after another.
 class LightBufferBuilder {
   public:
     LightBufferBuilder(const BoundsSource& source, LightBuffer& made)
@@ -70,7 +70,7 @@ class LightBufferBuilder {
         });
         for (const Entry& entry : entries_) {
             LightBuffer::Cell& cell = cells_[entry.cell];
-            // Behind what fills the cell there is no light.
+            // Nothing is lit behind the polygon that fills the cell.
             if (entry.begin > cell.filled_to) continue;
             if (cell.count++ == 0) cell.first = static_cast<std::uint32_t>(made_.entries_.size());
             made_.entries_.push_back(entry.body);
@@ -93,14 +93,14 @@ class LightBufferBuilder {
         windows_.divide(edge, kMostInRow);
     }
 
-    /// A box seen from the light, and from wherever a ray may pass beside it.
+    /// A box relative to the light, extended by the deviation of rays.
     [[nodiscard]] Box3 box_from_light(std::uint32_t i) const {
         const Box3& b = bodies_.box(i);
         const Vec3 room{room_, room_, room_};
         return {b.lo - light_ - room, b.hi - light_ + room};
     }
 
-    /// Not farther than its nearest point from the light.
+    /// Lower bound of the distance of a primitive from the light.
     [[nodiscard]] double begin_of(const Box3& box, std::uint32_t i) const {
         double square = 0;
         for (int k = 0; k < 3; ++k) {
@@ -112,7 +112,7 @@ class LightBufferBuilder {
         return std::max(0.0, std::max(std::sqrt(square), to_sphere) - room_);
     }
 
-    /// Range of normal . (p - light) over the points of a body.
+    /// Range of normal . (p - light) over the points of a primitive.
     [[nodiscard]] Interval extent(std::uint32_t i, const Vec3& normal, double steepness) const {
         Interval range = bodies_.extent(i, normal, steepness);
         if (bodies_.outline(i).empty()) range = intersection(range, source_.extent(i, normal));
@@ -120,8 +120,8 @@ class LightBufferBuilder {
         return {range.lo - place, range.hi - place};
     }
 
-    /// A plane through the light: where a u + b v = w on a face. A body may be above it, below it,
-    /// or both.
+    /// The sides of a plane through the light, a u + b v = w on a face, on which a primitive has
+    /// points: above, below, or both.
     struct Sides {
         bool above, below;
     };
@@ -133,7 +133,7 @@ class LightBufferBuilder {
         const Interval e = extent(i, normal, steepness);
         return {e.hi >= -room_ * steepness, e.lo <= room_ * steepness};
     }
-    /// Leaves out columns (side 0) or rows (side 1) at both ends that the body is beside.
+    /// Removes columns (side 0) or rows (side 1) at both ends that the primitive does not reach.
     void trim(std::uint32_t i, std::size_t side, DirectionWindows::Cells& cells) const {
         auto& [first, last] = cells.ends[side];
         const double a = side == 0 ? 1 : 0;
@@ -173,7 +173,7 @@ class LightBufferBuilder {
         }
     }
 
-    /// Not farther from the light than the part of a box that is seen in a cell.
+    /// Lower bound of the distance from the light of the part of a box visible in a cell.
     [[nodiscard]] double begin_in(const Box3& box, int face,
                                   const DirectionWindows::Slopes& at) const {
         const auto part = DirectionWindows::depth_of(box, face, at);
@@ -185,7 +185,7 @@ class LightBufferBuilder {
         return std::max(0.0, (1.0 - 1e-12) * part * std::sqrt(square) - room_);
     }
 
-    /// Whether a body is beside a cell across one of its diagonals.
+    /// Whether a primitive is separated from a cell along one of its diagonals.
     [[nodiscard]] bool is_beside(std::uint32_t i, int face,
                                  const DirectionWindows::Slopes& at) const {
         const auto& [u, v] = at;
@@ -213,10 +213,10 @@ class LightBufferBuilder {
     }
 
     /// How much of a cell the outline covers, by the planes through the light and its edges. A ray
-    /// passes within the room of a line from the light: a cell is beside the polygon, or filled by
-    /// it, when that is so for all of those.
+    /// passes within the deviation of a line from the light: the polygon misses, or fills, a cell
+    /// when that holds for all of these lines.
     [[nodiscard]] Cover cover_of(double begin, const Corners& corners) const {
-        // Where the polygon is, points of the cell are at least so far along its corners.
+        // At the polygon, points of the cell are at least this far along its corners.
         const double depth = begin / std::sqrt(3.0);
         bool full = true;
         const std::size_t n = outline_.size();
@@ -224,7 +224,7 @@ class LightBufferBuilder {
             Vec3 normal = cross(outline_[k], outline_[(k + 1) % n]);
             if (dot(normal, outline_[(k + 2) % n]) < 0.0) normal = -normal;
             const double size = length(normal);
-            // Of a sliver, or a polygon that the light lies in the plane of, nothing is known.
+            // Undecided for a sliver, and for a polygon whose plane contains the light.
             if (!(size > 0.0) || !std::isfinite(size)) return Cover::Part;
             double least = std::numeric_limits<double>::infinity(), most = -least;
             for (const Vec3& c : corners) {
@@ -238,8 +238,8 @@ class LightBufferBuilder {
         return full && is_steep(corners) ? Cover::Full : Cover::Part;
     }
 
-    /// Whether rays of the cell come steeply enough to the polygon for what they pass beside the
-    /// light not to matter.
+    /// Whether rays of the cell reach the polygon steeply enough that their deviation at the light
+    /// does not matter.
     [[nodiscard]] bool is_steep(const Corners& corners) const {
         const Vec3 normal = outline_normal();
         const double size = length(normal);
@@ -252,8 +252,8 @@ class LightBufferBuilder {
         return cross(outline_[1] - outline_[0], outline_[2] - outline_[0]);
     }
 
-    /// The cell ends behind the nearest polygon that fills it: distances from the light are
-    /// largest at its corners.
+    /// Ends the cell behind the nearest polygon that fills it: distances from the light are largest
+    /// at its corners.
     void fill(std::uint32_t i, double begin, const Corners& corners,
               LightBuffer::Cell& cell) const {
         const Vec3 normal = outline_normal();
@@ -262,7 +262,7 @@ class LightBufferBuilder {
         for (const Vec3& corner : corners) {
             end = std::max(end, std::abs(height / dot(normal, corner)) * length(corner));
         }
-        // Beside the light a ray comes to the polygon so much later where it is slanted most.
+        // The margin covers how much later a deviating ray reaches the most slanted polygon.
         const double filled_to = (1.0 + 1e-9) * end + 16 * room_;
         if (!(filled_to < cell.filled_to)) return;
         cell.filled_to = filled_to;
@@ -270,7 +270,7 @@ class LightBufferBuilder {
         cell.filler = i;
     }
 
-    /// Share of all that is seen from the light.
+    /// Share of all visible directions.
     static constexpr double kLarge = 0.01;
     static constexpr double kMostCells = 1 << 21;
     static constexpr int kMostInRow = 4096;
@@ -278,22 +278,21 @@ class LightBufferBuilder {
     const BoundsSource& source_;
     LightBuffer& made_;
     BoundingProxies bodies_;
-    double room_;  ///< how far rays may pass beside the light
+    double room_;  ///< how far rays may deviate at the light
     Vec3 light_;
     DirectionWindows windows_;
     std::vector<Entry> entries_;
     std::vector<LightBuffer::Cell> cells_;
-    std::vector<Vec3> outline_;  ///< of the polygon that is looked at, from the light
+    std::vector<Vec3> outline_;  ///< of the current polygon, relative to the light
 };
 
 LightBuffer::Config LightBuffer::configure(SettingsReader& reader) {
     Config config;
-    config.density =
-        reader.number("density", "cells of a light for each primitive", 16, 1e-6, 1000);
+    config.density = reader.number("density", "cells of a light per primitive", 16, 1e-6, 1000);
     config.resolution = reader.count(
-        "resolution", "cells along the longest edge of what a light sees, 0: by the density", 0, 0,
+        "resolution", "cells along the longest edge of a light's window, 0: by the density", 0, 0,
         4096);
-    config.lights = reader.count("lights", "so many get a buffer", 16, 0, 1000);
+    config.lights = reader.count("lights", "maximum number of lights with a buffer", 16, 0, 1000);
     config.full_cells =
         reader.flag("full_cells", "lists end behind a polygon that fills their cell", true);
     config.shadow_cache = reader.flag("shadow_cache", "test the last occluder first", true);

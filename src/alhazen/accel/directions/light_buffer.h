@@ -1,21 +1,21 @@
 #pragma once
-/// For every light a cube of directions whose cells list what may stand in the light's way.
+/// Light buffers: a cube of directions around every light whose cells list the potential occluders.
 ///
 /// Source: Haines and Greenberg, "The Light Buffer: A Shadow-Testing Accelerator", IEEE CG&A 6(9),
 /// 1986; Pearce, "A Recursive Shadow Voxel Cache for Ray Tracing", Graphics Gems II, 1991 (the last
 /// occluder).
-/// Differs: of a face only the rectangle that the scene is seen in is divided, into cells by the
-/// number of primitives, and the one that all but the largest are seen in once more. Lists are made
-/// from half-spaces around the rows, columns and diagonals of a face and, for flat polygons, their
-/// edges, not by scan conversion. A ray is a shadow ray when it asks what blocks the light and ends
-/// at a light that the scene names; there is no mark on it. Only flat convex polygons are looked at
-/// as what fills a cell. There is one last occluder for each light and thread, not for each node of
-/// the tree of rays. Directional lights have no buffer: their rays, and all rays that are no shadow
-/// rays, are traced by another accelerator (`others`). Conventions: lists are ascending by the
-/// distance at which a primitive begins in the cell, from the light. A list ends at the polygon
-/// that fills its cell: nothing behind that is lit. Complexity and threads: lists are made while
-/// building, O(n + cells) for each light, and more where primitives are large. What is tested
-/// depends on the rays before, by the last occluder; hits do not.
+/// Differs: divides only the rectangle of a face in which the scene is visible, into cells by the
+/// number of primitives, and the rectangle of all but the largest primitives once more. Lists are
+/// made from half-spaces around the rows, columns and diagonals of a face and, for flat polygons,
+/// their edges, not by scan conversion. A ray is a shadow ray when its query is for blocked light
+/// and it ends at a light that the scene names; it carries no mark. Only flat convex polygons can
+/// fill a cell. There is one last occluder per light and thread, not per node of the tree of rays.
+/// Directional lights have no buffer: their rays, and all other rays, are traced by the fallback
+/// accelerator (`others`).
+/// Conventions: lists are ascending by the distance from the light at which a primitive begins in
+/// the cell. A list ends at the polygon that fills its cell: nothing behind it is lit.
+/// Complexity and threads: lists are made while building, O(n + cells) per light, and more for
+/// large primitives. The tests made depend on earlier rays, by the last occluder; hits do not.
 
 #include <array>
 #include <cstdint>
@@ -29,13 +29,13 @@
 
 namespace alhazen {
 
-/// Of each light the primitive that blocked the last ray to it that was blocked, for one thread. An
-/// entry may be taken by another light; what it says is only a guess.
+/// The primitive that last blocked a ray to each light, for one thread. Lights may share an entry;
+/// its content is only a guess.
 class LastOccluders {
   public:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     [[nodiscard]] static std::uint32_t& of(std::uint64_t buffer, std::size_t light);
-    /// Of a new buffer, never used again.
+    /// A unique number for a new buffer.
     [[nodiscard]] static std::uint64_t new_number();
 };
 
@@ -43,14 +43,14 @@ class LightBuffer {
   public:
     static constexpr const char* kName = "light_buffer";
     static constexpr const char* kDescription =
-        "lists of what stands in a light's way, for shadow rays";
+        "lists of potential occluders per light, for shadow rays";
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
-        double density = 16;       ///< cells of a light for each primitive
+        double density = 16;       ///< cells of a light per primitive
         int resolution = 0;        ///< cells along the longest edge; 0: by the density
-        int lights = 16;           ///< so many get a buffer
-        bool full_cells = true;    ///< lists end behind what fills their cell
-        bool shadow_cache = true;  ///< the last occluder is tested first
+        int lights = 16;           ///< maximum number of lights with a buffer
+        bool full_cells = true;    ///< end lists behind the polygon that fills their cell
+        bool shadow_cache = true;  ///< test the last occluder first
         FallbackAccelerator::Kind others = FallbackAccelerator::Kind::Hierarchy;
     };
     [[nodiscard]] static Config configure(SettingsReader& reader);
@@ -59,15 +59,15 @@ class LightBuffer {
     [[nodiscard]] static LightBuffer build(const BoundsSource& source, const Config& config);
 
     struct Cell {
-        std::uint32_t first = 0;  ///< of its entries, in those of all lights
+        std::uint32_t first = 0;  ///< index of its first entry, over all lights
         std::uint32_t count = 0;
         std::uint32_t filler = LastOccluders::kNone;  ///< the primitive that fills it
-        /// Where that begins and ends, from the light; what fills no cell begins at infinity.
+        /// Its range of distances from the light; infinite where no polygon fills the cell.
         double filled_from = std::numeric_limits<double>::infinity();
         double filled_to = std::numeric_limits<double>::infinity();
     };
-    /// Where small primitives are seen there are windows for them, with cells of their own: large
-    /// ones would leave them few.
+    /// Small primitives have windows with cells of their own: large primitives would leave them few
+    /// cells.
     struct Light {
         struct Windows {
             DirectionWindows directions;
@@ -99,7 +99,7 @@ class LightBuffer {
   private:
     friend class LightBufferBuilder;
 
-    /// Null where nothing is seen.
+    /// Null where nothing is visible.
     [[nodiscard]] const Cell* cell_of(const Light& light, const Vec3& direction) const {
         for (const Light::Windows* windows : {&light.small, &light.all}) {
             const std::size_t cell = windows->directions.cell_of(direction);
@@ -124,18 +124,18 @@ class LightBuffer {
         }
         const auto blocks = [&](std::uint32_t primitive) {
             if (primitive == tested || !visitor.visit(primitive)) return false;
-            // A visit may have gone through other aggregates, and asked for theirs.
+            // A visit may have traversed other aggregates, which use the same table.
             if (config_.shadow_cache) LastOccluders::of(number_, to.end) = primitive;
             return true;
         };
         if (to.start > cell.filled_to) {
-            // The ray begins behind what fills the cell; one that ends behind it, too, needs what
-            // the list does not have.
+            // The ray starts behind the filling polygon; if it also ends behind it, it needs
+            // primitives that the list omits.
             if (to.stop < cell.filled_from && blocks(cell.filler)) return;
             return others_.traverse(ray, visitor, stats);
         }
         for (std::uint32_t e = cell.first; e < cell.first + cell.count; ++e) {
-            // What begins farther from the light than the ray does not stand in its way.
+            // A primitive that begins farther from the light than the ray cannot block it.
             if (begins_[e] > to.start || blocks(entries_[e])) return;
         }
     }
@@ -148,7 +148,7 @@ class LightBuffer {
     std::vector<Light> lights_;
     std::vector<Cell> cells_;
     std::vector<std::uint32_t> entries_;
-    std::vector<double> begins_;  ///< [entry] from where on it may be, seen from the light
+    std::vector<double> begins_;  ///< [entry] its least distance from the light
 };
 static_assert(Accelerator<LightBuffer>);
 

@@ -6,10 +6,10 @@ RayClassification::Config RayClassification::configure(SettingsReader& reader) {
     Config config;
     config.leaf_size = static_cast<std::size_t>(
         reader.count("leaf_size", "classes with more candidates are divided", 8, 1, 1000000));
-    config.max_depth = reader.count("max_depth", "how often a class is halved", 8, 0, 16);
+    config.max_depth = reader.count("max_depth", "maximum number of halvings of a class", 8, 0, 16);
     config.memory_bytes =
-        static_cast<std::size_t>(
-            reader.count("memory_mib", "beyond that all classes are made anew", 256, 0, 1 << 20))
+        static_cast<std::size_t>(reader.count(
+            "memory_mib", "memory of classes; then all are discarded", 256, 0, 1 << 20))
         << 20;
     return config;
 }

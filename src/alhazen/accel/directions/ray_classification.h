@@ -1,20 +1,20 @@
 #pragma once
-/// Rays are sorted into classes of neighbouring places and directions; each class has a list of
-/// what its rays may meet.
+/// Ray classification: rays are sorted into classes of neighbouring origins and directions; each
+/// class has a list of the primitives that its rays may intersect.
 ///
 /// Source: Arvo and Kirk, "Fast Ray Tracing by Ray Classification", SIGGRAPH 1987; Arvo and Kirk,
 /// "A Survey of Ray Tracing Acceleration Techniques", in Glassner (ed.), "An Introduction to Ray
-/// Tracing", 1989. Differs: what a class may meet is found by five planes around its beam and the
-/// extents of flat polygons, or of the box and sphere around all else, along their normals, and by
-/// the sides on which its rays pass the edges of polygons, where Arvo and Kirk take cones or linear
-/// programs. Lists are not cut off behind blockers: what is behind a hit is not tested anyway. Nor
-/// are faces that are turned away left out: others could tell the difference. When the memory is
-/// used up, all classes are thrown away and made anew as rays come (they throw away what was not
-/// used lately). A thread
-/// remembers its last 16 classes for each of the six directions, for the nearest and for any hit.
-/// Rays from so far away that rounding could lead beside their class are tested against everything.
+/// Tracing", 1989.
+/// Differs: finds the candidates of a class by five planes around its beam and the extents along
+/// their normals of flat polygons, or of the box and sphere of other primitives, and by the sides
+/// on which its rays pass the edges of polygons; Arvo and Kirk use cones or linear programs. Lists
+/// are not cut off behind blockers: primitives behind a hit are not tested anyway. Back faces are
+/// not left out: other queries would notice. When the memory is used up, all classes are discarded
+/// and made again as rays come (the source discards those not used lately). A thread caches its
+/// last 16 classes for each of the six directions, separately for closest and any hits. Rays from
+/// so far away that rounding could lead outside of their class are tested against all primitives.
 /// Complexity and threads: classes are divided as rays come to them, by all threads at once; a ray
-/// costs the depth of its class, or nothing where it is that of a ray before.
+/// costs the depth of its class, or nothing where the class is cached.
 
 #include <cstddef>
 #include <memory>
@@ -30,7 +30,7 @@ class RayClassification {
   public:
     static constexpr const char* kName = "ray_classification";
     static constexpr const char* kDescription =
-        "lists for classes of rays of neighbouring places and directions";
+        "lists for classes of rays of neighbouring origins and directions";
     using Config = RayHypercubes::Limits;
     [[nodiscard]] static Config configure(SettingsReader& reader);
 
@@ -58,7 +58,7 @@ class RayClassification {
         const int direction = classified.direction;
         const double sign = direction % 2 == 0 ? 1.0 : -1.0;
         for (const std::uint32_t i : *found.list) {
-            // Whatever comes later in the list begins behind what was found.
+            // The rest of the list begins behind the hit.
             const double reached = sign * ray.at(visitor.t_max())[direction / 2];
             if (classes_->begin_along(i, direction) > reached + space.pad) return;
             if (visitor.visit(i)) return;
@@ -69,7 +69,7 @@ class RayClassification {
     [[nodiscard]] std::size_t memory_bytes() const {
         return classes_ == nullptr ? 0 : classes_->memory_bytes();
     }
-    /// Null over nothing.
+    /// Null for an empty scene.
     [[nodiscard]] const RayHypercubes* classes() const { return classes_.get(); }
 
   private:

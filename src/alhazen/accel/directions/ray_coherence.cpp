@@ -7,10 +7,10 @@ RayCoherence::Config RayCoherence::configure(SettingsReader& reader) {
     config.resolution = reader.count(
         "resolution",
         "cells along an edge of the cube of directions, 0: by the number of primitives", 0, 0, 64);
-    config.most =
-        reader.count("most", "with more primitives all rays are others", 20000, 0, 1000000);
+    config.most = reader.count("most", "with more primitives the fallback traces all rays", 20000,
+                               0, 1000000);
     config.memory_mib =
-        reader.count("memory_mib", "beyond that there are no new lists", 256, 0, 1 << 20);
+        reader.count("memory_mib", "memory of lists; then no more are made", 256, 0, 1 << 20);
     config.others = FallbackAccelerator::configure(reader);
     return config;
 }

@@ -1,13 +1,14 @@
 #pragma once
-/// Rays that begin near one primitive and go one way have a common list of what they may meet.
+/// Ray coherence: rays that start near one primitive in similar directions share a candidate list.
 ///
 /// Source: Ohta and Maekawa, "Ray Coherence Theorem and Constant Time Ray Tracing Algorithm",
-/// Computer Graphics International 1987. Differs: the lists of a primitive are made as rays come,
-/// not beforehand for all pairs; where a ray begins is found by a grid over the spheres, not told
-/// by the ray before. Any primitive counts as the sphere around it. Shadow rays to a light that the
-/// scene names are looked up from the light, whose sphere is a point. Rays that begin in no sphere
-/// (those from the eye), and all when the memory for lists is used up or there are too many
-/// primitives, are traced by another accelerator (`others`).
+/// Computer Graphics International 1987.
+/// Differs: makes the lists of a primitive as rays come, not beforehand for all pairs; finds the
+/// start of a ray by a grid over the spheres, not from the previous ray. Every primitive is
+/// represented by its bounding sphere. Shadow rays to a light that the scene names are looked up
+/// from the light, whose sphere is a point. Rays that start in no sphere (eye rays), and all rays
+/// when the memory for lists is used up or there are too many primitives, are traced by the
+/// fallback accelerator (`others`).
 /// Complexity and threads: a new list costs O(n); see accel/directions/coherence_lists.h.
 
 #include <cstdint>
@@ -27,8 +28,8 @@ class RayCoherence {
     static constexpr bool kVisitsRepeatedly = true;
     struct Config {
         int resolution =
-            0;             ///< of a face of the cube of directions, 0: by the number of primitives
-        int most = 20000;  ///< with more primitives all rays are others
+            0;             ///< of a face of the cube of directions; 0: by the number of primitives
+        int most = 20000;  ///< with more primitives the fallback accelerator traces all rays
         int memory_mib = 256;
         FallbackAccelerator::Kind others = FallbackAccelerator::Kind::Hierarchy;
     };
@@ -59,7 +60,7 @@ class RayCoherence {
     [[nodiscard]] std::size_t memory_bytes() const {
         return others_.memory_bytes() + (lists_ == nullptr ? 0 : lists_->memory_bytes());
     }
-    /// Null where there are none.
+    /// Null where there are no lists.
     [[nodiscard]] const CoherenceLists* lists() const { return lists_.get(); }
 
   private:
@@ -70,7 +71,7 @@ class RayCoherence {
         return origin.primitive ? lists_->find(*origin.primitive, ray.direction) : nullptr;
     }
 
-    /// `reached()`: how far from where the list begins it still matters.
+    /// `reached()`: the distance from the list's origin up to which candidates matter.
     template <class Reached, class Visitor, class Stats>
     void test(const CoherenceLists::List& list, const Reached& reached, Visitor& visitor,
               Stats stats) const {

@@ -1,8 +1,8 @@
 #pragma once
-/// Says which of the known ends (lights) a ray goes to.
+/// Finds the known end (light) at which a ray ends.
 ///
-/// Conventions: a ray goes to an end when its line passes within `room` of it and it does not go on
-/// behind it by more than that. Ends at infinity are not looked for.
+/// Conventions: a ray ends at a light when its line passes within `room` of it and the ray extends
+/// behind it by at most that much. Ends at infinity are ignored.
 
 #include <cmath>
 #include <optional>
@@ -16,7 +16,7 @@ namespace alhazen {
 class RayEndFinder {
   public:
     RayEndFinder() = default;
-    /// The first `most` ends that are near enough to the primitives for double numbers.
+    /// Takes the first `most` ends that are near enough to the primitives for double precision.
     RayEndFinder(const BoundsSource& source, const PaddedBox& space, std::size_t most)
         : room_(space.pad) {
         for (const RayEnd& end : source.ray_ends()) {
@@ -26,15 +26,15 @@ class RayEndFinder {
     }
 
     [[nodiscard]] const std::vector<Vec3>& places() const { return places_; }
-    /// How far beside an end a ray may pass.
+    /// Maximum distance of a ray from its end.
     [[nodiscard]] double room() const { return room_; }
 
     struct Found {
         std::size_t end;
-        double start, stop;  ///< distances of both ends of the ray from the place
+        double start, stop;  ///< distances of both ends of the ray from the light
     };
     [[nodiscard]] std::optional<Found> find(const Ray& ray) const {
-        // Scaled, so that squares neither overflow nor vanish.
+        // Scaled, so that squares neither over- nor underflow.
         const double scale = max_component(abs(ray.direction));
         const Vec3 d = ray.direction / scale;
         const double length2 = dot(d, d);
@@ -49,7 +49,7 @@ class RayEndFinder {
         }
         return std::nullopt;
     }
-    /// The same of rays that ask what is in their way; others go nowhere.
+    /// The same for any-hit and any-blocker queries; nothing for other queries.
     template <class Visitor>
     [[nodiscard]] std::optional<Found> find_for(const Ray& ray) const {
         constexpr AsksFor kAsked = asks_for<Visitor>();

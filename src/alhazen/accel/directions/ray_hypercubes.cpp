@@ -9,7 +9,7 @@
 namespace alhazen {
 namespace {
 
-/// All rays that begin in a box and whose directions lie in a cell of them.
+/// All rays that start in a box with directions in a cell.
 class Beam {
   public:
     Beam(const Box3& voxel, int direction, const Hypercube& cube)
@@ -23,9 +23,9 @@ class Beam {
         }
     }
 
-    /// Whether all of them pass outside of one edge of a flat convex polygon. On which side of a
-    /// line a ray passes is a number linear in its origin, and in its direction: it is largest at
-    /// corners. What passes inside has it of one sign for all edges.
+    /// Whether all rays pass outside of one edge of a flat convex polygon. The side on which a ray
+    /// passes a line is linear in its origin and in its direction, so its extremes are at corners;
+    /// it has one sign for all edges where a ray passes inside.
     [[nodiscard]] bool passes_beside(std::span<const Vec3> outline) const {
         const std::size_t n = outline.size();
         Vec3 area;
@@ -39,7 +39,7 @@ class Beam {
             front += facing > least;
             back += facing < -least;
         }
-        // Of one that some of them see edge-on nothing is known.
+        // Undecided where some rays see the polygon edge-on.
         if (front != 4 && back != 4) return false;
         const double sign = front == 4 ? 1.0 : -1.0;
         for (std::size_t i = 0; i < n; ++i) {
@@ -67,8 +67,8 @@ class Beam {
 
 }  // namespace
 
-/// The hypercubes that a thread used last, some for each direction: as many as the rays of a row of
-/// pixels go through, so that the next row finds them.
+/// The hypercubes that a thread used last, several per direction: as many as the rays of a row of
+/// pixels pass through, so that the next row finds them.
 struct RayHypercubes::Recent {
     static constexpr std::size_t kEach = 16;
     struct Entry {
@@ -83,7 +83,7 @@ struct RayHypercubes::Recent {
         static thread_local std::array<Recent, 2> recent;
         return recent[any_hit ? 1 : 0];
     }
-    /// The last one first.
+    /// Searches the most recent entries first.
     [[nodiscard]] const List* find(std::uint64_t id, const ClassifiedRay& ray) const {
         const auto d = static_cast<std::size_t>(ray.direction);
         for (std::size_t i = 0; i < kEach; ++i) {
@@ -220,7 +220,7 @@ const RayHypercubes::List* RayHypercubes::list_of(Trees& trees, Node& child, con
     if (known != nullptr) return known;
     const std::size_t bytes = sizeof(List) + made->capacity() * sizeof(std::uint32_t);
     static const List nothing;
-    // Where it will be divided further, a list that is hardly shorter is not worth its memory.
+    // In an inner node, a list that is hardly shorter is not worth its memory.
     const bool divided = !last && made->size() > limits_.leaf_size;
     if (made->size() == parent.size() || (divided && made->size() > parent.size() / 4 * 3)) {
         known = &parent;  // inherited
@@ -262,7 +262,7 @@ std::shared_ptr<RayHypercubes::Trees> RayHypercubes::begin_anew(
 }
 
 RayHypercubes::Found RayHypercubes::find(ClassifiedRay ray, bool any_hit) const {
-    // Rays from outside begin in a face of the space, as near as rounding lets them.
+    // Rays from outside start on a face of the space, up to rounding.
     const Hypercube all = root();
     for (std::size_t k = 0; k < 5; ++k) {
         ray.point[k] = std::clamp(ray.point[k], all.lo[k], all.hi[k]);

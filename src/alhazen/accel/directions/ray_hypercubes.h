@@ -1,14 +1,14 @@
 #pragma once
-/// The space of rays, divided: six trees of hypercubes, one for each dominant direction, made as
-/// rays come. A hypercube has a list of what its rays may meet.
+/// The subdivided space of rays: six trees of hypercubes, one per dominant direction, made as rays
+/// come. A hypercube has a list of the primitives that its rays may intersect.
 ///
 /// Source: Arvo and Kirk, "Fast Ray Tracing by Ray Classification", SIGGRAPH 1987.
 /// Differs: stated in accel/directions/ray_classification.h.
 /// Conventions: direction 2 k is towards the upper end of axis k, 2 k + 1 towards the lower end.
-/// With axes k, k + 1, k + 2 (in a circle) a ray is (x, y, z; u, v): its place and how far it goes
-/// along the other two axes while it goes 1 along the dominant one.
-/// Threads: `find` may be called from many; lists do not depend on who comes first, unless memory
-/// runs out.
+/// With axes k, k + 1, k + 2 (cyclic) a ray is (x, y, z; u, v): its origin and its slopes along the
+/// other two axes relative to the dominant one.
+/// Threads: `find` may be called from many threads; lists do not depend on the order of calls,
+/// unless memory runs out.
 
 #include <array>
 #include <atomic>
@@ -28,7 +28,7 @@ struct ClassifiedRay {
     int direction = 0;
     std::array<double, 5> point{};
 
-    /// At `t`; the direction is not zero.
+    /// The ray's point at `t`; the direction is not zero.
     ClassifiedRay(const Ray& ray, double t);
 };
 
@@ -60,42 +60,42 @@ class RayHypercubes {
     RayHypercubes& operator=(const RayHypercubes&) = delete;
 
     struct Found {
-        const List* list;                  ///< ascending by where bodies begin along the direction
-        int nodes;                         ///< hypercubes that were entered on the way to it
-        bool cached;                       ///< found among those that the thread used last
-        std::shared_ptr<const void> kept;  ///< the list lives as long as this
+        const List* list;  ///< ascending by where primitives begin along the direction
+        int nodes;         ///< number of hypercubes entered
+        bool cached;       ///< found in the thread's cache
+        std::shared_ptr<const void> kept;  ///< keeps the list alive
     };
-    /// Of a ray that begins in the space, or is off it by rounding.
-    /// What a thread found for closest hits and for any hit it remembers apart.
+    /// The list of a ray that starts in the space, or outside of it by rounding errors. The
+    /// thread's caches for closest and for any hit are separate.
     [[nodiscard]] Found find(ClassifiedRay ray, bool any_hit = false) const;
 
     [[nodiscard]] const PaddedBox& space() const { return space_; }
     [[nodiscard]] const BoundingProxies& bodies() const { return bodies_; }
-    /// Where a body begins along a direction, measured along it.
+    /// Where a primitive begins along a direction, measured along it.
     [[nodiscard]] double begin_along(std::uint32_t body, int direction) const {
         const Box3& b = bodies_.box(body);
         return direction % 2 == 0 ? b.lo[direction / 2] : -b.hi[direction / 2];
     }
-    /// Of bodies and of what has been made of the trees.
+    /// Memory of the proxies and of the trees made so far.
     [[nodiscard]] std::size_t memory_bytes() const {
         const std::shared_ptr<Trees> trees = std::atomic_load(&trees_);
         return bodies_.memory_bytes() + trees->used;
     }
-    /// Hypercubes in all trees.
+    /// Number of hypercubes in all trees.
     [[nodiscard]] std::size_t nodes_made() const { return std::atomic_load(&trees_)->nodes_made; }
 
   private:
-    /// Of the 32 children of a hypercube there are only those that rays have come to: few.
+    /// Of the 32 children of a hypercube only those reached by rays exist: few.
     struct Node {
-        std::atomic<const List*> list{nullptr};  ///< null: nobody has asked yet
+        std::atomic<const List*> list{nullptr};  ///< null: not computed yet
         std::atomic<Node*> first_child{nullptr};
-        Node* next = nullptr;     ///< the sibling that was made before
-        std::uint32_t index = 0;  ///< which child of its parent
+        Node* next = nullptr;     ///< the sibling made before this one
+        std::uint32_t index = 0;  ///< index among its parent's children
     };
     struct Recent;
     struct Trees {
         explicit Trees(std::size_t bytes) : used(bytes) {}
-        /// Of no other ones, ever: what threads remember is asked for by it.
+        /// Unique over all time: identifies entries of the threads' caches.
         std::uint64_t id = new_id();
         std::array<Node, 6> roots;
         std::mutex making;
@@ -106,9 +106,9 @@ class RayHypercubes {
     [[nodiscard]] static std::uint64_t new_id();
 
     [[nodiscard]] Hypercube root() const;
-    /// What of `parent` the rays of a hypercube may meet, in the same order.
+    /// The candidates of `parent` for the rays of a hypercube, in the same order.
     [[nodiscard]] List meeting(const List& parent, int direction, const Hypercube& cube) const;
-    /// Null when there is no memory left.
+    /// Null when no memory is left.
     [[nodiscard]] Node* child_of(Trees& trees, Node& node, std::uint32_t index) const;
     [[nodiscard]] const List* list_of(Trees& trees, Node& child, const List& parent, int direction,
                                       const Hypercube& cube, bool last) const;
@@ -116,10 +116,10 @@ class RayHypercubes {
         const List* list;
         Hypercube cube;
         int depth;
-        bool whole;  ///< false where there was no memory left to divide further
+        bool whole;  ///< false where no memory was left to divide further
     };
     [[nodiscard]] Leaf descend(Trees& trees, const ClassifiedRay& ray) const;
-    /// New trees instead of those that are full, unless another thread has made them.
+    /// New trees instead of full ones, unless another thread has made them.
     [[nodiscard]] std::shared_ptr<Trees> begin_anew(const std::shared_ptr<Trees>& full) const;
 
     PaddedBox space_;
@@ -127,7 +127,7 @@ class RayHypercubes {
     Limits limits_;
     std::array<List, 6> everything_;
     std::size_t least_bytes_ = 0;  ///< of these lists
-    /// Those who are in them keep the old ones until they have done.
+    /// Threads inside the old trees keep them until they are done.
     mutable std::shared_ptr<Trees> trees_;
 };
 

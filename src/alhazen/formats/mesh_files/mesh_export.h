@@ -5,7 +5,8 @@
 /// bits where the format has room: PLY uses float for arrays whose values are floats, else double;
 /// OBJ the shortest decimals that read back equal; STL has floats only, so positions are rounded.
 /// Placements are applied to positions, normals and tangents; one that mirrors also turns the
-/// triangles around, so that the outside stays outside. Names of properties: docs/formats/ply.md.
+/// triangles around, so that the outside stays outside. Names of properties:
+/// docs/reference/formats/ply.md.
 
 #include <span>
 #include <string>

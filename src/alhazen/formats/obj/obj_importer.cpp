@@ -38,7 +38,7 @@ bool looks_like_obj(std::string_view bytes) {
 }
 
 const char* ObjImporter::description() const {
-    return "Wavefront meshes with materials (.obj, .mtl), docs/formats/obj.md";
+    return "Wavefront meshes with materials (.obj, .mtl), docs/reference/formats/obj.md";
 }
 
 int ObjImporter::recognise(const ImportSource& source) const {

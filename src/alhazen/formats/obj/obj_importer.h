@@ -1,5 +1,5 @@
 #pragma once
-/// Wavefront OBJ with its material libraries as a scene: docs/formats/obj.md.
+/// Wavefront OBJ with its material libraries as a scene: docs/reference/formats/obj.md.
 
 #include "alhazen/formats/core/importer.h"
 

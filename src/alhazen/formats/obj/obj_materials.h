@@ -2,10 +2,9 @@
 /// The materials of an OBJ scene: finds its libraries and pictures and makes a Material of each
 /// entry that is used.
 ///
-/// Source: see mtl_reader.h. Differs: docs/formats/obj.md says how each statement and each
-/// illumination model is understood.
-/// Conventions: a library or picture that is missing or cannot be read is a warning; a name that no
-/// library has is the grey material, with one warning.
+/// Source: see mtl_reader.h. Differs: docs/reference/formats/obj.md says how each statement and
+/// each illumination model is understood. Conventions: a library or picture that is missing or
+/// cannot be read is a warning; a name that no library has is the grey material, with one warning.
 
 #include <memory>
 #include <string>

@@ -11,7 +11,7 @@ bool looks_like_ply(std::string_view bytes) {
 }
 
 const char* PlyImporter::description() const {
-    return "Stanford meshes (.ply), docs/formats/ply.md";
+    return "Stanford meshes (.ply), docs/reference/formats/ply.md";
 }
 
 int PlyImporter::recognise(const ImportSource& source) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// A PLY mesh as a scene: docs/formats/ply.md.
+/// A PLY mesh as a scene: docs/reference/formats/ply.md.
 
 #include "alhazen/formats/core/importer.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// What the properties of a PLY vertex mean, and how they become the arrays of a mesh.
 ///
-/// Conventions: names as in docs/formats/ply.md. Colours of an integer type are display-encoded and
-/// are made linear (IEC 61966-2-1); of a float type they are linear already.
+/// Conventions: names as in docs/reference/formats/ply.md. Colours of an integer type are
+/// display-encoded and are made linear (IEC 61966-2-1); of a float type they are linear already.
 
 #include <array>
 #include <vector>

@@ -12,7 +12,8 @@ namespace alhazen {
 [[nodiscard]] std::optional<std::string_view> ray_extension(std::string_view name);
 /// The same for a key of a material.
 [[nodiscard]] std::optional<std::string_view> ray_material_extension(std::string_view key);
-/// True when only the dictionary family (docs/formats/ray.md) has an object or light of that name.
+/// True when only the dictionary family (docs/reference/formats/ray.md) has an object or light of
+/// that name.
 [[nodiscard]] bool is_dictionary_extension(std::string_view name);
 
 /// "object 'metaball' is an extension (metaballs, HKUST) and is not supported".

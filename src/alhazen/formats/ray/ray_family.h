@@ -1,7 +1,7 @@
 #pragma once
 /// Tells the two families of the SBT-raytracer format apart and sets the conventions of each.
 ///
-/// Source: docs/formats/ray.md.
+/// Source: docs/reference/formats/ray.md.
 /// Differs: neither program says which family a file is for; see `detect_ray_family` for the rule.
 
 #include "alhazen/formats/text/text_tree.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// Materials of the SBT-raytracer format: defaults that nest, names, texture maps.
 ///
-/// Source: docs/formats/ray.md.
+/// Source: docs/reference/formats/ray.md.
 /// Differs: a reference to an undefined name is an error (the course's program silently takes the
 /// default).
 

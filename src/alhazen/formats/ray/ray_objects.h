@@ -1,7 +1,7 @@
 #pragma once
 /// Objects, transforms and groups of the SBT-raytracer format.
 ///
-/// Source: docs/formats/ray.md.
+/// Source: docs/reference/formats/ray.md.
 /// Differs: `material = ...` inside a group works (it is in the grammar, and fails in the course's
 /// program). Conventions: transforms are multiplied out, the scene becomes one flat object.
 

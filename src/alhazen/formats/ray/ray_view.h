@@ -1,7 +1,7 @@
 #pragma once
 /// Cameras and lights of the SBT-raytracer format.
 ///
-/// Source: docs/formats/ray.md.
+/// Source: docs/reference/formats/ray.md.
 /// Differs: spot lights of three student spellings are read; lights with an extent are refused.
 
 #include <string_view>

@@ -6,7 +6,7 @@
 namespace alhazen {
 
 const char* StlImporter::description() const {
-    return "stereolithography meshes (.stl), docs/formats/stl.md";
+    return "stereolithography meshes (.stl), docs/reference/formats/stl.md";
 }
 
 int StlImporter::recognise(const ImportSource& source) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// An STL file as a scene: docs/formats/stl.md.
+/// An STL file as a scene: docs/reference/formats/stl.md.
 
 #include "alhazen/formats/core/importer.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Splits the text formats into words, strings, numbers and punctuation.
 ///
-/// Source: the token rules shared by the SBT-raytracer format and our own (docs/formats).
+/// Source: the token rules shared by the SBT-raytracer format and our own (docs/reference/formats).
 /// Differs: numbers are those of C (the old format knew neither `+` nor `E`), and must be read to
 /// the end: `1-2` is refused, not taken for 1. Conventions: bytes in, views into them out; columns
 /// count bytes from 1. Findings about single tokens go to the diagnostics and lexing goes on, so

@@ -9,7 +9,7 @@
 ///     list  := "(" [ value { "," value } ] ")"                          or with brackets [ ]
 ///     block := "{" { item } "}"
 ///
-/// Source: a union of the two grammars of the SBT-raytracer format (docs/formats/ray.md).
+/// Source: a union of the two grammars of the SBT-raytracer format (docs/reference/formats/ray.md).
 /// Differs: parsed with a stack of its own, so depth costs no recursion; nodes lie in one array in
 /// the order of the text (24 bytes a node), so a subtree is a range. Conventions: syntax errors are
 /// reported and parsing goes on; what they leave incomplete is `broken()` and must not be reported

@@ -2,7 +2,7 @@
 /// Materials, textures and meshes of a course scene, read when a component first names them: the
 /// scenes list more than they use, and not all of it comes with them.
 ///
-/// Source: the scenes of UW CSE 457, 2020 (docs/formats/uw_yaml.md).
+/// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md).
 /// Differs: nothing.
 /// Conventions: paths are relative to the folder that holds the course's `assets`.
 

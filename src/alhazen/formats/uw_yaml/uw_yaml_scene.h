@@ -2,9 +2,10 @@
 /// The tree of a course scene: nodes with a transform, components and children, made into parts,
 /// lights and cameras.
 ///
-/// Source: the scenes of UW CSE 457, 2020 (docs/formats/uw_yaml.md). M = T Rx Ry Rz S; children
-/// multiply on the right. Differs: transforms are multiplied out in double; cones and rings are
-/// exact, not meshes. Conventions: what a component cannot say here is a warning that names it.
+/// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md). M = T Rx Ry Rz S;
+/// children multiply on the right. Differs: transforms are multiplied out in double; cones and
+/// rings are exact, not meshes. Conventions: what a component cannot say here is a warning that
+/// names it.
 
 #include <set>
 #include <string>

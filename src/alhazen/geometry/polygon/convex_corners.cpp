@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Half the side of the first squares, in distances between the points of the planes.
+/// Half the side of the initial squares, in units of the spread of the planes' points.
 constexpr double kReach = 1e5;
 constexpr std::size_t kNoPlane = static_cast<std::size_t>(-1);
 
@@ -21,7 +21,7 @@ double height(const OrientedPlane& plane, const Vec3& p) {
     return dot(plane.normal, p - plane.point);
 }
 
-/// Heights below this are rounding: a plane given twice does not cut itself.
+/// Heights below this are rounding errors: a plane given twice does not cut itself.
 double slack(const OrientedPlane& plane, const Vec3& p) {
     return 1e-15 * length(p - plane.point);
 }
@@ -35,7 +35,7 @@ std::vector<Corner> large_square(const OrientedPlane& plane, double half) {
             {plane.point - u + v, kNoPlane}};
 }
 
-/// What of the polygon lies on the inner side of `planes[by]`.
+/// The part of the polygon on the inner side of `planes[by]`.
 void clip(std::vector<Corner>& polygon, const std::vector<OrientedPlane>& planes, std::size_t by,
           std::vector<Corner>& scratch) {
     scratch.clear();
@@ -48,13 +48,14 @@ void clip(std::vector<Corner>& polygon, const std::vector<OrientedPlane>& planes
         if (a_inside) scratch.push_back(a);
         if (a_inside == b_inside) continue;
         const Vec3 cut = a.p + (ha / (ha - hb)) * (b.p - a.p);
-        // Where the polygon is left the new edge begins; where it is entered the old one goes on.
+        // The new edge begins where the polygon leaves the half space; the old edge continues where
+        // it enters.
         scratch.push_back({cut, a_inside ? by : a.edge});
     }
     polygon.swap(scratch);
 }
 
-/// `p` moved to where the three planes meet, unless they hardly do.
+/// `p` moved to the common point of three planes, unless they are nearly dependent.
 Vec3 common_point(const OrientedPlane& a, const OrientedPlane& b, const OrientedPlane& c,
                   const Vec3& p) {
     const Vec3 bc = cross(b.normal, c.normal);
@@ -87,7 +88,7 @@ ConvexCorners convex_corners(const std::vector<OrientedPlane>& planes) {
                 solid.bounded = false;
                 continue;
             }
-            // Twice, for what the first correction rounds.
+            // Twice, to correct the rounding of the first correction.
             Vec3 p = common_point(planes[i], planes[before], planes[after], polygon[k].p);
             p = common_point(planes[i], planes[before], planes[after], p);
             solid.corners.push_back(p);

@@ -1,11 +1,12 @@
 #pragma once
-/// The corners of a convex solid that is given by planes.
+/// Computes the corners of a convex solid given by planes.
 ///
 /// Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 17, 1974: each face is a
-/// large square of its plane, clipped by all other planes. Differs: every edge knows the plane that
-/// cut it, so each corner is found again where its three planes meet, free of the size of the
-/// square. Conventions: normals are unit and point outward. Complexity: O(planes^2) for faces of
-/// few corners.
+/// large square of its plane, clipped by all other planes.
+/// Differs: every edge stores the plane that cut it, so each corner is recomputed as the common
+/// point of its three planes, independent of the size of the square.
+/// Conventions: normals are unit and point outward.
+/// Complexity: O(planes^2) for faces of few corners.
 
 #include <vector>
 
@@ -13,19 +14,19 @@
 
 namespace alhazen {
 
-/// Space on the inner side of a plane.
+/// The half space on the inner side of a plane.
 struct OrientedPlane {
     Vec3 point{};
     Vec3 normal{0, 0, 1};  ///< outward
 };
 
 struct ConvexCorners {
-    bool bounded = false;       ///< false also when it reaches past `kReach` (see the .cpp)
-    std::vector<Vec3> corners;  ///< of all faces, one after another; shared ones repeat
+    bool bounded = false;                ///< false also for solids beyond `kReach` (see the .cpp)
+    std::vector<Vec3> corners;           ///< of all faces, one after another; shared ones repeat
     std::vector<std::size_t> face_ends;  ///< [plane] one past its last corner
 };
 
-/// The faces of the intersection of half spaces; none has corners when nothing lies inside.
+/// The faces of the intersection of half spaces; no face has corners when it is empty.
 [[nodiscard]] ConvexCorners convex_corners(const std::vector<OrientedPlane>& planes);
 
 /// Volume within the faces. Precondition: bounded.

@@ -31,21 +31,21 @@ std::vector<std::array<std::uint32_t, 3>> EarClipper::clip() {
     while (left_ > 2) {
         at = next_corner(at);
         cut(at);
-        at = corners_[at].next;  // going on around keeps triangles from gathering at one vertex
+        at = corners_[at].next;  // continues around, so that triangles do not gather at one vertex
         while (corners_[at].gone) at = corners_[at].next;
         if (left_ <= rebuild_at_) rebuild();
     }
     return std::move(triangles_);
 }
 
-/// Vertices that repeat the one before them have no angle: they go first.
+/// Cuts off vertices that coincide with the next one: they have no angle.
 void EarClipper::merge_repeated() {
     for (std::uint32_t i = 0; i < corners_.size() && left_ > 2; ++i) {
         if (flat_[i] == flat_[corners_[i].next]) emit(i);
     }
 }
 
-/// A tree of the vertices that are left: half of those of the last one at most.
+/// Rebuilds the tree over the remaining vertices: at most half of those of the last one.
 void EarClipper::rebuild() {
     std::vector<std::uint32_t> ids;
     ids.reserve(left_);
@@ -73,7 +73,7 @@ void EarClipper::classify(std::uint32_t i) {
     reflex_->activate(i, turn < 0);
 }
 
-/// A corner that does not turn right is an ear when no reflex vertex is in its triangle.
+/// A corner that does not turn right is an ear when no reflex vertex lies in its triangle.
 void EarClipper::update_ear(std::uint32_t i) {
     const Corner& corner = corners_[i];
     bool ear = convex_.contains(i);
@@ -84,12 +84,12 @@ void EarClipper::update_ear(std::uint32_t i) {
     ears_.assign(i, ear);
 }
 
-/// The first ear from `from` on around.
+/// The first ear around the polygon, starting at `from`.
 std::uint32_t EarClipper::next_corner(std::uint32_t from) {
     std::optional<std::uint32_t> found = ears_.next_around(from);
     if (!found && left_ <= renew_at_) {
-        // Where the polygon touches itself, cutting may also have freed other corners than the two
-        // neighbours. Not more often than when an eighth is gone: O(n) looks altogether.
+        // Where the polygon touches itself, cutting may create ears at other corners than the two
+        // neighbours. Renewed only after an eighth of the corners is gone: O(n) tests in total.
         renew_ears();
         found = ears_.next_around(from);
     }
@@ -98,7 +98,7 @@ std::uint32_t EarClipper::next_corner(std::uint32_t from) {
     return found.value_or(from);
 }
 
-/// Makes the triangle of a corner and takes it out of the loop.
+/// Emits the triangle of a corner and removes the corner from the loop.
 void EarClipper::emit(std::uint32_t at) {
     Corner& corner = corners_[at];
     triangles_.push_back({corner.previous, at, corner.next});

@@ -1,18 +1,18 @@
 #pragma once
-/// Cuts a polygon of the plane into triangles on its own vertices, by ear clipping.
+/// Triangulates a polygon of the plane on its own vertices by ear clipping.
 ///
 /// Source: Eberly, "Triangulation by Ear Clipping", Geometric Tools, 2002 (only reflex vertices are
 /// tested; the state of an ear's two neighbours is renewed when it is cut off).
 /// Differs: signs are exact; reflex vertices are found by a tree of boxes, the next ear by a tree
-/// of words; of neighbours in one place one is cut off at once, as neither has an angle; a polygon
-/// without an ear left (it touches or crosses itself) is cut at a corner without area, else at its
-/// next corner that does not turn right, so that n vertices always give n - 2 triangles.
-/// Conventions: a simple counter-clockwise polygon is tiled by its triangles, exactly; those of
-/// other polygons have its signed area.
+/// of words. Of coincident neighbours, one is cut off at once, as neither has an angle. A polygon
+/// without a remaining ear (it touches or crosses itself) is cut at a corner without area, else at
+/// its next corner that does not turn right, so that n vertices always give n - 2 triangles.
+/// Conventions: the triangles of a simple counter-clockwise polygon tile it exactly; those of other
+/// polygons have its signed area.
 /// Complexity and threads: O(n log n) and at most 11 n searches of the tree, each O(sqrt n) for
-/// evenly spread vertices; a polygon for which they look at more than kTestsPerVertex n boxes, and
-/// more than kMostTests, is cut without looking from there on: no polygon of up to 4096 vertices
-/// comes there. No state shared.
+/// evenly spread vertices. Once the searches of a polygon have tested more than kTestsPerVertex n
+/// boxes, and more than kMostTests, the rest is cut without searching; no polygon of up to 4096
+/// vertices reaches this limit. No shared state.
 
 #include <array>
 #include <cstdint>
@@ -24,17 +24,17 @@
 
 namespace alhazen {
 
-/// Boxes and points that a polygon may look at for each of its vertices.
+/// Limit of tests of boxes and points per vertex of a polygon.
 inline constexpr std::uint64_t kTestsPerVertex = 256;
-/// What all of them may look at in any case: 4 * 4096^2.
+/// Tests that every polygon may use: 4 * 4096^2.
 inline constexpr std::uint64_t kMostTests = std::uint64_t{1} << 26;
 
 class EarClipper {
   public:
-    /// `flat` has at least 3 finite points whose products do not overflow; kept by reference.
+    /// `flat`: at least 3 finite points whose products do not overflow; kept by reference.
     explicit EarClipper(const std::vector<Vec2>& flat);
 
-    /// The numbers of vertices of n - 2 triangles. Once.
+    /// The vertex indices of n - 2 triangles. May be called once.
     [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> clip();
 
   private:
@@ -56,8 +56,8 @@ class EarClipper {
     OrderedBits ears_, straight_, convex_;  ///< convex: not turning right
     std::optional<PointTree> reflex_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
-    std::size_t left_;                           ///< corners not gone
-    std::size_t rebuild_at_ = 0, renew_at_ = 0;  ///< when so few are left
+    std::size_t left_;                           ///< corners not yet cut off
+    std::size_t rebuild_at_ = 0, renew_at_ = 0;  ///< thresholds of `left_`
     std::uint64_t spent_ = 0;                    ///< tests of earlier trees
 };
 

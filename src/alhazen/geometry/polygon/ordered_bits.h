@@ -1,9 +1,9 @@
 #pragma once
-/// A set of numbers below n that finds the next of its members around a circle quickly.
+/// A set of numbers below n with a fast cyclic search for the next member.
 ///
 /// Source: the 64-ary tree of summary words, as in van Emde Boas, "Preserving order in a forest in
 /// less than logarithmic time", FOCS 1975, cut down to words.
-/// Differs: levels of words instead of a recursion on the square root.
+/// Differs: uses levels of words instead of a recursion on the square root.
 /// Complexity and threads: set, clear and next O(log64 n); n / 63 words; no locking.
 
 #include <bit>
@@ -27,7 +27,7 @@ class OrderedBits {
     }
     void assign(std::uint32_t i, bool member) { member ? set(i) : clear(i); }
 
-    /// The least member that is not below `i`; when there is none, the least of all.
+    /// The least member that is at least `i`; without one, the least of all.
     [[nodiscard]] std::optional<std::uint32_t> next_around(std::uint32_t i) const {
         const std::optional<std::uint32_t> found = next(i);
         return found ? found : next(0);
@@ -48,7 +48,7 @@ class OrderedBits {
         }
     }
     [[nodiscard]] std::optional<std::uint32_t> next(std::size_t i) const {
-        // Up to a word with a member at or behind i, then down to the first one of it.
+        // Goes up to a word with a member at or after i, then down to its first member.
         for (std::size_t level = 0; level < levels_.size(); ++level) {
             if (i / 64 >= levels_[level].size()) return std::nullopt;
             const std::uint64_t word = levels_[level][i / 64] >> i % 64;
@@ -65,7 +65,8 @@ class OrderedBits {
         return std::nullopt;
     }
 
-    std::vector<std::vector<std::uint64_t>> levels_;  ///< [0] the members, [k] words not 0 below
+    std::vector<std::vector<std::uint64_t>>
+        levels_;  ///< [0] the members, [k] which words below are not 0
 };
 
 }  // namespace alhazen

@@ -1,14 +1,14 @@
 #pragma once
-/// A tree of boxes over points of the plane that asks whether a triangle holds one of the active.
+/// A tree of boxes over points of the plane that tests whether a triangle contains an active point.
 ///
 /// Source: Bentley, "Multidimensional Binary Search Trees Used for Associative Searching", CACM 18,
-/// 1975; boxes are cut by separating axes, Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996.
-/// Differs: a complete tree without links, boxes tight around their points, and the number of
-/// active points of every node, by which parts without any are passed over.
+/// 1975; boxes are culled by separating axes, Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996.
+/// Differs: a complete tree without links, with tight boxes; every node stores the number of its
+/// active points, so that parts without any are skipped.
 /// Conventions: a point in or on a triangle is in it, by exact signs; points equal to one of its
-/// corners are not. A triangle without area holds what lies on its line.
+/// corners are not. A triangle without area contains the points of its line.
 /// Complexity and threads: build O(n log n), activate O(log n), find O(sqrt n) for evenly spread
-/// points and O(n) at worst: tests() counts what was looked at. No locking.
+/// points and O(n) at worst; tests() counts the tests made. No locking.
 
 #include <array>
 #include <cstdint>
@@ -21,16 +21,17 @@ namespace alhazen {
 
 class PointTree {
   public:
-    /// Over `points[id]` for the given ids, none of them active. `points` is kept by reference.
+    /// A tree over `points[id]` for the given ids, none of them active. `points` is kept by
+    /// reference.
     PointTree(const std::vector<Vec2>& points, std::vector<std::uint32_t> ids);
 
-    /// Makes the point with this id, one of those given, active or not.
+    /// Activates or deactivates the point with one of the given ids.
     void activate(std::uint32_t id, bool active);
 
-    /// Whether the counter-clockwise triangle a, b, c holds an active point.
+    /// Whether the counter-clockwise triangle a, b, c contains an active point.
     [[nodiscard]] bool any_in(Vec2 a, Vec2 b, Vec2 c) const;
 
-    /// Boxes and points looked at until now.
+    /// Number of boxes and points tested so far.
     [[nodiscard]] std::uint64_t tests() const { return tests_; }
 
   private:
@@ -43,7 +44,7 @@ class PointTree {
     [[nodiscard]] bool any_in_leaf(const Query& query, std::size_t leaf) const;
 
     const std::vector<Vec2>& points_;
-    std::vector<std::uint32_t> ids_;       ///< in the order of the leaves
+    std::vector<std::uint32_t> ids_;       ///< in leaf order
     std::vector<bool> active_;             ///< as ids_
     std::vector<std::uint32_t> place_of_;  ///< [id] its place in ids_
     std::vector<Node> nodes_;              ///< [1] the root, [2k], [2k + 1] the children of k

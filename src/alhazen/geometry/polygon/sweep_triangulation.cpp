@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// Left of, or below in the same x: the order of the sweep.
+/// The order of the sweep: by x, then y.
 bool is_before(Vec2 a, Vec2 b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;
 }
 
 class Sweep {
   public:
-    /// `loop` holds the numbers of the vertices, no two neighbours in one place.
+    /// `loop`: the vertex indices, no two neighbours coincident.
     Sweep(const std::vector<Vec2>& flat, const std::vector<std::uint32_t>& loop,
           std::vector<std::array<std::uint32_t, 3>>& triangles)
         : loop_(loop),
@@ -32,7 +32,7 @@ class Sweep {
         nodes_.reserve(loop.size() + loop.size() / 2);
     }
 
-    /// False when it did not come to its end as it does with simple polygons.
+    /// False when the sweep does not end as that of a simple polygon.
     bool run() {
         std::vector<std::uint32_t> order(loop_.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -44,12 +44,12 @@ class Sweep {
     }
 
   private:
-    /// A vertex of a chain and its neighbours in it.
+    /// A vertex of a chain and its neighbours in the chain.
     struct Node {
         std::uint32_t vertex = 0, below = kNone, above = kNone;
     };
-    /// What is open at the sweep line between two edges, named by where they start in the loop. Its
-    /// chain runs from the left end of the lower edge to that of the upper one.
+    /// An open region at the sweep line between two edges, named by their start vertices in the
+    /// loop. Its chain runs from the left end of the lower edge to that of the upper edge.
     struct Region {
         std::uint32_t lower = 0, upper = 0;
         std::uint32_t lowest = 0, highest = 0, rightmost = 0;  ///< nodes of the chain
@@ -57,7 +57,7 @@ class Sweep {
     struct IsBelow {
         using is_transparent = void;
         const Sweep* sweep;
-        /// Of two edges that do not cross.
+        /// Compares two edges that do not cross.
         bool operator()(std::uint32_t a, std::uint32_t b) const {
             const auto [a_left, a_right] = sweep->lower_edge(a);
             const auto [b_left, b_right] = sweep->lower_edge(b);
@@ -81,14 +81,15 @@ class Sweep {
     [[nodiscard]] std::uint32_t next(std::uint32_t i) const {
         return i + 1 == points_.size() ? 0 : i + 1;
     }
-    /// Interior lies on the left of an edge: lower edges run to the right.
+    /// The interior lies on the left of an edge: lower edges run to the right.
     [[nodiscard]] std::pair<Vec2, Vec2> lower_edge(std::uint32_t region) const {
         const std::uint32_t edge = regions_[region].lower;
         return {points_[edge], points_[next(edge)]};
     }
 
     bool visit(std::uint32_t v) {
-        const std::uint32_t in = previous(v);  // the edge that arrives at v; the other one is v
+        const std::uint32_t in =
+            previous(v);  // the edge that ends at v; the edge that starts there is v
         const Vec2 p = points_[v];
         const bool from_left = is_before(points_[in], p);
         const bool to_left = is_before(points_[next(v)], p);
@@ -102,7 +103,7 @@ class Sweep {
     bool follow_lower(std::uint32_t v, std::uint32_t in) {
         const std::uint32_t region = region_of_[in];
         if (region == kNone) return false;
-        // The order of the set stays: the new edge begins where the old one ends.
+        // The order in the set stays: the new edge begins where the old one ends.
         regions_[region].lower = v;
         region_of_[v] = region;
         add_below(regions_[region], v);
@@ -120,7 +121,7 @@ class Sweep {
         const std::uint32_t node = new_node(v);
         return open({.lower = v, .upper = in, .lowest = node, .highest = node, .rightmost = node});
     }
-    /// Two chains out of one: v sees the rightmost vertex of the chain around it.
+    /// Splits a chain in two: v sees the rightmost vertex of the chain around it.
     bool split(std::uint32_t v, std::uint32_t in) {
         auto above = lower_edges_.lower_bound(points_[v]);
         if (above == lower_edges_.begin()) return false;
@@ -147,7 +148,7 @@ class Sweep {
         Region& upper = regions_[above];
         add_above(lower, v);
         add_below(upper, v);
-        // Both chains end at v: one node is enough.
+        // Both chains end at v: merges the two nodes.
         const std::uint32_t second = nodes_[upper.lowest].above;
         link(lower.highest, second);
         lower.highest = upper.highest;
@@ -161,7 +162,7 @@ class Sweep {
         Region& last = regions_[region];
         add_below(last, v);
         add_above(last, v);
-        // v, a, v: all has been cut off.
+        // v, a, v: everything is cut off.
         const std::uint32_t middle = nodes_[last.lowest].above;
         return nodes_[middle].above == last.highest && close(region);
     }
@@ -188,7 +189,7 @@ class Sweep {
         if (above != kNone) nodes_[above].below = below;
     }
 
-    /// Makes v the lower end of a chain and cuts off what can be seen from it.
+    /// Makes v the lower end of a chain and cuts off the vertices it sees.
     void add_below(Region& region, std::uint32_t v) {
         std::uint32_t first = region.lowest;
         std::uint32_t second = nodes_[first].above;
@@ -211,7 +212,7 @@ class Sweep {
         link(first, node);
         region.highest = region.rightmost = node;
     }
-    /// The triangle, when it turns left.
+    /// Emits the triangle when it turns left.
     bool cut(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         if (orientation(points_[a], points_[b], points_[c]) <= 0) return false;
         triangles_.push_back({loop_[a], loop_[b], loop_[c]});
@@ -221,10 +222,10 @@ class Sweep {
     const std::vector<std::uint32_t>& loop_;
     std::vector<std::array<std::uint32_t, 3>>& triangles_;
     std::vector<Vec2> points_;              ///< as loop_
-    std::vector<std::uint32_t> region_of_;  ///< [edge] of those that cross the sweep line
+    std::vector<std::uint32_t> region_of_;  ///< [edge] of the edges that cross the sweep line
     std::vector<Region> regions_;
     std::vector<Node> nodes_;
-    std::set<std::uint32_t, IsBelow> lower_edges_;                    ///< regions, from below
+    std::set<std::uint32_t, IsBelow> lower_edges_;                    ///< regions, from the lowest
     std::vector<std::set<std::uint32_t, IsBelow>::iterator> places_;  ///< [region]
 };
 
@@ -241,7 +242,7 @@ std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate_by_sweep(
         if (flat[i] != flat[next]) loop.push_back(i);
     }
     if (loop.size() < 3) return std::nullopt;
-    // The triangles of vertices that were left out, from the last of their kind backwards.
+    // Triangles of the vertices that were left out, each from its last kept predecessor.
     for (std::size_t k = 0; k < loop.size(); ++k) {
         const std::uint32_t before = loop[k == 0 ? loop.size() - 1 : k - 1];
         const std::uint32_t n = std::uint32_t(flat.size());

@@ -14,7 +14,7 @@ namespace alhazen {
 
 namespace {
 
-/// Between these the products of two differences neither over- nor underflow.
+/// Within these the products of two differences neither over- nor underflow.
 constexpr double kSmall = 1e-100;
 constexpr double kLarge = 1e100;
 
@@ -23,7 +23,7 @@ double cross_2d(Vec2 a, Vec2 b, Vec2 c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// NaN when a coordinate is.
+/// The largest magnitude of a coordinate; NaN when a coordinate is not finite.
 double largest_coordinate(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon) {
     double largest = 0.0;
     for (const std::uint32_t index : polygon) {
@@ -34,7 +34,7 @@ double largest_coordinate(std::span<const Vec3> positions, std::span<const std::
     return largest;
 }
 
-/// The vertices of the polygon by a power of two smaller or larger, which is exact.
+/// The vertices of the polygon scaled by a power of two, which is exact.
 std::vector<Vec3> scaled_to_one(std::span<const Vec3> positions,
                                 std::span<const std::uint32_t> polygon, double reach) {
     const int exponent = -std::ilogb(reach);
@@ -48,7 +48,7 @@ std::vector<Vec3> scaled_to_one(std::span<const Vec3> positions,
     return scaled;
 }
 
-/// The polygon in the plane, counter-clockwise, its coordinates untouched.
+/// The polygon projected to the plane, counter-clockwise, with unchanged coordinates.
 std::vector<Vec2> flatten(std::span<const Vec3> positions, std::span<const std::uint32_t> polygon) {
     const Vec3 normal = newell_normal(positions, polygon);
     const int drop = dominant_axis(normal);
@@ -64,14 +64,14 @@ std::vector<Vec2> flatten(std::span<const Vec3> positions, std::span<const std::
     return flat;
 }
 
-/// Ear clipping makes shapelier triangles and takes any polygon; the sweep is sure to be fast.
+/// Ear clipping makes better-shaped triangles and accepts any polygon; the sweep is always fast.
 constexpr std::size_t kMostForEars = 4096;
 
 /// True when no corner turns right and the turns add up to one revolution (a star turns left at
 /// every corner, but more than once around).
 bool is_convex(const std::vector<Vec2>& flat) {
     const std::size_t n = flat.size();
-    // Relative to the first vertex: far from the origin the products would lose all digits.
+    // Relative to the first vertex: far from the origin the products lose all digits.
     const Vec2 origin = flat[0];
     int x_changes = 0;
     double last_dx = 0.0;

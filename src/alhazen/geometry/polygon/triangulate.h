@@ -1,16 +1,16 @@
 #pragma once
-/// Cuts a planar polygon, convex or not, into triangles on its own vertices.
+/// Triangulates a planar polygon, convex or not, on its own vertices.
 ///
 /// Source: the ear clipping of ear_clipper.h and, for concave polygons of more than 4096 vertices,
 /// the sweep of sweep_triangulation.h.
-/// Differs: a convex polygon is a fan; a large one that the sweep does not take, as it touches or
+/// Differs: a convex polygon is a fan; a large polygon that the sweep refuses, as it touches or
 /// crosses itself, is left to ear clipping.
-/// Conventions: the polygon is looked at along the axis in which its Newell normal is longest;
+/// Conventions: the polygon is projected along the axis in which its Newell normal is longest;
 /// triangles keep its orientation. n vertices always give n - 2 triangles, also where the polygon
 /// touches or crosses itself, so that edges shared with neighbours stay shared. A polygon with a
 /// coordinate that is not finite is a fan.
-/// Complexity and threads: O(n) for convex polygons, O(n log n) for all simple ones of more than
-/// 4096 vertices, a bounded number of steps per vertex for any other (ear_clipper.h); no state.
+/// Complexity and threads: O(n) for convex polygons, O(n log n) for simple ones of more than 4096
+/// vertices, a bounded number of steps per vertex for all others (ear_clipper.h); no state.
 
 #include <array>
 #include <cstdint>

@@ -179,11 +179,11 @@ StoredImage decode_bmp(std::string_view bytes, const std::string& name, const Im
     const std::string_view rows = reader.take(row_bytes * std::uint64_t(header.height));
     const bool masked = header.bits == 16 || header.bits == 32;
     const int channels = header.masks[3] != 0 ? 4 : 3;
-    // Masked channels may have any number of bits: only they need floats.
+    // Masked channels may have any number of bits and need floats.
     Image floats;
     Codes codes;
     if (masked) {
-        // Beside the floats lie the codes that are made of them: 16-bit ones at the most.
+        // The codes that the floats are made of, at most 16 bits each, are in memory too.
         const auto all_channels = std::uint64_t(channels);
         check_image_memory(sample_bytes(header.width, header.height, all_channels, 4 + 2), limits,
                            name);

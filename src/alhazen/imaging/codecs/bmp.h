@@ -1,8 +1,8 @@
 #pragma once
-/// Windows and OS/2 bitmaps, reading only.
+/// Reads Windows and OS/2 bitmaps.
 ///
 /// Source: Microsoft, "Bitmap Storage" (BITMAPCOREHEADER to BITMAPV5HEADER).
-/// Differs: run-length coded bitmaps and those that embed a JPEG or PNG are refused.
+/// Differs: refuses run-length coded bitmaps and bitmaps that embed a JPEG or PNG.
 /// Conventions: 1, 4 and 8-bit palettes, 16, 24 and 32 bit, bottom row or top row first. Samples
 /// are code / max. The fourth byte of a pixel is alpha only where a mask says so. A palette index
 /// beyond the palette is an error.

@@ -1,6 +1,6 @@
 #pragma once
-/// Reads numbers and runs of bytes from memory, checked: data that end too early are an Error
-/// (Scene).
+/// Reads numbers and runs of bytes from memory with bounds checks: data that end too early throw
+/// Error (Scene).
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ class ByteReader {
     [[nodiscard]] std::size_t left() const { return bytes_.size() - position_; }
     [[nodiscard]] const std::string& name() const { return name_; }
 
-    /// Goes to an offset from the start.
+    /// Moves to an offset from the start.
     void seek(std::uint64_t position) {
         if (position > bytes_.size()) ends_early();
         position_ = std::size_t(position);
@@ -36,7 +36,7 @@ class ByteReader {
     std::uint32_t u32_little() { return little(4); }
     std::int32_t i32_little() { return std::int32_t(little(4)); }
 
-    /// The text up to `end`, which is passed over; at most `max_length` characters.
+    /// The text up to `end`, which is skipped; at most `max_length` characters.
     [[nodiscard]] std::string_view until(char end, std::size_t max_length) {
         const std::size_t found = bytes_.substr(position_, max_length + 1).find(end);
         if (found == std::string_view::npos) {

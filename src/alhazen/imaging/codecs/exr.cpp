@@ -22,7 +22,7 @@ namespace alhazen {
 
 namespace {
 
-/// The checked header in front of the rest of the file.
+/// An input stream of the checked header followed by the rest of the file.
 class MemoryInput final : public Imf::IStream {
   public:
     MemoryInput(const std::string& header, std::string_view bytes, const std::string& name)
@@ -83,7 +83,7 @@ int band_rows(int height) {
     return std::min(height, 64);
 }
 
-/// Rows are decoded in bands, so that a file that ends early costs no more than what it holds.
+/// Decodes rows in bands, so that a file that ends early costs no more than the data it has.
 void read_bands(Imf::InputFile& file, const std::vector<std::string>& channels, Image& image) {
     const Imath::Box2i window = file.header().dataWindow();
     const std::size_t row_samples = std::size_t(image.width) * channels.size();
@@ -125,7 +125,7 @@ Image read_exr(const ExrHeader& header, std::string_view bytes, const std::strin
                       "the EXR channel " + channel + " holds integers, expected half or float");
         }
     }
-    // The decoder's buffers were checked with the header, but they are there at the same time.
+    // The decoder's buffers, checked with the header, are in memory at the same time.
     const std::uint64_t all =
         sample_bytes(width, height, channels.size(), sizeof(float)) + header.decoder_bytes +
         sample_bytes(width, band_rows(int(height)), channels.size(), sizeof(float));
@@ -205,7 +205,7 @@ std::vector<std::byte> encode_exr(const Image& image, const ImageWriteOptions& o
     ExrMemoryOutput stream;
     try {
         const Imf::Header header = header_of(image, options);
-        // Room that is not used costs nothing, and growing would need twice of it.
+        // Reserved memory that is not used costs nothing; growing needs twice the memory.
         stream.reserve(image.samples.size() * (options.full_float ? 4 : 2) + (1 << 20));
         if (options.full_float) {
             write_exr<float>(stream, image, header);

@@ -1,11 +1,11 @@
 #pragma once
-/// OpenEXR, half and float, by the OpenEXR library.
+/// Reads and writes OpenEXR, half and float, with the OpenEXR library.
 ///
 /// Source: F. Kainz, R. Bogart, "Technical Introduction to OpenEXR", 2009.
-/// Differs: flat pictures only; the first part of a multi-part file; R, G, B (A), or Y (A), or a
-/// single channel of any name. Luminance with chroma and subsampled channels are refused.
-/// Conventions: the picture is the data window. A missing one of R, G, B is 0. Written files are
-/// ZIP-compressed scan lines, and the same picture gives the same bytes.
+/// Differs: reads flat images only; the first part of a multi-part file; R, G, B (A), or Y (A), or
+/// a single channel of any name. Refuses luminance with chroma and subsampled channels.
+/// Conventions: the image is the data window. A missing one of R, G, B is 0. Written files are
+/// ZIP-compressed scan lines; the same image gives the same bytes.
 
 #include <cstddef>
 #include <string>
@@ -21,7 +21,7 @@ namespace alhazen {
                                const ImageLimits& limits);
 
 /// `image` has valid sizes. Values beyond half's range become infinite unless `full_float`. Throws
-/// Error (Usage) when the crop does not lie in the full frame or a metadata key is empty or longer
+/// Error (Usage) when the crop is not inside the full frame or a metadata key is empty or longer
 /// than 255.
 [[nodiscard]] std::vector<std::byte> encode_exr(const Image& image,
                                                 const ImageWriteOptions& options);

@@ -19,8 +19,8 @@ constexpr std::size_t kMaxName = 255;
 constexpr int kMaxParts = 1000;
 constexpr int kMaxAttributes = 10'000;
 constexpr std::uint32_t kMaxTileSide = 4096;
-/// Width times channels: the library decodes up to 256 rows at a time, of 4 bytes a sample.
-/// Bounds the products in `decoder_bytes`, too: 2^12 * 2^12 * 2^18 * 2^4 < 2^63.
+/// Limit of width times channels: the library decodes up to 256 rows at a time, with 4 bytes a
+/// sample. Also bounds the products in `decoder_bytes`: 2^12 * 2^12 * 2^18 * 2^4 < 2^63.
 constexpr std::uint64_t kMaxRowSamples = std::uint64_t{1} << 18;
 
 struct PartHeader {
@@ -28,10 +28,10 @@ struct PartHeader {
     std::uint64_t channels = 0;
     bool has_window = false;
     std::uint8_t compression = 0;
-    std::uint64_t tile_width = 0, tile_height = 0;  ///< 0: rows
+    std::uint64_t tile_width = 0, tile_height = 0;  ///< 0: scan lines
 };
 
-/// Rows that are packed together, by the number of the compression.
+/// Rows that are compressed together, by the number of the compression.
 std::uint64_t rows_together(std::uint8_t compression) {
     constexpr std::array<std::uint8_t, 9> kRows{1, 1, 1, 16, 32, 16, 32, 32, 32};
     return compression < kRows.size() ? kRows[compression] : 256;
@@ -63,7 +63,7 @@ std::uint64_t count_channels(ByteReader list) {
 void read_window(ByteReader value, PartHeader& part) {
     const std::int64_t x0 = value.i32_little(), y0 = value.i32_little();
     const std::int64_t x1 = value.i32_little(), y1 = value.i32_little();
-    // The library computes with the corners in int.
+    // The library computes the corners in int.
     constexpr std::int64_t kFar = std::int64_t{1} << 29;
     if (x0 < -kFar || y0 < -kFar || x1 > kFar || y1 > kFar) {
         bad_image(value.name(), "damaged EXR: the data window is out of range");
@@ -103,8 +103,7 @@ constexpr std::array<Needed, 13> kNeeded{{{"channels", "chlist", 0},
                                           {"type", "string", 0},
                                           {"version", "int", 4}}};
 
-/// The library reads a value by its type and believes the type more than the size that is written
-/// beside it.
+/// The library reads a value by its type and ignores the size stored beside it.
 bool is_needed(std::string_view attribute, std::string_view type, std::uint32_t size,
                const std::string& name) {
     for (const Needed& needed : kNeeded) {
@@ -132,8 +131,8 @@ void read_value(std::string_view attribute, ByteReader value, PartHeader& part) 
     }
 }
 
-/// Reads one attribute and, in the copy, gives those that are not needed a type that no library
-/// knows.
+/// Reads one attribute and, in the copy, replaces the type of attributes that are not needed by an
+/// unknown one.
 void read_attribute(std::string_view attribute, ByteReader& reader,
                     std::vector<std::string_view>& ignored, PartHeader& part) {
     const std::string& name = reader.name();

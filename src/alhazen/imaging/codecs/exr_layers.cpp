@@ -22,7 +22,7 @@ namespace {
     throw Error(ErrorKind::Usage, "cannot write an EXR: " + why);
 }
 
-/// Collects the channels and keeps the samples that had to be converted until the file is written.
+/// Collects the channels and keeps converted samples until the file is written.
 class LayersFile {
   public:
     LayersFile(const Film& film, const ExrLayersOptions& options)
@@ -91,7 +91,7 @@ class LayersFile {
             refuse("two channels \"" + name + "\"");
         }
         header_.channels().insert(name, Imf::Channel(type));
-        // The library takes a pointer to char for reading and writing alike; it only reads here.
+        // The library takes a pointer to char for reading and writing; here it only reads.
         frame_.insert(
             name, Imf::Slice::Make(type, const_cast<Sample*>(samples), header_.dataWindow(),
                                    sizeof(Sample), sizeof(Sample) * std::size_t(crop_.width())));

@@ -1,12 +1,11 @@
 #pragma once
-/// A picture with all its layers as one OpenEXR file, for compositing programs.
+/// Writes an image with all its layers as one OpenEXR file, for compositing programs.
 ///
 /// Source: F. Kainz, R. Bogart, "Technical Introduction to OpenEXR", 2009, "Channel Names" (layers
 /// are prefixes of channel names).
-/// Differs: nothing. One part; scan lines, ZIP-compressed.
-/// Conventions: the beauty is R, G, B, linear; layers keep the names and types of their channels.
-/// The data window is the film's crop, the display window its frame. The same numbers give the same
-/// bytes.
+/// Conventions: one part; scan lines, ZIP-compressed. The beauty image is R, G, B, linear; layers
+/// keep the names and types of their channels. The data window is the film's crop, the display
+/// window its frame. The same numbers give the same bytes.
 
 #include <cstddef>
 #include <vector>
@@ -22,12 +21,12 @@ struct ExrLayersOptions {
     ImageMetadata metadata = {};
 };
 
-/// Throws Error (Usage) when the layers have another crop than the film, a channel has no name or
-/// that of another, or a metadata key is empty or longer than 255.
+/// The bytes of the file. Throws Error (Usage) when the layers have another crop than the film, a
+/// channel has no name or a name in use, or a metadata key is empty or longer than 255.
 [[nodiscard]] std::vector<std::byte> encode_exr_layers(const Film& film, const FilmLayers& layers,
                                                        const ExrLayersOptions& options);
 
-/// The same to a file, as one step.
+/// The same to a file, replaced in one step.
 void write_exr_layers(const std::filesystem::path& path, const Film& film, const FilmLayers& layers,
                       const ExrLayersOptions& options);
 

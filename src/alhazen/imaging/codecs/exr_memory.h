@@ -1,5 +1,5 @@
 #pragma once
-/// The file that the OpenEXR library writes to, in memory.
+/// An output stream in memory for the OpenEXR library.
 
 #include <ImfIO.h>
 

@@ -13,7 +13,7 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-/// Rows of this width can be coded channel by channel.
+/// Widths of rows that can be coded channel by channel.
 constexpr int kMinPackedWidth = 8, kMaxPackedWidth = 0x7fff;
 
 struct Size {
@@ -53,7 +53,7 @@ Size read_header(ByteReader& reader) {
     bad_image(reader.name(), "damaged HDR: the header is too long");
 }
 
-/// One channel of a row after the other, each in runs (count > 128) and literal stretches.
+/// Reads the channels of a row one after another, each in runs (count > 128) and literals.
 void read_packed_row(ByteReader& reader, std::vector<Rgbe>& row) {
     for (std::size_t channel = 0; channel < 4; ++channel) {
         std::size_t x = 0;
@@ -72,8 +72,8 @@ void read_packed_row(ByteReader& reader, std::vector<Rgbe>& row) {
     }
 }
 
-/// Whole pixels; 1 1 1 n repeats the last one n times, and consecutive repeats count in powers of
-/// 256.
+/// Reads whole pixels; 1 1 1 n repeats the last one n times, and consecutive repeats count in
+/// powers of 256.
 void read_plain_row(ByteReader& reader, std::vector<Rgbe>& row) {
     std::size_t x = 0;
     unsigned shift = 0;
@@ -129,7 +129,7 @@ Rgbe rgbe_of(const Rgb& colour) {
     return pixel;
 }
 
-/// Runs of at least 4 pay; shorter ones go with the literals around them.
+/// Codes runs of at least 4; shorter ones are part of the literals around them.
 void pack_channel(const std::vector<Rgbe>& row, std::size_t channel, std::vector<std::byte>& out) {
     const auto run_at = [&](std::size_t x) {
         std::size_t end = x + 1;

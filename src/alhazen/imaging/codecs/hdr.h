@@ -1,11 +1,11 @@
 #pragma once
-/// Radiance HDR: three mantissas that share an exponent, run-length coded.
+/// Reads and writes Radiance HDR: three mantissas that share an exponent, run-length coded.
 ///
 /// Source: G. Ward, "Real Pixels", Graphics Gems II, 1991, and the file format page of Radiance.
 /// Differs: a mantissa is read as m * 2^(e - 136), without the half step that Radiance adds, so
-/// that what is written reads back the same. EXPOSURE and other header lines do not change the
-/// values. Conventions: only the common orientation (-Y height +X width: top row first); RGB, not
-/// XYZ. Written negative values and NaN become 0, infinity the largest value.
+/// that written values read back unchanged. EXPOSURE and other header lines are ignored.
+/// Conventions: only the common orientation (-Y height +X width: top row first); RGB, not XYZ. On
+/// writing, negative values and NaN become 0, infinity the largest value.
 
 #include <cstddef>
 #include <string>
@@ -20,8 +20,8 @@ namespace alhazen {
 [[nodiscard]] Image decode_hdr(std::string_view bytes, const std::string& name,
                                const ImageLimits& limits);
 
-/// `image` has valid sizes; grey is repeated, alpha dropped. Relative error of the largest channel
-/// at most 1/128.
+/// `image` has valid sizes; grey is repeated, alpha dropped. The relative error of the largest
+/// channel is at most 1/128.
 [[nodiscard]] std::vector<std::byte> encode_hdr(const Image& image);
 
 }  // namespace alhazen

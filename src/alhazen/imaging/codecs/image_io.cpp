@@ -21,14 +21,14 @@ namespace {
 
 using Decoder = StoredImage (*)(std::string_view, const std::string&, const ImageLimits&);
 
-/// For the kinds whose samples are floats.
+/// For formats whose samples are floats.
 template <Image (*decode)(std::string_view, const std::string&, const ImageLimits&)>
 StoredImage decode_floats(std::string_view bytes, const std::string& name,
                           const ImageLimits& limits) {
     return stored(decode(bytes, name, limits));
 }
 
-/// A kind of picture by its first bytes. ADD A KIND THAT IS READ HERE.
+/// An image format by its first bytes. ADD A FORMAT THAT IS READ HERE.
 struct Signature {
     std::string_view start;
     Decoder decode;
@@ -69,7 +69,7 @@ void check_samples(const Image& image) {
     }
 }
 
-/// The bytes of a file, whose memory counts, too.
+/// Reads the bytes of a file; their memory counts towards the limit.
 std::string file_within(const std::filesystem::path& path, const ImageLimits& limits) {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(path, failed);
@@ -77,13 +77,13 @@ std::string file_within(const std::filesystem::path& path, const ImageLimits& li
     return read_file(path);
 }
 
-/// What is left while `bytes` are in memory.
+/// The limits that remain while `bytes` are in memory.
 ImageLimits beside(const std::string& bytes, ImageLimits limits) {
     limits.max_bytes -= std::min<std::uint64_t>(limits.max_bytes, bytes.size());
     return limits;
 }
 
-/// The same picture in linear values; alpha is linear already.
+/// The same image in linear values; alpha is linear already.
 Image linear_copy(Image image) {
     image.linear = true;
     const auto channels = std::size_t(image.channels);
@@ -103,7 +103,7 @@ StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
         for (const Signature& signature : kSignatures) {
             if (bytes.starts_with(signature.start)) return signature.decode(bytes, name, limits);
         }
-        // Without a signature, the last to be asked.
+        // TGA has no signature and is tried last.
         if (suffix_of(name) == "tga" || is_plausible_tga(bytes)) {
             return decode_tga(bytes, name, limits);
         }
@@ -159,7 +159,7 @@ std::vector<std::byte> encode_image(const std::string& suffix, const Image& imag
     if (suffix == "jpg" || suffix == "jpeg") {
         return encode_jpeg(encode(image, options.encoding, 8), options.jpeg_quality);
     }
-    // Pictures can be large: what is linear already is not copied.
+    // Linear images are not copied: they can be large.
     if ((suffix == "exr" || suffix == "hdr" || suffix == "pfm") && !image.linear) {
         return encode_image(suffix, linear_copy(image), options);
     }

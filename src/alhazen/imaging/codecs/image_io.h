@@ -1,11 +1,13 @@
 #pragma once
-/// Picture files in and out, chosen by name, recognised by content.
+/// Reads and writes image files; the format follows from the name on writing, from the content on
+/// reading.
 ///
-/// In: PNG (all colour types, 1 to 16 bit), JPEG, TGA, BMP (1, 4 and 8-bit palette, 16, 24, 32 bit,
-/// not RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Out: PNG, JPG, EXR, HDR, PFM.
+/// Reads: PNG (all colour types, 1 to 16 bit), JPEG, TGA, BMP (1, 4 and 8-bit palette, 16, 24, 32
+/// bit, not RLE), EXR (flat: RGB, RGBA, grey or one channel), HDR, PFM. Writes: PNG, JPG, EXR, HDR,
+/// PFM.
 /// Conventions: reading checks the header against `ImageLimits` before it allocates or decodes: the
-/// sizes, and the bytes that the samples and the buffers of the decoder will take. Memory grows
-/// with what is decoded, not with what the header claims. An EXR is read as its data window.
+/// sizes, and the bytes of the samples and of the decoder's buffers. Memory grows with the decoded
+/// data, not with the sizes in the header. An EXR is read as its data window.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,26 +27,25 @@ namespace alhazen {
 struct ImageLimits {
     int max_side = 32768;                               ///< changed by --max-image-side
     std::uint64_t max_pixels = std::uint64_t{1} << 26;  ///< changed by --max-image-pixels
-    /// Memory that reading a picture may take at its worst moment: the file, the samples, and what
-    /// the decoder needs beside them. The pictures of a scene share it (TextureTable). Changed by
-    /// --max-image-mib.
+    /// Maximum memory of reading an image at its peak: the file, the samples, and the decoder's
+    /// buffers. The images of a scene share it (TextureTable). Changed by --max-image-mib.
     std::uint64_t max_bytes = std::uint64_t{640} << 20;
 };
 
-/// Reading a picture would take more than ImageLimits::max_bytes.
+/// Thrown when reading an image would take more than ImageLimits::max_bytes.
 class ImageMemoryExceeded : public Error {
   public:
     using Error::Error;
 };
 
-/// Reads a picture. Throws Error: File when it cannot be read, Scene when it is malformed or of an
-/// unknown kind, Resource when it exceeds the limits.
+/// Reads an image. Throws Error: File when it cannot be read, Scene when it is malformed or of an
+/// unknown format, Resource when it exceeds the limits.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 /// The same from bytes; `name` is used in messages.
 [[nodiscard]] Image decode_image(std::string_view bytes, const std::string& name,
                                  const ImageLimits& limits = {});
 
-/// The same as the file's own codes, where it holds codes: a quarter of the memory.
+/// The same as the file's own codes, where it has codes: a quarter of the memory.
 [[nodiscard]] StoredImage read_stored_image(const std::filesystem::path& path,
                                             const ImageLimits& limits = {});
 [[nodiscard]] StoredImage decode_stored_image(std::string_view bytes, const std::string& name,
@@ -59,21 +60,20 @@ struct ImageWriteOptions {
     int jpeg_quality = 95;    ///< 1 to 100
     /// Key and value in UTF-8, written as PNG text chunks and EXR string attributes.
     ImageMetadata metadata = {};
-    /// EXR: displayWindow when the image is a crop of a larger frame (x0, y0 its place); 0 = no
-    /// crop.
+    /// EXR: displayWindow when the image is a crop of a larger frame, at (x0, y0); 0 = no crop.
     int full_width = 0, full_height = 0, crop_x0 = 0, crop_y0 = 0;
 };
 
-/// Suffixes that `write_image` knows: png, jpg, jpeg, exr, hdr, pfm.
+/// Suffixes that `write_image` accepts: png, jpg, jpeg, exr, hdr, pfm.
 [[nodiscard]] const std::vector<std::string>& image_suffixes();
 
-/// Throws Error (Usage) that lists the known suffixes when the suffix of `path` is not one of them:
-/// for callers that want to know before they render.
+/// Throws Error (Usage) that lists the known suffixes when the suffix of `path` is not one of them.
+/// Call it before long work.
 void check_image_suffix(const std::filesystem::path& path);
 
-/// Writes by the suffix of `path`, as one step (see write_file_atomically). EXR, HDR and PFM hold
-/// linear values: a picture that is encoded is decoded from sRGB first. Throws Error: Usage for an
-/// unknown suffix, an empty picture or bad options, File when writing fails.
+/// Writes by the suffix of `path`, in one step (see write_file_atomically). EXR, HDR and PFM hold
+/// linear values: an encoded image is decoded from sRGB first. Throws Error: Usage for an unknown
+/// suffix, an empty image or bad options, File when writing fails.
 void write_image(const std::filesystem::path& path, const Image& image,
                  const ImageWriteOptions& options = {});
 
@@ -81,11 +81,12 @@ void write_image(const std::filesystem::path& path, const Image& image,
 [[nodiscard]] std::vector<std::byte> encode_image(const std::string& suffix, const Image& image,
                                                   const ImageWriteOptions& options = {});
 
-/// Writes exactly these codes, as one step. Throws Error: Usage for codes that do not fit, File.
+/// Writes exactly these codes, in one step. Throws Error: Usage for codes that do not fit, File
+/// when writing fails.
 void write_png(const std::filesystem::path& path, const EncodedImage& image,
                const ImageMetadata& metadata = {});
 
-/// Writes 8-bit codes as a JPEG, as one step; alpha is dropped. Throws as write_png.
+/// Writes 8-bit codes as a JPEG, in one step; alpha is dropped. Throws as write_png.
 void write_jpeg(const std::filesystem::path& path, const EncodedImage& image, int quality = 95);
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// What every picture reader does with the sizes in a header, and how it reports bad data.
+/// Checks of image sizes and memory, and errors of malformed images, shared by all readers.
 
 #include <cstdint>
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace alhazen {
 
-/// Ends the reading of a malformed picture.
+/// Throws the Error (Scene) of a malformed image.
 [[noreturn]] inline void bad_image(const std::string& name, const std::string& what) {
     throw Error(ErrorKind::Scene, what, {name, 0, 0});
 }
 
-/// Throws Error: Scene for an empty picture, Resource for one beyond the limits.
+/// Throws Error: Scene for an empty image, Resource for one beyond the limits.
 inline void check_image_size(std::int64_t width, std::int64_t height, const ImageLimits& limits,
                              const std::string& name) {
     const auto size = [&] { return std::to_string(width) + " x " + std::to_string(height); };
@@ -32,8 +32,8 @@ inline void check_image_size(std::int64_t width, std::int64_t height, const Imag
     }
 }
 
-/// Throws ImageMemoryExceeded when `bytes` are more than the limit. To be called with all that will
-/// be in memory at once, before it is allocated.
+/// Throws ImageMemoryExceeded when `bytes` exceed the limit. Call it with all bytes that will be in
+/// memory at once, before allocation.
 inline void check_image_memory(std::uint64_t bytes, const ImageLimits& limits,
                                const std::string& name) {
     if (bytes <= limits.max_bytes) return;
@@ -45,15 +45,14 @@ inline void check_image_memory(std::uint64_t bytes, const ImageLimits& limits,
         {name, 0, 0});
 }
 
-/// The bytes of the samples of a picture of a checked size.
+/// The bytes of the samples of an image of a checked size.
 [[nodiscard]] inline std::uint64_t sample_bytes(std::int64_t width, std::int64_t height,
                                                 std::uint64_t channels, std::size_t each) {
     return std::uint64_t(width) * std::uint64_t(height) * channels * each;
 }
 
-/// A picture of a checked size whose rows are still to be appended: memory that is reserved but not
-/// touched costs nothing, so a header that lies about the size does no harm. Throws as
-/// check_image_memory.
+/// An image of a checked size whose rows are still to be appended. Reserved memory that is not
+/// touched costs nothing, so a header with a false size does no harm. Throws as check_image_memory.
 [[nodiscard]] inline Image reserved_image(int width, int height, int channels, bool linear,
                                           const ImageLimits& limits, const std::string& name) {
     check_image_memory(sample_bytes(width, height, std::uint64_t(channels), sizeof(float)), limits,

@@ -15,15 +15,15 @@ namespace alhazen {
 
 namespace {
 
-/// Scans of a progressive file; encoders write about ten. A file of many tiny scans would decode
-/// for ever.
+/// Maximum number of scans of a progressive file; encoders write about ten. A file of many tiny
+/// scans would take very long to decode.
 constexpr int kMaxScans = 100;
 
-/// What libjpeg's callbacks see. Errors come back by longjmp, which must not pass a frame that owns
-/// anything: all calls of libjpeg are made in the step functions below, which have no objects with
-/// destructors.
+/// The state of libjpeg's callbacks. Errors return by longjmp, which must not pass a frame with
+/// destructors: all calls of libjpeg are made in the step functions below, which have no such
+/// objects.
 struct ErrorState {
-    jpeg_error_mgr manager;  // first, so that cinfo->err points to the whole
+    jpeg_error_mgr manager;  // first, so that cinfo->err points to the whole struct
     std::jmp_buf jump;
     char message[JMSG_LENGTH_MAX] = "";
 };
@@ -34,7 +34,7 @@ void on_error(j_common_ptr cinfo) {
     std::longjmp(state->jump, 1);
 }
 
-/// Level -1 is a warning. Those that leave every pixel as it was meant pass, all others end the
+/// Level -1 is a warning. Warnings that leave every pixel unchanged pass, all others end the
 /// reading.
 void on_message(j_common_ptr cinfo, int level) {
     if (level >= 0) return;
@@ -76,7 +76,7 @@ struct Compression {
     JSAMPROW row = nullptr;
 };
 
-/// False, with the message set, when libjpeg gives up in `step`.
+/// Returns false, with the message set, when libjpeg fails in `step`.
 template <class State>
 bool succeeds(State& state, void (*step)(State&)) {
     if (setjmp(state.error.jump) != 0) return false;
@@ -188,7 +188,7 @@ class Writer {
 
     void check(void (*step)(Compression&)) {
         if (!succeeds(state_, step)) {
-            // libjpeg may have moved the buffer without saying so; this pointer cannot be trusted.
+            // libjpeg may have moved the buffer without notice: this pointer is invalid.
             state_.output = nullptr;
             throw Error(ErrorKind::Usage,
                         std::string("cannot write a JPEG: ") + state_.error.message);
@@ -200,8 +200,8 @@ class Writer {
     Compression state_;
 };
 
-/// What libjpeg keeps of a picture whose data come in several scans: a short for each coefficient
-/// of each component, whole blocks of 8 x 8 and whole groups of blocks.
+/// Memory that libjpeg uses for an image whose data come in several scans: a short for each
+/// coefficient of each component, in whole blocks of 8 x 8 and whole groups of blocks.
 std::uint64_t coefficient_bytes(jpeg_decompress_struct& cinfo) {
     if (!jpeg_has_multiple_scans(&cinfo)) return 0;
     std::uint64_t blocks = 0;
@@ -257,11 +257,11 @@ StoredImage decode_jpeg(std::string_view bytes, const std::string& name,
     const auto width = std::int64_t(state.cinfo.image_width);
     const auto height = std::int64_t(state.cinfo.image_height);
     check_image_size(width, height, limits, name);
-    // A block of 64 pixels takes at least a bit; a larger claim cannot be met.
+    // A block of 64 pixels takes at least one bit; a larger size is false.
     if (std::uint64_t(width) * std::uint64_t(height) > bytes.size() * 2048 + (1u << 20)) {
         bad_image(name, "damaged JPEG: the data end too early");
     }
-    // Three channels at most are kept; beside them lie the coefficients.
+    // At most three channels are kept; the coefficients are in memory too.
     const std::uint64_t kept = state.cinfo.num_components == 1 ? 1 : 3;
     check_image_memory(sample_bytes(width, height, kept, 1) + coefficient_bytes(state.cinfo),
                        limits, name);

@@ -1,9 +1,9 @@
 #pragma once
-/// JPEG by libjpeg-turbo.
+/// Reads and writes JPEG with libjpeg-turbo.
 ///
 /// Source: ITU-T T.81 (JPEG), JFIF 1.02; Adobe's APP14 for the polarity of CMYK.
-/// Differs: data that end early or do not decode are an error, where libjpeg only warns.
-/// Conventions: read samples are code / 255, grey or RGB; CMYK is turned into RGB.
+/// Differs: data that end early or do not decode are an error; libjpeg only warns.
+/// Conventions: read samples are code / 255, grey or RGB; CMYK is converted to RGB.
 
 #include <cstddef>
 #include <string>
@@ -20,7 +20,7 @@ namespace alhazen {
                                       const ImageLimits& limits);
 
 /// Without chroma subsampling; alpha is dropped. Throws Error (Usage) when sizes, bits (8) or
-/// quality (1 to 100) do not fit.
+/// quality (1 to 100) are invalid.
 [[nodiscard]] std::vector<std::byte> encode_jpeg(const EncodedImage& image, int quality);
 
 }  // namespace alhazen

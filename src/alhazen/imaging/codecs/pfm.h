@@ -1,10 +1,9 @@
 #pragma once
-/// Portable float map: a text header, then floats.
+/// Reads and writes portable float maps: a text header, then floats.
 ///
 /// Source: P. Debevec, "PFM Portable FloatMap Image Format", 2001.
-/// Differs: nothing.
-/// Conventions: the file has the bottom row first. The sign of its scale gives the byte order
-/// (negative: little endian, which is what is written), its size multiplies the values.
+/// Conventions: the file has the bottom row first. The sign of its scale is the byte order
+/// (negative: little endian, which is written); its magnitude multiplies the values.
 
 #include <cstddef>
 #include <string>
@@ -19,7 +18,7 @@ namespace alhazen {
 [[nodiscard]] Image decode_pfm(std::string_view bytes, const std::string& name,
                                const ImageLimits& limits);
 
-/// `image` has valid sizes; alpha is dropped. Every float is kept as it is.
+/// `image` has valid sizes; alpha is dropped. Every float is written unchanged.
 [[nodiscard]] std::vector<std::byte> encode_pfm(const Image& image);
 
 }  // namespace alhazen

@@ -14,9 +14,9 @@ namespace alhazen {
 
 namespace {
 
-/// What libpng's callbacks see. Errors come back by longjmp, which must not pass a frame that owns
-/// anything: all calls of libpng are made in the step functions below, which have no objects with
-/// destructors.
+/// The state of libpng's callbacks. Errors return by longjmp, which must not pass a frame with
+/// destructors: all calls of libpng are made in the step functions below, which have no such
+/// objects.
 struct PngState {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -47,7 +47,7 @@ using Step = void (*)(PngState&);
 
 void on_warning(png_structp, png_const_charp) {}
 
-/// False, with the message set, when libpng gives up in `step`.
+/// Returns false, with the message set, when libpng fails in `step`.
 bool succeeds(PngState& state, Step step) {
     if (setjmp(state.jump) != 0) return false;
     step(state);
@@ -73,7 +73,7 @@ void read_header(PngState& state) {
     png_set_user_limits(state.png, png_uint_32(state.max_side), png_uint_32(state.max_side));
     png_set_chunk_cache_max(state.png, 100);
     png_set_chunk_malloc_max(state.png, png_alloc_size_t{8} << 20);
-    // What is not needed is not unpacked: text and profiles are where bombs hide.
+    // Ignores chunks that are not needed: text and profiles can be decompression bombs.
     static const png_byte ignored[] = "iCCP\0iTXt\0zTXt\0tEXt\0eXIf\0sPLT\0hIST";
     png_set_keep_unknown_chunks(state.png, PNG_HANDLE_CHUNK_NEVER, ignored, 7);
     png_read_info(state.png, state.info);
@@ -121,7 +121,7 @@ class PngReader {
     const std::string& name_;
 };
 
-/// The sides as the fixed first chunk gives them, looked at before libpng is asked.
+/// Checks the sizes in the fixed first chunk before libpng reads the file.
 void check_first_chunk(std::string_view bytes, const std::string& name, const ImageLimits& limits) {
     constexpr std::size_t kWidthAt = 16;
     if (bytes.size() < kWidthAt + 8 || bytes.substr(12, 4) != "IHDR") {
@@ -135,7 +135,7 @@ void check_first_chunk(std::string_view bytes, const std::string& name, const Im
     check_image_size(number(kWidthAt), number(kWidthAt + 4), limits, name);
 }
 
-/// Rows one after another: memory grows with what is decoded.
+/// Reads row by row: memory grows with the decoded data.
 template <class Code>
 std::vector<Code> read_rows(PngReader& reader) {
     PngState& state = reader.state();
@@ -151,7 +151,7 @@ std::vector<Code> read_rows(PngReader& reader) {
     return codes;
 }
 
-/// Interlaced pictures fill in all over the place, so all codes are in memory first.
+/// The passes of an interlaced image reach all rows, so all codes are in memory first.
 template <class Code>
 std::vector<Code> read_interlaced(PngReader& reader) {
     PngState& state = reader.state();
@@ -198,7 +198,7 @@ void write_header(PngState& state) {
     const EncodedImage& image = *state.image;
     png_set_write_fn(state.png, &state, write_bytes, flush_nothing);
     png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-    // Level 6 takes twice the time of level 3 for pictures a few percent smaller.
+    // Level 6 takes twice the time of level 3 for files a few percent smaller.
     png_set_compression_level(state.png, 3);
     png_set_IHDR(state.png, state.info, png_uint_32(image.width), png_uint_32(image.height),
                  image.bits, kColourType[image.channels], PNG_INTERLACE_NONE,
@@ -260,7 +260,7 @@ bool is_ascii(const std::string& text) {
     return std::all_of(text.begin(), text.end(), [](char c) { return c > 0; });
 }
 
-/// The texts point into `metadata`. Text beyond ASCII is written as iTXt, which is UTF-8.
+/// The texts point into `metadata`. Text beyond ASCII is written as iTXt (UTF-8).
 std::vector<png_text> text_chunks(const ImageMetadata& metadata) {
     std::vector<png_text> texts;
     for (const auto& [key, value] : metadata) {
@@ -287,8 +287,8 @@ StoredImage decode_png(std::string_view bytes, const std::string& name, const Im
     reader.check(read_header);
     const PngState& state = reader.state();
     check_image_size(state.width, state.height, limits, name);
-    // Deflate packs 1032 : 1 at best, so a larger claim cannot be met; expanding adds a factor of
-    // up to 32.
+    // Deflate compresses 1032 : 1 at best, so a larger size is false; expanding adds a factor of up
+    // to 32.
     if (state.row_bytes * state.height / 32 > bytes.size() * 1032 + 4096) {
         bad_image(name, "damaged PNG: the data end too early");
     }

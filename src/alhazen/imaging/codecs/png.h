@@ -1,11 +1,10 @@
 #pragma once
-/// PNG, 8 and 16 bit, by libpng.
+/// Reads and writes PNG, 8 and 16 bit, with libpng.
 ///
 /// Source: ISO/IEC 15948 (PNG).
-/// Differs: gAMA, sBIT, ICC profiles and text are not read: samples are given as sRGB display
-/// codes. Conventions: read samples are code / 255 or code / 65535; palettes become RGB, tRNS
-/// becomes alpha. Any damage that libpng finds in critical chunks, a truncated file included, is an
-/// error.
+/// Differs: ignores gAMA, sBIT, ICC profiles and text: samples are sRGB display codes.
+/// Conventions: read samples are code / 255 or code / 65535; palettes become RGB, tRNS becomes
+/// alpha. Damage in critical chunks, including a truncated file, is an error.
 
 #include <cstddef>
 #include <string>
@@ -22,7 +21,7 @@ namespace alhazen {
                                      const ImageLimits& limits);
 
 /// The file that holds exactly the codes of `image`. Throws Error (Usage) when the sizes or the
-/// codes do not fit or a key of `metadata` is not 1 to 79 printable ASCII characters.
+/// codes are invalid or a key of `metadata` is not 1 to 79 printable ASCII characters.
 [[nodiscard]] std::vector<std::byte> encode_png(const EncodedImage& image,
                                                 const ImageMetadata& metadata);
 

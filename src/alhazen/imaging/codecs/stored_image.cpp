@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The value of a code of `max` + 1 codes.
+/// The value of a code in [0, max].
 template <class Code>
 float value_of(Code code) {
     constexpr float kMax = sizeof(Code) == 1 ? 255.0f : 65535.0f;
@@ -42,7 +42,7 @@ double decoded(float sample) {
     return linear_from_srgb(double(sample));
 }
 
-/// The codes of all samples, or nothing when one of them is no code.
+/// Converts all samples to codes; false when one of them is not a code.
 template <class Code>
 bool to_codes(const std::vector<float>& samples, std::vector<Code>& codes) {
     constexpr float kMax = sizeof(Code) == 1 ? 255.0f : 65535.0f;

@@ -1,8 +1,8 @@
 #pragma once
-/// A picture that is kept: its samples as small as they are exact, codes of 8 or 16 bits or floats.
+/// An image in compact form: codes of 8 or 16 bits where these are exact, else floats.
 ///
-/// Conventions: a code stands for the float code / max, as picture readers give it, so that
-/// storing and expanding a picture changes no bit.
+/// Conventions: a code represents the float code / max, as image readers give it, so that storing
+/// and expanding an image changes no bit.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,16 +24,15 @@ struct StoredImage {
     [[nodiscard]] std::size_t memory_bytes() const;
     /// No pixel has an alpha below 1.
     [[nodiscard]] bool is_opaque() const;
-    /// One pixel, counted through the rows; grey is repeated, alpha is 1 where there is none.
-    /// `decode_srgb`: the colours are made linear, by the sRGB curve; alpha never is.
+    /// One pixel, by its index in row order; grey is repeated, alpha is 1 where there is none.
+    /// `decode_srgb`: decodes the colours to linear by the sRGB curve; alpha is never decoded.
     [[nodiscard]] Rgba pixel(std::size_t index, bool decode_srgb) const;
-    /// The same values for a run of pixels, as many channels of each as there are:
-    /// out[count][channels].
+    /// The same values for a run of pixels, in the image's channels: out[count][channels].
     void read_pixels(std::size_t first, std::size_t count, bool decode_srgb, double* out) const;
 };
 
-/// Bytes when every sample of a picture that is not linear is a code of 8 bits, shorts when of 16,
-/// floats else.
+/// Stores an image that is not linear as 8-bit codes, or else 16-bit codes, when every sample is
+/// one; all others as floats.
 [[nodiscard]] StoredImage stored(Image image);
 [[nodiscard]] Image expanded(StoredImage image);
 

@@ -54,7 +54,7 @@ bool is_color_size(unsigned bits) {
     return bits == 15 || bits == 16 || bits == 24 || bits == 32;
 }
 
-/// What is wrong with the kind of picture, or null.
+/// The reason why the header is not supported, or null.
 const char* fault_of(const Header& h) {
     if (h.model() < 1 || h.model() > 3 || (h.kind & ~11u) != 0) return "an unknown kind of picture";
     if (h.map_kind > 1) return "an unknown kind of palette";
@@ -76,7 +76,7 @@ std::uint64_t bytes_before_pixels(const Header& h) {
     return kHeaderBytes + h.id_length + (h.map_kind == 1 ? h.map_length * bytes_of(h.map_bits) : 0);
 }
 
-/// A run of 128 pixels takes one byte and one pixel at the least.
+/// A run of 128 pixels takes one byte and one pixel at least.
 std::uint64_t least_pixel_bytes(const Header& h) {
     const std::uint64_t each = bytes_of(h.bits);
     return h.run_length() ? (h.pixels() + 127) / 128 * (1 + each) : h.pixels() * each;
@@ -99,7 +99,7 @@ bool alpha_is_meant(std::string_view bytes) {
 
 using Color = std::array<std::uint8_t, 4>;
 
-/// A colour as it lies in the file: blue first.
+/// A colour in the file's order: blue first.
 Color color_of(std::string_view p, unsigned bits) {
     const auto byte = [&](std::size_t i) { return std::uint8_t(p[i]); };
     if (bits <= 16) {
@@ -112,13 +112,12 @@ Color color_of(std::string_view p, unsigned bits) {
     return {byte(2), byte(1), byte(0), bits == 32 ? byte(3) : std::uint8_t{255}};
 }
 
-/// Turns the pixels of a file into samples, row by row in the file's order.
+/// Converts the pixels of a file to samples, row by row in the file's order.
 class PixelReader {
   public:
     PixelReader(ByteReader& reader, const Header& header, std::vector<Color> palette)
         : reader_(reader), header_(header), palette_(std::move(palette)) {}
 
-    /// The next pixel of the file.
     Color next() {
         if (!header_.run_length()) return decoded(reader_.take(bytes_of(header_.bits)));
         if (left_in_packet_ == 0) {

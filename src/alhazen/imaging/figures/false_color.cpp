@@ -16,7 +16,8 @@ constexpr int kMinWidth = 220;
 constexpr int kMargin = 4, kBarHeight = 8, kGap = 3;
 constexpr int kStripHeight =
     kMargin + kGlyphHeight + kGap + kBarHeight + kGap + kGlyphHeight + kMargin;
-/// Pictures wider than this get letters of twice the size, and so on.
+/// The width of an image at which letters double their size, triple it at twice the width, and so
+/// on.
 constexpr int kWidthPerScale = 900;
 
 Rgb color_of(const ColorScale& scale, double value) {
@@ -67,7 +68,7 @@ class Canvas {
     EncodedImage image_;
 };
 
-/// Title, bar, and the numbers at its ends and middle.
+/// Draws the title, the bar, and the numbers at its ends and middle.
 void draw_scale(Canvas& canvas, int top, int width, int size, const ColorScale& scale) {
     const auto span = [&](const std::string& text) { return size * text_width(text); };
     const int left = size * kMargin;
@@ -110,7 +111,7 @@ EncodedImage false_color(std::span<const float> values, int width, int height,
 
 std::array<std::uint16_t, 3> id_color(std::uint32_t id) {
     if (id == 0) return {0, 0, 0};
-    // Multiples of the golden ratio spread hues evenly however many there are.
+    // Multiples of the golden ratio spread any number of hues evenly.
     const double hue = 6.0 * std::fmod(id * 0.6180339887498949, 1.0);
     const double value = 1.0 - 0.22 * (id / 3 % 3);
     const double saturation = 0.85 - 0.2 * (id / 2 % 3);

@@ -1,8 +1,8 @@
 #pragma once
-/// One number per pixel as a picture for looking, with its scale drawn below.
+/// False-colour pictures of one number per pixel, with their scale drawn below.
 ///
 /// Conventions: values outside the scale take the colour of its end; a value that is not finite is
-/// black. The scale adds a strip below the picture and widens a narrow one on the right.
+/// black. The scale adds a strip below the picture and widens a narrow picture on the right.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct ColorScale {
 [[nodiscard]] EncodedImage false_color(std::span<const float> values, int width, int height,
                                        const ColorScale& scale);
 
-/// A colour that tells one number from its neighbours; black for 0. sRGB codes 0..255.
+/// A colour that distinguishes a number from its neighbours; black for 0. sRGB codes 0..255.
 [[nodiscard]] std::array<std::uint16_t, 3> id_color(std::uint32_t id);
 
 }  // namespace alhazen

@@ -1,8 +1,7 @@
 #pragma once
-/// Letters of 5 x 7 pixels for the scales of false-colour pictures.
+/// A bitmap font of 5 x 7 pixels for the scales of false-colour pictures.
 ///
-/// Source: own drawing. Differs: digits, lower-case letters and . - + _ only; anything else is a
-/// blank.
+/// Conventions: digits, lower-case letters and . - + _ only; all other characters are blank.
 
 #include <cstdint>
 #include <string_view>
@@ -10,10 +9,10 @@
 namespace alhazen {
 
 inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
-/// From one letter to the next.
+/// Distance between the starts of two letters, pixels.
 inline constexpr int kGlyphAdvance = 6;
 
-/// True where the letter is inked; x in [0, 5), y in [0, 7) from the top.
+/// True where the letter has ink; x in [0, 5), y in [0, 7) from the top.
 [[nodiscard]] bool glyph_pixel(char letter, int x, int y);
 
 /// Width of a line of text, pixels.

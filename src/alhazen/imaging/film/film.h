@@ -1,9 +1,9 @@
 #pragma once
-/// The picture while it is rendered: radiance in double, tiles written from many threads.
+/// The image during rendering: radiance in double, with tiles written from many threads.
 ///
 /// Conventions: pixel (0, 0) is the top left of the full frame; the film holds the crop [x0, x1) x
-/// [y0, y1) of it. Threads: `set` may be called at the same time for different pixels, and what
-/// `from` gives be written to.
+/// [y0, y1) of it.
+/// Threads: different pixels may be written at the same time, by `set` or through `from`.
 
 #include <cstdint>
 #include <vector>
@@ -34,10 +34,10 @@ class Film {
     [[nodiscard]] const PixelBox& crop() const { return crop_; }
 
     void set(int x, int y, const Rgb& radiance) { samples_[index(x, y)] = radiance; }
-    /// The pixels from (x, y) on; those of the next row are the crop's width behind.
+    /// The pixels from (x, y) on; the next row starts a crop width later.
     [[nodiscard]] Rgb* from(int x, int y) { return &samples_[index(x, y)]; }
     [[nodiscard]] const Rgb& at(int x, int y) const { return samples_[index(x, y)]; }
-    /// [crop height][crop width][3], as `encode` of image_io takes it.
+    /// [crop height][crop width][3], for `encode` (encoding.h).
     [[nodiscard]] const double* data() const { return &samples_.front().r; }
     /// The crop as a float image.
     [[nodiscard]] Image to_image() const;
@@ -52,7 +52,7 @@ class Film {
     std::vector<Rgb> samples_;
 };
 
-/// The crop cut into tiles of at most `tile_size` squared, row by row.
+/// The tiles of the crop, of at most `tile_size` squared pixels, row by row.
 [[nodiscard]] std::vector<PixelBox> tiles_of(const PixelBox& crop, int tile_size);
 
 }  // namespace alhazen

@@ -1,8 +1,8 @@
 #pragma once
-/// What a picture has besides its colours: named channels of numbers, one number a pixel each.
+/// Layers of an image beside its colours: named channels with one number per pixel.
 ///
-/// Conventions: those of `Film`; a channel is called "layer.component", as in multi-layer EXR
-/// files. Threads: `set` may be called at the same time for different pixels.
+/// Conventions: those of `Film`; a channel is named "layer.component", as in multi-layer EXR files.
+/// Threads: `set` may be called at the same time for different pixels.
 
 #include <cstdint>
 #include <string>
@@ -24,10 +24,10 @@ struct LayerChannel {
 class FilmLayers {
   public:
     FilmLayers() = default;
-    /// All numbers are 0. `crop` is that of the film.
+    /// All values are 0. `crop` is that of the film.
     explicit FilmLayers(const PixelBox& crop) : crop_(crop) {}
 
-    /// Returns the channel's position.
+    /// Returns the channel's index.
     std::size_t add(std::string name, SampleType type) {
         LayerChannel& channel = channels_.emplace_back();
         channel.name = std::move(name);
@@ -49,7 +49,7 @@ class FilmLayers {
 
     [[nodiscard]] const PixelBox& crop() const { return crop_; }
     [[nodiscard]] const std::vector<LayerChannel>& channels() const { return channels_; }
-    /// Null when there is no such channel.
+    /// Null when no channel has this name.
     [[nodiscard]] const LayerChannel* find(const std::string& name) const {
         for (const LayerChannel& channel : channels_) {
             if (channel.name == name) return &channel;

@@ -59,7 +59,7 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
 
 EncodedImage encode(const double* rgb, int width, int height, Encoding encoding, int bits) {
     EncodedImage encoded = empty_encoded(width, height, 3, bits);
-    // Backgrounds repeat their values: the curve is costly, a comparison is not.
+    // Caches the last codes: backgrounds repeat values, and the curve is expensive.
     double last[3] = {0.0, 0.0, 0.0};
     std::uint16_t code[3] = {0, 0, 0};
     for (std::size_t i = 0; i < encoded.samples.size(); ++i) {

@@ -1,11 +1,10 @@
 #pragma once
-/// Linear values as the integers of display pictures (PNG, JPG).
+/// Converts linear values to the integer codes of display images (PNG, JPG).
 ///
 /// Source: IEC 61966-2-1 (sRGB), the transfer curve.
-/// Differs: nothing.
 /// Conventions: a code is in [0, 2^bits - 1]; values are clamped to [0, 1]; NaN becomes 0. Codes
-/// are made from doubles, because a truncated code can change when its value is first rounded to
-/// float.
+/// are computed from doubles, because a truncated code can change when its value is first rounded
+/// to float.
 
 #include <cstdint>
 #include <vector>
@@ -14,13 +13,13 @@ namespace alhazen {
 
 struct Image;
 
-/// How linear values become integers.
+/// The conversion of linear values to integers.
 enum class Encoding {
-    LinearTruncated,  ///< floor(max * clamp(c, 0, 1)): the course's and the old formats' pictures
+    LinearTruncated,  ///< floor(max * clamp(c, 0, 1)): images of the course and of old formats
     Srgb,             ///< IEC 61966-2-1 transfer curve, rounded to nearest
 };
 
-/// A picture of integer codes, top row first: exactly what a PNG holds.
+/// An image of integer codes, top row first: the exact content of a PNG.
 struct EncodedImage {
     int width = 0, height = 0;
     int channels = 3;                         ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGB + alpha
@@ -28,8 +27,8 @@ struct EncodedImage {
     std::vector<std::uint16_t> samples = {};  ///< [height][width][channels]
 };
 
-/// The sRGB curve and its inverse for c in [0, 1]; values beyond 1 follow the same curve, below 0
-/// the line.
+/// The sRGB curve and its inverse for c in [0, 1]; values above 1 follow the same curve, those
+/// below 0 its line.
 [[nodiscard]] double srgb_from_linear(double c);
 [[nodiscard]] double linear_from_srgb(double c);
 
@@ -41,9 +40,9 @@ struct EncodedImage {
 [[nodiscard]] EncodedImage encode(const double* rgb, int width, int height, Encoding encoding,
                                   int bits);
 
-/// Codes of a picture. One that is not linear is encoded already: its values are only rounded.
-/// Alpha never goes through the transfer curve. Throws Error (Usage) as above, or when the samples
-/// do not fit the sizes.
+/// Codes of an image. The values of an image that is not linear are only rounded: they are encoded
+/// already. Alpha never passes the transfer curve. Throws Error (Usage) as above, or when the
+/// samples do not fit the sizes.
 [[nodiscard]] EncodedImage encode(const Image& image, Encoding encoding, int bits);
 
 }  // namespace alhazen

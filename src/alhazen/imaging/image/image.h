@@ -1,9 +1,8 @@
 #pragma once
-/// A picture in memory: float samples, interleaved, top row first.
+/// An image in memory: float samples, interleaved, top row first.
 ///
-/// Conventions: values are as the file or the renderer gives them; `linear` says whether they are
-/// linear radiance (EXR, HDR, PFM, renders) or still encoded for display (PNG, JPG, BMP: value /
-/// 255).
+/// Conventions: values are unchanged from the file or the renderer; `linear` tells whether they are
+/// linear radiance (EXR, HDR, PFM, renders) or encoded for display (PNG, JPG, BMP: value / 255).
 
 #include <cstddef>
 #include <vector>

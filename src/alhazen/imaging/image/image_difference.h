@@ -1,10 +1,10 @@
 #pragma once
-/// How far two pictures are apart.
+/// Measures the difference of two images.
 ///
-/// Conventions: colours are compared, alpha is not; grey counts as three equal channels where the
-/// other picture has colour. Encoded pictures are compared as encoded, linear ones by value. Equal
-/// infinities and two NaN count as equal; NaN against a number and different infinities are
-/// infinitely far apart.
+/// Conventions: compares colours, not alpha; grey counts as three equal channels where the other
+/// image has colour. Encoded images are compared as encoded, linear ones by value. Equal infinities
+/// and two NaN count as equal; NaN against a number and different infinities are infinitely far
+/// apart.
 
 #include <cstdint>
 
@@ -22,7 +22,7 @@ struct ImageDifference {
     double psnr_db = 0;  ///< of a unit peak; infinite for equal pictures
 };
 
-/// Throws Error (Usage) when the sizes differ, or one picture is linear and the other encoded.
+/// Throws Error (Usage) when the sizes differ, or one image is linear and the other encoded.
 [[nodiscard]] ImageDifference difference(const Image& a, const Image& b);
 
 /// |a - b| per channel, scaled so that the largest finite difference is 1; infinite ones are 1 too.

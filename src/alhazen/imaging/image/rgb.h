@@ -39,7 +39,7 @@ inline Rgb& operator+=(Rgb& a, const Rgb& b) {
     return a = a + b;
 }
 
-/// A colour and how much of it is there.
+/// A colour with alpha.
 struct Rgba {
     double r = 0, g = 0, b = 0, a = 1;
 

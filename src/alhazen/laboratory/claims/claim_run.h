@@ -1,5 +1,5 @@
 #pragma once
-/// What an experiment of claims.h works with: the standard scenes, and where findings go.
+/// The context of an experiment of claims.h: the standard scenes, and the list of findings.
 
 #include <array>
 #include <functional>
@@ -21,12 +21,12 @@ class ClaimUnavailable : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A database of Haines, at the size that was published.
+/// A database of Haines at its published size.
 struct SpdScene {
     const char* name;
     std::uint64_t size;
 };
-/// Those of the 1987 paper in its order.
+/// The databases of the 1987 paper, in its order.
 inline constexpr std::array<SpdScene, 7> kSpdScenes{{{"balls", 4},
                                                      {"gears", 4},
                                                      {"mount", 6},
@@ -35,7 +35,7 @@ inline constexpr std::array<SpdScene, 7> kSpdScenes{{{"balls", 4},
                                                      {"tetra", 6},
                                                      {"tree", 11}}};
 
-/// Trials are kept for the experiments that follow.
+/// Trials cached for later experiments.
 using TrialCache = std::map<std::string, std::unique_ptr<SceneTrial>>;
 
 class ClaimRun {
@@ -45,22 +45,22 @@ class ClaimRun {
 
     [[nodiscard]] double time_limit() const { return options_.time_limit; }
 
-    /// Throws ClaimUnavailable when there is no such generator. Of the databases the rays are those
-    /// of the published protocol; at most `most_rays` of them are recorded.
+    /// Throws ClaimUnavailable without the generator. The rays of a database are those of the
+    /// published protocol; at most `most_rays` of them are recorded.
     [[nodiscard]] SceneTrial& spd(const SpdScene& scene);
-    /// The same with every ray of the picture, not kept for others.
+    /// The same with every ray of the picture, not cached.
     [[nodiscard]] std::unique_ptr<SceneTrial> spd_with_all_rays(const SpdScene& scene) const;
-    /// A scene of another generator at a size.
+    /// A scene of another generator at a given size.
     [[nodiscard]] SceneDescription generated(const std::string& name, std::uint64_t size) const;
-    /// Throws ClaimUnavailable when there is no such accelerator.
+    /// Throws ClaimUnavailable without the accelerator.
     void need_accelerator(const std::string& accelerator) const;
 
-    /// A finding that must hold, and one that is only told.
+    /// Records a finding that must hold, or one for information.
     void expect(const std::string& what, const std::string& ours, const std::string& reference,
                 bool holds);
     void tell(const std::string& what, const std::string& ours, const std::string& reference = "");
     void note(const std::string& text);
-    /// What is being done, for the progress; throws Error (Render) when the work is to stop.
+    /// Reports the current step as progress; throws Error (Render) when stopped.
     void step(const std::string& what) const;
 
   private:
@@ -72,7 +72,7 @@ class ClaimRun {
     TrialCache& trials_;
 };
 
-/// Spheres in a box, no sources of others.
+/// Boxes of spheres.
 class SphereBoxes final : public BoundsSource {
   public:
     SphereBoxes(std::size_t count, std::uint64_t seed);
@@ -87,7 +87,7 @@ class SphereBoxes final : public BoundsSource {
     double radius_;
 };
 
-/// The exponent of the power of n that runs nearest through the points (n, value).
+/// The exponent of the power of n that fits the points (n, value) best.
 [[nodiscard]] double log_log_slope(std::span<const double> n, std::span<const double> value);
 
 // ---- the experiments
@@ -113,12 +113,12 @@ void claim_b13(ClaimRun& run);
 void claim_b14(ClaimRun& run);
 void claim_h1(ClaimRun& run);
 
-/// What claims count.
+/// The counter that claims use.
 inline constexpr auto kPrimitiveTests = &TraversalStats::primitive_tests;
 inline constexpr auto kBoxTests = &TraversalStats::box_tests;
 inline constexpr auto kNodeVisits = &TraversalStats::node_visits;
 
-/// One pass that counts; three that are timed.
+/// One counting pass; three timed passes.
 [[nodiscard]] inline ReplayOptions counting(const ClaimRun& run) {
     return {.seconds = run.time_limit(), .repetitions = 0, .in_batches = false};
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Small scenes for the experiments of claims.h: N equal things in a cube, some of them mirrors, in
-/// the light of one lamp. The same on every machine.
+/// Small scenes for the experiments of claims.h: N equal primitives in a cube, some of them
+/// mirrors, lit by one lamp. The same on every machine.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@ namespace alhazen {
 
 enum class ClaimShape { Spheres, Boxes, Cylinders, ThinSticks };
 
-/// `spread`: the size of things; 1 fills some tenth of the cube whatever their number.
+/// `spread`: the size of primitives; 1 fills about a tenth of the cube for any count.
 [[nodiscard]] SceneDescription claim_scene(ClaimShape shape, std::uint64_t count,
                                            double spread = 1);
 

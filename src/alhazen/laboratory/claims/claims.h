@@ -1,12 +1,12 @@
 #pragma once
-/// What the literature says of ray tracing, measured again: each claim is an experiment that prints
-/// ours, the reference figure where there is one, and whether it holds (docs/claims.md).
+/// Claims of the ray tracing literature, measured again: each claim is an experiment that prints
+/// our figure, the reference figure if there is one, and whether the claim holds (docs/claims.md).
 ///
-/// Source: with each claim. Differs: times are compared as ratios only, never as seconds of other
-/// machines.
-/// Conventions: an experiment whose scene or accelerator does not exist is not available, which is
-/// never a success. All runs on one thread; seeds are fixed.
-/// To add one: a function in claims_*.cpp and a line of the table in claims.cpp.
+/// Source: with each claim.
+/// Differs: times are compared as ratios, never as seconds of other machines.
+/// Conventions: an experiment without its scene or accelerator is not available, which is never a
+/// success. All runs use one thread; seeds are fixed. To add a claim: a function in claims_*.cpp
+/// and a line of the table in claims.cpp.
 
 #include <functional>
 #include <optional>
@@ -23,7 +23,7 @@ class ClaimRun;
 struct ClaimEntry {
     const char* id;
     const char* claim;     ///< one line
-    const char* expected;  ///< when it holds
+    const char* expected;  ///< condition for the claim to hold
     void (*run)(ClaimRun& run);
 };
 
@@ -35,14 +35,14 @@ enum class Verdict { Holds, Fails, NotAvailable };
 
 struct ClaimFinding {
     std::string what, ours, reference;
-    std::optional<bool> holds;  ///< none: told for information
+    std::optional<bool> holds;  ///< none: for information
 };
 
 struct ClaimReport {
     std::string id, claim, expected;
     Verdict verdict = Verdict::NotAvailable;
     std::vector<ClaimFinding> findings;
-    std::string note;    ///< what a reader should know; why it is not available
+    std::string note;    ///< remarks; why it is not available
     double seconds = 0;  ///< wall clock
 };
 
@@ -52,10 +52,10 @@ struct ClaimOptions {
     const StopFlag* stop = nullptr;
 };
 
-/// Cuts "A1,B4"; "all" is every one. Throws Error (Usage) for an id that is none.
+/// Splits "A1,B4"; "all" is every claim. Throws Error (Usage) for an unknown id.
 [[nodiscard]] std::vector<std::string> parse_claims(const std::string& list);
 
-/// Calls `done` with each report when it is there. Throws Error (Render) when it is stopped.
+/// Calls `done` with each finished report. Throws Error (Render) when stopped.
 [[nodiscard]] std::vector<ClaimReport> check_claims(
     const std::vector<std::string>& ids, const ClaimOptions& options,
     const std::function<void(const ClaimReport&)>& done = {});

@@ -1,6 +1,6 @@
 #pragma once
-/// Charts of a comparison in HTML: bars and dots on logarithmic scales, that stay readable on a
-/// narrow screen and for a screen reader.
+/// Charts of a comparison in HTML: bars and dots on logarithmic scales, readable on narrow screens
+/// and by screen readers.
 
 #include <string>
 
@@ -8,14 +8,14 @@
 
 namespace alhazen {
 
-/// What a person calls it: the name, and the settings where they are not the defaults.
+/// Display name: the name, and settings that differ from the defaults.
 [[nodiscard]] std::string html_name(const Measurement& measurement);
 
-/// Time for each ray, tests of primitives by kind of ray, bounds and cells by kind, seconds to
-/// build, memory: a card each.
+/// One card each: time per ray, primitive tests by kind of ray, bounds and cells by kind, build
+/// seconds, memory.
 [[nodiscard]] std::string comparison_charts(const Comparison& comparison);
 
-/// "0.000123" with three digits, and k, M or G where that is shorter.
+/// "0.000123" with three digits, with k, M or G where shorter.
 [[nodiscard]] std::string short_number(double x);
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// A comparison as text for a terminal, and as JSON (docs/compare.md).
+/// A comparison as text for a terminal, and as JSON (docs/reference/compare.md).
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>

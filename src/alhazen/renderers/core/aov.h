@@ -1,6 +1,6 @@
 #pragma once
 /// What is seen in each pixel besides its colour, and what the pixel cost: "arbitrary output
-/// variables", written as layers of the picture (docs/aovs.md).
+/// variables", written as layers of the picture (docs/reference/layers.md).
 ///
 /// Source: the channel names are those of OpenEXR's layer convention and of compositing programs.
 /// Differs: the geometry is found by a pass of its own that casts the pixel's eye rays again, so

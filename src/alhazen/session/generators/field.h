@@ -1,12 +1,12 @@
 #pragma once
-/// A meadow of as many blades of grass as one likes, out of a few thousand that are stored.
+/// A meadow of any number of grass blades by instances of a few thousand stored ones.
 ///
 /// Source: Snyder and Barr, "Ray Tracing Complex Models Containing Surface Tessellations", SIGGRAPH
 /// 1987: a field of 2 * 10^9 primitives by instances of lists and grids of instances.
 /// Differs: their objects are not published. `field` leaves the accelerator to the user.
-/// Conventions: metres. A tuft is 1000 triangles; 10 x 10 tufts, turned, scaled and moved at
-/// random, are a patch; 10 x 10 patches a plot, and so on; the largest are laid out in rows. There
-/// are four different ones at every level.
+/// Conventions: metres. A tuft is 1000 triangles; 10 x 10 tufts, randomly turned, scaled and moved,
+/// are a patch; 10 x 10 patches a plot, and so on; the largest are laid out in rows. Every level
+/// has four variants.
 
 #include <cstdint>
 
@@ -14,11 +14,11 @@
 
 namespace alhazen {
 
-/// At least that many triangles, instances multiplied out, and a plane.
+/// At least this many triangles, instances expanded, and a plane.
 [[nodiscard]] SceneDescription field(std::uint64_t triangles);
 
-/// The same with grids put together by hand, as in the source: one of 10 x 10 cells for each patch
-/// and plot, one of equal cells for each tuft, and a grid of the rows for all.
+/// The same with explicit grids, as in the source: 10 x 10 cells per patch and plot, equal cells
+/// per tuft, and a grid of the rows.
 [[nodiscard]] SceneDescription field_of_grids(std::uint64_t triangles);
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// What generated scenes in the native terms have in common: a camera, a sun, a pale sky.
+/// Common parts of generated native scenes: a camera, a sun, a pale sky.
 
 #include "alhazen/scene_model/scene_description.h"
 
@@ -13,10 +13,10 @@ struct GeneratedView {
 /// A scene without materials, whose root is an object without parts. z is up; 512 x 512 pixels.
 [[nodiscard]] SceneDescription generated_scene(const GeneratedView& view);
 
-/// Adds a matt material, and returns it.
+/// Adds a matt material and returns its id.
 MaterialId add_material(SceneDescription& scene, const char* name, const Rgb& color);
 
-/// Adds an object without parts; its index is good whatever is added later.
+/// Adds an object without parts; its index stays valid.
 ObjectIndex add_object(SceneDescription& scene, const char* name);
 
 MeshIndex add_mesh(SceneDescription& scene, const char* name, TriangleMesh mesh);

@@ -1,9 +1,8 @@
 #pragma once
-/// Writes an NFF file statement by statement: what the generators of the Standard Procedural
-/// Databases speak.
+/// Writes an NFF file statement by statement, for the generators of the Standard Procedural
+/// Databases.
 ///
 /// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987.
-/// Differs: nothing.
 /// Conventions: numbers have at most `digits` significant digits, as by "%g" of C; the published
 /// files have six. Angles in degrees, as in the file.
 
@@ -32,7 +31,7 @@ struct NffTextFill {
 
 class NffText {
   public:
-    /// The files that were published have six digits.
+    /// The published files have six digits.
     static constexpr int kPublishedDigits = 6;
 
     explicit NffText(int digits = kPublishedDigits) : digits_(digits) {}
@@ -45,7 +44,7 @@ class NffText {
     /// A cone or cylinder without caps.
     void cone(const Vec3& base, double base_radius, const Vec3& apex, double apex_radius);
     void polygon(std::span<const Vec3> vertices);
-    /// Vertices with their normals, as many.
+    /// Vertices and as many normals.
     void patch(std::span<const Vec3> vertices, std::span<const Vec3> normals);
 
     [[nodiscard]] std::string take() { return std::move(text_); }

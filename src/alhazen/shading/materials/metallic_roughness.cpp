@@ -3,7 +3,7 @@
 /// Source: Khronos, "glTF 2.0 Specification", 2021, appendix B; Schlick, "An Inexpensive BRDF Model
 /// for Physically-Based Rendering", Eurographics 1994; Walter et al., "Microfacet Models for
 /// Refraction through Rough Surfaces", EGSR 2007 (the Blinn-Phong exponent of a roughness).
-/// Differs: docs/materials.md, with the reasons.
+/// Differs: docs/reference/materials.md, with the reasons.
 
 #include <algorithm>
 #include <cmath>

@@ -16,8 +16,8 @@ namespace alhazen {
 /// False: the material is the same everywhere, vertex colours apart.
 [[nodiscard]] bool reads_textures(const Material& material);
 
-/// The metallic-roughness parameters as terms of Whitted's equation; docs/materials.md derives
-/// them.
+/// The metallic-roughness parameters as terms of Whitted's equation; docs/reference/materials.md
+/// derives them.
 [[nodiscard]] MaterialSample evaluate_metallic_roughness(const Material& material,
                                                          const MetallicRoughness& parameters,
                                                          std::span<const Texture> textures,

@@ -18,7 +18,7 @@ namespace {
 
 using testing::import_native;
 
-/// One row of the table of shapes in docs/formats/native.md.
+/// One row of the table of shapes in docs/reference/formats/native.md.
 struct DocumentedRow {
     std::vector<std::string> keys;  ///< in order, without those of `like`
     std::string like;               ///< another shape that has the other keys too; may be empty
@@ -38,7 +38,8 @@ std::vector<std::string> code_words(const std::string& cell) {
 }
 
 DocumentedShapes documented_shapes() {
-    std::istringstream page(read_file(testing::source_folder() / "docs/formats/native.md"));
+    std::istringstream page(
+        read_file(testing::source_folder() / "docs/reference/formats/native.md"));
     DocumentedShapes shapes;
     std::string line, block;
     bool in_table = false;
@@ -103,7 +104,8 @@ TEST(NativeFields, TheTableOfShapesListsExactlyTheKeysThatAreRead) {
     const DocumentedShapes shapes = documented_shapes();
     for (const std::string_view name : native_shape_names()) {
         const std::string shape(name);
-        ASSERT_TRUE(shapes.contains(shape)) << shape << " is missing in docs/formats/native.md";
+        ASSERT_TRUE(shapes.contains(shape))
+            << shape << " is missing in docs/reference/formats/native.md";
         const std::set<std::string> documented = documented_keys(shapes, shape);
         EXPECT_EQ(read_keys(shape, documented), documented) << shape;
     }

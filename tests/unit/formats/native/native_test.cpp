@@ -33,7 +33,8 @@ TEST(NativeImporter, RefusesOtherHeadersAndVersions) {
 }
 
 TEST(NativeImporter, LoadsTheExampleOfItsDocumentation) {
-    const std::string page = read_file(testing::source_folder() / "docs/formats/native.md");
+    const std::string page =
+        read_file(testing::source_folder() / "docs/reference/formats/native.md");
     const std::string fence = "```alhazen\n";
     const std::size_t begin = page.find(fence);
     ASSERT_NE(begin, std::string::npos);

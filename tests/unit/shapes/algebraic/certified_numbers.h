@@ -1,9 +1,10 @@
 #pragma once
-/// Numbers that know how wrong they may be: a centre and a radius. What is asked of them is right,
-/// or is refused with `Uncertain`, and then asked again of numbers with more digits.
+/// Numbers with error bounds: a centre and a radius. An operation is right, or throws `Uncertain`;
+/// then it is repeated with more digits.
 ///
-/// Source: van der Hoeven, "Ball arithmetic", 2009. Differs: only what counts of roots need. The
-/// centre is a double or a DoubleDouble; radii are doubles, each enlarged by more than it rounds.
+/// Source: van der Hoeven, "Ball arithmetic", 2009.
+/// Differs: only what counts of roots need. The centre is a double or a DoubleDouble; radii are
+/// doubles, each enlarged by more than its rounding.
 
 #include <cmath>
 #include <limits>
@@ -12,7 +13,7 @@
 
 namespace alhazen::testing {
 
-/// Thrown where the digits do not tell.
+/// Thrown where the digits do not suffice.
 struct Uncertain {};
 
 template <class Real>
@@ -20,7 +21,7 @@ struct Ball {
     static constexpr bool kPlain = std::is_same_v<Real, double>;
     /// Rounding of one operation relative to its result.
     static constexpr double kUlp = kPlain ? 0x1p-53 : kDoubleDoubleUlp;
-    /// What may be lost where products underflow.
+    /// Bound of the loss where products underflow.
     static constexpr double kTiny = 1e-280;
     static constexpr double kRoom = 1.0 + 0x1p-48;
 
@@ -71,13 +72,13 @@ struct Ball {
         s.radius = (rest.magnitude() + rest.radius) / std::abs(s.high()) * kRoom + kTiny;
         return s;
     }
-    /// 0 only for what is 0 exactly.
+    /// Zero only for an exact 0.
     friend int sign_of(const Ball& a) {
         const int sign = known_sign(a);
         if (sign == 0 && (a.high() != 0.0 || a.radius != 0.0)) throw Uncertain{};
         return sign;
     }
-    /// 0 where it is not known.
+    /// Zero where the sign is unknown.
     friend int known_sign(const Ball& a) {
         if (!(std::abs(a.high()) > a.radius * kRoom)) return 0;
         return a.high() > 0.0 ? 1 : -1;

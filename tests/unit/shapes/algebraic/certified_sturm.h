@@ -1,10 +1,11 @@
 #pragma once
-/// How many different roots a polynomial has, counted with numbers of any kind: exactly with
-/// rational numbers, with balls exactly or not at all.
+/// The number of distinct roots of a polynomial, for any number type: exact with rational numbers;
+/// with balls exact or refused.
 ///
 /// Source: Sturm's theorem, as in Basu, Pollack and Roy, "Algorithms in Real Algebraic Geometry",
-/// 2nd ed., 2006, section 2.2. Differs: remainders are multiplied by positive numbers instead of
-/// divided. Conventions: coefficients in ascending order of powers.
+/// 2nd ed., 2006, section 2.2.
+/// Differs: remainders are multiplied by positive numbers instead of divided.
+/// Conventions: coefficients in ascending order of powers.
 
 #include <algorithm>
 #include <array>
@@ -95,14 +96,14 @@ class CertifiedSturm {
             if (sign_of(rows_[i].lead()) == 0) throw Uncertain{};
         }
     }
-    /// Of all of the line.
+    /// On the whole line.
     [[nodiscard]] int count() const {
         return variations([](const Powers<N>& row) {
                    return row.count % 2 == 0 ? -sign_of(row.lead()) : sign_of(row.lead());
                }) -
                variations([](const Powers<N>& row) { return sign_of(row.lead()); });
     }
-    /// Between two places that are no roots.
+    /// Between two points that are not roots.
     [[nodiscard]] int count(const N& from, const N& to) const {
         const auto at = [&](const N& x) {
             return variations([&](const Powers<N>& row) {
@@ -132,7 +133,7 @@ class CertifiedSturm {
         normalize(a);
         return a;
     }
-    /// A sign that is not known between two that differ makes no difference.
+    /// An unknown sign between two different signs does not change the count.
     template <class Sign>
     [[nodiscard]] int variations(Sign&& sign) const {
         std::array<int, kMostPowers> s{};

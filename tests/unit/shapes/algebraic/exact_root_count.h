@@ -1,8 +1,9 @@
 #pragma once
-/// How often a polynomial with rational coefficients changes its sign in an interval, exactly.
+/// The exact number of sign changes of a polynomial with rational coefficients in an interval.
 ///
 /// Source: Sturm's theorem, as in Basu, Pollack and Roy, "Algorithms in Real Algebraic Geometry",
-/// 2nd ed., 2006, section 2.2. Differs: integers of any length, primitive remainders.
+/// 2nd ed., 2006, section 2.2.
+/// Differs: integers of any length, primitive remainders.
 
 #include <gmpxx.h>
 

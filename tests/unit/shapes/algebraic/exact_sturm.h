@@ -2,8 +2,8 @@
 /// The exact number of distinct real roots of a polynomial with rational coefficients: an oracle.
 ///
 /// Source: Basu, Pollack and Roy, "Algorithms in Real Algebraic Geometry", 2nd ed., 2006, section
-/// 2.2.2 (Sturm's theorem). Differs: nothing. Conventions: coefficients from the constant upward;
-/// roots in the half-open interval (lo, hi].
+/// 2.2.2 (Sturm's theorem).
+/// Conventions: coefficients from the constant upward; roots in the half-open interval (lo, hi].
 
 #include <gmpxx.h>
 

@@ -19,7 +19,7 @@ class Builder {
     }
 
   private:
-    /// Subtrees of n references live in 2 n - 1 consecutive nodes: places do not depend on threads.
+    /// Subtrees of n references use 2 n - 1 consecutive nodes: indices do not depend on threads.
     void build(std::uint32_t begin, std::uint32_t end, const RangeSummary& all, std::uint32_t index,
                int level) {
         BinaryNode& node = nodes_[index];
@@ -39,7 +39,7 @@ class Builder {
         }
     }
 
-    /// Divides a range in two that are not empty; returns the size of the left one.
+    /// Divides a range into two nonempty ones; returns the size of the left one.
     std::uint32_t split(std::uint32_t begin, std::uint32_t end, const RangeSummary& all, int level,
                         RangeSummary& left, RangeSummary& right) {
         const std::span<BuildReference> range = references_.subspan(begin, end - begin);

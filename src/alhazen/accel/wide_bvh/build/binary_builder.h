@@ -1,10 +1,10 @@
 #pragma once
-/// Builds a binary bounding volume hierarchy by the surface area heuristic: the tree that
-/// `collapse` makes wide.
+/// Builds a binary bounding volume hierarchy by the surface area heuristic; `collapse` makes it
+/// wide.
 ///
 /// Source: Wald, "On Fast Construction of SAH-based Bounding Volume Hierarchies", RT 2007.
-/// Differs: how sets are divided is in sah_split.h; from level 48 on they are halved, so the depth
-/// is bounded whatever the input.
+/// Differs: sets are divided as in sah_split.h; from level 48 on they are halved, so the depth is
+/// bounded for every input.
 /// Complexity and threads: O(n log n), parallel; the result is the same for every number of
 /// threads.
 
@@ -14,8 +14,8 @@
 
 namespace alhazen {
 
-/// Reorders `references` so that each node holds a range of them. Every leaf is of one kind and
-/// fits into one block.
+/// Reorders `references` so that each node has a range of them. Every leaf has one kind and fits
+/// into one block.
 [[nodiscard]] BinaryBvh build_binary(std::vector<BuildReference>& references,
                                      const LeafKinds& kinds);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How an accelerator is built, and how exactly it answers.
+/// Options of accelerators: build quality, precision, and layout of leaves and nodes.
 
 #include <cstdint>
 #include <span>
@@ -7,36 +7,36 @@
 
 namespace alhazen {
 
-/// How much work goes into building. The hits are the same for all; what changes is how long
-/// building and tracing take.
+/// The effort of building. Hits are the same for all; building and tracing times differ.
 enum class BuildQuality : std::uint8_t {
-    Fast,     ///< for what changes from picture to picture: clustering along a space-filling curve
+    Fast,     ///< for scenes that change with every image: clustering along a space-filling curve
     Default,  ///< binned surface area heuristic
-    High,     ///< for what is traced for long: spatial splits, reinsertion
+    High,     ///< for scenes that are traced for long: spatial splits, reinsertion
 };
 
-/// Which arithmetic decides whether a ray hits a triangle.
+/// The arithmetic of the ray-triangle test.
 enum class Precision : std::uint8_t {
     Robust,  ///< double with exact signs: no leaks, the same bits as every other accelerator
-    Fast,  ///< float where an accelerator has it: may leak at edges, parameters carry its rounding
+    Fast,    ///< float where an accelerator supports it: may leak at edges, parameters have float
+             ///< precision
 };
 
-/// What the leaves hold of a triangle.
+/// The representation of triangles in the leaves.
 enum class Leaves : std::uint8_t {
-    Vertices,  ///< its vertices in float, eight triangles in five cache lines
-    Indices,   ///< its number only: a fifth of the memory, and slower to trace
+    Vertices,  ///< vertices in float, eight triangles in five cache lines
+    Indices,   ///< triangle numbers only: a fifth of the memory, and slower to trace
 };
 
 struct BuildOptions {
     BuildQuality quality = BuildQuality::Default;
     Precision precision = Precision::Robust;
     Leaves leaves = Leaves::Vertices;
-    /// Children of a node: 4, 8 or 16; all give the same hits. Packets of coherent rays are there
-    /// for 8 only, and so is Precision::Fast, which takes 8 whatever is said here.
+    /// Children per node: 4, 8 or 16; all give the same hits. Packets of coherent rays and
+    /// Precision::Fast exist for 8 only; Precision::Fast uses 8 regardless of this value.
     std::uint32_t width = 8;
 };
 
-/// Throws Error(Usage) for a width that no node has.
+/// Throws Error(Usage) for a width that is not supported.
 void check_node_width(std::uint32_t width);
 
 struct BuildQualityEntry {
@@ -45,9 +45,8 @@ struct BuildQualityEntry {
     BuildQuality quality;
 };
 
-/// In the order of the enumeration.
 [[nodiscard]] std::span<const BuildQualityEntry> build_quality_table();
-/// The one called `name`. Throws Error(Usage) with the valid names for an unknown one.
+/// The entry called `name`. Throws Error(Usage) with the valid names for an unknown one.
 [[nodiscard]] BuildQuality find_build_quality(const std::string& name);
 [[nodiscard]] const char* name_of(BuildQuality quality);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What the builders of the wide BVH work on: references to primitives, and binary trees over them.
+/// Input and output of the builders of the wide BVH: references to primitives, and binary trees
+/// over them.
 
 #include <array>
 #include <cstdint>
@@ -10,26 +11,26 @@
 
 namespace alhazen {
 
-/// Kinds of primitive that cannot share a leaf.
+/// Number of kinds of primitives, which cannot share a leaf.
 inline constexpr std::size_t kLeafKinds = 4;
 
-/// What a leaf of one kind costs to test.
+/// The cost of a leaf of one kind.
 struct LeafKind {
-    std::uint32_t width_log2 = 0;  ///< of the number of primitives in a block
-    float cost = 1;                ///< of a block, in visits of a wide node
+    std::uint32_t width_log2 = 0;  ///< log2 of the number of primitives in a block
+    float cost = 1;                ///< of a block, in units of visits of a wide node
 
     [[nodiscard]] std::uint32_t width() const { return 1u << width_log2; }
-    /// Blocks that `count` primitives fill.
+    /// Number of blocks that `count` primitives fill.
     [[nodiscard]] std::uint32_t blocks(std::uint32_t count) const {
         return (count + width() - 1) >> width_log2;
     }
-    /// Half a block is not worth a box of its own, except by the cost that `collapse` weighs:
-    /// builders need not divide so few.
+    /// Size up to which builders need not divide: half a block is not worth its own box, except by
+    /// the cost that `collapse` weighs.
     [[nodiscard]] std::uint32_t indivisible() const { return width() > 2 ? width() / 2 : 1; }
 };
 using LeafKinds = std::array<LeafKind, kLeafKinds>;
 
-/// A primitive to build over, or the part of one that lies in a cell. Two registers of four floats.
+/// A primitive to build over, or its part in a cell. Two registers of four floats.
 struct alignas(32) BuildReference {
     float lo[3];
     std::uint32_t id;
@@ -59,7 +60,8 @@ static_assert(sizeof(BuildReference) == 32);
 struct BinaryNode {
     FloatBox box;
     std::uint32_t begin = 0, end = 0;  ///< its range of the references
-    std::uint32_t right = 0;  ///< index of the right child; the left one follows; 0: a leaf
+    std::uint32_t right =
+        0;  ///< index of the right child; the left child follows the node; 0: a leaf
     std::uint32_t kind =
         kLeafKinds;  ///< of all primitives in the range; kLeafKinds where they differ
 
@@ -69,7 +71,7 @@ struct BinaryNode {
 
 struct BinaryBvh {
     HugeArray<BinaryNode> nodes;    ///< [0] is the root; not every index is used
-    std::uint32_t index_count = 0;  ///< indices are below this
+    std::uint32_t index_count = 0;  ///< bound of all indices
     bool empty = true;
 };
 

@@ -12,13 +12,13 @@
 namespace alhazen {
 namespace {
 
-constexpr std::size_t kRadius = 8;  // neighbors looked at on each side
+constexpr std::size_t kRadius = 8;  // neighbors examined on each side
 constexpr std::size_t kChunk = 4096;
 
 struct Cluster {
     Box4 box;
     std::uint32_t node = 0;  ///< in the draft
-    std::uint32_t kind = 0;  ///< of all in it, or kLeafKinds
+    std::uint32_t kind = 0;  ///< common kind, or kLeafKinds
 };
 
 /// Finds the small subtrees in a part of the sorted references.
@@ -28,7 +28,7 @@ class Seeds {
           const LeafKinds& kinds, std::vector<DraftNode>& out)
         : references_(references), codes_(codes), kinds_(kinds), out_(out) {}
 
-    /// `bit`: codes of the range are equal above it.
+    /// `bit`: all codes of the range agree above it.
     void find(std::uint32_t begin, std::uint32_t end, int bit) {
         RangeSummary all;
         const std::uint32_t most = most_of(references_[begin].kind);
@@ -89,8 +89,8 @@ class Clustering {
     }
 
   private:
-    /// How badly two clusters fit, and their numbers: the same from both sides, and different for
-    /// every partner of one.
+    /// The cost of joining two clusters, with their numbers: symmetric, and different for every
+    /// partner of a cluster.
     static std::uint64_t misfit(const Cluster& a, const Cluster& b, std::size_t i, std::size_t j) {
         Box4 box = a.box;
         box.include(b.box);
@@ -100,7 +100,7 @@ class Clustering {
         return std::uint64_t{std::bit_cast<std::uint32_t>(weight)} << 32 | (i ^ j);
     }
 
-    /// The best partner of every cluster of a chunk; each pair is looked at once.
+    /// The best partner of every cluster of a chunk; each pair is examined once.
     void find_partners(std::size_t begin, std::size_t end) {
         const std::size_t n = clusters_.size();
         std::fill(&best_[begin], &best_[begin] + (end - begin), ~std::uint64_t{0});
@@ -119,7 +119,7 @@ class Clustering {
     }
     [[nodiscard]] bool is_joined(std::size_t i) const { return partner(partner(i)) == i; }
 
-    /// Joins all pairs that want each other; returns how many nodes are in use then.
+    /// Joins all mutual best partners; returns the number of nodes in use.
     std::size_t round(std::size_t used) {
         const std::size_t n = clusters_.size();
         parallel_for(n, kChunk,
@@ -159,7 +159,7 @@ class Clustering {
         return node;
     }
 
-    /// Where hardly any want each other, which some inputs bring about: neighbors are joined, so
+    /// For rounds with hardly any mutual partners, which some inputs cause: joins neighbors, so
     /// that the number of rounds stays small.
     std::size_t pair_up(std::size_t used) {
         const std::size_t n = clusters_.size();
@@ -187,7 +187,7 @@ class Clustering {
     std::vector<std::uint64_t> best_;
 };
 
-/// Parts of fixed size, so that they can be searched in parallel.
+/// Parts of fixed size, searched in parallel.
 std::vector<DraftNode> find_seeds(std::span<const BuildReference> references,
                                   std::span<const std::uint64_t> codes, const LeafKinds& kinds) {
     std::vector<std::vector<DraftNode>> parts((references.size() - 1) / kChunk + 1);

@@ -1,12 +1,12 @@
 #pragma once
-/// Builds a binary bounding volume hierarchy quickly, from the leaves up: neighbors on a
-/// space-filling curve that fit together best are joined, again and again.
+/// Builds a binary bounding volume hierarchy quickly, bottom-up: repeatedly joins the best-fitting
+/// neighbors on a space-filling curve.
 ///
 /// Source: Meister and Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy
 /// Construction", TVCG 24(3), 2018.
-/// Differs: it begins with the small subtrees that the curve gives, not with single primitives;
-/// ties go to the partner whose number differs in the lowest bits, so that equal boxes are joined
-/// in pairs and every round has a pair to join.
+/// Differs: starts from the small subtrees given by the curve, not from single primitives; ties go
+/// to the partner whose number differs in the lowest bits, so that equal boxes are joined in pairs
+/// and every round joins a pair.
 /// Complexity and threads: O(n) for usual inputs, parallel; the result is the same for every number
 /// of threads.
 

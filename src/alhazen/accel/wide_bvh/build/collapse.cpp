@@ -12,20 +12,19 @@ namespace alhazen {
 namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
-/// Subtrees of so many references are tasks of their own.
+/// Subtrees of at least this many references are separate tasks.
 constexpr std::uint32_t kTaskSize = 4096;
 
-/// The best ways to turn the subtree of a binary node into at most i wide subtrees.
+/// The cheapest conversions of the subtree of a binary node to at most i wide subtrees.
 template <std::uint32_t kWidth>
 struct ChoiceOf {
-    std::array<float, kWidth + 1> cost;  ///< [i]; of at most i subtrees
-    std::array<std::uint8_t, kWidth + 1>
-        left;                 ///< [i]; how many go to the left child, 0: do as for i - 1
-    std::uint8_t inner_left;  ///< as left[kWidth], for a wide node made of this one
+    std::array<float, kWidth + 1> cost;         ///< [i]; of at most i subtrees
+    std::array<std::uint8_t, kWidth + 1> left;  ///< [i] number for the left child, 0: as for i - 1
+    std::uint8_t inner_left;  ///< as left[kWidth], for a wide node made of this node
     bool as_leaf;             ///< the single subtree is a leaf
 };
 
-/// What a wide subtree takes up, or where it begins.
+/// Numbers of nodes and blocks of a wide subtree, or where it begins.
 struct Extent {
     std::size_t nodes = 0;
     std::array<std::size_t, kLeafKinds> blocks{};
@@ -36,11 +35,11 @@ struct Extent {
     }
 };
 
-/// What was found out about a wide subtree.
+/// Properties of a wide subtree.
 struct Plan {
     Extent extent;
     int depth = 0;               ///< levels of inner nodes
-    std::vector<Plan> children;  ///< only where they are tasks of their own
+    std::vector<Plan> children;  ///< only where they are separate tasks
 
     void add(const Plan& child) {
         extent.add(child.extent);
@@ -55,20 +54,20 @@ struct ChildrenOf {
     std::uint32_t count = 0;
 };
 
-/// A subtree that has been written: where it is, and what it means to a query for any hit.
+/// A written subtree: its reference, and its properties for any-hit queries.
 struct Emitted {
     NodeRef ref;
-    float surface = 0;  ///< area
-    float cost = 0;     ///< of a line that meets its box and goes on through all of it
+    float surface = 0;  ///< area of its surfaces
+    float cost = 0;     ///< expected cost of a line that intersects its box and passes through
 };
 
-/// What is to be visited first has more: the chance to end there over its cost.
+/// The child with the larger value is visited first: the probability of a hit over the cost.
 float promise_of(const Emitted& child, const FloatBox& box) {
     return (1.0f - std::exp(-child.surface / box.weight())) / child.cost;
 }
 
-/// Three passes: what to do with each binary node, from the leaves up; what each wide subtree takes
-/// up; and then all of them are written, each to its place.
+/// Three passes: choose the conversion of each binary node, bottom-up; count the nodes and blocks
+/// of each wide subtree; write all subtrees, each to its place.
 template <std::uint32_t kWidth>
 class Collapse {
     using Choice = ChoiceOf<kWidth>;
@@ -156,7 +155,7 @@ class Collapse {
         }
     }
 
-    /// Appends the at most `budget` subtrees that were chosen for a subtree.
+    /// Appends the subtrees, at most `budget`, chosen for a subtree.
     void gather(std::uint32_t index, std::uint32_t budget, Children& out) const {
         const Choice& choice = choices_[index];
         while (budget > 1 && choice.left[budget] == 0) --budget;
@@ -190,7 +189,7 @@ class Collapse {
         }
         sum.extent.nodes = 1;
         sum.depth = depth;
-        // A tree too deep is refused; what it takes up is not of interest.
+        // A tree that is too deep is rejected; its size does not matter.
         if (depth > kMaxWideDepth) return sum;
         const Children all = children(index);
         if (!is_task(node)) {
@@ -207,7 +206,7 @@ class Collapse {
         return sum;
     }
 
-    /// Writes a subtree from `place` on, and moves that behind it.
+    /// Writes a subtree from `place` on, and advances `place` past it.
     Emitted emit(std::uint32_t index, Extent& place) {
         const BinaryNode& node = binary_.nodes[index];
         if (choices_[index].as_leaf) return emit_leaf(node, place);
@@ -227,7 +226,7 @@ class Collapse {
                 kinds_[node.kind].cost * static_cast<float>(count)};
     }
 
-    /// The same with the children in parallel, where there is a plan of them.
+    /// The same with the children in parallel, where they have plans.
     Emitted emit(std::uint32_t index, const Plan& plan, Extent place) {
         if (plan.children.empty()) return emit(index, place);
         const std::size_t number = place.nodes++;
@@ -246,7 +245,7 @@ class Collapse {
         return emit_node(number, index, all, emitted);
     }
 
-    /// Writes a node above its children, the most promising one first.
+    /// Writes a node above its children, the most promising child first.
     Emitted emit_node(std::size_t number, std::uint32_t index, const Children& all,
                       const std::array<Emitted, kWidth>& emitted) {
         Emitted sum{NodeRef::node(static_cast<std::uint32_t>(number)), 0, 0};
@@ -257,7 +256,7 @@ class Collapse {
             sum.surface += emitted[i].surface;
             sum.cost += emitted[i].cost * box.weight();
             promise[i] = promise_of(emitted[i], box);
-            // Insertion sort; of equal ones the first stays the first.
+            // Insertion sort, stable.
             std::uint32_t place = i;
             for (; place > 0 && promise[order[place - 1]] < promise[i]; --place) {
                 order[place] = order[place - 1];

@@ -1,5 +1,5 @@
 #pragma once
-/// Puts references in the order of a space-filling curve through their centers.
+/// Sorts references along a space-filling curve through their centers.
 ///
 /// Source: Morton, "A Computer Oriented Geodetic Data Base", IBM 1966 (the curve); Lauterbach et
 /// al., "Fast BVH Construction on GPUs", CGF 28(2), 2009 (its use).
@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// Sorts `references`; returns their places on the curve, 21 bits for each axis.
+/// Sorts `references`; returns their codes on the curve, 21 bits per axis.
 [[nodiscard]] std::vector<std::uint64_t> sort_along_curve(std::vector<BuildReference>& references);
 
 }  // namespace alhazen

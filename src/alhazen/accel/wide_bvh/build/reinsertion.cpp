@@ -8,7 +8,7 @@ namespace alhazen {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-/// Nodes that one search looks at: five times as many as it does on the average in a mesh.
+/// Maximum number of nodes a search examines: five times the average in a mesh.
 constexpr int kMaxVisits = 96;
 constexpr std::size_t kGrain = 512;
 
@@ -54,7 +54,7 @@ class Optimizer {
     }
 
   private:
-    /// Looks for the place of one subtree, from its own upward; best branches first.
+    /// Searches a new position for one subtree, from its own upward; best branches first.
     class Search {
       public:
         explicit Search(const Optimizer& tree) : tree_(tree) {}
@@ -66,7 +66,7 @@ class Optimizer {
             const float area = box.weight();
             std::uint32_t below = x;
             std::uint32_t pivot = tree_.parent_[x];
-            // What is saved when x is taken out, up to the pivot.
+            // The cost saved by removing x, up to the pivot.
             float saved = nodes[pivot].box.weight();
             FloatBox rest;  // the box of the pivot without x
             int visits = 0;
@@ -88,7 +88,7 @@ class Optimizer {
             float saved;
         };
 
-        /// `own_sibling`: x is there already, only what is below is a new place.
+        /// `own_sibling`: x is already there, only positions below are new.
         void descend(std::uint32_t start, float saved, const FloatBox& box, float area, Move& best,
                      int& visits, bool own_sibling) {
             stack_.clear();
@@ -96,7 +96,7 @@ class Optimizer {
             while (!stack_.empty() && visits < kMaxVisits) {
                 const Branch top = stack_.back();
                 stack_.pop_back();
-                // Whatever is below costs at least the area of x.
+                // Every position below costs at least the area of x.
                 if (top.saved - area <= best.gain) continue;
                 ++visits;
                 const DraftNode& node = tree_.nodes_[top.node];
@@ -112,7 +112,7 @@ class Optimizer {
                 push_children(node, below, box);
             }
         }
-        /// The one that grows less is looked at first.
+        /// The child that grows less is examined first.
         void push_children(const DraftNode& node, float saved, const FloatBox& box) {
             const auto growth = [&](std::uint32_t i) {
                 FloatBox merged = tree_.nodes_[i].box;
@@ -133,7 +133,7 @@ class Optimizer {
         return p.left == x ? p.right : p.left;
     }
 
-    /// Nodes that may move, from the largest on.
+    /// Nodes that may move, the largest first.
     [[nodiscard]] std::vector<std::uint32_t> largest(std::size_t count) const {
         struct Entry {
             float area;
@@ -153,7 +153,7 @@ class Optimizer {
                          entries.end(), larger);
         std::vector<std::uint32_t> result(count);
         for (std::size_t i = 0; i < count; ++i) result[i] = entries[i].node;
-        // Neighbors in the tree are searched one after the other.
+        // Neighbors in the tree are searched one after another.
         std::sort(result.begin(), result.end());
         return result;
     }
@@ -161,13 +161,13 @@ class Optimizer {
     void apply(const Move& move) {
         const std::uint32_t x = move.node, target = move.target;
         const std::uint32_t p = parent_[x], s = sibling(x), g = parent_[p], q = parent_[target];
-        // The parent of x is used anew as that of x and the target.
+        // The parent of x is reused as that of x and the target.
         if (target == p || target == s || q == kNone || g == kNone) return;
         for (const std::uint32_t i : {x, target, p, s, g, q}) {
             if (touched_[i] == pass_) return;
         }
         for (std::uint32_t i = target; i != kNone; i = parent_[i]) {
-            if (i == x) return;  // a move before has put the target below x
+            if (i == x) return;  // an earlier move put the target below x
         }
         for (const std::uint32_t i : {x, target, p, s, g, q}) touched_[i] = pass_;
         replace_child(g, p, s);
@@ -184,11 +184,11 @@ class Optimizer {
         (node.left == from ? node.left : node.right) = to;
         parent_[to] = parent;
     }
-    /// From a node whose children are others now up to where nothing changes.
+    /// Refits from a node with changed children up to where nothing changes.
     void refit_from(std::uint32_t i) {
         while (i != kNone && refit(i)) i = parent_[i];
     }
-    /// True when the box is another one then.
+    /// Returns true when the box changes.
     bool refit(std::uint32_t i) {
         FloatBox box = nodes_[nodes_[i].left].box;
         box.include(nodes_[nodes_[i].right].box);
@@ -212,7 +212,7 @@ double reinsert(DraftBvh& tree, const ReinsertionLimits& limits) {
     const double before = optimizer.total_area();
     double area = before;
     for (int pass = 0; pass < limits.passes; ++pass) {
-        // All of them at first, then the larger half: what is left to gain is there.
+        // First all nodes, then the larger half, where most of the gain remains.
         optimizer.pass(pass == 0 ? tree.nodes.size() : tree.nodes.size() / 2);
         const double now = optimizer.total_area();
         const bool done = !(now < area * (1 - limits.least_gain));

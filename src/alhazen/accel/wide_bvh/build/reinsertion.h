@@ -1,12 +1,12 @@
 #pragma once
-/// Improves a binary tree by taking subtrees out and putting them back where they cost least.
+/// Improves a binary tree by reinserting subtrees where they cost least.
 ///
 /// Source: Meister and Bittner, "Parallel Reinsertion for Bounding Volume Hierarchy Optimization",
 /// EG 2018; Bittner, Hapala and Havran, "Fast Insertion-Based Optimization of Bounding Volume
 /// Hierarchies", CGF 32(1), 2013.
-/// Differs: places are searched in parallel in the tree as it is at the beginning of a pass; then
-/// the moves are made one by one, the most profitable first, those left out that touch nodes of one
-/// that was made. A search gives up after some nodes, so that no input is slow.
+/// Differs: positions are searched in parallel in the tree as it is at the start of a pass; then
+/// the moves are applied one by one, the most profitable first, except those that touch nodes of an
+/// applied move. A search ends after a number of nodes, so that no input is slow.
 /// Complexity and threads: O(n) per pass; the result is the same for every number of threads.
 
 #include "alhazen/accel/wide_bvh/build/tree_draft.h"
@@ -15,10 +15,10 @@ namespace alhazen {
 
 struct ReinsertionLimits {
     int passes = 12;
-    double least_gain = 0.005;  ///< of the sum of the areas of inner nodes: below it no more passes
+    double least_gain = 0.005;  ///< of the sum of the areas of inner nodes: stops below it
 };
 
-/// Returns by what share the sum of the areas of the inner nodes has become less.
+/// Returns the relative reduction of the sum of the areas of the inner nodes.
 double reinsert(DraftBvh& tree, const ReinsertionLimits& limits = {});
 
 }  // namespace alhazen

@@ -13,12 +13,12 @@ namespace alhazen {
 namespace {
 
 constexpr int kMaxBins = 32;
-constexpr std::uint32_t kSweepSize = 12;      // sets up to this are swept, not binned
+constexpr std::uint32_t kSweepSize = 12;      // larger sets are binned, not swept
 constexpr std::size_t kBinningChunk = 32768;  // references read by one task
 
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 
-/// Without what the fourth lane holds.
+/// Sets the fourth lane to 0.
 Float4 first_three(Float4 v) {
     Int4 bits;
     std::memcpy(&bits, &v, sizeof(bits));
@@ -27,7 +27,7 @@ Float4 first_three(Float4 v) {
     return v;
 }
 
-/// The bins of a center along all axes; the same function counts and divides.
+/// The bins of a center along all axes; counting and dividing use the same function.
 struct Binning {
     int bins;
     Float4 lo, scale;
@@ -66,7 +66,7 @@ struct Bin {
         for (std::size_t k = 0; k < kLeafKinds; ++k) count[k] += other.count[k];
     }
 };
-/// Only as many bins as there are in use are made.
+/// Only the bins in use are constructed.
 class Bins {
   public:
     explicit Bins(int count) {
@@ -87,7 +87,7 @@ void fill(std::span<const BuildReference> references, const Binning& binning, Bi
     for (const BuildReference& r : references) {
         const Box4 box(r);
         const Int4 place = binning.bin(box.center2());
-        // Not a loop: the lanes of `place` are named, and stay in registers.
+        // Unrolled by hand: constant lanes of `place` stay in registers.
         const auto add = [&](int axis, int b) {
             Bin& bin = bins.of(axis)[b];
             bin.box.include(box);
@@ -99,8 +99,8 @@ void fill(std::span<const BuildReference> references, const Binning& binning, Bi
     }
 }
 
-/// Calls add(total, part) for a small set; for a large one in parallel on parts, each a copy of
-/// `total` at first, which `merge` then takes in order.
+/// Calls add(total, part) for a small set; for a large one in parallel on parts, each starting as a
+/// copy of `total`, combined by `merge` in order.
 template <class T, class Add, class Merge>
 void for_chunks(std::span<const BuildReference> all, const Add& add, const Merge& merge, T& total) {
     if (all.size() <= 2 * kBinningChunk) return add(total, all);
@@ -111,10 +111,10 @@ void for_chunks(std::span<const BuildReference> all, const Add& add, const Merge
     for (const T& part : parts) merge(total, part);
 }
 
-/// The cost of a side with so many of each kind.
+/// The cost of a side with these numbers of each kind.
 struct SideCost {
     const LeafKinds& kinds;
-    std::uint32_t only;  ///< the one kind there is, or kLeafKinds
+    std::uint32_t only;  ///< the only kind, or kLeafKinds
 
     [[nodiscard]] float operator()(const Box4& box, const KindCounts& count) const {
         if (only == kLeafKinds) return box.weight() * blocks_cost(count, kinds);
@@ -172,8 +172,8 @@ bool before(const BuildReference& a, const BuildReference& b, int axis) {
     return ca != cb ? ca < cb : a.id < b.id;
 }
 
-/// The places of a few references in their order along an axis; of equal ones the first is first.
-/// Every two are compared, for whether a comparison is true cannot be predicted.
+/// The order of a few references along an axis; stable. Compares all pairs without branches, as
+/// comparisons are unpredictable.
 void sort_places(std::span<const BuildReference> references, int axis, std::uint8_t* places) {
     float center[kSweepSize];
     std::uint32_t rank[kSweepSize];
@@ -191,7 +191,7 @@ void sort_places(std::span<const BuildReference> references, int axis, std::uint
     for (std::size_t i = 0; i < size; ++i) places[rank[i]] = static_cast<std::uint8_t>(i);
 }
 
-/// The best of all splits of a few references in the order of their centers.
+/// The best split of a few references in the order of their centers.
 ObjectSplit sweep(std::span<const BuildReference> references, const RangeSummary& all,
                   const LeafKinds& kinds) {
     ObjectSplit best;
@@ -223,9 +223,9 @@ ObjectSplit sweep(std::span<const BuildReference> references, const RangeSummary
     return best;
 }
 
-/// Precondition: `out` is that of nothing.
+/// Precondition: `out` is empty.
 void summarize_some(std::span<const BuildReference> references, RangeSummary& out) {
-    // Apart from the counts the boxes stay in registers.
+    // Separate from the counts, so that the boxes stay in registers.
     Box4 box, centers;
     KindCounts count{};
     for (const BuildReference& r : references) {
@@ -245,8 +245,8 @@ void summarize_both(std::span<const BuildReference> references, std::uint32_t mi
     summarize_some(references.subspan(middle), right);
 }
 
-/// Moves those for which is_left(r) to the front. Every reference is swapped, with itself if need
-/// be: to which side one goes cannot be predicted.
+/// Moves the references with is_left(r) to the front. Swaps every reference, if need be with
+/// itself, without branches: the side is unpredictable.
 template <class IsLeft>
 std::uint32_t partition(std::span<BuildReference> references, const IsLeft& is_left,
                         RangeSummary& left, RangeSummary& right) {

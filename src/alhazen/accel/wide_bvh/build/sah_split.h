@@ -1,14 +1,12 @@
 #pragma once
-/// Where to divide a set of primitives by the surface area heuristic: what the builders that work
-/// from the root share.
+/// Divides sets of primitives by the surface area heuristic; shared by the top-down builders.
 ///
 /// Source: MacDonald and Booth, "Heuristics for Ray Tracing Using Space Subdivision", The Visual
 /// Computer 6, 1990 (the cost); Wald, "On Fast Construction of SAH-based Bounding Volume
 /// Hierarchies", RT 2007 (binning).
-/// Differs: primitives are counted in blocks of the lanes that test them together, by kind; few are
-/// swept exactly; boxes are kept in registers of four floats and all three axes are binned in one
-/// pass.
-/// Complexity and threads: O(n); large sets in parallel, the same result for every number of
+/// Differs: counts primitives in blocks of the lanes that test them together, by kind; sweeps small
+/// sets exactly; keeps boxes in registers of four floats and bins all three axes in one pass.
+/// Complexity and threads: O(n); large sets in parallel, with the same result for every number of
 /// threads.
 
 #ifdef __SSE__
@@ -23,16 +21,16 @@
 
 namespace alhazen {
 
-/// Levels from this on are halved, not divided by cost: the depth is bounded whatever the input.
+/// From this level on sets are halved, not divided by cost: the depth is bounded for every input.
 inline constexpr int kMaxSahLevel = 48;
-/// Sets from this on are worth a task of their own.
+/// Minimum size of a set for a separate task.
 inline constexpr std::uint32_t kParallelBuildSize = 4096;
 
-/// Four floats in a register; the fourth of a box means nothing.
+/// Four floats in a register; the fourth of a box is unused.
 using Float4 = float __attribute__((vector_size(16)));
 
-/// Lane by lane a < b ? a : b and a > b ? a : b. Compilers make one instruction of them only where
-/// they may forget about NaN.
+/// Lane by lane a < b ? a : b and a > b ? a : b. Compilers use one instruction only where they may
+/// ignore NaN.
 inline Float4 lesser(Float4 a, Float4 b) {
 #ifdef __SSE__
     return _mm_min_ps(a, b);
@@ -81,7 +79,7 @@ struct Box4 {
     }
 };
 
-/// How many there are of each kind.
+/// The number of primitives of each kind.
 using KindCounts = std::array<std::uint32_t, kLeafKinds>;
 
 [[nodiscard]] inline std::uint32_t total(const KindCounts& counts) {
@@ -89,7 +87,7 @@ using KindCounts = std::array<std::uint32_t, kLeafKinds>;
     for (const std::uint32_t n : counts) sum += n;
     return sum;
 }
-/// Of the blocks that primitives fill.
+/// The cost of the blocks that primitives fill.
 [[nodiscard]] inline float blocks_cost(const KindCounts& counts, const LeafKinds& kinds) {
     float cost = 0;
     for (std::size_t k = 0; k < kLeafKinds; ++k) {
@@ -98,7 +96,7 @@ using KindCounts = std::array<std::uint32_t, kLeafKinds>;
     return cost;
 }
 
-/// A set of references: its box, that of twice their centers, and their numbers.
+/// A summary of references: their box, that of twice their centers, and their numbers.
 struct RangeSummary {
     Box4 box, centers;
     KindCounts count{};
@@ -115,14 +113,14 @@ struct RangeSummary {
         for (std::size_t k = 0; k < kLeafKinds; ++k) count[k] += other.count[k];
     }
     [[nodiscard]] std::uint32_t size() const { return total(count); }
-    /// The one kind in it, or kLeafKinds.
+    /// The only kind in it, or kLeafKinds.
     [[nodiscard]] std::uint32_t kind() const {
         for (std::uint32_t k = 0; k < kLeafKinds; ++k) {
             if (count[k] == size()) return k;
         }
         return kLeafKinds;
     }
-    /// So few of one kind that a builder stops.
+    /// True for a single primitive, or so few of one kind that a builder stops.
     [[nodiscard]] bool indivisible(const LeafKinds& kinds) const {
         const std::uint32_t k = kind();
         return size() == 1 || (k != kLeafKinds && size() <= kinds[k].indivisible());
@@ -131,22 +129,22 @@ struct RangeSummary {
 
 [[nodiscard]] RangeSummary summarize(std::span<const BuildReference> references);
 
-/// A way to divide a set by the centers.
+/// A division of a set by the centers.
 struct ObjectSplit {
     float cost = std::numeric_limits<float>::infinity();  ///< areas times costs of blocks
     int axis = -1;                                        ///< -1: none found
-    int last_left = 0;  ///< the last bin, or place in the order along the axis, that goes left
+    int last_left = 0;  ///< the last bin, or rank along the axis, on the left
     Box4 left, right;   ///< of the two sides
 };
 
-/// The cheapest one; none when the centers cannot be told apart.
+/// The cheapest split; none when all centers coincide.
 [[nodiscard]] ObjectSplit best_object_split(std::span<const BuildReference> references,
                                             const RangeSummary& all, const LeafKinds& kinds);
 
-/// Reorders so that the left side comes first; returns how many that are and summarizes both.
+/// Reorders so that the left side comes first; returns its size and summarizes both sides.
 std::uint32_t divide(std::span<BuildReference> references, const RangeSummary& all,
                      const ObjectSplit& split, RangeSummary& left, RangeSummary& right);
-/// The same without a cost: kinds apart, else half of them to each side along the widest axis.
+/// The same without a cost: separates kinds, else halves the set along the widest axis.
 std::uint32_t divide_evenly(std::span<BuildReference> references, const RangeSummary& all,
                             RangeSummary& left, RangeSummary& right);
 

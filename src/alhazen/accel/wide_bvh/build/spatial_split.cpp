@@ -9,11 +9,11 @@ namespace alhazen {
 namespace {
 
 constexpr int kMaxSpatialBins = 16;
-/// Bins for a set of so many.
+/// Number of bins for a set of this size.
 int bins_for(std::size_t size) {
     return size < 2048 ? 8 : kMaxSpatialBins;
 }
-/// Boxes that overlap by less than this share of the root's surface are left alone.
+/// Boxes that overlap by less than this share of the root's surface are not split.
 constexpr float kAlpha = 1e-5f;
 
 bool is_empty(const FloatBox& box) {
@@ -36,10 +36,10 @@ float overlap(const Box4& a, const Box4& b) {
 
 struct SpatialBin {
     Box4 box;
-    KindCounts enter{}, leave{};  ///< how many begin here, and end
+    KindCounts enter{}, leave{};  ///< numbers of pieces that begin and end here
 };
 
-/// What lies on one side.
+/// The contents of one side.
 struct Side {
     Box4 box;
     KindCounts count{};
@@ -91,7 +91,7 @@ void best_plane(const SpatialBin* bins, const BinPlanes& planes, const LeafKinds
     }
 }
 
-/// A range of the references with room behind it.
+/// A range of the references with spare capacity behind it.
 struct Room {
     std::uint32_t begin, end, limit;
 
@@ -99,12 +99,11 @@ struct Room {
     [[nodiscard]] std::uint32_t capacity() const { return limit - begin; }
 };
 
-/// Whether to look for a spatial split on the way down. Where several in a row brought nothing,
-/// more and more levels are passed over: a search looks at all references, and there are many
-/// levels.
+/// Decides whether to search for a spatial split on the way down. After several failures in a row
+/// it skips more and more levels: a search reads all references, and there are many levels.
 class Patience {
   public:
-    /// Asked once on each level.
+    /// Called once on each level.
     [[nodiscard]] bool tries() {
         if (wait_ == 0) return true;
         --wait_;
@@ -118,7 +117,7 @@ class Patience {
   private:
     static constexpr int kInARow = 4;
     int failures_ = 0;
-    int wait_ = 0;  ///< levels to pass over
+    int wait_ = 0;  ///< levels to skip
 };
 
 class Builder {
@@ -140,7 +139,7 @@ class Builder {
     }
 
   private:
-    /// Subtrees with room for n references live in 2 n - 1 consecutive nodes.
+    /// Subtrees with capacity for n references use 2 n - 1 consecutive nodes.
     void build(const Room& room, const RangeSummary& all, std::uint32_t index, int level,
                Patience patience) {
         nodes_[index] = {all.box.box(), room.begin, room.end, 0, all.kind()};
@@ -177,7 +176,7 @@ class Builder {
         const std::uint32_t middle = object.axis >= 0 ? divide(range, all, object, left, right)
                                                       : divide_evenly(range, all, left, right);
         const std::uint32_t cut = room.begin + middle;
-        // What fits into one block stays together: it may become one.
+        // A set that fits into one block stays together: it may become one.
         if (fits_one_block(all)) return {{room.begin, cut, cut}, {cut, room.end, room.limit}};
         const auto rooms = share(room, middle, room.size() - middle);
         std::move_backward(references_.begin() + cut, references_.begin() + room.end,
@@ -189,7 +188,7 @@ class Builder {
         return std::span(references_).subspan(room.begin, room.size());
     }
 
-    /// Room for both sides, what is left of it in proportion to their sizes.
+    /// Capacities of both sides, with the spare part in proportion to their sizes.
     static std::pair<Room, Room> share(const Room& room, std::uint32_t left, std::uint32_t right) {
         const std::uint64_t spare = room.capacity() - (left + right);
         const auto left_spare = static_cast<std::uint32_t>(spare * left / (left + right));
@@ -219,7 +218,7 @@ class Builder {
         return true;
     }
 
-    /// Then dividing primitives only makes more of them.
+    /// True when dividing primitives would only increase their number.
     [[nodiscard]] bool fits_one_block(const RangeSummary& all) const {
         const std::uint32_t kind = all.kind();
         return kind != kLeafKinds && all.size() <= kinds_[kind].width();
@@ -248,7 +247,7 @@ class Builder {
             [](const SpatialSplit& a, const SpatialSplit& b) { return a.cost < b.cost; });
     }
 
-    /// Puts every reference on its side, or divides it, as long as there is room.
+    /// Puts every reference on its side, or divides it while there is capacity.
     void distribute(const Room& room, const SpatialSplit& split,
                     std::vector<BuildReference> (&sides)[2]) {
         std::uint32_t spare = room.capacity() - room.size();
@@ -269,7 +268,7 @@ class Builder {
             FloatBox below, above;
             splitter_.split(r, split.axis, split.plane, below, above);
             if (is_empty(below) || is_empty(above)) {
-                // All of it is here; rounding may have emptied both.
+                // All of it is here; rounding may have emptied both parts.
                 sides[is_empty(above) ? 0 : 1].push_back(r);
                 continue;
             }
@@ -283,10 +282,10 @@ class Builder {
         return r.center2(split.axis) < 2 * split.plane ? 0 : 1;
     }
 
-    /// Where a reference is better kept in one piece, or -1.
+    /// The side on which a reference is better kept whole, or -1.
     [[nodiscard]] int side_of_whole(const BuildReference& r, const SpatialSplit& split) const {
         if (!splitter_.can_split(r.kind)) return nearer_side(r, split);
-        // Blocks in part, or else no single reference would count.
+        // Counts fractions of blocks; otherwise no single reference would matter.
         const auto count = [&](const Side& side) { return static_cast<float>(total(side.count)); };
         const auto grown = [&](const Side& side) {
             Box4 box = side.box;

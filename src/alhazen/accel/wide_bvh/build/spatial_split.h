@@ -1,13 +1,14 @@
 #pragma once
-/// Builds a binary bounding volume hierarchy by the surface area heuristic that may also divide
-/// primitives: where long ones make boxes overlap, the cell is cut by a plane and a primitive that
-/// lies on both sides goes to both.
+/// Builds a binary bounding volume hierarchy by the surface area heuristic with spatial splits:
+/// where long primitives make boxes overlap, a plane divides the cell, and a primitive on both
+/// sides goes to both.
 ///
 /// Source: Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG
-/// 2009. Differs: the number of references is bounded beforehand, in proportion to the size of each
+/// 2009.
+/// Differs: the number of references is bounded beforehand, in proportion to the size of each
 /// subtree, so that the tree is built in place and in parallel; kinds that cannot be divided stay
-/// whole; planes are weighed with parts cut in float; below a few searches in vain more and more
-/// levels go without one, so that no input is slow.
+/// whole; planes are weighed with parts cut in float; after a few failed searches more and more
+/// levels are skipped, so that no input is slow.
 /// Conventions: a primitive may lie in several leaves; every point of it lies in the box of one.
 /// Complexity and threads: O(n log n), parallel; the result is the same for every number of
 /// threads.
@@ -18,7 +19,7 @@
 
 namespace alhazen {
 
-/// Planes at equal distances along an axis of a box, and the bins between them.
+/// Equidistant planes along an axis of a box, and the bins between them.
 struct BinPlanes {
     int axis, bins;
     float lo, step, per_step;
@@ -33,32 +34,32 @@ struct BinPlanes {
     [[nodiscard]] float operator()(int i) const { return lo + static_cast<float>(i) * step; }
     [[nodiscard]] int bin(float x) const {
         const float place = (x - lo) * per_step;
-        // Written so that a NaN is in the first.
+        // Written so that NaN is in the first bin.
         if (!(place > 0)) return 0;
         return place < static_cast<float>(bins - 1) ? static_cast<int>(place) : bins - 1;
     }
     [[nodiscard]] bool usable() const { return lo + step > lo && step > 1e-30f; }
 };
 
-/// Divides primitives for the builder, which knows nothing of them.
+/// Divides primitives for the builder, which has no access to them.
 class ReferenceSplitter {
   public:
     virtual ~ReferenceSplitter() = default;
     [[nodiscard]] virtual bool can_split(std::uint32_t kind) const = 0;
-    /// Boxes, within that of `reference`, that hold the points of its primitive in there, on this
-    /// side of the plane and on that; empty where there are none. From many threads.
+    /// Boxes, within that of `reference`, that contain the points of its primitive there, below and
+    /// above the plane; empty where there are none. Called from many threads.
     virtual void split(const BuildReference& reference, int axis, float plane, FloatBox& below,
                        FloatBox& above) const = 0;
-    /// About the boxes of its parts in the bins from `first` to `last`, one of them each; empty
-    /// ones where it is not. For costs only, so rounding does not matter. From many threads.
+    /// Approximate boxes of its parts in the bins from `first` to `last`, one per bin; empty where
+    /// it has no part. For costs only, so rounding does not matter. Called from many threads.
     virtual void slice(const BuildReference& reference, const BinPlanes& planes, int first,
                        int last, Box4* slices) const;
 };
 
-/// References may become this many times as many.
+/// Maximum growth of the number of references.
 inline constexpr double kSpatialSplitBudget = 1.3;
 
-/// As build_binary, but `references` grows, and only nodes that fit into one block hold a range of
+/// As build_binary, but `references` grows, and only nodes that fit into one block have a range of
 /// them: there are gaps between the others.
 [[nodiscard]] BinaryBvh build_with_spatial_splits(std::vector<BuildReference>& references,
                                                   const LeafKinds& kinds,

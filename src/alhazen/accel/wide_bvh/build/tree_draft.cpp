@@ -8,7 +8,7 @@
 namespace alhazen {
 namespace {
 
-/// Levels below kMaxSahLevel that need no balancing: a balanced tree of 2^32 leaves has as many.
+/// Height below kMaxSahLevel that needs no balancing: that of a balanced tree of 2^32 leaves.
 constexpr std::uint32_t kHeightLeft = 32;
 
 class Linearizer {
@@ -32,7 +32,7 @@ class Linearizer {
         std::uint32_t leaves, references, height;
     };
 
-    /// Without recursion: a draft may be as deep as it has nodes.
+    /// Without recursion: a draft may be as deep as its number of nodes.
     void measure() {
         std::vector<std::uint32_t> order{draft_.root};
         order.reserve(draft_.nodes.size());
@@ -84,7 +84,7 @@ class Linearizer {
                          references_[node.begin].kind};
     }
 
-    /// Makes the inner node at `place` of its two children, which are there.
+    /// Makes the inner node at `place` of its two existing children.
     void join(std::uint32_t place, std::uint32_t right) {
         const BinaryNode &l = nodes_[place + 1], &r = nodes_[right];
         FloatBox box = l.box;
@@ -109,7 +109,7 @@ class Linearizer {
         return leaves;
     }
 
-    /// Leaves in the order in which they were, half of them to each side.
+    /// Writes leaves in their order, half of them on each side.
     void write_balanced(std::span<const std::uint32_t> leaves, std::uint32_t place,
                         std::uint32_t begin) {
         if (leaves.size() == 1) return write_leaf(draft_.nodes[leaves[0]], place, begin);
@@ -131,7 +131,7 @@ class Linearizer {
 
 namespace {
 
-/// The least sum of the areas of blocks that hold the references of a subtree.
+/// The least sum of the areas of blocks for the references of a subtree.
 float block_area(const BinaryBvh& tree, std::uint32_t index, const LeafKinds& kinds) {
     const BinaryNode& node = tree.nodes[index];
     const float area = node.box.weight();
@@ -142,7 +142,7 @@ float block_area(const BinaryBvh& tree, std::uint32_t index, const LeafKinds& ki
                : apart;
 }
 
-/// Whether a subtree is best left in one block.
+/// Whether a subtree is best kept in one block.
 bool is_block(const BinaryBvh& tree, std::uint32_t index, const LeafKinds& kinds) {
     const BinaryNode& node = tree.nodes[index];
     if (node.is_leaf()) return true;

@@ -1,6 +1,6 @@
 #pragma once
-/// A binary tree in the making, its nodes in any order: what the methods work on that build from
-/// the leaves or move subtrees about.
+/// A mutable binary tree with its nodes in any order, for methods that build bottom-up or move
+/// subtrees.
 ///
 /// Complexity and threads: O(n); `linearize` is partly parallel, with the same result for every
 /// number of threads.
@@ -25,11 +25,11 @@ struct DraftBvh {
     std::uint32_t root = 0;
 };
 
-/// The same tree; what is best left in one block is a leaf. The root is node 0.
+/// The same tree; a subtree best kept in one block is a leaf. The root is node 0.
 [[nodiscard]] DraftBvh draft_of(const BinaryBvh& tree, const LeafKinds& kinds);
 
-/// Writes the tree down with the references in the order of its leaves. Subtrees that begin at
-/// level kMaxSahLevel and reach too far down are balanced anew, so the depth is bounded.
+/// Writes the tree with the references in leaf order. Subtrees that begin at level kMaxSahLevel and
+/// are too deep are rebalanced, so the depth is bounded.
 [[nodiscard]] BinaryBvh linearize(const DraftBvh& draft, std::vector<BuildReference>& references);
 
 }  // namespace alhazen

@@ -1,13 +1,13 @@
 #pragma once
-/// The frame in which the float boxes of a wide BVH live: the scene moved to the origin and
-/// scaled by a power of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps
-/// the full resolution of float.
+/// The frame of the float boxes of a wide BVH: the scene moved to the origin and scaled by a power
+/// of two into [-1, 1], so that a scene far from the origin, huge or tiny keeps the full resolution
+/// of float.
 ///
-/// A scene that has the origin near its middle is only scaled: coordinates that are float stay so,
-/// exactly.
-/// Conventions: local = (world - center) * scale, computed in double. The rounding of that and of
-/// the exact tests is covered once per ray (`SlabRay`), not in the boxes; boxes carry only the
-/// rounding to float.
+/// A scene with the origin near its middle is only scaled: coordinates that are exact in float stay
+/// exact.
+/// Conventions: local = (world - center) * scale, computed in double. The rounding errors of this
+/// and of the exact tests are covered once per ray (`SlabRay`), not in the boxes; boxes cover only
+/// the rounding to float.
 
 #include <algorithm>
 #include <bit>
@@ -24,7 +24,7 @@ inline float round_down(double x) {
     const float f = static_cast<float>(x);
     if (static_cast<double>(f) <= x) return f;
     if (f == 0.0f) return -std::numeric_limits<float>::denorm_min();
-    // One step towards -infinity: away from zero is up in the bits.
+    // One step towards -infinity: away from zero increments the bits.
     const auto bits = std::bit_cast<std::uint32_t>(f);
     return std::bit_cast<float>(f > 0.0f ? bits - 1 : bits + 1);
 }
@@ -32,25 +32,26 @@ inline float round_up(double x) {
     return -round_down(-x);
 }
 
-/// Bound, relative to the distances in play, of how far from the ray a computed hit can be.
+/// Bound, relative to the distances involved, of the distance of a computed hit from the ray.
 inline constexpr double kExactTestSlack = 0x1p-38;
 
-/// A bound that grows with the distance of a ray's origin, its largest local coordinate.
+/// A bound that grows with the distance of a ray's origin, measured by its largest local
+/// coordinate.
 struct DistanceBound {
     float slope, constant;
     [[nodiscard]] float at(float distance) const { return slope * distance + constant; }
     friend bool operator==(const DistanceBound&, const DistanceBound&) = default;
 };
 
-/// What the slack of the rays of one frame is made of (see SlabRay). All are a little more than the
-/// sums in real numbers, for their own rounding.
+/// Constants of the slack of the rays of one frame (see SlabRay). All are a little larger than the
+/// exact sums, for their own rounding.
 struct FrameSlack {
-    DistanceBound delta;  ///< displacement that covers what is computed in double
-    DistanceBound reach;  ///< no coordinate of the scene is farther from the origin
-    DistanceBound slab;   ///< of the slab test, for a direction of 1
-    float least_length;   ///< directions below this take the careful way
+    DistanceBound delta;  ///< displacement that covers the errors of computations in double
+    DistanceBound reach;  ///< bound of the distance of all scene coordinates from the origin
+    DistanceBound slab;   ///< of the slab test, for a direction of length 1
+    float least_length;   ///< shorter directions use the careful path
 
-    /// Of a frame with the offset `offset`; `usual` is LocalFrame::usual.
+    /// For a frame with the offset `offset`; `usual` is LocalFrame::usual.
     explicit FrameSlack(double offset = 0, bool usual = true)
         : delta{kMore * static_cast<float>(kExactTestSlack),
                 kMore * static_cast<float>(kExactTestSlack * (1.0 + offset))},
@@ -69,7 +70,7 @@ struct LocalFrame {
     Vec3 center;
     double scale = 1;
     double inverse_scale = 1;
-    /// Largest coordinate of the center, in local units: how much of a double the offset uses up.
+    /// Largest coordinate of the center, in local units: the bits of a double that the offset uses.
     double offset = 0;
     /// False where exponents could leave the range of double in the exact tests.
     bool usual = true;
@@ -100,7 +101,7 @@ struct LocalFrame {
         return scale >= 0x1p-200 && scale <= 0x1p200;
     }
     [[nodiscard]] Vec3 local(const Vec3& p) const { return scale * (p - center); }
-    /// The point whose local coordinates these are, rounded.
+    /// The point with these local coordinates, rounded.
     [[nodiscard]] Vec3 world(const Vec3& local) const { return inverse_scale * local + center; }
     [[nodiscard]] FloatBox local(const Box3& box) const {
         const Vec3 lo = local(box.lo);

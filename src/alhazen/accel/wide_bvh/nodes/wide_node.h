@@ -3,8 +3,8 @@
 ///
 /// Source: Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008 (wide nodes for single
 /// rays).
-/// Differs: planes are rows chosen by the sign of the direction, so that no t is ever swapped;
-/// leaves hold blocks of one kind of primitive each.
+/// Differs: rows of planes are chosen by the sign of the direction, so that no t is swapped; leaves
+/// hold blocks of one kind of primitive each.
 /// Conventions: boxes are in the local frame of the tree (`LocalFrame`), rounded outward.
 
 #include <bit>
@@ -22,14 +22,14 @@ class NodeRef {
     static constexpr std::uint32_t kMaxOffset = (1u << 25) - 1;
     static constexpr std::uint32_t kMaxNodes = 1u << 31;
 
-    NodeRef() = default;  // not set: the traversal stack holds hundreds
+    NodeRef() = default;  // uninitialised: the traversal stack holds hundreds
     [[nodiscard]] static NodeRef node(std::uint32_t index) { return NodeRef(index); }
     /// `count` blocks of `kind` (0 to 6), the first at `offset`.
     [[nodiscard]] static NodeRef leaf(std::uint32_t kind, std::uint32_t offset,
                                       std::uint32_t count) {
         return NodeRef(kLeafBit | kind << 28 | (count - 1) << 25 | offset);
     }
-    /// A leaf of the kind that no primitive has: where a ray is that has seen all.
+    /// A leaf of an unused kind: marks the end of a ray's traversal.
     [[nodiscard]] static NodeRef none() { return leaf(7, 0, 1); }
     [[nodiscard]] static NodeRef from_bits(std::uint32_t bits) { return NodeRef(bits); }
 
@@ -47,7 +47,6 @@ class NodeRef {
     std::uint32_t bits_;
 };
 
-/// A box in the local frame.
 struct FloatBox {
     float lo[3] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
                    std::numeric_limits<float>::infinity()};
@@ -60,9 +59,9 @@ struct FloatBox {
             hi[k] = b.hi[k] > hi[k] ? b.hi[k] : hi[k];
         }
     }
-    /// What the surface area heuristic weighs: half the surface, and a little of the edges and of
-    /// the mere existence, so that flat, thin and pointlike sets are divided well too. The box must
-    /// not be empty.
+    /// The weight of the surface area heuristic: half the surface area, plus small terms for the
+    /// edges and for each box, so that flat, thin and pointlike sets are divided well too. The box
+    /// must not be empty.
     [[nodiscard]] float weight() const {
         const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
         return x * y + y * z + z * x + 1e-6f * (x + y + z) + 1e-12f;
@@ -70,16 +69,17 @@ struct FloatBox {
     friend bool operator==(const FloatBox&, const FloatBox&) = default;
 };
 
-/// As many children as a node may have: BuildOptions::width.
+/// Valid numbers of children per node: BuildOptions::width.
 inline constexpr std::size_t kNodeWidths[] = {4, 8, 16};
 
-/// A node of 4, 8 or 16 children: two, four or eight cache lines. A free slot has planes no ray can
-/// meet. Queries for any hit visit the children from slot 0 on; see collapse.h for their order.
+/// A node of 4, 8 or 16 children: two, four or eight cache lines. A free slot has planes that no
+/// ray intersects. Any-hit queries visit the children from slot 0 on; see collapse.h for their
+/// order.
 template <std::size_t Width>
 struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
     static constexpr std::size_t kWidth = Width;
     static constexpr std::uint32_t kSlotBits = std::bit_width(Width - 1);
-    /// Room for every slot's number, and nothing left of the cache lines.
+    /// Holds every slot's number; uses the rest of the cache lines.
     using Order = std::conditional_t<Width == 4, std::uint16_t,
                                      std::conditional_t<Width == 8, std::uint32_t, std::uint64_t>>;
 
@@ -94,13 +94,13 @@ struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
         for (std::size_t i = 0; i < Width; ++i) set_box(i, FloatBox{});
         set_order();
     }
-    /// Slots in use.
+    /// Number of slots in use.
     [[nodiscard]] std::uint32_t child_count() const {
         std::uint32_t count = 0;
         for (const float lo : planes[0]) count += lo < std::numeric_limits<float>::infinity();
         return count;
     }
-    /// Sets `order` for the boxes as they are.
+    /// Sets `order` for the current boxes.
     void set_order();
     void set_box(std::size_t slot, const FloatBox& box) {
         for (int k = 0; k < 3; ++k) {
@@ -117,7 +117,7 @@ struct alignas(Width == 4 ? 128 : 256) WideNodeOf {
         return box;
     }
 };
-/// What most trees are made of.
+/// The usual width.
 using WideNode = WideNodeOf<8>;
 static_assert(sizeof(WideNodeOf<4>) == 128 && sizeof(WideNodeOf<8>) == 256 &&
               sizeof(WideNodeOf<16>) == 512);
@@ -134,7 +134,6 @@ void WideNodeOf<Width>::set_order() {
                 along[i] += (octant >> k & 1) != 0 ? -center2 : center2;
             }
         }
-        // Insertion sort.
         std::uint32_t slots[Width];
         for (std::uint32_t i = 0; i < used; ++i) {
             std::uint32_t place = i;
@@ -143,7 +142,7 @@ void WideNodeOf<Width>::set_order() {
             }
             slots[place] = i;
         }
-        // The octant across has them the other way round; free slots stay where they are.
+        // The opposite octant has the reverse order; free slots stay.
         std::uint64_t all = 0, across = 0;
         for (std::uint32_t i = 0; i < Width; ++i) {
             const std::uint64_t a = i < used ? slots[i] : i;
@@ -156,7 +155,7 @@ void WideNodeOf<Width>::set_order() {
     }
 }
 
-/// Levels of inner nodes that a builder may make; the traversal stacks are sized for it.
+/// Maximum levels of inner nodes; determines the size of the traversal stacks.
 inline constexpr int kMaxWideDepth = 88;
 template <std::size_t Width>
 inline constexpr std::size_t kTraversalStackSize = (Width - 1) * kMaxWideDepth + 8;

@@ -4,7 +4,7 @@
 /// in range, accessors lie in their buffers, the nodes are a forest.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022); extensions by their names.
-/// Differs: see docs/formats/gltf.md.
+/// Differs: see docs/reference/formats/gltf.md.
 /// Conventions: names and units are those of the specification (angles in radians, right-handed, Y
 /// up, texture coordinates from the upper left corner).
 

@@ -2,8 +2,8 @@
 /// glTF 2.0 scenes: .gltf with its files or with data URIs, and .glb.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, and the extensions listed in
-/// docs/formats/gltf.md.
-/// Differs: points and lines make no surface and are left out; see docs/formats/gltf.md.
+/// docs/reference/formats/gltf.md.
+/// Differs: points and lines make no surface and are left out; see docs/reference/formats/gltf.md.
 
 #include "alhazen/formats/core/importer.h"
 

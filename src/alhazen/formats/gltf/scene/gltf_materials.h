@@ -2,7 +2,7 @@
 /// glTF materials as materials of a scene: all parameters kept, none translated.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and the KHR_materials extensions
-/// of docs/formats/gltf.md.
+/// of docs/reference/formats/gltf.md.
 
 #include "alhazen/formats/gltf/scene/gltf_textures.h"
 

@@ -10,7 +10,7 @@
 namespace alhazen {
 
 const char* NativeImporter::description() const {
-    return "Alhazen's own scene text (.alhazen), docs/formats/native.md";
+    return "Alhazen's own scene text (.alhazen), docs/reference/formats/native.md";
 }
 
 int NativeImporter::recognise(const ImportSource& source) const {

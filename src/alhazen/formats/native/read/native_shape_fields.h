@@ -1,11 +1,11 @@
 #pragma once
 /// Text of the fields of shapes (shapes/core/fields.h) in the native format, reading and writing.
 ///
-/// Source: docs/formats/native.md. Conventions: keys are the names of the fields; a key that a file
-/// leaves out keeps the default of the struct. Fields of basic types need no code. ADD A FIELD of
-/// another type here: `read_native_field` and `native_field_text` for its type. A shape whose text
-/// is not one pair for each field has `read_native_fields` and `write_native_fields` of its own.
-/// Internal to the native format.
+/// Source: docs/reference/formats/native.md. Conventions: keys are the names of the fields; a key
+/// that a file leaves out keeps the default of the struct. Fields of basic types need no code. ADD
+/// A FIELD of another type here: `read_native_field` and `native_field_text` for its type. A shape
+/// whose text is not one pair for each field has `read_native_fields` and `write_native_fields` of
+/// its own. Internal to the native format.
 
 #include "alhazen/formats/native/read/native_text.h"
 #include "alhazen/formats/text/block_reader.h"
