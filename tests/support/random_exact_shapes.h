@@ -1,5 +1,5 @@
 #pragma once
-/// Random makers of the quadrics, the torus and the algebraic surfaces.
+/// Random quadrics, tori and algebraic surfaces.
 
 #include "support/shape_source.h"
 

@@ -1,14 +1,15 @@
 #pragma once
-/// Compares two scene descriptions bit for bit. Every comparison destructures its structs into all
-/// members: a new member does not compile until it is compared here (and written by the native
-/// writer).
+/// Comparison of two scene descriptions, bit for bit. Each function takes its structs apart into
+/// all their members: a new member does not compile until it is compared here (and written by the
+/// native writer). Shapes are compared by their kFields.
 ///
-/// Not compared: file locations, derived fields of shapes, and the exceptions of native_writer.h.
+/// Not compared: file locations, derived fields of shapes, and what native_writer.h lists.
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "alhazen/imaging/codecs/stored_image.h"
@@ -31,7 +32,7 @@ inline bool same(const std::string& a, const std::string& b) {
     return a == b;
 }
 
-/// A list of values of both sides, in turn.
+/// a1, b1, a2, b2, ...: compares each pair.
 template <class A, class B, class... Rest>
 bool all_same(const A& a, const B& b, const Rest&... rest);
 inline bool all_same() {
@@ -43,6 +44,8 @@ template <class T>
 bool same(const std::optional<T>& a, const std::optional<T>& b);
 template <class... T>
 bool same(const std::variant<T...>& a, const std::variant<T...>& b);
+template <class T>
+bool same(const std::shared_ptr<T>& a, const std::shared_ptr<T>& b);
 template <class T, std::size_t N>
 bool same(const std::array<T, N>& a, const std::array<T, N>& b) {
     for (std::size_t i = 0; i < N; ++i) {
@@ -134,7 +137,7 @@ inline bool same(const StoredImage& a, const StoredImage& b) {
 inline bool same(const Texture& a, const Texture& b) {
     const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9] = a;
     const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9] = b;
-    (void)a9, (void)b9;  // `compile` makes the pyramid
+    (void)a9, (void)b9;  // the pyramid is made by `compile`
     return same(*a1, *b1) && all_same(a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
 }
 inline bool same(const TextureDescription& a, const TextureDescription& b) {
@@ -194,122 +197,50 @@ inline bool same(const LightDescription& a, const LightDescription& b) {
     return all_same(a1, b1, a2, b2);
 }
 
-// Parts: of shapes the fields that files give.
+// Parts. Of shapes the fields that files give.
 
-inline bool same(const Sphere& a, const Sphere& b) {
-    return all_same(a.center, b.center, a.radius, b.radius);
-}
-inline bool same(const Plane& a, const Plane& b) {
-    return all_same(a.point, b.point, a.normal, b.normal);
-}
-inline bool same(const Disc& a, const Disc& b) {
-    return all_same(a.center, b.center, a.normal, b.normal, a.radius, b.radius, a.inner_radius,
-                    b.inner_radius);
-}
-inline bool same(const Rectangle& a, const Rectangle& b) {
-    return all_same(a.corner, b.corner, a.edge_u, b.edge_u, a.edge_v, b.edge_v);
-}
-inline bool same(const BoxShape& a, const BoxShape& b) {
-    return all_same(a.lo, b.lo, a.hi, b.hi);
-}
-inline bool same(const Cylinder& a, const Cylinder& b) {
-    return all_same(a.base, b.base, a.top, b.top, a.radius, b.radius, a.capped, b.capped);
-}
-inline bool same(const Cone& a, const Cone& b) {
-    return all_same(a.base, b.base, a.top, b.top, a.base_radius, b.base_radius, a.top_radius,
-                    b.top_radius, a.capped, b.capped);
-}
-inline bool same(const Ellipsoid& a, const Ellipsoid& b) {
-    return all_same(a.center, b.center, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.axis_c, b.axis_c);
-}
-inline bool same(const EllipticCylinder& a, const EllipticCylinder& b) {
-    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.capped,
-                    b.capped);
-}
-inline bool same(const EllipticCone& a, const EllipticCone& b) {
-    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b,
-                    a.top_scale, b.top_scale, a.capped, b.capped);
-}
-inline bool same(const Tgc& a, const Tgc& b) {
-    return all_same(a.base, b.base, a.height, b.height, a.axis_a, b.axis_a, a.axis_b, b.axis_b,
-                    a.axis_c, b.axis_c, a.axis_d, b.axis_d, a.capped, b.capped);
-}
 inline bool same(const Box3& a, const Box3& b) {
     return same(a.lo, b.lo) && same(a.hi, b.hi);
 }
 inline bool same(const ClipPlane& a, const ClipPlane& b) {
-    return same(a.normal, b.normal) && same(a.offset, b.offset);
-}
-inline bool same(const Paraboloid& a, const Paraboloid& b) {
-    return all_same(a.apex, b.apex, a.rim, b.rim, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.capped,
-                    b.capped);
-}
-inline bool same(const Hyperboloid& a, const Hyperboloid& b) {
-    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.waist,
-                    b.waist, a.capped, b.capped);
-}
-inline bool same(const TwoSheetHyperboloid& a, const TwoSheetHyperboloid& b) {
-    return all_same(a.base, b.base, a.top, b.top, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.gap,
-                    b.gap, a.capped, b.capped);
-}
-inline bool same(const Quadric& a, const Quadric& b) {
-    return all_same(a.squares, b.squares, a.products, b.products, a.linear, b.linear, a.constant,
-                    b.constant, a.clip_box, b.clip_box, a.clip_planes, b.clip_planes, a.capped,
-                    b.capped);
-}
-inline bool same(const Algebraic& a, const Algebraic& b) {
-    return all_same(a.expression, b.expression, a.clip_box, b.clip_box, a.capped, b.capped);
-}
-inline bool same(const Superellipsoid& a, const Superellipsoid& b) {
-    return all_same(a.center, b.center, a.axis_a, b.axis_a, a.axis_b, b.axis_b, a.axis_c, b.axis_c,
-                    a.east, b.east, a.north, b.north);
-}
-inline bool same(const Torus& a, const Torus& b) {
-    return all_same(a.center, b.center, a.axis, b.axis, a.major_radius, b.major_radius,
-                    a.minor_radius, b.minor_radius);
-}
-inline bool same(const Polygon& a, const Polygon& b) {
-    // No loops: one loop of all vertices.
-    const auto loops = [](const Polygon& p) {
-        return p.loop_ends.empty()
-                   ? std::vector<std::uint32_t>{static_cast<std::uint32_t>(p.vertices.size())}
-                   : p.loop_ends;
-    };
-    return same(a.vertices, b.vertices) && loops(a) == loops(b);
-}
-inline bool same(const HalfSpace& a, const HalfSpace& b) {
-    return all_same(a.point, b.point, a.normal, b.normal);
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1, a2, b2);
 }
 inline bool same(const OrientedPlane& a, const OrientedPlane& b) {
-    return all_same(a.point, b.point, a.normal, b.normal);
-}
-inline bool same(const Polyhedron& a, const Polyhedron& b) {
-    return all_same(a.planes, b.planes, a.vertices, b.vertices, a.corners, b.corners, a.face_ends,
-                    b.face_ends);
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1, a2, b2);
 }
 inline bool same(const ProfileCurve& a, const ProfileCurve& b) {
     return all_same(a.p[0], b.p[0], a.p[3], b.p[3], a.line, b.line) &&
            (a.line || all_same(a.p[1], b.p[1], a.p[2], b.p[2]));
 }
 inline bool same(const Profile& a, const Profile& b) {
-    return all_same(a.curves, b.curves, a.loop_ends, b.loop_ends);
-}
-inline bool same(const Prism& a, const Prism& b) {
-    return all_same(a.profile, b.profile, a.h0, b.h0, a.h1, b.h1, a.top_scale, b.top_scale);
-}
-inline bool same(const Lathe& a, const Lathe& b) {
-    return same(a.profile, b.profile);
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1, a2, b2);
 }
 inline bool same(const BlobComponent& a, const BlobComponent& b) {
     return all_same(a.base, b.base, a.radius, b.radius, a.strength, b.strength, a.rod, b.rod) &&
            (!a.rod || same(a.top, b.top));
 }
-inline bool same(const Blob& a, const Blob& b) {
-    return all_same(a.components, b.components, a.threshold, b.threshold);
+/// Shapes: all their fields.
+template <Shape S>
+bool same(const S& a, const S& b) {
+    bool all = true;
+    for_each_field<S>(
+        [&](const auto& field) { all = all && same(a.*field.member, b.*field.member); });
+    return all;
 }
-inline bool same(const HeightField& a, const HeightField& b) {
-    return all_same(a.columns, b.columns, a.rows, b.rows, *a.heights, *b.heights, a.lo, b.lo, a.hi,
-                    b.hi, a.base, b.base);
+inline bool same(const Polygon& a, const Polygon& b) {
+    // Without loops, all vertices are one loop.
+    const auto loops = [](const Polygon& p) {
+        return p.loop_ends.empty()
+                   ? std::vector<std::uint32_t>{static_cast<std::uint32_t>(p.vertices.size())}
+                   : p.loop_ends;
+    };
+    return same(a.vertices, b.vertices) && loops(a) == loops(b);
 }
 inline bool same(const Part& a, const Part& b) {
     const auto& [a1, a2, a3, a4, a5, a6] = a;
@@ -371,6 +302,10 @@ bool same(const std::vector<T>& a, const std::vector<T>& b) {
     return true;
 }
 template <class T>
+bool same(const std::shared_ptr<T>& a, const std::shared_ptr<T>& b) {
+    return a == b || (a && b && same(*a, *b));
+}
+template <class T>
 bool same(const std::optional<T>& a, const std::optional<T>& b) {
     return a.has_value() == b.has_value() && (!a || same(*a, *b));
 }
@@ -384,7 +319,7 @@ bool all_same(const A& a, const B& b, const Rest&... rest) {
     return same(a, b) && all_same(rest...);
 }
 
-/// Fails the test for each list that differs, with the position of the first difference.
+/// Fails the test if the lists differ, with the index of the first difference.
 template <class T>
 void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const char* what) {
     EXPECT_EQ(a.size(), b.size()) << what;

@@ -1,12 +1,12 @@
 #pragma once
-/// Number source of random shapes, and the makers' common declaration.
+/// Random values for fields of shapes, and the random maker of any shape.
 
 #include "alhazen/shapes/shape_list.h"
 #include "support/random.h"
 
 namespace alhazen::testing {
 
-/// Number source of a random shape: anywhere, or on a coarse grid and along the axes.
+/// Source of random values: of any size and direction, or from a coarse grid and along the axes.
 struct ShapeSource {
     Random& random;
     bool lattice = false;
@@ -23,14 +23,35 @@ struct ShapeSource {
     }
 };
 
-template <class>
-inline constexpr bool kNoMaker = false;
+/// A value of a field, by its unit. Fields of Unit::Text, Count and Compound have none.
+inline void make_field(const ShapeSource& from, Unit unit, Vec3& value) {
+    const auto number = [&] { return from.random.uniform(-1, 1); };
+    value = unit == Unit::Point    ? from.point()
+            : unit == Unit::Number ? Vec3{number(), number(), number()}
+                                   : from.vector();
+}
+inline void make_field(const ShapeSource& from, Unit unit, double& value) {
+    value = unit == Unit::Length ? from.length() : from.random.uniform(0.1, 0.9);
+}
+inline void make_field(const ShapeSource& from, Unit, bool& value) {
+    value = from.random.below(4) != 0;
+}
 
+/// Makes random shapes of the type S: fields by their units, in order, until the shape is valid. A
+/// shape whose fields depend on each other, or have other types, has a specialisation in
+/// random_shapes.h.
 template <class S>
 struct RandomShape {
-    static_assert(kNoMaker<S>,
-                  "A new shape needs a RandomShape<S> in tests/support/random_shapes.h; the "
-                  "conformance tests then run on it.");
+    static S make(const ShapeSource& from) {
+        for (;;) {
+            S shape;
+            for_each_field<S>(
+                [&](const auto& field) { make_field(from, field.unit, shape.*field.member); });
+            Diagnostics findings;
+            shape.validate({}, findings);
+            if (findings.error_count() == 0) return shape;
+        }
+    }
 };
 
 }  // namespace alhazen::testing

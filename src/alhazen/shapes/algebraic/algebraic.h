@@ -29,6 +29,11 @@ struct Algebraic {
     std::shared_ptr<const PolynomialExpression> polynomial{};  ///< derived
     double magnitude = 1, roundings = 1, size = 1;             ///< derived: for error bounds
 
+    static constexpr auto kFields =
+        std::make_tuple(field("expression", &Algebraic::expression, Unit::Text, Check::Shape),
+                        field("clip_box", &Algebraic::clip_box, Unit::Compound, Check::Shape),
+                        optional_field("capped", &Algebraic::capped, Unit::Flag, Check::None));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return capped; }

@@ -1,7 +1,7 @@
 #pragma once
 /// The grammar of polynomial expressions.
 ///
-/// Source: recursive descent. Differs: nothing. Conventions: internal to this folder.
+/// Source: recursive descent. Conventions: internal to this folder.
 ///   sum := product { ("+" | "-") product }       product := factor { ("*" | "/") factor }
 ///   factor := "-" factor | "+" factor | atom ["^" WHOLE NUMBER]
 ///   atom := NUMBER | "x" | "y" | "z" | "(" sum ")" | "sqrt" "(" sum ")"

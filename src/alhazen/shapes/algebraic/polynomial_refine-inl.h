@@ -1,8 +1,8 @@
 /// The roots in eight brackets of polynomials in Bernstein form, refined side by side in lanes.
 ///
 /// Source: math/bernstein_roots.h and shapes/algebraic/polynomial_solid.h, the same operations in
-/// the same order. Differs: nothing. Conventions: included once per target (see simd/lanes-inl.h);
-/// internal to this folder.
+/// the same order. Conventions: included once per target (see simd/lanes-inl.h); internal to this
+/// folder.
 
 #if defined(ALHAZEN_SHAPES_ALGEBRAIC_POLYNOMIAL_REFINE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SHAPES_ALGEBRAIC_POLYNOMIAL_REFINE_INL_H_

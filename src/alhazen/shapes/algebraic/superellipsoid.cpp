@@ -240,7 +240,7 @@ void Superellipsoid::prepare() {
 
 void Superellipsoid::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("center", center);
+    checks.fields(*this);
     check_axes(checks, {axis_a, axis_b, axis_c}, "axis_a", "axis_b", "axis_c");
     if (!(east >= 0.01 && east <= 100.0)) checks.fail("east must be a number from 0.01 to 100");
     if (!(north >= 0.01 && north <= 100.0)) checks.fail("north must be a number from 0.01 to 100");

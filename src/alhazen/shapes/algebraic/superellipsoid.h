@@ -29,6 +29,14 @@ struct Superellipsoid {
     SolidFrame frame{};   ///< derived
     double p = 2, q = 2;  ///< derived: 2 / e and 2 / n
 
+    static constexpr auto kFields =
+        std::make_tuple(field("center", &Superellipsoid::center, Unit::Point, Check::Point),
+                        field("axis_a", &Superellipsoid::axis_a, Unit::Vector, Check::Shape),
+                        field("axis_b", &Superellipsoid::axis_b, Unit::Vector, Check::Shape),
+                        field("axis_c", &Superellipsoid::axis_c, Unit::Vector, Check::Shape),
+                        field("east", &Superellipsoid::east, Unit::Number, Check::Shape),
+                        field("north", &Superellipsoid::north, Unit::Number, Check::Shape));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return true; }

@@ -94,12 +94,7 @@ void Tgc::prepare() {
 
 void Tgc::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("base", base);
-    checks.vector("height", height);
-    for (const auto& [name, axis] : {std::pair("axis_a", &axis_a), std::pair("axis_b", &axis_b),
-                                     std::pair("axis_c", &axis_c), std::pair("axis_d", &axis_d)}) {
-        checks.point(name, *axis);
-    }
+    checks.fields(*this);
     if (!checks.ok()) return;
     const auto along = [](const Vec3& one, const Vec3& other) {
         if (one == Vec3{} || other == Vec3{}) return true;

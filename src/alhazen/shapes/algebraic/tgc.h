@@ -25,6 +25,15 @@ struct Tgc {
     bool quartic = false;                   ///< derived
     double a0 = 1, a1 = 1, b0 = 1, b1 = 1;  ///< derived: semi-axes of base and top in the frame
 
+    static constexpr auto kFields =
+        std::make_tuple(field("base", &Tgc::base, Unit::Point, Check::Point),
+                        field("height", &Tgc::height, Unit::Vector, Check::Vector),
+                        field("axis_a", &Tgc::axis_a, Unit::Vector, Check::Point),
+                        field("axis_b", &Tgc::axis_b, Unit::Vector, Check::Point),
+                        field("axis_c", &Tgc::axis_c, Unit::Vector, Check::Point),
+                        field("axis_d", &Tgc::axis_d, Unit::Vector, Check::Point),
+                        optional_field("capped", &Tgc::capped, Unit::Flag, Check::None));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return capped; }

@@ -40,10 +40,7 @@ void Torus::prepare() {
 
 void Torus::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("center", center);
-    checks.vector("axis", axis);
-    checks.length("major_radius", major_radius);
-    checks.length("minor_radius", minor_radius);
+    checks.fields(*this);
     if (!checks.ok()) return;
     if (minor_radius > major_radius) {
         checks.fail("minor_radius must not exceed major_radius");

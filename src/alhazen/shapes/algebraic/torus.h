@@ -27,6 +27,12 @@ struct Torus {
     Vec3 unit_axis{0, 0, 1};     ///< derived
     double tube = 0.25;          ///< derived: minor over major radius
 
+    static constexpr auto kFields =
+        std::make_tuple(field("center", &Torus::center, Unit::Point, Check::Point),
+                        field("axis", &Torus::axis, Unit::Direction, Check::Vector),
+                        field("major_radius", &Torus::major_radius, Unit::Length, Check::Length),
+                        field("minor_radius", &Torus::minor_radius, Unit::Length, Check::Length));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return true; }

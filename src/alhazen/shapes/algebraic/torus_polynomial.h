@@ -1,7 +1,7 @@
 #pragma once
 /// The quartic of a torus whose circle has radius 1.
 ///
-/// Source: see torus.h. Differs: nothing. Conventions: internal to this folder.
+/// Source: see torus.h. Conventions: internal to this folder.
 
 #include <cmath>
 #include <type_traits>

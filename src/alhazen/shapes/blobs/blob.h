@@ -41,6 +41,10 @@ struct Blob {
     Box3 bounds{};                           ///< derived: of the components
     double reach = 0;                        ///< derived: largest coordinate of the bounds
 
+    static constexpr auto kFields =
+        std::make_tuple(field("threshold", &Blob::threshold, Unit::Number, Check::Shape),
+                        field("components", &Blob::components, Unit::Compound, Check::Shape));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return true; }

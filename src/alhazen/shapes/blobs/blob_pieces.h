@@ -1,8 +1,8 @@
 #pragma once
 /// The pieces of a blob along a ray: where which component holds, and what it adds there.
 ///
-/// Source: see blob.h. Differs: nothing. Conventions: internal to this folder. The parameter of a
-/// piece runs from a point of the ray near the blob.
+/// Source: see blob.h. Conventions: internal to this folder. The parameter of a piece runs from a
+/// point of the ray near the blob.
 
 #include <algorithm>
 #include <cmath>

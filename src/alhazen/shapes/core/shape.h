@@ -1,15 +1,15 @@
 #pragma once
-/// What a shape must offer, and what it answers about a point on it.
+/// The Shape concept, and the surface record at a crossing.
 ///
-/// A shape is a plain struct that describes a surface in its own frame. It knows neither materials
-/// nor transforms nor file formats. To add one: docs in CONTRIBUTING.md. Conventions: `intersect`
-/// works on un-normalised rays; it writes every crossing with t in [ray.t_min, ray.t_max], either
-/// of which may be infinite, in ascending order of t: at most `kMaxHits`, or any number into a
-/// ShapeHits where that says `kManyHits`. The nearest crossing, any crossing and all crossings are
-/// all read from that one list, so they cannot disagree. A closed shape is a solid: along a line
-/// its crossings enter and leave by turns, whatever their normals. A tangent ray may be reported as
-/// two equal crossings or none, never as one. A bounded solid is crossed evenly often; an unbounded
-/// one says with `inside_at_minus_infinity` where its lines begin. Threads: const functions may be
+/// A shape is a plain struct that describes a surface in its own frame, without material, transform
+/// or file format. To add one: CONTRIBUTING.md. Conventions: `intersect` takes rays of any
+/// direction length and writes every crossing with t in [ray.t_min, ray.t_max] (either may be
+/// infinite) in ascending order of t: at most `kMaxHits` into an array, or any number into a
+/// ShapeHits where `kMaxHits` is `kManyHits`. Nearest, any and all crossings are read from that
+/// list, so they cannot disagree. A closed shape is a solid: along a line its crossings alternate
+/// between entry and exit, whatever their normals. A tangent ray is reported as two equal crossings
+/// or none, never as one. A line crosses a bounded solid an even number of times; an unbounded one
+/// tells with `inside_at_minus_infinity` where its lines begin. Threads: const functions may be
 /// called from many threads.
 
 #include <array>
@@ -22,6 +22,7 @@
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"
 #include "alhazen/math/interval.h"
+#include "alhazen/shapes/core/fields.h"
 #include "alhazen/shapes/core/shape_hits.h"
 
 namespace alhazen {
@@ -36,7 +37,7 @@ struct ShapeSurface {
     Vec3 error;           ///< bound of |point - true point on the surface|, component by component
 };
 
-/// A shape that crosses a line kMaxHits times at the most and returns how often it did.
+/// A shape with at most kMaxHits crossings; `intersect` returns their number.
 template <class S>
 concept WritesFewHits = S::kMaxHits >= 1 &&
                         S::kMaxHits <= kMaxShapeHits&& requires(const S& shape, const Ray& ray,
@@ -44,7 +45,7 @@ concept WritesFewHits = S::kMaxHits >= 1 &&
     { shape.intersect(ray, hits) } -> std::same_as<int>;
 };
 
-/// A shape that crosses a line any number of times: it appends to the list.
+/// A shape with any number of crossings; `intersect` appends them to the list.
 template <class S>
 concept WritesManyHits = S::kMaxHits ==
                          kManyHits&& requires(const S& shape, const Ray& ray, ShapeHits& hits) {
@@ -64,10 +65,11 @@ concept Shape = requires(S& fresh, const S& shape, const Ray& ray, const ShapeHi
     { S::kMaxHits } -> std::convertible_to<int>;
     { S::kName } -> std::convertible_to<const char*>;  // as in scene files: "sphere"
     { S::kClosed } -> std::convertible_to<bool>;       // could bound a volume whatever its options
+    S::kFields;  // what describes it (fields.h); all other members are derived
     /// Sets derived fields. Called once, after the public fields are set and validated, before any
     /// query.
     { fresh.prepare() } -> std::same_as<void>;
-    /// Reports every way in which the fields make no such shape (NaN, zero radius, ...).
+    /// Reports every invalid field or combination of fields (NaN, zero radius, ...).
     { shape.validate(where, diagnostics) } -> std::same_as<void>;
     /// True when this instance bounds a volume (a cylinder without caps does not).
     { shape.closed() } -> std::same_as<bool>;

@@ -1,11 +1,9 @@
 #pragma once
-/// What the shapes share: rounding bounds, careful vectors, checks of fields and the writing of
-/// hits.
+/// Helpers of the shapes: rounding bounds, accurate vectors, checks of fields, writing of hits.
 ///
-/// Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., SIAM, 2002,
-/// section 3.1 (gamma); Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed.,
-/// section 6.8 (error bounds of surface points). Differs: nothing. Conventions: internal to this
-/// folder.
+/// Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., SIAM, 2002, section
+/// 3.1 (gamma); Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8
+/// (error bounds of surface points). Conventions: internal to this folder.
 
 #include <cmath>
 #include <limits>
@@ -136,7 +134,26 @@ class FieldChecks {
     }
     [[nodiscard]] bool ok() const { return ok_; }
 
+    /// Tests each field of the shape as its declaration says (fields.h), in order; skips those of
+    /// Check::Shape.
+    template <class S>
+    void fields(const S& shape) {
+        for_each_field<S>(
+            [&](const auto& field) { test(field.name, shape.*field.member, field.check); });
+    }
+
   private:
+    void test(const char* field, const Vec3& value, Check check) {
+        if (check == Check::Point) point(field, value);
+        if (check == Check::Vector) vector(field, value);
+    }
+    void test(const char* field, double value, Check check) {
+        if (check == Check::Length) length(field, value);
+        if (check == Check::LengthOrZero) length(field, value, 0.0);
+    }
+    template <class T>
+    void test(const char*, const T&, Check) {}
+
     const char* shape_;
     const FileLocation& where_;
     Diagnostics& diagnostics_;

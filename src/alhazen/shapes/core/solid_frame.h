@@ -1,13 +1,12 @@
 #pragma once
-/// What exact solids share: a frame of their own in which their equation is simple, the convex
-/// region that clips them, and the writing of their crossings so that the parity is right.
+/// Helpers of exact solids: a local frame in which their equation is simple, the convex region that
+/// clips them, and the writing of their crossings with the right parity.
 ///
 /// Source: Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18,
-/// 1982 (a solid as the meeting of intervals). Differs: whether the line is inside where it enters
-/// the clip decides about the caps, so the count of crossings is even by construction.
+/// 1982 (a solid as the intersection of intervals). Differs: whether the line is inside where it
+/// enters the clip determines the caps, so the count of crossings is even by construction.
 /// Conventions: internal to this folder. Numbers may be double or double-double: in the latter the
-/// transform of a ray is exact to 30 digits, and what the doubles of `SolidFrame` say *is* the
-/// shape.
+/// transform of a ray is exact to 30 digits, and the doubles of `SolidFrame` define the shape.
 
 #include "alhazen/geometry/bounds_source.h"
 #include "alhazen/math/double_double.h"
@@ -64,7 +63,7 @@ struct SolidFrame {
 };
 
 /// The ray with its origin moved to t = shift, right to an ulp of the new origin however far the
-/// old one was. What it meets at t the old one meets at shift + t.
+/// old one was. A crossing at t of the result is one at shift + t of `ray`.
 inline Ray advanced(const Ray& ray, double shift) {
     Ray moved = ray;
     for (int k = 0; k < 3; ++k) {
@@ -82,7 +81,7 @@ struct ClipPlane {
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
-/// The part of a line within a clip, and through which faces of it.
+/// The part of a line within a clip, and the faces through which it enters and leaves.
 struct ClipRange {
     double entry = -kInfinity, exit = kInfinity;
     std::uint32_t entry_part = 0, exit_part = 0;
@@ -93,7 +92,7 @@ struct ClipRange {
         if (d == 0.0) return lo < o && o < hi;
         const double near = ((d > 0.0 ? lo : hi) - o) / d;
         const double far = ((d > 0.0 ? hi : lo) - o) / d;
-        // Faces so far away that no number says where.
+        // Faces too far away for a finite t.
         if (!std::isfinite(near) && std::isfinite(d > 0.0 ? lo : hi)) return false;
         if (!std::isfinite(far) && std::isfinite(d > 0.0 ? hi : lo)) return false;
         if (near > entry) {

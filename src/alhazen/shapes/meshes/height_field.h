@@ -3,11 +3,11 @@
 ///
 /// Source: Tevs, Ihrke and Seidel, "Maximum mipmaps for fast, accurate, and scalable dynamic height
 /// field rendering", I3D 2008 (a pyramid of the highest and lowest values as a tree over the
-/// cells). Differs: exact. What is met are triangles, by the one watertight test
+/// cells). Differs: exact. The geometry is triangles, intersected by the watertight test
 /// (geometry/watertight_triangle.h); the top, the four sides and the bottom are a closed mesh whose
-/// vertices are never stored, so that a line crosses it evenly often. The tree only says which
-/// cells need not be asked. Conventions: sample (column, row) stands at x from `lo.x` to `hi.x`, y
-/// from `lo.y` to `hi.y`, evenly; heights are kept as float and are the geometry as they are. Each
+/// vertices are never stored, so that a line crosses it an even number of times. The tree only
+/// culls cells. Conventions: samples (column, row) are evenly spaced at x from `lo.x` to `hi.x` and
+/// y from `lo.y` to `hi.y`; heights are stored as float, and these floats are the geometry. Each
 /// cell is cut along the diagonal from its low to its high corner. On the top and the bottom uv run
 /// with x and y from 0 to 1, on the sides u along them, v upward. Flat shading. Complexity:
 /// O(sqrt(samples)) cells for a grazing ray, O(log samples) for most; 2.7 bytes a sample beside the
@@ -40,6 +40,14 @@ struct HeightField {
 
     std::shared_ptr<const HeightPyramid> pyramid{};  ///< derived
     Box3 bounds{};                                   ///< derived
+
+    static constexpr auto kFields =
+        std::make_tuple(field("columns", &HeightField::columns, Unit::Count, Check::Shape),
+                        field("rows", &HeightField::rows, Unit::Count, Check::Shape),
+                        field("heights", &HeightField::heights, Unit::Compound, Check::Shape),
+                        field("lo", &HeightField::lo, Unit::Point, Check::Shape),
+                        field("hi", &HeightField::hi, Unit::Point, Check::Shape),
+                        field("base", &HeightField::base, Unit::Length, Check::Shape));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

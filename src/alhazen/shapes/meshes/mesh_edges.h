@@ -1,10 +1,10 @@
 #pragma once
 /// How the triangles of a mesh hold together: whether it bounds a volume, and if not, why.
 ///
-/// Source: none (edges counted by sorting). Differs: nothing. Conventions: vertices of equal
-/// position are one, 0 and -0 alike; triangles of two equal corners are none. A mesh is closed when
-/// each edge belongs to two triangles: every line then crosses it evenly often, whichever way the
-/// triangles are wound. Complexity: O(n log n), whatever the input.
+/// Derivation: edges counted by sorting. Conventions: vertices of equal position are one, 0 and -0
+/// alike; triangles of two equal corners are none. A mesh is closed when each edge belongs to two
+/// triangles: every line then crosses it evenly often, whichever way the triangles are wound.
+/// Complexity: O(n log n), whatever the input.
 
 #include <cstddef>
 #include <string>

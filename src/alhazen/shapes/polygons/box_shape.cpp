@@ -7,8 +7,7 @@ namespace alhazen {
 
 void BoxShape::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("lo", lo);
-    checks.point("hi", hi);
+    checks.fields(*this);
     if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z)) {
         checks.fail("lo must be less than hi along every axis");
     }

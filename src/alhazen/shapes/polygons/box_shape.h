@@ -20,6 +20,10 @@ struct BoxShape {
     Vec3 lo{-0.5, -0.5, -0.5};
     Vec3 hi{0.5, 0.5, 0.5};
 
+    static constexpr auto kFields =
+        std::make_tuple(field("lo", &BoxShape::lo, Unit::Point, Check::Point),
+                        field("hi", &BoxShape::hi, Unit::Point, Check::Point));
+
     void prepare() {}
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return true; }

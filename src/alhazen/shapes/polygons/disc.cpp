@@ -11,10 +11,7 @@ void Disc::prepare() {
 
 void Disc::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("center", center);
-    checks.vector("normal", normal);
-    checks.length("radius", radius);
-    checks.length("inner_radius", inner_radius, 0.0);
+    checks.fields(*this);
     if (!(inner_radius < radius)) checks.fail("inner_radius must be less than radius");
 }
 

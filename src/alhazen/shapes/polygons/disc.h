@@ -20,6 +20,12 @@ struct Disc {
     Vec3 unit_normal{0, 0, 1};  ///< derived: set by prepare
     Vec3 u_axis{1, 0, 0};       ///< derived: unit, in the plane; u counts from here
 
+    static constexpr auto kFields = std::make_tuple(
+        field("center", &Disc::center, Unit::Point, Check::Point),
+        field("normal", &Disc::normal, Unit::Direction, Check::Vector),
+        field("radius", &Disc::radius, Unit::Length, Check::Length),
+        optional_field("inner_radius", &Disc::inner_radius, Unit::Length, Check::LengthOrZero));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return false; }

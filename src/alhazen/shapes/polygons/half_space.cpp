@@ -12,8 +12,7 @@ void HalfSpace::prepare() {
 
 void HalfSpace::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("point", point);
-    checks.vector("normal", normal);
+    checks.fields(*this);
 }
 
 // Of the solid, not only of its face: whatever lies in the solid must not be missed.

@@ -2,9 +2,9 @@
 /// All space on one side of a plane: a solid without bounds.
 ///
 /// Source: Roth, "Ray Casting for Modeling Solids", Computer Graphics and Image Processing 18,
-/// 1982. Differs: nothing. Conventions: `normal` points out of the solid and need not be unit. uv
-/// are coordinates along two unit vectors in the plane from `point`, as for `plane`. A line in the
-/// plane is outside, so that it never crosses.
+/// 1982. Conventions: `normal` points out of the solid and need not be unit. uv are coordinates
+/// along two unit vectors in the plane from `point`, as for `plane`. A line in the plane is
+/// outside, so that it never crosses.
 
 #include "alhazen/shapes/polygons/plane.h"
 
@@ -18,6 +18,10 @@ struct HalfSpace {
     Vec3 point{0, 0, 0};
     Vec3 normal{0, 0, 1};
     Plane face{};  ///< derived: set by prepare
+
+    static constexpr auto kFields =
+        std::make_tuple(field("point", &HalfSpace::point, Unit::Point, Check::Point),
+                        field("normal", &HalfSpace::normal, Unit::Direction, Check::Vector));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -11,8 +11,7 @@ void Plane::prepare() {
 
 void Plane::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("point", point);
-    checks.vector("normal", normal);
+    checks.fields(*this);
 }
 
 Box3 Plane::box() const {

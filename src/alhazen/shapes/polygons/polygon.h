@@ -5,11 +5,11 @@
 /// the normal is longest). Differs: the plane's normal is Newell's, over all loops; the point is
 /// not projected along an axis but along the ray, by the shear and the exact edge signs of
 /// geometry/watertight_triangle.h. Polygons that share vertices bit for bit, in one plane or around
-/// a solid, thus leave no gap and no double hit: a ray through a shared edge or vertex meets
-/// exactly one side of it. The plane only gives t. Conventions: counter-clockwise from the side the
+/// a solid, thus leave no gap and no double hit: a ray through a shared edge or vertex hits exactly
+/// one of them. The plane only gives t. Conventions: counter-clockwise from the side the
 /// normal points to. uv are coordinates in the plane, from the first vertex along the first edge.
 /// Vertices need not lie in one plane; a hit lies in the plane of the mean. Complexity: O(vertices)
-/// for a ray that meets the polygon's box where it meets its plane, else O(1).
+/// for a ray that crosses the plane within the polygon's box, else O(1).
 
 #include "alhazen/shapes/core/shape.h"
 
@@ -27,6 +27,10 @@ struct Polygon {
     Vec3 u_axis{1, 0, 0};                  ///< derived: unit, in the plane, along the first edge
     Box3 bounds{};                         ///< derived: of the vertices and their feet on the plane
     double off_plane = 0;                  ///< derived: no vertex is farther from the plane
+
+    static constexpr auto kFields =
+        std::make_tuple(field("vertices", &Polygon::vertices, Unit::Compound, Check::Shape),
+                        field("loop_ends", &Polygon::loop_ends, Unit::Compound, Check::Shape));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -1,7 +1,7 @@
 #pragma once
 /// A convex polyhedron: by its planes, or by vertices and faces.
 ///
-/// Source: Haines, "Fast Ray-Convex Polyhedron Intersection", Graphics Gems II, 1991 (the meeting
+/// Source: Haines, "Fast Ray-Convex Polyhedron Intersection", Graphics Gems II, 1991 (intersection
 /// of the line's intervals in the half spaces). Differs: a line in the plane of a face is outside.
 /// Conventions: the solid is what lies inside all planes, so that a line crosses it twice or not at
 /// all. Faces by vertices may be wound either way, may repeat vertices, and need lie in one plane
@@ -27,6 +27,12 @@ struct Polyhedron {
     std::vector<OrientedPlane> faces;  ///< derived: [part], unit normals
     Box3 bounds{};                     ///< derived: rounded outward
     std::vector<Vec3> hull;            ///< derived: the true corners, each a little farther out
+
+    static constexpr auto kFields =
+        std::make_tuple(field("planes", &Polyhedron::planes, Unit::Compound, Check::Shape),
+                        field("vertices", &Polyhedron::vertices, Unit::Compound, Check::Shape),
+                        field("corners", &Polyhedron::corners, Unit::Compound, Check::Shape),
+                        field("face_ends", &Polyhedron::face_ends, Unit::Compound, Check::Shape));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

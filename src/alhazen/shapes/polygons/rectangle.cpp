@@ -14,9 +14,7 @@ void Rectangle::prepare() {
 
 void Rectangle::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("corner", corner);
-    checks.vector("edge_u", edge_u);
-    checks.vector("edge_v", edge_v);
+    checks.fields(*this);
     if (!checks.ok()) return;
     const double area = length(accurate_cross(edge_u, edge_v));
     if (!(area >= 1e-12 * length(edge_u) * length(edge_v)) || !(area >= kMinLength)) {

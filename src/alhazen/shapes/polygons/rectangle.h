@@ -20,6 +20,11 @@ struct Rectangle {
     Vec3 u_of{1, 0, 0};         ///< derived: u = dot(u_of, p - corner) on the plane
     Vec3 v_of{0, 1, 0};         ///< derived: the same for v
 
+    static constexpr auto kFields =
+        std::make_tuple(field("corner", &Rectangle::corner, Unit::Point, Check::Point),
+                        field("edge_u", &Rectangle::edge_u, Unit::Vector, Check::Vector),
+                        field("edge_v", &Rectangle::edge_v, Unit::Vector, Check::Vector));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return false; }

@@ -10,10 +10,7 @@ void Cone::prepare() {
 
 void Cone::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("base", base);
-    checks.point("top", top);
-    checks.length("base_radius", base_radius, 0.0);
-    checks.length("top_radius", top_radius, 0.0);
+    checks.fields(*this);
     if (base_radius == 0.0 && top_radius == 0.0) checks.fail("both radii are zero");
     if (checks.ok()) checks.length("distance from base to top", length(top - base));
 }

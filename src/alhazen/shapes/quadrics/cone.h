@@ -20,6 +20,13 @@ struct Cone {
     bool capped = true;
     Frustum frustum{};  ///< derived: set by prepare
 
+    static constexpr auto kFields =
+        std::make_tuple(field("base", &Cone::base, Unit::Point, Check::Point),
+                        field("top", &Cone::top, Unit::Point, Check::Point),
+                        field("base_radius", &Cone::base_radius, Unit::Length, Check::LengthOrZero),
+                        field("top_radius", &Cone::top_radius, Unit::Length, Check::LengthOrZero),
+                        optional_field("capped", &Cone::capped, Unit::Flag, Check::None));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return capped; }

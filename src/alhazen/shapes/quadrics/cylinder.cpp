@@ -10,9 +10,7 @@ void Cylinder::prepare() {
 
 void Cylinder::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("base", base);
-    checks.point("top", top);
-    checks.length("radius", radius);
+    checks.fields(*this);
     if (checks.ok()) checks.length("distance from base to top", length(top - base));
 }
 

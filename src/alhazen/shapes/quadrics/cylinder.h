@@ -20,6 +20,12 @@ struct Cylinder {
     bool capped = true;
     Frustum frustum{};  ///< derived: set by prepare
 
+    static constexpr auto kFields =
+        std::make_tuple(field("base", &Cylinder::base, Unit::Point, Check::Point),
+                        field("top", &Cylinder::top, Unit::Point, Check::Point),
+                        field("radius", &Cylinder::radius, Unit::Length, Check::Length),
+                        optional_field("capped", &Cylinder::capped, Unit::Flag, Check::None));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return capped; }

@@ -23,7 +23,7 @@ void Ellipsoid::prepare() {
 
 void Ellipsoid::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("center", center);
+    checks.fields(*this);
     check_axes(checks, {axis_a, axis_b, axis_c}, "axis_a", "axis_b", "axis_c");
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// An ellipsoid with any three semi-axes, not necessarily perpendicular.
 ///
-/// Source: clipped_quadric.h: the unit sphere in the frame of the semi-axes. Differs: nothing.
-/// Conventions: u runs around `axis_c` from `axis_a` (0 to 1), v from -axis_c (0) to +axis_c (1).
+/// Source: clipped_quadric.h: the unit sphere in the frame of the semi-axes. Conventions: u runs
+/// around `axis_c` from `axis_a` (0 to 1), v from -axis_c (0) to +axis_c (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -16,6 +16,12 @@ struct Ellipsoid {
     Vec3 center{0, 0, 0};
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0}, axis_c{0, 0, 1};  ///< from the centre to the surface
     ClippedQuadric solid{};                                  ///< derived
+
+    static constexpr auto kFields =
+        std::make_tuple(field("center", &Ellipsoid::center, Unit::Point, Check::Point),
+                        field("axis_a", &Ellipsoid::axis_a, Unit::Vector, Check::Shape),
+                        field("axis_b", &Ellipsoid::axis_b, Unit::Vector, Check::Shape),
+                        field("axis_c", &Ellipsoid::axis_c, Unit::Vector, Check::Shape));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

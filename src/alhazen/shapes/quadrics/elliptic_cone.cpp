@@ -19,8 +19,7 @@ void EllipticCone::prepare() {
 
 void EllipticCone::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("base", base);
-    checks.point("top", top);
+    checks.fields(*this);
     check_axes(checks, {axis_a, axis_b, top - base}, "axis_a", "axis_b", "top - base");
     if (!(top_scale >= 0.0 && top_scale <= 1e6)) {
         checks.fail("top_scale must be a number from 0 to 1e6");

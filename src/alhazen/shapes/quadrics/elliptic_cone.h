@@ -2,8 +2,8 @@
 /// An elliptic cone or its lower part, right or oblique: all cross-sections are of one shape.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < (1 - (1 - s) z)^2 between z = 0 and 1 in the frame of the
-/// semi-axes of the base and the way to the top. Differs: nothing. Conventions: as for
-/// elliptic_cylinder.h. Where the shape of the cross-section changes see tgc.h.
+/// semi-axes of the base and the way to the top. Conventions: as for elliptic_cylinder.h. Where the
+/// shape of the cross-section changes see tgc.h.
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -19,6 +19,14 @@ struct EllipticCone {
     double top_scale = 0;                   ///< size of the top over that of the base; 0: an apex
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
+
+    static constexpr auto kFields = std::make_tuple(
+        field("base", &EllipticCone::base, Unit::Point, Check::Point),
+        field("top", &EllipticCone::top, Unit::Point, Check::Point),
+        field("axis_a", &EllipticCone::axis_a, Unit::Vector, Check::Shape),
+        field("axis_b", &EllipticCone::axis_b, Unit::Vector, Check::Shape),
+        optional_field("top_scale", &EllipticCone::top_scale, Unit::Number, Check::Shape),
+        optional_field("capped", &EllipticCone::capped, Unit::Flag, Check::None));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

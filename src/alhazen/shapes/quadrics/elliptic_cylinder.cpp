@@ -26,8 +26,7 @@ void EllipticCylinder::prepare() {
 
 void EllipticCylinder::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("base", base);
-    checks.point("top", top);
+    checks.fields(*this);
     check_axes(checks, {axis_a, axis_b, top - base}, "axis_a", "axis_b", "top - base");
 }
 

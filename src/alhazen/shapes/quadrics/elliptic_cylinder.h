@@ -2,9 +2,9 @@
 /// An elliptic cylinder, right or oblique, with flat ends or open.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < 1 between z = 0 and 1 in the frame of the two semi-axes
-/// and the way from base to top. Differs: nothing. Conventions: part 0 the side, 5 the end at
-/// `base`, 6 the one at `top`. u runs around from `axis_a`, v from base (0) to top (1), on the ends
-/// from the middle (0) to the rim (1).
+/// and the way from base to top. Conventions: part 0 the side, 5 the end at `base`, 6 the one at
+/// `top`. u runs around from `axis_a`, v from base (0) to top (1), on the ends from the middle (0)
+/// to the rim (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -19,6 +19,13 @@ struct EllipticCylinder {
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of both ends
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
+
+    static constexpr auto kFields = std::make_tuple(
+        field("base", &EllipticCylinder::base, Unit::Point, Check::Point),
+        field("top", &EllipticCylinder::top, Unit::Point, Check::Point),
+        field("axis_a", &EllipticCylinder::axis_a, Unit::Vector, Check::Shape),
+        field("axis_b", &EllipticCylinder::axis_b, Unit::Vector, Check::Shape),
+        optional_field("capped", &EllipticCylinder::capped, Unit::Flag, Check::None));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

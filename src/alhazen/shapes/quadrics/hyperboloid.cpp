@@ -19,8 +19,7 @@ void Hyperboloid::prepare() {
 
 void Hyperboloid::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("base", base);
-    checks.point("top", top);
+    checks.fields(*this);
     check_axes(checks, {axis_a, axis_b, top - base}, "axis_a", "axis_b", "top - base");
     if (!(waist >= 1e-6 && waist <= 1.0 - 1e-6)) {
         checks.fail("waist must be a number between 0 and 1");

@@ -2,9 +2,9 @@
 /// A one-sheet elliptic hyperboloid between two equal rims: a cooling tower.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < w^2 + (1 - w^2) z^2 for z from -1 to 1, w = waist, in the
-/// frame of the rims' semi-axes and half the way from one rim to the other. Differs: nothing.
-/// Conventions: part 0 the surface, 5 the end at `base`, 6 the one at `top`. u runs around from
-/// `axis_a`, v from base (0) to top (1).
+/// frame of the rims' semi-axes and half the way from one rim to the other. Conventions: part 0 the
+/// surface, 5 the end at `base`, 6 the one at `top`. u runs around from `axis_a`, v from base (0)
+/// to top (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -20,6 +20,14 @@ struct Hyperboloid {
     double waist = 0.5;  ///< size of the narrowest cross-section over that of the rims, in (0, 1)
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
+
+    static constexpr auto kFields =
+        std::make_tuple(field("base", &Hyperboloid::base, Unit::Point, Check::Point),
+                        field("top", &Hyperboloid::top, Unit::Point, Check::Point),
+                        field("axis_a", &Hyperboloid::axis_a, Unit::Vector, Check::Shape),
+                        field("axis_b", &Hyperboloid::axis_b, Unit::Vector, Check::Shape),
+                        field("waist", &Hyperboloid::waist, Unit::Number, Check::Shape),
+                        optional_field("capped", &Hyperboloid::capped, Unit::Flag, Check::None));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

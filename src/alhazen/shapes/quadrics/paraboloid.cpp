@@ -19,8 +19,7 @@ void Paraboloid::prepare() {
 
 void Paraboloid::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("apex", apex);
-    checks.point("rim", rim);
+    checks.fields(*this);
     check_axes(checks, {axis_a, axis_b, rim - apex}, "axis_a", "axis_b", "rim - apex");
 }
 

@@ -2,8 +2,8 @@
 /// An elliptic paraboloid from its apex to a flat rim, right or oblique.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < z up to z = 1 in the frame of the rim's semi-axes and the
-/// way from the apex to its middle. Differs: nothing. Conventions: part 0 the bowl, 6 the rim's
-/// plane. u runs around from `axis_a`, v from the apex (0) to the rim (1).
+/// way from the apex to its middle. Conventions: part 0 the bowl, 6 the rim's plane. u runs around
+/// from `axis_a`, v from the apex (0) to the rim (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -18,6 +18,13 @@ struct Paraboloid {
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of the rim
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
+
+    static constexpr auto kFields =
+        std::make_tuple(field("apex", &Paraboloid::apex, Unit::Point, Check::Point),
+                        field("rim", &Paraboloid::rim, Unit::Point, Check::Point),
+                        field("axis_a", &Paraboloid::axis_a, Unit::Vector, Check::Shape),
+                        field("axis_b", &Paraboloid::axis_b, Unit::Vector, Check::Shape),
+                        optional_field("capped", &Paraboloid::capped, Unit::Flag, Check::None));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -28,9 +28,7 @@ void Quadric::prepare() {
 
 void Quadric::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("squares", squares);
-    checks.point("products", products);
-    checks.point("linear", linear);
+    checks.fields(*this);
     if (!(std::abs(constant) <= kMaxCoordinate))
         checks.fail("constant must be a number below 1e70");
     if (squares == Vec3{} && products == Vec3{} && linear == Vec3{}) {

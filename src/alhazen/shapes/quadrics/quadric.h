@@ -2,10 +2,10 @@
 /// A general quadric, f < 0 for a polynomial f of degree 2 with ten coefficients, clipped by a box
 /// and by planes, with caps or open; or not clipped at all.
 ///
-/// Source: clipped_quadric.h. Differs: nothing. Conventions: part 0 the quadric, 1 to 6 the faces
-/// -x +x -y +y -z +z of the box, from 7 the planes. u runs around the z axis from +x (0 to 1), v
-/// is the angle above the xy plane, from -z (0) to +z (1). Normals point along the gradient.
-/// Without bounds it is an unbounded solid.
+/// Source: clipped_quadric.h. Conventions: part 0 the quadric, 1 to 6 the faces -x +x -y +y -z +z
+/// of the box, from 7 the planes. u runs around the z axis from +x (0 to 1), v is the angle above
+/// the xy plane, from -z (0) to +z (1). Normals point along the gradient. Without bounds it is an
+/// unbounded solid.
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -24,6 +24,15 @@ struct Quadric {
     std::vector<ClipPlane> clip_planes;  ///< what lies on the side of their normals is cut off
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
+
+    static constexpr auto kFields = std::make_tuple(
+        field("squares", &Quadric::squares, Unit::Number, Check::Point),
+        field("products", &Quadric::products, Unit::Number, Check::Point),
+        field("linear", &Quadric::linear, Unit::Number, Check::Point),
+        field("constant", &Quadric::constant, Unit::Number, Check::Shape),
+        optional_field("clip_box", &Quadric::clip_box, Unit::Compound, Check::Shape),
+        optional_field("clip_planes", &Quadric::clip_planes, Unit::Compound, Check::Shape),
+        optional_field("capped", &Quadric::capped, Unit::Flag, Check::None));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

@@ -11,8 +11,7 @@ namespace alhazen {
 
 void Sphere::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("center", center);
-    checks.length("radius", radius);
+    checks.fields(*this);
 }
 
 Box3 Sphere::box() const {

@@ -22,6 +22,10 @@ struct Sphere {
     Vec3 center{0, 0, 0};
     double radius = 1;
 
+    static constexpr auto kFields =
+        std::make_tuple(field("center", &Sphere::center, Unit::Point, Check::Point),
+                        field("radius", &Sphere::radius, Unit::Length, Check::Length));
+
     void prepare() {}
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return true; }

@@ -20,8 +20,7 @@ void TwoSheetHyperboloid::prepare() {
 
 void TwoSheetHyperboloid::validate(const FileLocation& where, Diagnostics& diagnostics) const {
     FieldChecks checks(kName, where, diagnostics);
-    checks.point("base", base);
-    checks.point("top", top);
+    checks.fields(*this);
     check_axes(checks, {axis_a, axis_b, top - base}, "axis_a", "axis_b", "top - base");
     if (!(gap >= 1e-6 && gap <= 1.0 - 1e-6)) {
         checks.fail("gap must be a number between 0 and 1");

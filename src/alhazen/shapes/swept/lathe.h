@@ -5,10 +5,10 @@
 /// (surfaces of revolution as curves of degree six in the parameter of the profile).
 /// Differs: the crossings are the changes of sign of that polynomial, found with certainty
 /// (math/bernstein_roots.h), its signs at the ends of curves being those of the points there; t and
-/// the parameter are then made precise together (Newton in two variables). A ray that hardly climbs
-/// has its t hidden in the last digits of the parameter, and has a way of its own
-/// (shapes/swept/lathe_near_level.h). One that does not climb meets the profile where the profile
-/// has its height, and there two points of a circle. Conventions: the profile lies in the half
+/// the parameter are then made precise together (Newton in two variables). For
+/// a nearly level ray t depends on the last digits of the parameter; it is traced by
+/// shapes/swept/lathe_near_level.h. A level ray crosses where the profile has its height, at two
+/// points of a circle. Conventions: the profile lies in the half
 /// plane of (radius, height), radius >= 0; the solid is what is odd-even inside of its loops, those
 /// completed by the axis that begin and end on it. A loop that neither closes nor does so is a
 /// surface, not a solid. part = curve; u runs around the axis (0 to 1), v along all curves (0 to
@@ -30,6 +30,9 @@ struct Lathe {
     double reach = 0;        ///< derived: largest coordinate of the profile
     Vec3 center{};           ///< derived: of the axis
     double radius = 1;       ///< derived: of a sphere about the center that holds all
+
+    static constexpr auto kFields =
+        std::make_tuple(field("profile", &Lathe::profile, Unit::Compound, Check::Shape));
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;

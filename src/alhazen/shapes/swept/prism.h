@@ -32,6 +32,12 @@ struct Prism {
     Vec3 center{};      ///< derived
     double radius = 1;  ///< derived: of a sphere about the center that holds the prism
 
+    static constexpr auto kFields =
+        std::make_tuple(field("profile", &Prism::profile, Unit::Compound, Check::Shape),
+                        field("h0", &Prism::h0, Unit::Length, Check::Shape),
+                        field("h1", &Prism::h1, Unit::Length, Check::Shape),
+                        optional_field("top_scale", &Prism::top_scale, Unit::Number, Check::Shape));
+
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return true; }

@@ -2,8 +2,8 @@
 /// Outlines of lines and cubic Bézier curves in the plane: what prisms and lathes are made of.
 ///
 /// Source: Farin, "Curves and Surfaces for CAGD", 5th ed., 2002 (Bézier curves, their convex hull
-/// and de Casteljau's algorithm). Differs: nothing. Conventions: a loop is a chain of curves, each
-/// of which begins where the one before ends, bit for bit; inside is odd-even over all loops.
+/// and de Casteljau's algorithm). Conventions: a loop is a chain of curves, each of which begins
+/// where the one before ends, bit for bit; inside is odd-even over all loops.
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
-// The solids of the native format that are made of outlines: prism and lathe.
+// Outlines of prisms and lathes.
 
-#include "alhazen/formats/native/read/native_solids.h"
+#include "alhazen/formats/native/read/native_shape_fields.h"
 
 namespace alhazen {
 
@@ -31,8 +31,8 @@ bool read_step(TextNode step, std::string_view key, const ValueReader& values, V
     return true;
 }
 
-/// `[(x, y), (x, y), curve(...), ...]`; a loop that does not end where it begins is closed by a
-/// line, if it is to be.
+/// `[(x, y), (x, y), curve(...), ...]`. `close`: adds a line from the end to the beginning of a
+/// loop where they differ.
 void read_loop(TextNode loop, std::string_view key, const ValueReader& values, bool close,
                Profile& profile) {
     if (!values.is_list(loop, key)) return;
@@ -70,19 +70,30 @@ Profile read_profile(BlockReader& reader, bool close) {
 
 }  // namespace
 
-AnyShape read_native_prism(BlockReader& reader) {
-    Prism prism;
-    prism.profile = read_profile(reader, true);
-    reader.read("h0", prism.h0);
-    reader.read("h1", prism.h1);
-    reader.read("top_scale", prism.top_scale);
-    return prism;
+void read_native_field(BlockReader& reader, const Field<Prism, Profile>& field, Prism& shape) {
+    shape.*field.member = read_profile(reader, true);
 }
 
-AnyShape read_native_lathe(BlockReader& reader) {
-    Lathe lathe;
-    lathe.profile = read_profile(reader, false);
-    return lathe;
+void read_native_field(BlockReader& reader, const Field<Lathe, Profile>& field, Lathe& shape) {
+    shape.*field.member = read_profile(reader, false);
+}
+
+std::string native_field_text(const Profile& profile) {
+    std::vector<std::string> loops;
+    std::size_t begin = 0;
+    for (const std::size_t end : profile.loop_ends) {
+        std::vector<std::string> steps;
+        for (std::size_t i = begin; i < end; ++i) {
+            const ProfileCurve& c = profile.curves[i];
+            if (i == begin) steps.push_back(native_value(c.p[0]));
+            steps.push_back(c.line ? native_value(c.p[3])
+                                   : "curve(" + native_value(c.p[1]) + ", " + native_value(c.p[2]) +
+                                         ", " + native_value(c.p[3]) + ")");
+        }
+        loops.push_back(native_list(steps));
+        begin = end;
+    }
+    return native_list(loops);
 }
 
 }  // namespace alhazen

@@ -1,8 +1,8 @@
 #pragma once
-/// The analytic shapes of the native format. ADD A SHAPE in native_shapes.cpp: one entry of its
-/// table.
+/// The analytic shapes of the native format: all of shapes/shape_list.h, by their names and fields.
 
-#include <string>
+#include <string_view>
+#include <vector>
 
 #include "alhazen/formats/text/block_reader.h"
 #include "alhazen/shapes/shape_list.h"

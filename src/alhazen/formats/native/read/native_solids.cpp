@@ -1,6 +1,9 @@
-#include "alhazen/formats/native/read/native_solids.h"
+// Solids with fields that are lists: polyhedra, blobs and height fields.
 
-#include <limits>
+#include "alhazen/formats/native/read/native_shape_fields.h"
+
+#include <array>
+#include <span>
 
 namespace alhazen {
 
@@ -47,14 +50,13 @@ void read_faces(TextNode list, const ValueReader& values, Polyhedron& solid) {
 
 }  // namespace
 
-AnyShape read_native_polyhedron(BlockReader& reader) {
-    Polyhedron solid;
+void read_native_fields(BlockReader& reader, Polyhedron& solid) {
     const auto planes = reader.find("planes");
     const auto vertices = reader.find("vertices");
     const auto faces = reader.find("faces");
     if (reader.has("planes") == reader.has("vertices")) {
         reader.error(reader.block(), "expected either 'planes = ...' or 'vertices = ...'");
-        return solid;
+        return;
     }
     if (planes) read_planes(*planes, reader.values(), solid);
     if (vertices && reader.values().is_list(*vertices, "vertices")) {
@@ -68,13 +70,31 @@ AnyShape read_native_polyhedron(BlockReader& reader) {
     } else if (vertices && !reader.has("faces")) {
         if (solid.vertices.size() != 8) {
             reader.error(reader.block(), "expected 'faces = ...', or 8 vertices of a hexahedron");
-            return solid;
+            return;
         }
         std::array<Vec3, 8> points;
         std::copy(solid.vertices.begin(), solid.vertices.end(), points.begin());
-        return hexahedron(points);
+        solid = hexahedron(points);
     }
-    return solid;
+}
+
+void write_native_fields(NativeBlockText& block, const Polyhedron& s) {
+    if (!s.planes.empty()) {
+        block.add("planes", native_list_of(s.planes, [](const OrientedPlane& plane) {
+                      return native_list({native_value(plane.point), native_value(plane.normal)});
+                  }));
+    }
+    if (s.vertices.empty()) return;
+    block.add("vertices",
+              native_list_of(s.vertices, [](const Vec3& p) { return native_value(p); }));
+    std::vector<std::string> faces;
+    std::size_t begin = 0;
+    for (const std::uint32_t end : s.face_ends) {
+        const std::span<const std::uint32_t> face(&s.corners[begin], end - begin);
+        faces.push_back(native_list_of(face, [](std::uint32_t v) { return std::to_string(v); }));
+        begin = end;
+    }
+    block.add("faces", native_list(faces));
 }
 
 namespace {
@@ -99,23 +119,29 @@ bool read_component(TextNode entry, const ValueReader& values, BlobComponent& co
 
 }  // namespace
 
-AnyShape read_native_blob(BlockReader& reader) {
-    Blob blob;
-    reader.read("threshold", blob.threshold);
-    reader.require("components");
-    const auto components = reader.find("components");
-    if (!components || !reader.values().is_list(*components, "components")) return blob;
+void read_native_field(BlockReader& reader, const Field<Blob, std::vector<BlobComponent>>& field,
+                       Blob& shape) {
+    reader.require(field.name);
+    const auto components = reader.find(field.name);
+    if (!components || !reader.values().is_list(*components, field.name)) return;
     for (const TextNode entry : *components) {
         BlobComponent component;
         if (read_component(entry, reader.values(), component)) {
-            blob.components.push_back(component);
+            (shape.*field.member).push_back(component);
         }
     }
-    return blob;
 }
 
-AnyShape read_native_height_field(BlockReader& reader) {
-    HeightField field;
+std::string native_field_text(const std::vector<BlobComponent>& components) {
+    return native_list_of(components, [](const BlobComponent& c) {
+        const std::string rest =
+            ", " + native_value(c.radius) + ", " + native_value(c.strength) + ")";
+        if (!c.rod) return "sphere(" + native_value(c.base) + rest;
+        return "cylinder(" + native_value(c.base) + ", " + native_value(c.top) + rest;
+    });
+}
+
+void read_native_fields(BlockReader& reader, HeightField& field) {
     reader.read("lo", field.lo);
     reader.read("hi", field.hi);
     reader.read("base", field.base);
@@ -125,24 +151,32 @@ AnyShape read_native_height_field(BlockReader& reader) {
     if (reader.has("heights") == reader.has("file")) {
         reader.error(reader.block(), "expected either 'heights = ...' or 'file = ...'");
     }
-    if (!reader.has("heights")) return field;
+    if (!reader.has("heights")) return;
     int columns = 0;
     reader.require("columns");
-    if (!reader.read("columns", columns) || !list) return field;
-    if (!reader.values().is_list(*list, "heights")) return field;
+    if (!reader.read("columns", columns) || !list) return;
+    if (!reader.values().is_list(*list, "heights")) return;
     for (const TextNode value : *list) {
         double height = 0;
-        if (!reader.values().read(value, "heights", height)) return field;
+        if (!reader.values().read(value, "heights", height)) return;
         heights->push_back(static_cast<float>(height));
     }
     if (columns < 2 || heights->size() % static_cast<std::size_t>(columns) != 0) {
         reader.error(reader.block(), "'columns' must be at least 2 and divide the " +
                                          std::to_string(heights->size()) + " heights into rows");
-        return field;
+        return;
     }
     field.columns = static_cast<std::uint32_t>(columns);
     field.rows = static_cast<std::uint32_t>(heights->size()) / field.columns;
-    return field;
+}
+
+void write_native_fields(NativeBlockText& block, const HeightField& s) {
+    block.add("columns", native_value(static_cast<int>(s.columns)));
+    block.add("heights",
+              native_list_of(*s.heights, [](float h) { return native_value(double{h}); }));
+    block.add("lo", native_value(s.lo));
+    block.add("hi", native_value(s.hi));
+    block.add("base", native_value(s.base));
 }
 
 }  // namespace alhazen

@@ -1,0 +1,65 @@
+#pragma once
+/// Declaration of the fields of a shape: name, member, unit and check of each. The native reader
+/// and writer, the validation, the comparison and the random maker of the tests follow from it.
+///
+/// A shape lists the fields that describe it, in the order of its file format, and none of the
+/// derived ones:
+///
+///     static constexpr auto kFields =
+///         std::make_tuple(field("center", &Sphere::center, Unit::Point, Check::Point),
+///                         field("radius", &Sphere::radius, Unit::Length, Check::Length));
+
+#include <cstdint>
+#include <tuple>
+
+namespace alhazen {
+
+/// What a field measures.
+enum class Unit : std::uint8_t {
+    Point,      ///< position, scene units
+    Vector,     ///< vector whose length counts, scene units
+    Direction,  ///< vector of any length
+    Length,     ///< scene units
+    Number,     ///< without unit: ratio, exponent, coefficient
+    Count,      ///< number or index of elements
+    Flag,       ///< true or false
+    Text,       ///< expression
+    Compound,   ///< list or struct with a textual form of its own
+};
+
+/// Which values of a field are valid. Magnitudes: kMinLength to kMaxCoordinate.
+enum class Check : std::uint8_t {
+    None,          ///< all of its type
+    Point,         ///< finite
+    Vector,        ///< finite, not zero
+    Length,        ///< positive
+    LengthOrZero,  ///< positive or zero
+    Shape,         ///< tested by the shape's `validate`, with other fields or in its own words
+};
+
+/// One field of the shape S. An optional field is left out of files where it has its default.
+template <class S, class T>
+struct Field {
+    const char* name;
+    T S::*member;
+    Unit unit;
+    Check check;
+    bool optional;
+};
+
+template <class S, class T>
+constexpr Field<S, T> field(const char* name, T S::*member, Unit unit, Check check) {
+    return {name, member, unit, check, false};
+}
+template <class S, class T>
+constexpr Field<S, T> optional_field(const char* name, T S::*member, Unit unit, Check check) {
+    return {name, member, unit, check, true};
+}
+
+/// Calls `visit(field)` for each field of S, in order.
+template <class S, class Visit>
+constexpr void for_each_field(const Visit& visit) {
+    std::apply([&](const auto&... fields) { (visit(fields), ...); }, S::kFields);
+}
+
+}  // namespace alhazen
