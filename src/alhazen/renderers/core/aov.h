@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "alhazen/imaging/film/film_layers.h"
+#include "alhazen/math/vec.h"
 #include "alhazen/renderers/core/ray_counters.h"
 
 namespace alhazen {
@@ -108,12 +109,12 @@ class AovRecorder {
     AovRecorder(const RenderJob& job, RayCounters& counters) : job_(job), counters_(counters) {}
 
     void begin_pixel();
-    /// Pixel (i, j) of a frame of that size has been rendered.
-    void end_pixel(int i, int j, int width, int height);
+    /// Pixel (i, j) has been rendered; `places`: film coordinates of its samples.
+    void end_pixel(int i, int j, std::span<const Vec2> places);
 
   private:
     void record_costs(int i, int j);
-    void record_geometry(int i, int j, int width, int height);
+    void record_geometry(int i, int j, std::span<const Vec2> places);
 
     const RenderJob& job_;
     RayCounters& counters_;

@@ -117,7 +117,7 @@ class Caster {
 }  // namespace
 
 std::unique_ptr<TileRenderer> RayCasting::begin(const RenderJob& job) const {
-    return std::make_unique<PixelRenderer<Caster>>(job, kRaysAtOnce);
+    return make_pixel_renderer<Caster>(job, kRaysAtOnce);
 }
 
 }  // namespace alhazen

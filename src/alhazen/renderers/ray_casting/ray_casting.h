@@ -5,11 +5,11 @@
 /// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971. Differs: shadows are left to
 /// `whitted`; the shading is that renderer's local part.
 
-#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {
 
-class RayCasting final : public Renderer {
+class RayCasting final : public TiledRenderer {
   public:
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
 };

@@ -32,9 +32,9 @@ Coherence coherence_of_shadows(std::span<const Light> lights) {
 }
 
 /// Traces the rays of one tile; holds what would be allocated per ray otherwise.
-class WhittedIntegrator {
+class WhittedEstimator {
   public:
-    WhittedIntegrator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
+    WhittedEstimator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
         : job_(job),
           scene_(job.scene),
           conventions_(job.scene.conventions),
@@ -251,7 +251,7 @@ class WhittedIntegrator {
 }  // namespace
 
 std::unique_ptr<TileRenderer> Whitted::begin(const RenderJob& job) const {
-    return std::make_unique<PixelRenderer<WhittedIntegrator>>(job, rays_at_once_);
+    return make_pixel_renderer<WhittedEstimator>(job, rays_at_once_);
 }
 
 }  // namespace alhazen

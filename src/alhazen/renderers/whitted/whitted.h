@@ -12,11 +12,11 @@
 
 #include <cstddef>
 
-#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {
 
-class Whitted final : public Renderer {
+class Whitted final : public TiledRenderer {
   public:
     /// `rays_at_once`: of a generation, at least 1; the picture does not depend on it.
     explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
