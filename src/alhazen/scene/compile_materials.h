@@ -1,5 +1,5 @@
 #pragma once
-/// The part of a scene that has no geometry: materials, textures, lights, cameras.
+/// The part of a scene without geometry: materials, textures, lights, cameras.
 ///
 /// Internal to `compile`.
 
@@ -9,10 +9,10 @@
 
 namespace alhazen {
 
-/// Fills in what the description says of them.
+/// Fills in materials, textures, lights, cameras, conventions and background.
 void compile_materials(const SceneDescription& description, Scene& scene);
 
-/// Of all pictures, each once, however many textures show it.
+/// Bytes of all images and their pyramids, each counted once.
 [[nodiscard]] std::uint64_t texture_bytes(const std::vector<Texture>& textures);
 
 }  // namespace alhazen

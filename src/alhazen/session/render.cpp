@@ -8,6 +8,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/session/load.h"
 #include "alhazen/session/stopwatch.h"
 
 namespace alhazen {
@@ -16,14 +17,14 @@ namespace {
 
 constexpr int kDefaultHeight = 512;
 constexpr int kSpdRays = 513;
-/// Rays are traced by recursion: deeper trees would need more stack than a thread has for sure.
+/// Bounds the recursion over generations to the stack that every thread has.
 constexpr int kMaxDepth = 1000;
 
 struct FrameSize {
     int width, height;
 };
 
-/// A protocol fixes what it counts: options that would change it are refused.
+/// Refuses options that would change the counts of a protocol.
 void check_protocol(const RenderOptions& options) {
     if (options.protocol == Protocol::None) return;
     if (options.width || options.height || options.crop || options.samples_per_pixel != 1) {
@@ -73,6 +74,49 @@ Scene adjusted(const Scene& scene, const RenderOptions& options) {
     return result;
 }
 
+/// `description`: of the scene, or null.
+RenderResult render_described(const Scene& original, const SceneDescription* description,
+                              const PictureSettings& picture, const RenderOptions& options) {
+    check(options);
+    check_protocol(options);
+    const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
+    if (renderer->needs_aggregate() && !original.aggregate) {
+        throw Error(ErrorKind::Usage, fmt::format("renderer '{}' needs the aggregate of the scene",
+                                                  options.renderer));
+    }
+    const Scene scene = adjusted(original, options);
+    const CameraDescription& camera = find_camera(scene, options.camera);
+    const FrameSize frame = frame_size(picture, options, camera.aspect);
+    const double aspect = static_cast<double>(frame.width) / frame.height;
+    RenderResult result(Film(frame.width, frame.height,
+                             options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
+    AovFilm aovs(options.aovs, result.film.crop());
+    const RenderJob job{.scene = scene,
+                        .camera = with_aspect(camera.camera, camera.aspect, aspect),
+                        .samples_per_pixel = options.samples_per_pixel,
+                        .seed = options.seed,
+                        .count_tests = options.count_tests || options.aovs.has_tests(),
+                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel),
+                        .aovs = options.aovs.empty() ? nullptr : &aovs,
+                        .description = description,
+                        .control = {.threads = options.threads,
+                                    .tile_size = options.tile_size,
+                                    .stop = options.stop,
+                                    .progress = options.progress}};
+    const Stopwatch time;
+    const std::clock_t processor = std::clock();
+    const RenderReport report = renderer->render(job, result.film);
+    result.seconds = time.seconds();
+    result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+    result.counters = report.counters;
+    result.threads = report.threads;
+    result.tiles = report.parts;
+    result.tiles_done = report.done;
+    result.complete = report.complete();
+    result.layers = std::move(aovs.layers());
+    return result;
+}
+
 }  // namespace
 
 void apply_spd(ShadingConventions& conventions) {
@@ -92,41 +136,13 @@ double free_aspect(const PictureSettings& picture, const RenderOptions& options)
     return both ? static_cast<double>(frame.width) / frame.height : kAspect;
 }
 
-RenderResult render(const Scene& original, const PictureSettings& picture,
+RenderResult render(const Scene& scene, const PictureSettings& picture,
                     const RenderOptions& options) {
-    check(options);
-    check_protocol(options);
-    const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
-    const Scene scene = adjusted(original, options);
-    const CameraDescription& camera = find_camera(scene, options.camera);
-    const FrameSize frame = frame_size(picture, options, camera.aspect);
-    const double aspect = static_cast<double>(frame.width) / frame.height;
-    RenderResult result(Film(frame.width, frame.height,
-                             options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
-    AovFilm aovs(options.aovs, result.film.crop());
-    const RenderJob job{.scene = scene,
-                        .camera = with_aspect(camera.camera, camera.aspect, aspect),
-                        .samples_per_pixel = options.samples_per_pixel,
-                        .seed = options.seed,
-                        .count_tests = options.count_tests || options.aovs.has_tests(),
-                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel),
-                        .aovs = options.aovs.empty() ? nullptr : &aovs,
-                        .control = {.threads = options.threads,
-                                    .tile_size = options.tile_size,
-                                    .stop = options.stop,
-                                    .progress = options.progress}};
-    const Stopwatch time;
-    const std::clock_t processor = std::clock();
-    const RenderReport report = renderer->render(job, result.film);
-    result.seconds = time.seconds();
-    result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
-    result.counters = report.counters;
-    result.threads = report.threads;
-    result.tiles = report.parts;
-    result.tiles_done = report.done;
-    result.complete = report.complete();
-    result.layers = std::move(aovs.layers());
-    return result;
+    return render_described(scene, nullptr, picture, options);
+}
+
+RenderResult render(const LoadedScene& loaded, const RenderOptions& options) {
+    return render_described(loaded.scene, &loaded.description, loaded.description.picture, options);
 }
 
 }  // namespace alhazen

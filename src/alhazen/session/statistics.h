@@ -1,5 +1,5 @@
 #pragma once
-/// What a render did, as JSON (docs/statistics.md).
+/// Statistics of a render, as JSON (docs/statistics.md).
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
