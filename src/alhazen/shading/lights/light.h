@@ -2,6 +2,9 @@
 /// Lights without extent: a closed variant of plain structs. ADD A LIGHT HERE: a struct and an
 /// entry in `Light`.
 ///
+/// Lights that are sampled with a density (areas, environments) belong in this folder, in a file of
+/// their own; `Light` holds those that one shadow ray can decide.
+///
 /// Conventions: every light may carry an ambient term, added at every point whatever is in between
 /// (the course's I_La); an `AmbientLight` is nothing else.
 
