@@ -15,8 +15,7 @@ namespace alhazen {
 
 namespace {
 
-/// Distance in front of the eye along the normal of the picture plane: the same for all points of a
-/// plane that is parallel to the picture.
+/// Distance in front of the eye along the normal of the picture plane.
 class DepthScale {
   public:
     explicit DepthScale(const Camera& camera) {
@@ -41,7 +40,7 @@ class DepthScale {
     Vec3 eye_, axis_;
 };
 
-/// What the samples of a pixel have met so far.
+/// Sums over the samples of a pixel.
 struct PixelGeometry {
     int samples = 0, hits = 0;
     double depth = 0, error = 0;
