@@ -151,7 +151,7 @@ int run(const RenderArguments& args) {
     // Check the options before any work.
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
-    (void)make_renderer(options.renderer);
+    const bool needs_aggregate = make_renderer(options.renderer)->needs_aggregate();
     check_accelerator(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);
@@ -159,16 +159,19 @@ int run(const RenderArguments& args) {
     ProgressDisplay progress(args.quiet);
     LoadOptions load_options = args.scene.load_options();
     load_options.progress = &progress;
-    load_options.keep_meshes = false;
+    load_options.with_aggregate = needs_aggregate;
+    load_options.keep_meshes = !needs_aggregate;
     LoadedScene loaded = load(args.scene.scene, load_options);
     progress.finish();
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
+    // Framing reads the bounds of the aggregate.
+    if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
     complete(args, options, loaded);
 
     options.progress = &progress;
     options.stop = &stop_on_signals();
-    const RenderResult result = render(loaded.scene, loaded.description.picture, options);
+    const RenderResult result = render(loaded, options);
     progress.finish();
     if (result.tiles_done == 0 && !result.complete) {
         tell("stopped before a tile was done; nothing was written\n");

@@ -10,7 +10,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/parallel/parallel.h"
-#include "alhazen/renderers/core/eye_samples.h"
+#include "alhazen/renderers/core/samplers.h"
 #include "alhazen/session/framing.h"
 
 namespace alhazen {
@@ -78,8 +78,7 @@ Ray SceneTrial::eye_ray_of(int x, int y) const {
                     fmt::format("pixel {},{} is not in a picture of {}x{}", x, y, width, height));
     }
     const CameraDescription& camera = find_camera(reference_.scene, render_options_.camera);
-    const Vec2 p =
-        single_sample(reference_.scene.conventions.sampling.pixel_sample, x, y, width, height);
+    const Vec2 p = PointSampler(reference_.scene.conventions.sampling.pixel_sample, width, height).at(x, y);
     return eye_ray(with_aspect(camera.camera, camera.aspect, static_cast<double>(width) / height),
                    p.x, p.y);
 }

@@ -44,7 +44,7 @@ std::vector<RayEnd> ray_ends_at(const std::vector<LightDescription>& lights) {
     return ends;
 }
 
-/// An aggregate and its census data.
+/// An aggregate and its share of the census.
 struct Built {
     std::shared_ptr<const Aggregate> aggregate;
     std::uint64_t effective_primitives = 0;
@@ -64,30 +64,24 @@ class Compiler {
           object_uses_(description.objects.size(), 0),
           mesh_uses_(description.meshes.size(), 0) {}
 
-    Scene run() {
-        (void)find_csg_evaluator(options_.csg);  // an unknown evaluator is an error in any scene
-        Scene scene;
-        compile_materials(d_, scene);
+    /// Fills in the aggregate and all that follows from the geometry.
+    void build(Scene& scene) {
+        (void)find_csg_evaluator(options_.csg);  // an unknown one is an error in any scene
         for (const Material& m : scene.materials) opacity_.push_back(opacity_of(m));
-        scene.all_opaque = std::all_of(opacity_.begin(), opacity_.end(),
-                                       [](Opacity o) { return o == Opacity::Opaque; });
+        census_ = scene.census;
         count_uses();
         number_parts();
         const Built root = build_object(static_cast<std::size_t>(d_.root));
-        scene.aggregate = root.aggregate;
-        scene.has_masks = has_masks_;
         census_.effective_primitives = root.effective_primitives;
         census_.instance_depth = root.instance_depth;
-        census_.texture_bytes = texture_bytes(scene.textures);
-        census_.scene_bytes += census_.texture_bytes;
+        scene.aggregate = root.aggregate;
+        scene.has_masks = has_masks_;
         scene.census = census_;
         scene.accelerator = options_.accelerator;
-        return scene;
     }
 
   private:
-    /// Counts the parts that use each object and mesh; one user is flattened, several share an
-    /// instance.
+    /// Counts the users of each object and mesh: one user is flattened, several share an instance.
     void count_uses() {
         for (const ObjectDescription& object : d_.objects) {
             for (const Part& part : object.parts) {
@@ -100,7 +94,7 @@ class Compiler {
         }
     }
 
-    /// Numbers the parts through all objects: a number names a place in the description.
+    /// Numbers the parts through all objects: a number identifies one part of the description.
     void number_parts() {
         std::uint32_t next = 0;
         for (const ObjectDescription& object : d_.objects) {
@@ -129,7 +123,7 @@ class Compiler {
         return built_objects_[index];
     }
 
-    /// `accelerator`: of the object itself, or empty.
+    /// `accelerator`: that of the object itself, or empty.
     Built seal(Draft draft, const std::string& accelerator = {}) {
         Built built = finish(draft);
         built.aggregate = make_aggregate(accelerator.empty() ? options_.accelerator : accelerator,
@@ -138,7 +132,7 @@ class Compiler {
         return built;
     }
 
-    /// Seals the table and counts what is in it.
+    /// Seals the table and counts its contents.
     Built finish(Draft& draft) {
         draft.table.material_opacity = opacity_;
         draft.table.finish();
@@ -161,15 +155,16 @@ class Compiler {
         RayMask visible_to = kAllRays;
     };
 
-    /// Renderers query with the bit of one kind of ray: a part visible to all kinds needs no mask.
+    /// Queries of renderers have the bit of one kind of ray: a mask with all these bits is no
+    /// restriction.
     static RayMask without_unused_bits(RayMask mask) {
         return (mask & kRaysOfAllKinds) == kRaysOfAllKinds ? kAllRays : mask;
     }
 
     struct SolidDraft : Draft {
         CsgExpression expression;
-        /// [leaf] kind of its primitive and its position among that kind; sealing the table assigns
-        /// ids.
+        /// [leaf] kind of its primitive and index among that kind; ids follow when the table is
+        /// sealed.
         std::vector<std::pair<std::uint32_t, std::uint32_t>> leaves;
         bool any_cut = false;  ///< some leaf shows the minuend
     };
@@ -194,14 +189,14 @@ class Compiler {
         return built_solids_[index];
     }
 
-    /// Properties common to all operands of an object.
+    /// Common to all operands of an object.
     struct Operands {
         Affine outer_from_object;
         RayMask visible_to = kAllRays;
-        bool cuts = false;  ///< subtracted from a solid whose material the cut surfaces show
+        bool cuts = false;  ///< subtracted, and their surfaces show the material of the minuend
     };
 
-    /// Adds the object as a node of the expression, after the existing nodes.
+    /// Appends the object as a node of the expression.
     void add_operands(std::size_t object, const Operands& all, SolidDraft& draft) {
         const std::size_t node = draft.expression.nodes.size();
         const Combine combine = d_.objects[object].combine;
@@ -275,7 +270,7 @@ class Compiler {
         }
     }
 
-    /// Whether the parts of a child become parts of the object around it.
+    /// The parts of a child become parts of the object around it.
     [[nodiscard]] bool is_dissolved(std::size_t child) const {
         const ObjectDescription& object = d_.objects[child];
         return object_uses_[child] == 1 && object.combine == Combine::Group &&
@@ -334,8 +329,8 @@ class Compiler {
         draft.table.instances.back().of_shared_mesh = true;
     }
 
-    /// A mesh to transform: the description's own where it may be taken, so that a large mesh is
-    /// not in memory twice.
+    /// A mesh to transform: the description's own where it may be taken, which saves the memory of
+    /// a copy.
     [[nodiscard]] std::shared_ptr<TriangleMesh> own_copy(std::size_t mesh) const {
         if (spare_meshes_ != nullptr && mesh_uses_[mesh] == 1 &&
             (*spare_meshes_)[mesh].mesh.use_count() == 1) {
@@ -371,12 +366,37 @@ class Compiler {
 
 }  // namespace
 
+Scene compile_without_geometry(const SceneDescription& description) {
+    Scene scene;
+    compile_materials(description, scene);
+    scene.all_opaque =
+        std::all_of(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return opacity_of(m) == Opacity::Opaque; });
+    scene.census.texture_bytes = texture_bytes(scene.textures);
+    scene.census.scene_bytes = scene.census.texture_bytes;
+    return scene;
+}
+
+void build_aggregate(const SceneDescription& description, const CompileOptions& options,
+                     Scene& scene) {
+    Compiler(description, options, nullptr).build(scene);
+}
+
+void build_aggregate_taking_meshes(SceneDescription& description, const CompileOptions& options,
+                                   Scene& scene) {
+    Compiler(description, options, &description.meshes).build(scene);
+}
+
 Scene compile(const SceneDescription& description, const CompileOptions& options) {
-    return Compiler(description, options, nullptr).run();
+    Scene scene = compile_without_geometry(description);
+    build_aggregate(description, options, scene);
+    return scene;
 }
 
 Scene compile_taking_meshes(SceneDescription& description, const CompileOptions& options) {
-    return Compiler(description, options, &description.meshes).run();
+    Scene scene = compile_without_geometry(description);
+    build_aggregate_taking_meshes(description, options, scene);
+    return scene;
 }
 
 }  // namespace alhazen

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// Textures that use one image share its pyramid.
+/// Textures of one image share its pyramid.
 void compile_textures(const SceneDescription& description, Scene& scene) {
     std::map<std::pair<const StoredImage*, bool>, std::shared_ptr<const MipPyramid>> pyramids;
     for (const TextureDescription& t : description.textures) {

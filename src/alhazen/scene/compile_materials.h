@@ -1,6 +1,7 @@
 #pragma once
-/// Compiles the non-geometric part of a scene: materials, textures, lights, cameras. Internal to
-/// `compile`.
+/// The part of a scene without geometry: materials, textures, lights, cameras.
+///
+/// Internal to `compile`.
 
 #include <cstdint>
 
@@ -8,10 +9,10 @@
 
 namespace alhazen {
 
-/// Adds materials, textures, lights and cameras of the description to the scene.
+/// Fills in materials, textures, lights, cameras, conventions and background.
 void compile_materials(const SceneDescription& description, Scene& scene);
 
-/// Bytes of all images, each counted once, however many textures share it.
+/// Bytes of all images and their pyramids, each counted once.
 [[nodiscard]] std::uint64_t texture_bytes(const std::vector<Texture>& textures);
 
 }  // namespace alhazen

@@ -1,5 +1,6 @@
 #pragma once
-/// The compiled scene. Immutable while rendering.
+/// The compiled scene: geometry that rays can be traced in, and materials, textures, lights and
+/// cameras ready for use. Immutable while rendering.
 
 #include <cstdint>
 #include <memory>
@@ -12,15 +13,15 @@
 
 namespace alhazen {
 
-/// Sizes and counts of a scene.
+/// Counts of a scene. Those of shapes are 0 without an aggregate.
 struct SceneCensus {
     std::uint64_t analytic_shapes = 0;       ///< stored, each object once
     std::uint64_t triangles = 0;             ///< stored, each object once
     std::uint64_t instances = 0;             ///< stored
     std::uint64_t effective_primitives = 0;  ///< instances expanded; saturates
     int instance_depth = 0;                  ///< deepest nesting of instances
-    std::uint64_t solids = 0;                ///< CSG objects, each stored once
-    std::uint64_t solid_leaves = 0;          ///< their operands that are not operators
+    std::uint64_t solids = 0;                ///< of constructive geometry (CSG), each stored once
+    std::uint64_t solid_leaves = 0;          ///< operands of these that are no operators
     std::uint64_t scene_bytes = 0;           ///< shapes, meshes, textures
     std::uint64_t texture_bytes = 0;         ///< of these, the textures
     std::uint64_t accelerator_bytes = 0;
@@ -34,7 +35,7 @@ struct RenderConventions {
 };
 
 struct Scene {
-    std::shared_ptr<const Aggregate> aggregate;
+    std::shared_ptr<const Aggregate> aggregate;  ///< null until it is built
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Light> lights;
@@ -42,29 +43,42 @@ struct Scene {
     RenderConventions conventions;
     Rgb background;
     bool all_opaque = false;   ///< no material lets light through
-    bool has_masks = false;    ///< some part has a visibility mask
-    bool has_mipmaps = false;  ///< some texture is filtered by the footprint of the ray's cone
-    std::string accelerator;
+    bool has_masks = false;    ///< some part is not visible to all rays
+    bool has_mipmaps = false;  ///< some texture is filtered by the cone of the ray
+    std::string accelerator;   ///< of the aggregate; empty without
     SceneCensus census;
 };
 
 struct CompileOptions {
     std::string accelerator = "wide_bvh";
-    std::string csg = "event_heap";  ///< the CSG evaluator
+    std::string csg = "event_heap";  ///< evaluator of constructive solids
     BuildOptions build{};
     /// Objects that name an accelerator get it; false: the accelerator above traces everything.
     bool own_accelerators = true;
 };
 
-/// Builds the scene. The description must have passed `validate`. Throws Error: Usage for an
-/// unknown accelerator or CSG evaluator, Resource for too many primitives or too deep nesting.
+/// The scene with its aggregate: `compile_without_geometry`, then `build_aggregate`. The
+/// description must have passed `validate`.
 [[nodiscard]] Scene compile(const SceneDescription& description,
                             const CompileOptions& options = {});
 
-/// The same for callers that no longer need the meshes of `description`: meshes that are placed
-/// once, by a transform, are moved instead of copied and are null afterwards.
+/// Materials, textures, lights, cameras and conventions, without an aggregate: for renderers that
+/// need none.
+[[nodiscard]] Scene compile_without_geometry(const SceneDescription& description);
+
+/// Builds the aggregate of a scene that was compiled from `description` without geometry. Throws
+/// Error: Usage for an unknown accelerator or CSG evaluator, Resource for too many primitives or
+/// too deep nesting.
+void build_aggregate(const SceneDescription& description, const CompileOptions& options,
+                     Scene& scene);
+
+/// As `compile` and `build_aggregate`, for callers that no longer need the meshes of `description`:
+/// meshes that are placed once, by a transform, are moved instead of copied and are null
+/// afterwards.
 [[nodiscard]] Scene compile_taking_meshes(SceneDescription& description,
                                           const CompileOptions& options = {});
+void build_aggregate_taking_meshes(SceneDescription& description, const CompileOptions& options,
+                                   Scene& scene);
 
 /// The camera called `name`, or the one at that position when `name` is a number, or the first for
 /// an empty name. Throws Error (Usage) listing the cameras.

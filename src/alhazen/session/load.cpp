@@ -7,33 +7,56 @@
 
 namespace alhazen {
 
+namespace {
+
+void report_phase(const LoadOptions& options, const char* phase, std::size_t done) {
+    if (options.progress != nullptr) options.progress->update(phase, done, 1);
+}
+
+/// Runs `work` as the phase "build".
+template <class Work>
+void run_build_phase(LoadedScene& loaded, const LoadOptions& options, Work&& work) {
+    report_phase(options, "build", 0);
+    const Stopwatch time;
+    ThreadLimit(options.threads).run(work);
+    loaded.build_seconds += time.seconds();
+    loaded.build_peak_bytes = peak_rss_bytes();
+    report_phase(options, "build", 1);
+}
+
+void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
+    if (options.keep_meshes) {
+        build_aggregate(loaded.description, options.compile, loaded.scene);
+    } else {
+        build_aggregate_taking_meshes(loaded.description, options.compile, loaded.scene);
+    }
+}
+
+}  // namespace
+
 SceneDescription load_description(const std::filesystem::path& path, const LoadOptions& options,
                                   Diagnostics& diagnostics) {
     return import_scene(path, options.import, diagnostics);
 }
 
 LoadedScene load(const std::filesystem::path& path, const LoadOptions& options) {
-    const auto report = [&](const char* phase, std::size_t done) {
-        if (options.progress != nullptr) options.progress->update(phase, done, 1);
-    };
     LoadedScene loaded;
-    report("load", 0);
+    report_phase(options, "load", 0);
     const Stopwatch load_time;
     loaded.description = load_description(path, options, loaded.diagnostics);
     loaded.load_seconds = load_time.seconds();
     loaded.load_peak_bytes = peak_rss_bytes();
-    report("load", 1);
-    report("build", 0);
-    const Stopwatch build_time;
-    ThreadLimit(options.threads).run([&] {
-        loaded.scene = options.keep_meshes
-                           ? compile(loaded.description, options.compile)
-                           : compile_taking_meshes(loaded.description, options.compile);
+    report_phase(options, "load", 1);
+    run_build_phase(loaded, options, [&] {
+        loaded.scene = compile_without_geometry(loaded.description);
+        if (options.with_aggregate) add_aggregate(loaded, options);
     });
-    loaded.build_seconds = build_time.seconds();
-    loaded.build_peak_bytes = peak_rss_bytes();
-    report("build", 1);
     return loaded;
+}
+
+void build_aggregate(LoadedScene& loaded, const LoadOptions& options) {
+    if (loaded.scene.aggregate) return;
+    run_build_phase(loaded, options, [&] { add_aggregate(loaded, options); });
 }
 
 }  // namespace alhazen

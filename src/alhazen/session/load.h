@@ -1,5 +1,5 @@
 #pragma once
-/// Loads a scene file into a compiled scene, with the time of each phase.
+/// Loading a scene: read, validate, compile, with the time of each phase.
 
 #include <filesystem>
 #include <string>
@@ -17,6 +17,8 @@ struct LoadOptions {
     /// False: meshes that are placed once may be moved into the scene and are then null in the
     /// description.
     bool keep_meshes = true;
+    /// False: the scene has no aggregate until `build_aggregate`.
+    bool with_aggregate = true;
     ProgressSink* progress = nullptr;
 };
 
@@ -37,5 +39,8 @@ struct LoadedScene {
 
 /// Reads, validates and compiles. Throws Error.
 [[nodiscard]] LoadedScene load(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// Builds the aggregate where the scene has none, and adds to the times. Throws Error.
+void build_aggregate(LoadedScene& loaded, const LoadOptions& options);
 
 }  // namespace alhazen

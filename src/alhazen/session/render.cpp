@@ -5,12 +5,10 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <mutex>
-#include <vector>
 
 #include "alhazen/base/error.h"
-#include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/session/load.h"
 #include "alhazen/session/stopwatch.h"
 
 namespace alhazen {
@@ -19,14 +17,14 @@ namespace {
 
 constexpr int kDefaultHeight = 512;
 constexpr int kSpdRays = 513;
-/// Rays are traced by recursion: deeper trees would need more stack than a thread has for sure.
+/// Bounds the recursion over generations to the stack that every thread has.
 constexpr int kMaxDepth = 1000;
 
 struct FrameSize {
     int width, height;
 };
 
-/// A protocol fixes what it counts: options that would change it are refused.
+/// Refuses options that would change the counts of a protocol.
 void check_protocol(const RenderOptions& options) {
     if (options.protocol == Protocol::None) return;
     if (options.width || options.height || options.crop || options.samples_per_pixel != 1) {
@@ -76,49 +74,48 @@ Scene adjusted(const Scene& scene, const RenderOptions& options) {
     return result;
 }
 
-/// Tiles done so far; progress is told to one caller at a time.
-class TileReport {
-  public:
-    TileReport(ProgressSink* sink, std::size_t total) : sink_(sink), total_(total) {}
-
-    void tile_done() {
-        const std::lock_guard lock(mutex_);
-        ++done_;
-        if (sink_ != nullptr) sink_->update("render", done_, total_);
+/// `description`: of the scene, or null.
+RenderResult render_described(const Scene& original, const SceneDescription* description,
+                              const PictureSettings& picture, const RenderOptions& options) {
+    check(options);
+    check_protocol(options);
+    const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
+    if (renderer->needs_aggregate() && !original.aggregate) {
+        throw Error(ErrorKind::Usage, fmt::format("renderer '{}' needs the aggregate of the scene",
+                                                  options.renderer));
     }
-    [[nodiscard]] std::size_t done() const { return done_; }
-
-  private:
-    ProgressSink* sink_;
-    std::size_t total_;
-    std::size_t done_ = 0;
-    std::mutex mutex_;
-};
-
-/// One for each thread that is at work.
-class TileRenderers {
-  public:
-    TileRenderers(const Renderer& renderer, const RenderJob& job)
-        : renderer_(renderer), job_(job) {}
-
-    [[nodiscard]] std::unique_ptr<TileRenderer> take() {
-        const std::lock_guard lock(mutex_);
-        if (idle_.empty()) return renderer_.begin(job_);
-        std::unique_ptr<TileRenderer> taken = std::move(idle_.back());
-        idle_.pop_back();
-        return taken;
-    }
-    void give_back(std::unique_ptr<TileRenderer> renderer) {
-        const std::lock_guard lock(mutex_);
-        idle_.push_back(std::move(renderer));
-    }
-
-  private:
-    const Renderer& renderer_;
-    const RenderJob& job_;
-    std::vector<std::unique_ptr<TileRenderer>> idle_;
-    std::mutex mutex_;
-};
+    const Scene scene = adjusted(original, options);
+    const CameraDescription& camera = find_camera(scene, options.camera);
+    const FrameSize frame = frame_size(picture, options, camera.aspect);
+    const double aspect = static_cast<double>(frame.width) / frame.height;
+    RenderResult result(Film(frame.width, frame.height,
+                             options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
+    AovFilm aovs(options.aovs, result.film.crop());
+    const RenderJob job{.scene = scene,
+                        .camera = with_aspect(camera.camera, camera.aspect, aspect),
+                        .samples_per_pixel = options.samples_per_pixel,
+                        .seed = options.seed,
+                        .count_tests = options.count_tests || options.aovs.has_tests(),
+                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel),
+                        .aovs = options.aovs.empty() ? nullptr : &aovs,
+                        .description = description,
+                        .control = {.threads = options.threads,
+                                    .tile_size = options.tile_size,
+                                    .stop = options.stop,
+                                    .progress = options.progress}};
+    const Stopwatch time;
+    const std::clock_t processor = std::clock();
+    const RenderReport report = renderer->render(job, result.film);
+    result.seconds = time.seconds();
+    result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+    result.counters = report.counters;
+    result.threads = report.threads;
+    result.tiles = report.parts;
+    result.tiles_done = report.done;
+    result.complete = report.complete();
+    result.layers = std::move(aovs.layers());
+    return result;
+}
 
 }  // namespace
 
@@ -139,56 +136,13 @@ double free_aspect(const PictureSettings& picture, const RenderOptions& options)
     return both ? static_cast<double>(frame.width) / frame.height : kAspect;
 }
 
-RenderResult render(const Scene& original, const PictureSettings& picture,
+RenderResult render(const Scene& scene, const PictureSettings& picture,
                     const RenderOptions& options) {
-    check(options);
-    check_protocol(options);
-    const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
-    const Scene scene = adjusted(original, options);
-    const CameraDescription& camera = find_camera(scene, options.camera);
-    const FrameSize frame = frame_size(picture, options, camera.aspect);
-    const double aspect = static_cast<double>(frame.width) / frame.height;
-    RenderResult result(Film(frame.width, frame.height,
-                             options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
-    AovFilm aovs(options.aovs, result.film.crop());
-    const RenderJob job{.scene = scene,
-                        .camera = with_aspect(camera.camera, camera.aspect, aspect),
-                        .samples_per_pixel = options.samples_per_pixel,
-                        .seed = options.seed,
-                        .count_tests = options.count_tests || options.aovs.has_tests(),
-                        .stop = options.stop,
-                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel),
-                        .aovs = options.aovs.empty() ? nullptr : &aovs};
+    return render_described(scene, nullptr, picture, options);
+}
 
-    const std::vector<PixelBox> tiles = tiles_of(result.film.crop(), options.tile_size);
-    std::vector<RayCounters> counters(tiles.size());
-    TileReport report(options.progress, tiles.size());
-    ThreadLimit threads(options.threads);
-    TileRenderers renderers(*renderer, job);
-    const Stopwatch time;
-    const std::clock_t processor = std::clock();
-    threads.run([&] {
-        parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
-            std::unique_ptr<TileRenderer> own = renderers.take();
-            for (std::size_t i = begin; i < end; ++i) {
-                if (job.stop_requested()) return;
-                own->render(tiles[i], result.film, counters[i]);
-                // A tile that was abandoned keeps the pixels it has, but is not done.
-                if (job.stop_requested()) return;
-                report.tile_done();
-            }
-            renderers.give_back(std::move(own));
-        });
-    });
-    result.seconds = time.seconds();
-    result.processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
-    result.threads = threads.threads();
-    result.tiles = tiles.size();
-    result.tiles_done = report.done();
-    result.complete = result.tiles_done == result.tiles;
-    for (const RayCounters& c : counters) result.counters += c;
-    result.layers = std::move(aovs.layers());
-    return result;
+RenderResult render(const LoadedScene& loaded, const RenderOptions& options) {
+    return render_described(loaded.scene, &loaded.description, loaded.description.picture, options);
 }
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// One picture: the scene, the options that a person gives, and all cores.
+/// Rendering one picture of a scene with the options of a person.
 
 #include <optional>
 #include <string>
@@ -12,6 +12,8 @@
 
 namespace alhazen {
 
+struct LoadedScene;
+
 /// A published way of counting that fixes size, sampling and depth.
 enum class Protocol {
     None,
@@ -21,7 +23,7 @@ enum class Protocol {
     Spd,
 };
 
-/// What Protocol::Spd says of a scene; it also fixes the size, 513 x 513.
+/// Sets the conventions of Protocol::Spd; the protocol also fixes the size, 513 x 513.
 void apply_spd(ShadingConventions& shading, SamplingConventions& sampling);
 
 struct RenderOptions {
@@ -50,16 +52,18 @@ struct RenderResult {
     double seconds = 0;
     double processor_seconds = 0;  ///< of all threads together
     int threads = 0;
-    bool complete = true;  ///< false when it was stopped; tiles not done are black
-    std::size_t tiles_done = 0, tiles = 0;
+    bool complete = true;                   ///< false after a stop; tiles not done are black
+    std::size_t tiles_done = 0, tiles = 0;  ///< or the other parts that the renderer counts
 };
 
-/// Width / height of a picture that is not told its camera's: that of the options, of the file, or
-/// 4 / 3.
+/// Width / height of a picture without a camera: that of the options, of the file, or 4 / 3.
 [[nodiscard]] double free_aspect(const PictureSettings& picture, const RenderOptions& options);
 
-/// Throws Error (Usage) for options that make no picture.
+/// Renders a picture. Throws Error (Usage) for options that make no picture, and where the renderer
+/// needs an aggregate that the scene does not have.
 [[nodiscard]] RenderResult render(const Scene& scene, const PictureSettings& picture,
                                   const RenderOptions& options);
+/// The same with the description, for renderers that read geometry from it.
+[[nodiscard]] RenderResult render(const LoadedScene& loaded, const RenderOptions& options);
 
 }  // namespace alhazen

@@ -44,14 +44,15 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
                       {"cache_hits", tests.cache_hits}};
     }
     SceneCensus census = loaded.scene.census;
-    // Some accelerators build their lists on demand.
-    census.accelerator_bytes = accelerator_bytes(*loaded.scene.aggregate);
+    const bool has_aggregate = loaded.scene.aggregate != nullptr;
+    // Some accelerators make their lists while rays are traced.
+    if (has_aggregate) census.accelerator_bytes = accelerator_bytes(*loaded.scene.aggregate);
     const std::optional<double> each = bytes_per_effective_primitive(census);
     const json bytes_each = each ? json(*each) : json(nullptr);
     return {
         {"scene", scene_name},
         {"renderer", options.renderer},
-        {"accelerator", loaded.scene.accelerator},
+        {"accelerator", has_aggregate ? json(loaded.scene.accelerator) : json(nullptr)},
         {"threads", result.threads},
         {"version", version()},
         {"width", result.film.crop().width()},

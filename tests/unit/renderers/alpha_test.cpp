@@ -13,13 +13,13 @@ namespace {
 using testing::SceneMaker;
 
 /// Colour of the middle of the picture; the camera looks along -z from (0, 0, 5).
-Rgb center(const Scene& scene, RayCounters& counters, const Renderer& renderer = Whitted{}) {
+Rgb center(const Scene& scene, RayCounters& counters, const TiledRenderer& renderer = Whitted{}) {
     Film film(1, 1, {0, 0, 1, 1});
     const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
     renderer.render_tile(job, {0, 0, 1, 1}, film, counters);
     return film.at(0, 0);
 }
-Rgb center(const Scene& scene, const Renderer& renderer = Whitted{}) {
+Rgb center(const Scene& scene, const TiledRenderer& renderer = Whitted{}) {
     RayCounters counters;
     return center(scene, counters, renderer);
 }

@@ -18,7 +18,7 @@ constexpr RayMask kEye = mask_of(RayKind::Eye), kShadow = mask_of(RayKind::Shado
                   kReflection = mask_of(RayKind::Reflection),
                   kRefraction = mask_of(RayKind::Refraction);
 
-Rgb center(const Scene& scene, const Renderer& renderer = Whitted{}) {
+Rgb center(const Scene& scene, const TiledRenderer& renderer = Whitted{}) {
     Film film(1, 1, {0, 0, 1, 1});
     RayCounters counters;
     renderer.render_tile({scene, scene.cameras[0].camera, 1, 0, true}, {0, 0, 1, 1}, film,
@@ -198,7 +198,7 @@ Scene room(const std::string& accelerator, MaskOf&& mask) {
 
 constexpr int kSide = 24;
 
-Film picture_of(const Scene& scene, const Renderer& renderer) {
+Film picture_of(const Scene& scene, const TiledRenderer& renderer) {
     Film film(kSide, kSide, {0, 0, kSide, kSide});
     RayCounters counters;
     renderer.render_tile({scene, scene.cameras[0].camera, 1, 0, false}, {0, 0, kSide, kSide}, film,

@@ -73,7 +73,7 @@ struct Picture {
     RayCounters counters;
 };
 
-Picture picture_of(const Scene& scene, const Renderer& renderer, int tile = 24) {
+Picture picture_of(const Scene& scene, const TiledRenderer& renderer, int tile = 24) {
     Picture picture;
     const RenderJob job{scene, scene.cameras[0].camera, 2, 11, false};
     for (const PixelBox& box : tiles_of(picture.film.crop(), tile)) {
@@ -227,7 +227,7 @@ TEST(Wavefront, AStopEndsTheWorkWithTheGenerationAtHand) {
         watched->stop = &stop;
         watched->stop_at = call;
         RenderJob job{scene, scene.cameras[0].camera};
-        job.stop = &stop;
+        job.control.stop = &stop;
         Film film(8, 8, {0, 0, 8, 8});
         RayCounters counters;
         Whitted(16).render_tile(job, {0, 0, 8, 8}, film, counters);

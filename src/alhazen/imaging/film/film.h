@@ -1,9 +1,8 @@
 #pragma once
-/// The image during rendering: radiance in double, with tiles written from many threads.
+/// The film: radiance per pixel in double while an image is rendered, written from many threads.
 ///
 /// Conventions: pixel (0, 0) is the top left of the full frame; the film holds the crop [x0, x1) x
-/// [y0, y1) of it.
-/// Threads: different pixels may be written at the same time, by `set` or through `from`.
+/// [y0, y1) of it. Threads: different pixels may be set, by `set` or `from`, at the same time.
 
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// Layers of an image beside its colours: named channels with one number per pixel.
+/// Layers of a film besides its colours: named channels with one number per pixel.
 ///
 /// Conventions: those of `Film`; a channel is named "layer.component", as in multi-layer EXR files.
 /// Threads: `set` may be called at the same time for different pixels.
@@ -27,7 +27,7 @@ class FilmLayers {
     /// All values are 0. `crop` is that of the film.
     explicit FilmLayers(const PixelBox& crop) : crop_(crop) {}
 
-    /// Returns the channel's index.
+    /// Returns the index of the channel.
     std::size_t add(std::string name, SampleType type) {
         LayerChannel& channel = channels_.emplace_back();
         channel.name = std::move(name);

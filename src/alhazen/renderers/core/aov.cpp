@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "alhazen/base/error.h"
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/renderers/core/eye_samples.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/renderer.h"
 
@@ -15,8 +15,7 @@ namespace alhazen {
 
 namespace {
 
-/// Distance in front of the eye along the normal of the picture plane: the same for all points of a
-/// plane that is parallel to the picture.
+/// Distance in front of the eye along the normal of the picture plane.
 class DepthScale {
   public:
     explicit DepthScale(const Camera& camera) {
@@ -31,7 +30,7 @@ class DepthScale {
     Vec3 eye_, axis_;
 };
 
-/// What the samples of a pixel have met so far.
+/// Sums over the samples of a pixel.
 struct PixelGeometry {
     int samples = 0, hits = 0;
     double depth = 0, error = 0;
@@ -200,10 +199,10 @@ void AovRecorder::begin_pixel() {
     if (job_.aovs->wanted().has(AovKind::Time)) begin_ = std::chrono::steady_clock::now();
 }
 
-void AovRecorder::end_pixel(int i, int j, int width, int height) {
+void AovRecorder::end_pixel(int i, int j, std::span<const Vec2> places) {
     if (job_.aovs == nullptr) return;
     record_costs(i, j);
-    if (job_.aovs->wanted().has_geometry()) record_geometry(i, j, width, height);
+    if (job_.aovs->wanted().has_geometry()) record_geometry(i, j, places);
 }
 
 void AovRecorder::record_costs(int i, int j) {
@@ -223,17 +222,18 @@ void AovRecorder::record_costs(int i, int j) {
         grown(counters_.tests.primitive_tests, tests_before_.primitive_tests));
 }
 
-void AovRecorder::record_geometry(int i, int j, int width, int height) {
+void AovRecorder::record_geometry(int i, int j, std::span<const Vec2> places) {
     const DepthScale scale(job_.camera);
     PixelGeometry geometry;
-    geometry.samples = job_.samples_per_pixel;
-    for (int s = 0; s < job_.samples_per_pixel; ++s) {
-        const Vec2 p = eye_sample(job_, i, j, width, height, s);
+    geometry.samples = static_cast<int>(places.size());
+    bool first = true;
+    for (const Vec2& p : places) {
+        const bool names_ids = std::exchange(first, false);
         const Ray ray = eye_ray(job_.camera, p.x, p.y);
         ++counters_.aov_rays;
         VisibleHit seen;
         if (!first_visible_hit(job_.scene, ray, job_.cone, false, nullptr, seen)) continue;
-        if (s == 0) geometry.add_ids(seen.point.surface);
+        if (names_ids) geometry.add_ids(seen.point.surface);
         geometry.add(seen.point, scale);
     }
     write(*job_.aovs, i, j, geometry);

@@ -1,10 +1,10 @@
 #pragma once
-/// What is seen in each pixel besides its colour, and what the pixel cost: "arbitrary output
-/// variables", written as layers of the picture (docs/reference/layers.md).
+/// Arbitrary output variables (AOVs): geometry and cost of each pixel, written as layers of the
+/// picture (docs/reference/layers.md).
 ///
 /// Source: the channel names are those of OpenEXR's layer convention and of compositing programs.
-/// Differs: the geometry is found by a pass of its own that casts the pixel's eye rays again, so
-/// that every renderer has the same layers and no count of a renderer changes.
+/// Differs: the geometry is found by casting the pixel's eye rays again, so that every renderer has
+/// the same layers and no count of a renderer changes.
 /// Conventions: geometry is the mean over the samples that hit something (N and Ng made unit
 /// again); ids are those of the first sample. Where nothing is hit, depth is infinite and all else
 /// 0. Values depend on the pixel alone, times excepted.
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "alhazen/imaging/film/film_layers.h"
+#include "alhazen/math/vec.h"
 #include "alhazen/renderers/core/ray_counters.h"
 
 namespace alhazen {
@@ -54,19 +55,19 @@ struct AovEntry {
 /// In the order of AovKind.
 [[nodiscard]] std::span<const AovEntry> aov_table();
 
-/// Which layers are wanted.
+/// A set of layers.
 class AovSet {
   public:
     void add(AovKind kind) { bits_ |= bit(kind); }
     [[nodiscard]] bool has(AovKind kind) const { return (bits_ & bit(kind)) != 0; }
     [[nodiscard]] bool empty() const { return bits_ == 0; }
-    /// One of them needs to know what the eye rays meet.
+    /// One of them needs the hits of the eye rays.
     [[nodiscard]] bool has_geometry() const { return (bits_ & (bit(AovKind::Rays) - 1)) != 0; }
     /// One of them needs RenderJob::count_tests.
     [[nodiscard]] bool has_tests() const {
         return has(AovKind::NodeVisits) || has(AovKind::BoxTests) || has(AovKind::PrimitiveTests);
     }
-    /// One of them needs to know what each pixel cost.
+    /// One of them needs the cost of each pixel.
     [[nodiscard]] bool has_costs() const {
         return has_tests() || has(AovKind::Rays) || has(AovKind::Time);
     }
@@ -79,11 +80,11 @@ class AovSet {
     std::uint32_t bits_ = 0;
 };
 
-/// Names separated by commas, `all`, or the part before the dot for all that begin so (`id`,
-/// `count`). Throws Error (Usage) listing the names for an unknown one.
+/// Names separated by commas: `all`, a layer, or the part before the dot for all layers that begin
+/// with it (`id`, `count`). Throws Error (Usage) listing the names for an unknown one.
 [[nodiscard]] AovSet parse_aovs(const std::string& list);
 
-/// The layers of one picture while it is rendered.
+/// The layers of a film while it is rendered.
 class AovFilm {
   public:
     AovFilm(const AovSet& wanted, const PixelBox& crop);
@@ -92,7 +93,7 @@ class AovFilm {
     [[nodiscard]] FilmLayers& layers() { return layers_; }
     [[nodiscard]] const FilmLayers& layers() const { return layers_; }
 
-    /// Sets the channels of a layer that is wanted; `values` has one number for each.
+    /// Sets the channels of a layer, one number each; does nothing where it is not wanted.
     void set(AovKind kind, int x, int y, std::span<const double> values);
     void set_whole(AovKind kind, int x, int y, std::uint64_t value);
 
@@ -102,18 +103,19 @@ class AovFilm {
     std::array<std::size_t, 32> first_channel_{};
 };
 
-/// Stands around the work of each pixel of a tile; does nothing when the job has no AovFilm.
+/// Records the AOVs of pixels: `begin_pixel` before the work of each, `end_pixel` after it. Does
+/// nothing when the job has no AovFilm.
 class AovRecorder {
   public:
     AovRecorder(const RenderJob& job, RayCounters& counters) : job_(job), counters_(counters) {}
 
     void begin_pixel();
-    /// Pixel (i, j) of a frame of that size has been rendered.
-    void end_pixel(int i, int j, int width, int height);
+    /// Pixel (i, j) has been rendered; `places`: film coordinates of its samples.
+    void end_pixel(int i, int j, std::span<const Vec2> places);
 
   private:
     void record_costs(int i, int j);
-    void record_geometry(int i, int j, int width, int height);
+    void record_geometry(int i, int j, std::span<const Vec2> places);
 
     const RenderJob& job_;
     RayCounters& counters_;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a way through something leaves of light, colour by colour.
+/// Attenuation of light along a distance, per channel.
 
 #include <cmath>
 

@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// `v`, a vector in the plane of `dpdu` and `dpdv`, in texture coordinates (least squares); zero
+/// `v`, a vector in the plane of `dpdu` and `dpdv`, in texture coordinates (least squares). Zero
 /// where they do not span a plane.
 Vec2 in_coordinates(const Vec3& v, const Vec3& dpdu, const Vec3& dpdv) {
     const double uu = length_squared(dpdu);
@@ -49,7 +49,7 @@ Vec3 mapped_normal(const Scene& scene, const Surface& surface,
     return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
 }
 
-/// `n`, or the nearest direction that does not turn away from the viewer: a bent normal may.
+/// `n`, or the nearest direction that faces the viewer where a bent normal does not.
 Vec3 turned_to_view(const Vec3& n, const Vec3& view) {
     constexpr double kLeastCosine = 1e-3;
     const double cosine = dot(n, view);

@@ -1,6 +1,6 @@
 #pragma once
-/// The part of the shading equation that needs no further rays but shadow rays; shared by the
-/// renderers.
+/// Local shading, shared by the renderers: the terms of the shading equation that need no rays but
+/// shadow rays.
 ///
 /// Source: UW CSE 457, "Ray Tracing" lecture and Trace project: I = ke + sum_j [ ka ILa_j + Ashadow
 /// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977. Differs: what
@@ -15,7 +15,7 @@
 
 namespace alhazen {
 
-/// What a ray finds behind a surface where a solid of several media tells.
+/// The medium behind a surface, known for solids of several media.
 struct BehindSurface {
     bool known = false;
     bool inside = false;  ///< there is a medium, not air
@@ -23,7 +23,7 @@ struct BehindSurface {
     Rgb absorption;
 };
 
-/// A hit made ready for shading: everything turned to the side the ray came from.
+/// A hit ready for shading: all directions on the side the ray came from.
 struct ShadingPoint {
     ShadingPoint() = default;
     ShadingPoint(const ShadingPoint&) = delete;  // `material` may point into it
@@ -33,66 +33,65 @@ struct ShadingPoint {
     const MaterialSample* material = &own;  ///< `own`, or one that many points share
     MaterialSample own;
     bool inside = false;   ///< the ray came through the inside of something transparent
-    bool entering = true;  ///< the ray met the outside (by the geometric normal)
+    bool entering = true;  ///< the ray hit the outside (by the geometric normal)
     BehindSurface behind;
-    Rgb passing;                      ///< kt of going through: at a wall, of both media
-    Rgb medium;                       ///< kt of what the ray came through, where it is inside
+    Rgb passing;                      ///< kt of passing through; at a wall, of both media
+    Rgb medium;                       ///< kt of the medium the ray came through, where it is inside
     bool medium_is_physical = false;  ///< it absorbs by its own law
     Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
     Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
     Vec3 view;                        ///< unit, towards the ray's origin
 };
 
-/// `footprint`: what the ray's cone cuts out of both sets of texture coordinates.
+/// The evaluated material. `footprint`: of the ray's cone, in both sets of texture coordinates.
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
                                          const std::array<UvFootprint, 2>& footprint = {});
 
-/// What fills one side of the surface (`surface.media`), textures looked up as on the surface.
+/// The medium on one side of the surface (`surface.media`), textures looked up at the surface.
 [[nodiscard]] MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id);
 
-/// What a cone of diameter `width` around `direction` cuts out of the surface, in both sets of
+/// The footprint of a cone of diameter `width` around `direction` on the surface, in both sets of
 /// texture coordinates.
 [[nodiscard]] std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
                                                       double width);
 
-/// How a ray comes to a surface.
+/// How a ray arrives at a surface.
 struct Arrival {
-    /// Through the inside of something: known from the ray's history, not from the normal: an open
-    /// surface has a back but no inside.
+    /// Through the inside of a solid. Known from the history of the ray, not from the normal: an
+    /// open surface has a back but no inside.
     bool inside = false;
     double width = 0;  ///< of the ray's cone at the hit
 };
 
-/// What is asked of a shading point.
+/// Parts of a shading point that the caller needs.
 struct PointNeeds {
     bool uv = true;                     ///< else texture coordinates may be missing
-    MaterialCache* constant = nullptr;  ///< samples that many points share; may be null
+    MaterialCache* constant = nullptr;  ///< shared samples; may be null
 };
 
-/// Fills in all of `point`: it is large, and not copied. `ray.direction` must be unit. The material
-/// is as the ray sees it: textures filtered, Fresnel's share for its angle, coverage 0 where a
-/// single-sided surface turns its back.
+/// Fills in all of `point`, in place because it is large. `ray.direction` must be unit. The
+/// material is that for this ray: textures filtered, Fresnel's share for its angle, coverage 0 on
+/// the back of a single-sided surface.
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point);
 
-/// A surface that a ray sees.
+/// The surface that a ray sees.
 struct VisibleHit {
     Hit hit;
     ShadingPoint point;
-    double t = 0;  ///< from the origin of the ray asked for; `hit.t` counts from the last surface
-                   ///< passed through
+    double t = 0;  ///< from the origin of the ray; `hit.t` counts from the last surface passed
 };
 
-/// The first surface along an eye ray of which something is there: a coverage above 0. Others are
-/// passed straight through, at most kMaxPassedSurfaces of them.
+/// Finds the first surface along an eye ray with a coverage above 0. Others are passed straight
+/// through, at most kMaxPassedSurfaces of them.
 [[nodiscard]] bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone,
                                      bool inside, TraversalStats* stats, VisibleHit& found);
 inline constexpr int kMaxPassedSurfaces = 4096;
 
-/// Less of a ray than this is not followed any further through surfaces that are partly there.
+/// Rays end behind partly covering surfaces where less than this share of them is left.
 inline constexpr double kLeastTransmittance = 1.0 / 4096;
 
-/// [light] What `unshadowed_terms` asks of the lights: the same at every point.
+/// [light] Ambient terms for `unshadowed_terms`: the same at every point.
 [[nodiscard]] std::vector<Rgb> ambient_terms(std::span<const Light> lights);
 
 /// Emission and the ambient terms of all lights.

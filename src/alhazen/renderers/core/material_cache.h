@@ -1,8 +1,8 @@
 #pragma once
-/// Samples of the materials that are the same everywhere, each evaluated once.
+/// Samples of the materials that are the same at every point, each evaluated once.
 ///
-/// Source: none. Differs: nothing. Conventions: for surfaces without vertex colours. A table with
-/// few places: a material takes the place of another one. Threads: belongs to one.
+/// Conventions: for surfaces without vertex colours. The table is small: materials evict each
+/// other. Threads: belongs to one.
 
 #include <array>
 
@@ -12,10 +12,10 @@ namespace alhazen {
 
 class MaterialCache {
   public:
-    /// The scene must outlive it and keep its materials.
+    /// The scene must outlive the cache and keep its materials.
     explicit MaterialCache(const Scene& scene) : scene_(scene) {}
 
-    /// Null where the material depends on the place. Valid until the next call.
+    /// Null where the material depends on the point. Valid until the next call.
     [[nodiscard]] const MaterialSample* find(MaterialId id) {
         Place& place = places_[static_cast<std::uint32_t>(id) % kPlaces];
         if (place.id != id || !place.used) fill(id, place);

@@ -1,25 +1,31 @@
 #pragma once
-/// The loop over the pixels and samples of tiles that renderers share.
+/// The loop over the pixels and samples of tiles: sampler, estimator and filter put together at
+/// compile time.
 ///
-/// Source: none. Differs: nothing. Conventions: all memory is kept from tile to tile. Threads:
-/// belongs to one.
+/// Conventions: eye rays are traced in batches; neighbours in a batch are neighbours in the film.
+/// All memory is kept from tile to tile. Threads: belongs to one.
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "alhazen/cameras/eye_rays.h"
+#include "alhazen/imaging/film/pixel_filter.h"
 #include "alhazen/renderers/core/aov.h"
-#include "alhazen/renderers/core/eye_samples.h"
-#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/core/samplers.h"
+#include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {
 
-/// Gathers eye rays, block by block of pixels, and gives their light back to the pixels.
+/// Gathers the eye rays of a tile in batches, has them traced and filters their radiance into the
+/// film.
+template <PixelSampler Sampler, PixelFilter Filter>
 class PixelLoop {
   public:
-    /// `at_once`: so many samples are traced together at most.
+    /// `at_once`: the most samples of a batch.
     PixelLoop(const RenderJob& job, std::size_t at_once, RayCounters& counters)
         : job_(job),
           counters_(counters),
@@ -29,39 +35,35 @@ class PixelLoop {
           rays_(at_once),
           radiance_(at_once) {}
 
-    /// Calls `radiance(std::span<const Ray> eye_rays, std::span<Rgb> radiance)` for some samples
-    /// after the other, until it has all, and writes the mean of a pixel's finite ones to the film.
-    /// Returns early when the job is to stop; no pixel is left half done.
-    template <class Radiance>
-    void run(const PixelBox& tile, Film& film, Radiance&& radiance) {
+    /// Renders the tile with `estimator`. Returns early after a stop; no pixel is left half done.
+    template <class Estimator>
+    void run(const PixelBox& tile, Film& film, Estimator& estimator) {
         begin_tile(tile, film);
-        if (is_plain()) return run_plain(film, radiance);
-        // What a pixel costs is known where its rays are alone.
+        if (is_plain()) return run_plain(film, estimator);
+        // The cost of a pixel is known only if no other rays are traced with its own.
         const bool alone = job_.aovs != nullptr && job_.aovs->wanted().has_costs();
         for (const Pixel& pixel : pixels_) {
             if (job_.aovs != nullptr) aovs_.begin_pixel();
-            for (int s = 0; s < job_.samples_per_pixel; ++s) {
+            for (int s = 0; s < sampler_->count(); ++s) {
                 sums_[gathered_++] = sum_of(pixel, s);
-                if (gathered_ == sums_.size() && !trace(film, radiance)) return;
+                if (gathered_ == sums_.size() && !trace(film, estimator)) return;
             }
-            if (alone && !trace(film, radiance)) return;
+            if (alone && !trace(film, estimator)) return;
         }
-        trace(film, radiance);
+        trace(film, estimator);
     }
 
   private:
-    /// Every pixel has one sample, and nobody records how it came about.
-    [[nodiscard]] bool is_plain() const {
-        return job_.samples_per_pixel == 1 && job_.aovs == nullptr;
-    }
+    /// Every pixel has one sample, and no AOVs are recorded.
+    [[nodiscard]] bool is_plain() const { return Sampler::kSeparable && job_.aovs == nullptr; }
     /// As `run`.
-    template <class Radiance>
-    void run_plain(Film& film, Radiance& radiance) {
+    template <class Estimator>
+    void run_plain(Film& film, Estimator& estimator) {
         std::span<const Pixel> rest = pixels_;
         while (!rest.empty()) {
             const std::span<const Pixel> next = rest.first(std::min(rest.size(), sums_.size()));
-            for (const Pixel& pixel : next) sums_[gathered_++] = sum_of_single(pixel);
-            if (!trace(film, radiance)) return;
+            for (const Pixel& pixel : next) sums_[gathered_++] = separable_sum(pixel);
+            if (!trace(film, estimator)) return;
             rest = rest.subspan(next.size());
         }
     }
@@ -72,28 +74,28 @@ class PixelLoop {
     };
 
     void begin_tile(const PixelBox& tile, const Film& film) {
-        width_ = film.frame_width();
-        height_ = film.frame_height();
+        sampler_.emplace(job_, film.frame_width(), film.frame_height());
         gathered_ = done_ = 0;
-        samples_ = finite_ = 0;
-        sum_ = {};
+        samples_ = 0;
+        filter_ = {};
         if (pixels_.empty() || tile.width() != tile_.width() || tile.height() != tile_.height()) {
             list_pixels(tile.width(), tile.height());
         }
         tile_ = tile;
-        if (job_.samples_per_pixel != 1) return;
-        columns_.clear();
-        rows_.clear();
-        const auto sample = [&](int i, int j) {
-            return single_sample(job_.scene.conventions.sampling.pixel_sample, i, j, width_,
-                                 height_);
-        };
-        for (int i = tile.x0; i < tile.x1; ++i) columns_.push_back(eye_.column(sample(i, 0).x));
-        for (int j = tile.y0; j < tile.y1; ++j) rows_.push_back(eye_.row(sample(0, j).y));
+        if constexpr (Sampler::kSeparable) {
+            columns_.clear();
+            rows_.clear();
+            for (int i = tile.x0; i < tile.x1; ++i) {
+                columns_.push_back(eye_.column(sampler_->at(i, 0, 0).x));
+            }
+            for (int j = tile.y0; j < tile.y1; ++j) {
+                rows_.push_back(eye_.row(sampler_->at(0, j, 0).y));
+            }
+        }
     }
 
-    /// Blocks of pixels, and in these cells of eight, whose rays are tested together: rays that
-    /// follow each other stay near each other.
+    /// Lists the pixels in blocks, and in these in cells of eight, whose rays form a packet:
+    /// neighbours in the list are neighbours in the film.
     void list_pixels(int width, int height) {
         constexpr int kBlock = 8, kCellWidth = 4, kCellHeight = 2;
         pixels_.clear();
@@ -114,27 +116,30 @@ class PixelLoop {
         });
     }
 
-    /// What makes the eye ray of a pixel's only sample.
-    [[nodiscard]] Vec3 sum_of_single(const Pixel& pixel) const {
+    /// The column and the row of the eye ray of a pixel's only sample, added.
+    [[nodiscard]] Vec3 separable_sum(const Pixel& pixel) const {
         return columns_[static_cast<std::size_t>(pixel.i)] +
                rows_[static_cast<std::size_t>(pixel.j)];
     }
+    /// The same of sample s.
     [[nodiscard]] Vec3 sum_of(const Pixel& pixel, int s) const {
-        if (job_.samples_per_pixel == 1) return sum_of_single(pixel);
-        const Vec2 p =
-            jittered_sample(job_, tile_.x0 + pixel.i, tile_.y0 + pixel.j, width_, height_, s);
-        return eye_.column(p.x) + eye_.row(p.y);
+        if constexpr (Sampler::kSeparable) {
+            return separable_sum(pixel);
+        } else {
+            const Vec2 p = sampler_->at(tile_.x0 + pixel.i, tile_.y0 + pixel.j, s);
+            return eye_.column(p.x) + eye_.row(p.y);
+        }
     }
 
-    /// False when the job is to stop.
-    template <class Radiance>
-    bool trace(Film& film, Radiance& radiance) {
+    /// Traces the gathered rays. False after a stop.
+    template <class Estimator>
+    bool trace(Film& film, Estimator& estimator) {
         if (job_.stop_requested()) return false;
         eye_.rays(std::span(sums_).first(gathered_), rays_.data());
         const std::span<Rgb> found = std::span(radiance_).first(gathered_);
         std::fill(found.begin(), found.end(), Rgb{});
-        radiance(std::span<const Ray>(rays_).first(gathered_), found);
-        // What was cut short is given up.
+        estimator.trace(std::span<const Ray>(rays_).first(gathered_), found);
+        // A batch that was cut short is dropped.
         if (job_.stop_requested()) return false;
         if (is_plain()) {
             take_pixels(film, found);
@@ -145,78 +150,87 @@ class PixelLoop {
         return true;
     }
 
-    /// As `take`, where each is a pixel and nobody records them.
+    /// As `take`, where each sample is a pixel and no AOVs are recorded.
     void take_pixels(Film& film, std::span<const Rgb> found) {
         const Pixel* pixel = pixels_.data() + done_;
         Rgb* const corner = film.from(tile_.x0, tile_.y0);
         const std::ptrdiff_t stride = film.crop().width();
-        std::uint64_t non_finite = 0;
+        std::uint64_t left_out = 0;
         for (const Rgb& c : found) {
-            const bool finite = c.is_finite();
-            non_finite += !finite;
-            corner[pixel->j * stride + pixel->i] = finite ? Rgb{} + c : Rgb{};
+            Filter filter;
+            left_out += !filter.add(c);
+            corner[pixel->j * stride + pixel->i] = filter.value();
             ++pixel;
         }
-        counters_.non_finite += non_finite;
+        counters_.non_finite += left_out;
         done_ += found.size();
     }
 
     void take(Film& film, const Rgb& c) {
-        if (c.is_finite()) {
-            sum_ += c;
-            ++finite_;
-        } else {
-            ++counters_.non_finite;
-        }
-        if (++samples_ == job_.samples_per_pixel) end_pixel(film);
+        counters_.non_finite += !filter_.add(c);
+        if (++samples_ == sampler_->count()) end_pixel(film);
     }
 
     void end_pixel(Film& film) {
         const Pixel& pixel = pixels_[done_++];
         const int i = tile_.x0 + pixel.i, j = tile_.y0 + pixel.j;
-        film.set(i, j, finite_ == 1 ? sum_ : finite_ > 1 ? (1.0 / finite_) * sum_ : Rgb{});
-        if (job_.aovs != nullptr) aovs_.end_pixel(i, j, width_, height_);
-        sum_ = {};
-        finite_ = samples_ = 0;
+        film.set(i, j, filter_.value());
+        if (job_.aovs != nullptr) {
+            places_.clear();
+            for (int s = 0; s < sampler_->count(); ++s) places_.push_back(sampler_->at(i, j, s));
+            aovs_.end_pixel(i, j, places_);
+        }
+        filter_ = {};
+        samples_ = 0;
     }
 
     const RenderJob& job_;
     RayCounters& counters_;
     AovRecorder aovs_;
     EyeRays eye_;
-    int width_ = 0, height_ = 0;        ///< of the frame
-    std::vector<Vec3> columns_, rows_;  ///< of the tile, where a pixel has one sample
+    std::optional<Sampler> sampler_;    ///< of the frame
+    std::vector<Vec3> columns_, rows_;  ///< of the tile, where the sampler is separable
     std::vector<Vec3> sums_;            ///< of a column and a row
     std::size_t gathered_ = 0;          ///< of them
     std::vector<Ray> rays_;
     std::vector<Rgb> radiance_;
     PixelBox tile_;
     std::vector<Pixel> pixels_;  ///< of the tile, in the order in which they are done
-    std::size_t done_ = 0;       ///< pixels that have their light
-    int samples_ = 0, finite_ = 0;
-    Rgb sum_;
+    std::size_t done_ = 0;       ///< finished pixels
+    int samples_ = 0;            ///< of the pixel in work that the filter has seen
+    Filter filter_;
+    std::vector<Vec2> places_;  ///< film coordinates of a pixel's samples
 };
 
-/// Renders tiles with `Integrator(job, rays_at_once, counters)`, whose `trace(eye_rays, radiance)`
-/// does the work.
-template <class Integrator>
+/// Renders tiles by PixelLoop.
+template <PixelSampler Sampler, RadianceEstimator Estimator, PixelFilter Filter>
 class PixelRenderer final : public TileRenderer {
   public:
     PixelRenderer(const RenderJob& job, std::size_t rays_at_once)
-        : integrator_(job, rays_at_once, counters_), loop_(job, rays_at_once, counters_) {}
+        : estimator_(job, rays_at_once, counters_), loop_(job, rays_at_once, counters_) {}
 
     void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
-        loop_.run(tile, film, [&](std::span<const Ray> rays, std::span<Rgb> radiance) {
-            integrator_.trace(rays, radiance);
-        });
+        loop_.run(tile, film, estimator_);
         counters += counters_;
         counters_ = {};
     }
 
   private:
     RayCounters counters_;  ///< of the tile
-    Integrator integrator_;
-    PixelLoop loop_;
+    Estimator estimator_;
+    PixelLoop<Sampler, Filter> loop_;
 };
+
+/// A PixelRenderer with the sampler for the job's samples per pixel, and the box filter.
+template <RadianceEstimator Estimator>
+[[nodiscard]] std::unique_ptr<TileRenderer> make_pixel_renderer(const RenderJob& job,
+                                                                std::size_t rays_at_once) {
+    if (job.samples_per_pixel == 1) {
+        return std::make_unique<PixelRenderer<PointSampler, Estimator, BoxFilter>>(job,
+                                                                                   rays_at_once);
+    }
+    return std::make_unique<PixelRenderer<JitteredSampler, Estimator, BoxFilter>>(job,
+                                                                                  rays_at_once);
+}
 
 }  // namespace alhazen

@@ -1,5 +1,5 @@
 #pragma once
-/// Rays by kind, as the field's published counts know them.
+/// Counts of rays by kind, as published counts have them.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// `hit` counts rays that met a surface; for shadow rays, those that met anything on the way to the
+/// `hit` counts rays that hit a surface; for shadow rays, those with anything in front of the
 /// light.
 struct RayCount {
     std::uint64_t cast = 0, hit = 0;

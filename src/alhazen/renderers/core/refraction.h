@@ -2,7 +2,7 @@
 /// Mirror and refracted directions.
 ///
 /// Source: Heckbert, "Writing a Ray Tracer", in Glassner (ed.), An Introduction to Ray Tracing,
-/// 1989. Differs: nothing. Conventions: `d` and `n` unit, dot(d, n) <= 0 for the side the ray comes
+/// 1989. Conventions: `d` and `n` unit, dot(d, n) <= 0 for the side the ray comes
 /// from; results unit.
 
 #include <cmath>

@@ -1,8 +1,10 @@
 #pragma once
-/// What every renderer offers: it fills tiles of a film. To add one: CONTRIBUTING.md.
+/// The interface of all renderers: a renderer fills the crop of a film. How it divides the work
+/// (tiles, scan lines, passes) is its own; `tiles.h` is the strategy for independent pixels.
+/// docs/design/renderers.md; to add one: CONTRIBUTING.md.
 ///
 /// Conventions: a pixel depends on the scene, the camera, the sampling and its own coordinates,
-/// never on the tile it is rendered in or the thread that does it.
+/// never on RenderControl.
 
 #include <memory>
 #include <span>
@@ -16,40 +18,53 @@
 
 namespace alhazen {
 
-/// Everything that a tile needs to know.
-struct RenderJob {
-    const Scene& scene;
-    Camera camera;  ///< already fitted to the frame's aspect ratio
-    int samples_per_pixel =
-        1;  ///< 1: the convention's point of the pixel; more: stratified, jittered
-    std::uint64_t seed = 0;
-    bool count_tests = false;        ///< fill RayCounters::tests (rays are always counted)
-    const StopFlag* stop = nullptr;  ///< looked at before each batch of rays; may be null
-    RayCone cone{};           ///< of each eye ray; zero: textures are not filtered by distance
-    AovFilm* aovs = nullptr;  ///< filled besides the film; may be null
-
-    [[nodiscard]] bool stop_requested() const { return stop != nullptr && stop->requested(); }
+/// How the work on a job is done. Changes no pixel and no count.
+struct RenderControl {
+    int threads = 0;                   ///< at most; 0 = all available cores
+    int tile_size = 32;                ///< side in pixels, at least 1; for renderers with tiles
+    const StopFlag* stop = nullptr;    ///< read before each batch of rays; may be null
+    ProgressSink* progress = nullptr;  ///< phase "render"; may be null
 };
 
-/// Renders tiles of a job, one after the other; what it needs besides is kept from tile to tile.
-/// Threads: belongs to one at a time.
-class TileRenderer {
-  public:
-    virtual ~TileRenderer() = default;
-    /// Renders the pixels of `tile` into `film`, adding to `counters`.
-    virtual void render(const PixelBox& tile, Film& film, RayCounters& counters) = 0;
+/// What to render, and how.
+struct RenderJob {
+    const Scene& scene;
+    Camera camera;              ///< fitted to the aspect ratio of the frame
+    int samples_per_pixel = 1;  ///< see samplers.h
+    std::uint64_t seed = 0;
+    bool count_tests = false;  ///< fill RayCounters::tests (rays are always counted)
+    RayCone cone{};            ///< of each eye ray; zero: textures are not filtered by distance
+    AovFilm* aovs = nullptr;   ///< filled besides the film; may be null
+    /// What `scene` was compiled from, with all shapes and meshes: the geometry for renderers that
+    /// need no aggregate. Null where unknown.
+    const SceneDescription* description = nullptr;
+    RenderControl control{};
+
+    [[nodiscard]] bool stop_requested() const {
+        return control.stop != nullptr && control.stop->requested();
+    }
+};
+
+/// The outcome of Renderer::render.
+struct RenderReport {
+    RayCounters counters;
+    std::size_t done = 0, parts = 0;  ///< of the work, as told to RenderControl::progress
+    int threads = 1;                  ///< bound that was in force
+
+    /// False after a stop.
+    [[nodiscard]] bool complete() const { return done == parts; }
 };
 
 class Renderer {
   public:
     virtual ~Renderer() = default;
-    /// `job` must outlive what is made. Called from many threads.
-    [[nodiscard]] virtual std::unique_ptr<TileRenderer> begin(const RenderJob& job) const = 0;
-    /// One tile alone.
-    void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
-                     RayCounters& counters) const {
-        begin(job)->render(tile, film, counters);
-    }
+    /// Renders the crop of `film`. Uses threads as `job.control` allows and returns early after a
+    /// stop; pixels that are not done stay as they were. May be called from many threads, with
+    /// different films.
+    [[nodiscard]] virtual RenderReport render(const RenderJob& job, Film& film) const = 0;
+    /// False: `render` takes a scene without an aggregate, so none is built for it; geometry is
+    /// read from RenderJob::description.
+    [[nodiscard]] virtual bool needs_aggregate() const { return true; }
 };
 
 /// A renderer by name, and what it does in one line.
@@ -59,7 +74,7 @@ struct RendererEntry {
     std::unique_ptr<Renderer> (*make)();
 };
 
-/// The table of renderers. ADD A RENDERER HERE (renderer.cpp: one line).
+/// The table of renderers. ADD A RENDERER HERE (renderer_list.cpp: one line).
 [[nodiscard]] std::span<const RendererEntry> renderers();
 /// Throws Error (Usage) listing the names for an unknown one.
 [[nodiscard]] std::unique_ptr<Renderer> make_renderer(const std::string& name);

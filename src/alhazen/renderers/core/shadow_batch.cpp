@@ -12,10 +12,10 @@ namespace {
 
 using ShadowTint = ShadingConventions::ShadowTint;
 
-/// Rays that are cast together: enough to keep the stream kernel busy, few enough to stay near the
-/// core with what belongs to them.
+/// Rays that are cast together: enough to keep the stream kernel busy, few enough to stay in the
+/// cache with their data.
 constexpr std::size_t kMostRays = 512;
-/// Where more than one of so many rays meets something, every ray is asked what it meets.
+/// Crossings of all rays are found at once where more than one of so many hits something.
 constexpr std::uint64_t kFewMeet = 4;
 
 }  // namespace
@@ -59,20 +59,20 @@ void ShadowBatch::finish(Coherence coherence) {
     waiting_.clear();
 }
 
-/// Whether it pays to find out which rays meet anything at all, and to ask only those what it is.
-/// What is counted must not depend on the rays before.
+/// True where it pays to find first which rays hit anything, and crossings for these only. Counted
+/// tests must not depend on earlier rays, so counting rules it out.
 bool ShadowBatch::asks_first() const {
     return opaque_ || (stats_ == nullptr && kFewMeet * count_.hit <= count_.cast);
 }
 
-/// What is left of the light; `met`: there may be something on the way.
+/// Transmittance along the ray; `met`: false where nothing is in between.
 Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     if (opaque_) {
         count_.hit += met;
         return met ? Rgb{0, 0, 0} : Rgb{1, 1, 1};
     }
     crossings_.clear();
-    // Light may pass what it meets without a trace: the back of a surface that has none.
+    // A ray that hits may have no crossing: the back of a single-sided surface.
     const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query());
     count_.hit += blocked || !crossings_.empty();
     return blocked ? Rgb{0, 0, 0} : tint_of_crossings(ray, path);
@@ -83,7 +83,7 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     media_.clear();
     if (path.inside) media_.push_back(path.absorption);
     double last = 0.0;
-    bool in_wall = false;  // the first of the two crossings of a wall lies behind
+    bool in_wall = false;  // past the first of the two crossings of a wall
     for (const Hit& crossing : crossings_) {
         const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
         MaterialSample material = material_at(scene_, surface);
@@ -97,7 +97,7 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
             medium = medium_at(scene_, surface, leaving ? *media.before : *media.after);
             if (wall) material = medium;
         }
-        // Light that comes to the back of a surface without one passes.
+        // Light passes through the back of a single-sided surface.
         if (!leaving && is_unseen_from_behind(material)) continue;
         Rgb through = light_through(material, medium, leaving, crossing.t - last);
         if (medium.physical && !medium.thin) {
@@ -116,8 +116,8 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     return tint;
 }
 
-/// What one surface lets through of light that enters or leaves `medium` there; `inside`: the way
-/// since the last one.
+/// Transmittance of one surface, where light enters or leaves `medium`; `inside`: the distance
+/// since the last surface.
 Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSample& medium,
                                bool leaving, double inside) const {
     const Rgb& kt = material.transmissive;
@@ -128,7 +128,7 @@ Rgb ShadowBatch::light_through(const MaterialSample& material, const MaterialSam
     return leaving ? power(medium.transmissive, inside) : Rgb{1, 1, 1};
 }
 
-/// What is left after a way through the innermost volume that was entered.
+/// Transmittance of the innermost volume that was entered.
 Rgb ShadowBatch::through_medium(double distance) const {
     return media_.empty() ? Rgb{1, 1, 1} : transmittance(media_.back(), distance);
 }

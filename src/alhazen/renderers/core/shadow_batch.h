@@ -1,10 +1,10 @@
 #pragma once
-/// Light on its way to many points: shadow rays are gathered, then cast together.
+/// Direct light of many points: shadow rays are gathered, then cast together.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (shadow rays); UW CSE
-/// 457, Trace project (light through transparent surfaces). Differs: where few rays meet
-/// anything, only those are asked what they meet; what that does is as
-/// ShadingConventions::ShadowTint says.
+/// 457, Trace project (light through transparent surfaces). Differs: where few rays hit
+/// anything, crossings are found for these only; ShadingConventions::ShadowTint defines the effect
+/// of a crossing.
 
 #include <memory>
 #include <span>
@@ -21,12 +21,12 @@ class ShadowBatch {
   public:
     ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
-    /// Light from `surface` towards a light: adds to `sum`, now or by `finish`, what arrives of
-    /// `light.intensity` times the `fraction` that is reflected. Sums are added to in the order of
-    /// the calls. `path`: that of the ray that met the surface. Both must stay where they are.
+    /// Adds to `sum`, now or by `finish`, the arriving part of `light.intensity` times the
+    /// reflected `fraction`. Sums are added to in the order of the calls. `path`: that of the ray
+    /// that hit `surface`. `path` and `sum` must stay valid until `finish`.
     void add(const Surface& surface, const LightSample& light, const Rgb& fraction,
              const Path& path, Rgb& sum);
-    /// Casts what has been gathered.
+    /// Casts the gathered rays.
     void finish(Coherence coherence = Coherence::Any);
 
   private:
@@ -39,7 +39,7 @@ class ShadowBatch {
     [[nodiscard]] RayQuery query() const { return {stats_, mask_of(RayKind::Shadow)}; }
     [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
-    /// What the transparent surfaces in `crossings_` leave of light along `ray`.
+    /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
                                     bool leaving, double inside) const;
@@ -49,12 +49,12 @@ class ShadowBatch {
     const Scene& scene_;
     RayCount& count_;
     TraversalStats* stats_;
-    bool opaque_;  ///< whatever is in between ends the light
+    bool opaque_;  ///< any surface in between blocks the light
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
-    std::vector<Rgb> media_;  ///< absorption of the volumes that a shadow ray is inside of
+    std::vector<Rgb> media_;  ///< absorption of the volumes around the shadow ray, innermost last
 };
 
 }  // namespace alhazen

@@ -9,8 +9,8 @@ namespace alhazen {
 
 namespace {
 
-std::optional<Rgb> look_of(const Scene& scene, const Material& material,
-                           std::span<const Rgb> ambient) {
+std::optional<Rgb> unlit_color_of(const Scene& scene, const Material& material,
+                                  std::span<const Rgb> ambient) {
     if (reads_textures(material)) return std::nullopt;
     ShadingPoint point;
     point.own = evaluate(material, scene.textures, SurfaceLookup{});
@@ -29,18 +29,18 @@ std::optional<Rgb> look_of(const Scene& scene, const Material& material,
 
 UnlitCache::UnlitCache(const Scene& scene, std::span<const Rgb> ambient) : scene_(scene) {
     for (const Material& material : scene.materials) {
-        colors_.push_back(look_of(scene, material, ambient));
+        colors_.push_back(unlit_color_of(scene, material, ambient));
     }
     const bool any = std::any_of(colors_.begin(), colors_.end(),
-                                 [](const auto& look) { return look.has_value(); });
+                                 [](const auto& color) { return color.has_value(); });
     if (!any) colors_.clear();
 }
 
 const Rgb* UnlitCache::look_up(const Hit& hit) const {
     const std::optional<MaterialId> material = plain_material(*scene_.aggregate, hit);
     if (!material) return nullptr;
-    const std::optional<Rgb>& look = colors_[static_cast<std::size_t>(*material)];
-    return look ? &*look : nullptr;
+    const std::optional<Rgb>& color = colors_[static_cast<std::size_t>(*material)];
+    return color ? &*color : nullptr;
 }
 
 }  // namespace alhazen

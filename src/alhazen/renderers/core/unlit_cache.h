@@ -1,10 +1,9 @@
 #pragma once
-/// Materials that show one colour wherever and from wherever they are seen: what gives light of its
-/// own and sends back none of others', as unlit materials do. Where such a one is hit no surface
-/// needs to be found.
+/// Unlit cache: colours of the materials that look the same at every point and from every
+/// direction, as unlit ones do. A hit on one needs no surface.
 ///
-/// Source: none. Differs: nothing. Conventions: for rays that come through air; the colour is what
-/// shading the surface would give, bit for bit. Threads: belongs to one.
+/// Conventions: for rays that come through air; the colour has the bits of shading the surface.
+/// Threads: belongs to one.
 
 #include <array>
 #include <cstddef>
@@ -21,24 +20,24 @@ class UnlitCache {
     /// `ambient` as `unshadowed_terms` takes it. The scene must outlive it.
     UnlitCache(const Scene& scene, std::span<const Rgb> ambient);
 
-    /// Null where the surface tells more.
+    /// Null where the colour depends on the surface.
     [[nodiscard]] const Rgb* find(const Hit& hit) {
         if (colors_.empty()) return nullptr;
         if (hit.path.size() > 1) return look_up(hit);
-        // Neighbours mostly hit the same few.
+        // Neighbouring rays mostly hit the same few primitives.
         const PrimitiveId around = hit.path.empty() ? kNoPrimitive : hit.path[0];
         Known& known = known_[slot(hit.primitive, around)];
         if (known.primitive != hit.primitive || known.around != around) {
             known = {hit.primitive, around, look_up(hit)};
         }
-        return known.look;
+        return known.color;
     }
 
   private:
-    /// The look of a primitive that lies in no more than one instance.
+    /// The colour of a primitive inside of one instance at most.
     struct Known {
         PrimitiveId primitive = kNoPrimitive, around = kNoPrimitive;
-        const Rgb* look = nullptr;
+        const Rgb* color = nullptr;
     };
     static constexpr std::size_t kKnown = 256;
 
@@ -50,7 +49,7 @@ class UnlitCache {
     [[nodiscard]] const Rgb* look_up(const Hit& hit) const;
 
     const Scene& scene_;
-    std::vector<std::optional<Rgb>> colors_;  ///< [material]; empty where none is flat
+    std::vector<std::optional<Rgb>> colors_;  ///< [material]; empty where no material is unlit
     std::array<Known, kKnown> known_;
 };
 

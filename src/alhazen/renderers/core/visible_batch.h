@@ -1,10 +1,9 @@
 #pragma once
-/// The first surface of which something is there along each of many rays: `first_visible_hit` for
-/// all of them, in batches.
+/// The first surface with a coverage above 0 along each of many rays: `first_visible_hit` in
+/// batches.
 ///
-/// Source: none. Differs: nothing. Conventions: surfaces are told one at a time, in any order of
-/// the rays; what is told of a surface is gone with the next: it is large. Memory is kept from
-/// batch to batch.
+/// Conventions: surfaces are reported one at a time, in any order of the rays; a reported point is
+/// valid until the next. Memory is kept from batch to batch.
 
 #include <cstdint>
 #include <span>
@@ -20,14 +19,14 @@ class VisibleBatch {
         : scene_(scene), stats_(stats), constant_(scene) {}
 
     /// `path(k)` gives `kind`, `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for
-    /// each ray: a null pointer where nothing is seen, else what is seen and its distance from the
-    /// ray's origin. `tell` must not change rays or paths that have not been told yet.
+    /// each ray: a null pointer where nothing is seen, else the point and its distance from the
+    /// origin of the ray. `tell` must not change rays or paths that have not been reported.
     template <class PathOf, class Tell>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
         find(rays, coherence, path, tell, [](std::size_t, const Hit&) { return false; });
     }
-    /// The same, but that `take(k, hit)` may take the first hit of a ray, of whose surface nothing
-    /// is asked then: true where it does.
+    /// The same, but `take(k, hit)` sees the first hit of each ray before its surface is found;
+    /// where it returns true the ray is done.
     template <class PathOf, class Tell, class Take>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell,
               Take&& take) {
@@ -60,18 +59,18 @@ class VisibleBatch {
     }
 
   private:
-    /// A ray behind surfaces of which nothing is there.
+    /// A ray behind surfaces with no coverage.
     struct Passed {
         Ray rest;
         std::size_t ray;
-        double distance;  ///< from the origin of the ray asked for
+        double distance;  ///< from the origin of the whole ray
     };
 
-    /// What ray i meets first of what rays of `kind(i)` see.
+    /// The first hits of the rays, ray i among the parts visible to `kind(i)`.
     template <class KindOf>
     [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays, Coherence coherence,
                                                KindOf&& kind) {
-        // Hits are large: those that are there are used again.
+        // Hits are large: existing ones are used again.
         if (hits_.size() < rays.size()) hits_.resize(rays.size());
         if (!scene_.has_masks) {
             trace(rays, hits_, coherence, kAllRays);
@@ -89,8 +88,8 @@ class VisibleBatch {
     void trace(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, RayMask mask);
     void trace_chosen(std::span<const Ray> rays, Coherence coherence, RayMask mask);
 
-    /// The hit is a surface. `rest`: ray k from the last surface on, `distance` behind the origin
-    /// of `whole`.
+    /// Reports the hit, or queues the ray to continue behind it. `rest`: ray k from the last
+    /// surface on, `distance` behind the origin of `whole`.
     template <class Path, class Tell>
     void meet(std::size_t k, const Ray& whole, const Ray& rest, double distance, const Hit& hit,
               const Path& path, Tell&& tell) {
@@ -109,7 +108,7 @@ class VisibleBatch {
     MaterialCache constant_;
     ShadingPoint point_;
     std::vector<Hit> hits_;
-    // Of the rays of one kind, where the kinds are told apart.
+    // Of the rays of one kind, where parts have visibility masks.
     std::vector<std::size_t> chosen_;
     std::vector<Ray> chosen_rays_;
     std::vector<Hit> chosen_hits_;

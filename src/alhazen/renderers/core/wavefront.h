@@ -1,13 +1,13 @@
 #pragma once
-/// Rays of one generation (eye rays, or those that the surfaces met by another generation send on)
-/// and what is kept of them until the light they find comes back.
+/// Generations of rays (eye rays, or the rays sent on by the surfaces that another generation
+/// hits) and the state kept until their radiance is known.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (the tree of rays);
 /// Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008, and Laine, Karras and Aila,
 /// "Megakernels Considered Harmful: Wavefront Path Tracing on GPUs", HPG 2013 (a generation at a
 /// time). Differs: colours return from the last generation to the first, by the arithmetic of the
 /// recursion in its order, instead of throughputs being carried along; and a generation is bounded:
-/// rays beyond that wait until those before them have all their light.
+/// further rays wait until those before them have their radiance.
 
 #include <cstdint>
 #include <limits>
@@ -21,12 +21,12 @@
 
 namespace alhazen {
 
-/// What a ray has behind it.
+/// The history of a ray.
 struct Path {
     RayKind kind = RayKind::Eye;
     bool inside = false;        ///< it starts inside something transparent
     Rgb contribution{1, 1, 1};  ///< product of the coefficients on the way
-    Rgb absorption;             ///< of what it starts inside of
+    Rgb absorption;             ///< of the medium it starts in
     RayCone cone;
 };
 
@@ -34,7 +34,7 @@ struct Path {
 struct GenerationPart {
     std::span<const Ray> rays;
     std::span<Path> paths;
-    std::span<Rgb> radiance;  ///< along each ray, when it has been traced
+    std::span<Rgb> radiance;  ///< along each ray, once it has been traced
 
     [[nodiscard]] std::size_t size() const { return rays.size(); }
 };
@@ -45,15 +45,14 @@ class Generation {
         rays_.clear();
         paths_.clear();
     }
-    /// The number of the new ray.
+    /// Returns the number of the new ray.
     std::uint32_t add(const Ray& ray, const Path& path) {
         rays_.push_back(ray);
         paths_.push_back(path);
         return static_cast<std::uint32_t>(rays_.size() - 1);
     }
     [[nodiscard]] std::size_t size() const { return rays_.size(); }
-    /// Makes room for the light that the rays bring back: none yet. To be called after the last
-    /// ray was added.
+    /// Allocates the radiance of the rays, black. Call it after the last ray was added.
     void make_ready() { radiance_.assign(rays_.size(), Rgb{}); }
     [[nodiscard]] GenerationPart part(std::size_t first, std::size_t count) {
         return {std::span(rays_).subspan(first, count), std::span(paths_).subspan(first, count),
@@ -67,18 +66,18 @@ class Generation {
     std::vector<Rgb> radiance_;
 };
 
-/// A surface that a ray has met, while the rays it sends on are traced.
+/// A surface that a ray hit, while the rays it sends on are traced.
 struct MetSurface {
     static constexpr std::uint32_t kNotSent = std::numeric_limits<std::uint32_t>::max();
 
-    std::uint32_t ray = 0;                                     ///< that met it
+    std::uint32_t ray = 0;                                     ///< that hit it
     std::uint32_t reflected = kNotSent, refracted = kNotSent;  ///< rays of the next generation
     bool lit = false;       ///< else its colour is `own` and nothing more
-    bool filtered = false;  ///< all its light is times `filter`
+    bool filtered = false;  ///< all its light is multiplied by `filter`
     Rgb share;              ///< of the ray's light
     Rgb own;                ///< emission and ambient light
-    Rgb direct;             ///< from the lights that are seen
-    Rgb kr, kt;             ///< what is left of the light that the two rays bring
+    Rgb direct;             ///< from unoccluded lights
+    Rgb kr, kt;             ///< factors of the radiance of the two rays
     Rgb filter;
 };
 
@@ -86,11 +85,11 @@ struct MetSurface {
 struct Wavefront {
     std::vector<MetSurface> met;
     Generation next;        ///< the rays that `met` sends on
-    std::vector<Rgb> left;  ///< by ray: what surfaces that are partly there have let through
-    /// Rays that have not ended yet; numbers and, but for the first time, where they are now.
+    std::vector<Rgb> left;  ///< by ray: transmittance of the partly covering surfaces so far
+    /// Rays that have not ended: numbers and, from the second surface on, the rest of each ray.
     std::vector<std::uint32_t> active;
     std::vector<Ray> rays;
-    /// Those of them that go on behind the surfaces in `met`.
+    /// The active rays that continue behind the surfaces in `met`.
     std::vector<std::uint32_t> next_active;
     std::vector<Ray> next_rays;
 
@@ -101,7 +100,7 @@ struct Wavefront {
     }
     void begin_surfaces() {
         met.clear();
-        met.reserve(active.size());  // places in it stay where they are
+        met.reserve(active.size());  // keeps references into it valid
         next.clear();
         next_active.clear();
         next_rays.clear();

@@ -36,7 +36,7 @@ class Caster {
           count_(counters[RayKind::Eye]),
           eye_{0, 1.0, job.cone},
           ambient_(ambient_terms(job.scene.lights)),
-          flat_looks_(job.scene, ambient_),
+          unlit_(job.scene, ambient_),
           visible_(job.scene, job.count_tests ? &counters.tests : nullptr) {}
 
     void trace(std::span<const Ray> eye_rays, std::span<Rgb> radiance) {
@@ -52,10 +52,10 @@ class Caster {
                 meet({k, 1.0, job_.cone}, eye_rays[k], *point, t, radiance);
             },
             [&](std::size_t k, const Hit& hit) {
-                const Rgb* look = flat_looks_.find(hit);
-                if (look == nullptr) return false;
+                const Rgb* color = unlit_.find(hit);
+                if (color == nullptr) return false;
                 ++count_.hit;
-                radiance[k] += *look;
+                radiance[k] += *color;
                 return true;
             });
         for (int met = 1; met < kMaxPassedSurfaces && !behind_.empty(); ++met) {
@@ -66,7 +66,7 @@ class Caster {
     }
 
   private:
-    /// A ray, as far as surfaces that are partly there let it through.
+    /// The rest of a ray behind partly covering surfaces.
     struct OnWay {
         std::size_t sample;
         double left;
@@ -79,7 +79,7 @@ class Caster {
         radiance[sample] = radiance[sample] + left * job_.scene.background;
     }
 
-    /// What a ray finds of a surface, and what goes on behind it.
+    /// Shades the surface and queues the rest of the ray behind it.
     void meet(const OnWay& o, const Ray& ray, const ShadingPoint& point, double t,
               std::span<Rgb> radiance) {
         const double coverage = point.material->coverage;
@@ -90,7 +90,7 @@ class Caster {
         rays_behind_.push_back(leaving_ray(point.surface, ray.direction));
     }
 
-    /// The next surface along the rays that are left.
+    /// Finds the next surface along the queued rays.
     void go_on(std::span<Rgb> radiance) {
         on_way_.swap(behind_);
         rays_.swap(rays_behind_);
@@ -107,9 +107,9 @@ class Caster {
 
     const RenderJob& job_;
     RayCount& count_;
-    const OnWay eye_;  ///< what every eye ray has behind it
+    const OnWay eye_;  ///< the state of every eye ray at its start
     const std::vector<Rgb> ambient_;
-    UnlitCache flat_looks_;
+    UnlitCache unlit_;
     VisibleBatch visible_;
     std::vector<OnWay> on_way_, behind_;
     std::vector<Ray> rays_, rays_behind_;
@@ -118,7 +118,7 @@ class Caster {
 }  // namespace
 
 std::unique_ptr<TileRenderer> RayCasting::begin(const RenderJob& job) const {
-    return std::make_unique<PixelRenderer<Caster>>(job, kRaysAtOnce);
+    return make_pixel_renderer<Caster>(job, kRaysAtOnce);
 }
 
 }  // namespace alhazen

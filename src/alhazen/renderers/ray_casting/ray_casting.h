@@ -2,14 +2,14 @@
 /// Visible surfaces only: eye rays, shaded by the lights without shadows.
 ///
 /// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968; Goldstein
-/// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971. Differs: shadows are left to
-/// `whitted`; the shading is that renderer's local part.
+/// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971. Differs: no shadows; the shading is
+/// the local part of `whitted`.
 
-#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {
 
-class RayCasting final : public Renderer {
+class RayCasting final : public TiledRenderer {
   public:
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
 };

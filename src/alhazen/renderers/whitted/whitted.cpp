@@ -15,12 +15,12 @@ namespace alhazen {
 
 namespace {
 
-/// Generations this deep are traced fewer rays at a time, so that what waits for them stays small
-/// however deep the tree is.
+/// From this depth on fewer rays are traced at a time, which bounds the memory of waiting
+/// generations.
 constexpr int kDeep = 16;
 constexpr std::size_t kRaysAtOnceWhereDeep = 16;
 
-/// Of shadow rays from neighbouring points: where they all go to one place.
+/// Coherence of shadow rays from neighbouring points: they converge where there is one light.
 Coherence coherence_of_shadows(std::span<const Light> lights) {
     std::size_t places = 0, directions = 0;
     for (const Light& light : lights) {
@@ -30,10 +30,10 @@ Coherence coherence_of_shadows(std::span<const Light> lights) {
     return places == 1 && directions == 0 ? Coherence::Coherent : Coherence::Any;
 }
 
-/// Traces the rays of one tile; holds what would be allocated per ray otherwise.
-class WhittedIntegrator {
+/// Traces batches of eye rays; keeps all memory from batch to batch.
+class WhittedEstimator {
   public:
-    WhittedIntegrator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
+    WhittedEstimator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
         : job_(job),
           scene_(job.scene),
           conventions_(job.scene.conventions.shading),
@@ -63,13 +63,14 @@ class WhittedIntegrator {
         }
     }
 
-    /// Where a surface is only partly there, a ray goes straight on behind it as the same ray.
+    /// Traces some rays of a generation. Behind a partly covering surface a ray continues straight
+    /// on as the same ray.
     void trace_part(const GenerationPart& part, int depth) {
         Wavefront& front = front_at(depth);
         front.begin(part.size());
         for (const Path& path : part.paths) ++counters_[path.kind].cast;
         for (int met = 0; met < kMaxPassedSurfaces && !front.active.empty(); ++met) {
-            // One eye ray can have millions behind it; the pixel is given up with it.
+            // One eye ray can cause millions of rays; its pixel is dropped after a stop.
             if (job_.stop_requested()) return;
             front.begin_surfaces();
             meet_surfaces(part, depth, met == 0, front);
@@ -85,7 +86,7 @@ class WhittedIntegrator {
         return fronts_[static_cast<std::size_t>(depth)];
     }
 
-    /// The next surface along each active ray; `first`: none has been met yet.
+    /// Finds the next surface along each active ray; `first`: none has been found yet.
     void meet_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
         const std::span<const Ray> rays = first ? part.rays : std::span<const Ray>(front.rays);
         const Coherence coherence = first && depth == 0 ? Coherence::Coherent : Coherence::Any;
@@ -117,7 +118,7 @@ class WhittedIntegrator {
                       });
     }
 
-    /// The light that comes back to the rays.
+    /// Adds the colours of the surfaces to the radiance of the rays.
     static void gather(const Wavefront& front, std::span<Rgb> radiance) {
         for (const MetSurface& met : front.met) {
             radiance[met.ray] += met.share * color_of(met, front.next);
@@ -133,7 +134,7 @@ class WhittedIntegrator {
         return met.filtered ? color * met.filter : color;
     }
 
-    /// A point and how a ray came there.
+    /// A point and the ray that hit it.
     struct Seen {
         const ShadingPoint& point;
         const Ray& ray;
@@ -142,8 +143,8 @@ class WhittedIntegrator {
         int depth;
     };
 
-    /// What leaves the point towards the origin of the ray: at once, by shadow rays that wait, or
-    /// by rays of the next generation.
+    /// Gathers the light that leaves the point towards the origin of the ray: at once, by queued
+    /// shadow rays, or by rays of the next generation.
     void shade(const Seen& seen, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         met.lit = !point.material->unlit;
@@ -180,7 +181,7 @@ class WhittedIntegrator {
         }
     }
 
-    /// `onward`: the path of the new ray, but for its kind and for what this surface does to it.
+    /// `onward`: the path of the new ray, except for its kind and the effect of this surface.
     void reflect(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         const Rgb& kr = point.material->reflective;
@@ -190,7 +191,7 @@ class WhittedIntegrator {
         onward.contribution = onward.contribution * kr;
         if (!cast || onward.contribution.max() < conventions_.min_contribution) return;
         Vec3 direction = mirror(seen.ray.direction, point.normal);
-        // An interpolated normal may send the ray into the surface: then the true one decides.
+        // Where an interpolated normal sends the ray into the surface, the geometric one is used.
         if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) < 0.0) {
             direction = mirror(seen.ray.direction, point.geometric);
         }
@@ -239,7 +240,7 @@ class WhittedIntegrator {
     const ShadingConventions& conventions_;
     RayCounters& counters_;
     std::size_t rays_at_once_;
-    Coherence eye_shadows_;  ///< of the shadow rays from what the eye sees
+    Coherence eye_shadows_;  ///< of the shadow rays from surfaces that eye rays hit
     const std::vector<Rgb> ambient_;
     VisibleBatch visible_;
     ShadowBatch shadows_;
@@ -250,7 +251,7 @@ class WhittedIntegrator {
 }  // namespace
 
 std::unique_ptr<TileRenderer> Whitted::begin(const RenderJob& job) const {
-    return std::make_unique<PixelRenderer<WhittedIntegrator>>(job, rays_at_once_);
+    return make_pixel_renderer<WhittedEstimator>(job, rays_at_once_);
 }
 
 }  // namespace alhazen

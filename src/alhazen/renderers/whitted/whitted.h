@@ -6,19 +6,19 @@
 ///   I = ke + sum_j [ kd ILa_j + Ashadow Adist IL_j Bj (kd (N.L) + ks (N.H)+^ns) ] + kr I(Q,R) + kt
 ///   I(Q,T).
 /// Differs: secondary rays start outside the error bound of the hit point instead of at a global
-/// epsilon; shadow rays count every surface they cross once, in one query; what formats do
-/// otherwise is read from ShadingConventions; many rays of a generation are traced together
-/// (wavefront.h), with the result of the recursion, bit for bit.
+/// epsilon; shadow rays count every surface they cross once, in one query; differences between
+/// formats are read from ShadingConventions; many rays of a generation are traced together
+/// (wavefront.h), with the bits of the recursion.
 
 #include <cstddef>
 
-#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/tiles.h"
 
 namespace alhazen {
 
-class Whitted final : public Renderer {
+class Whitted final : public TiledRenderer {
   public:
-    /// `rays_at_once`: of a generation, at least 1; the picture does not depend on it.
+    /// `rays_at_once`: of a generation, at least 1; pixels do not depend on it.
     explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;

@@ -11,6 +11,9 @@
 ///   - tests/support/same_description.h: same;
 ///   - tests/unit/formats/native/native_writer_test.cpp: one in the round trip.
 ///
+/// Lights that are sampled with a density (areas, environments) belong in this folder, in a file of
+/// their own; `Light` holds those that one shadow ray can decide.
+///
 /// Conventions: every light may carry an ambient term, added at every point whatever is in between
 /// (the course's I_La); an `AmbientLight` is nothing else.
 

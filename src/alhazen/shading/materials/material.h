@@ -3,6 +3,9 @@
 /// coefficients, or the metallic-roughness parameters from which they are derived where they are
 /// used.
 ///
+/// BSDFs (evaluation, sampling, density) belong in shading/bsdf/ and are made of the same Material;
+/// MaterialSample holds the terms of Whitted's equation.
+///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and appendix B; the extensions
 /// KHR_materials_{ior, transmission, volume, specular, emissive_strength, unlit}.
 

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "alhazen/cameras/eye_rays.h"
+#include "alhazen/imaging/film/pixel_filter.h"
 #include "alhazen/renderers/core/material_cache.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -49,45 +51,154 @@ void expect_same_pixels(const Film& a, const Film& b) {
     }
 }
 
+/// Calls `use(renderer, name)` with each renderer of the table that works in tiles.
+template <class Use>
+void for_tiled_renderers(Use&& use) {
+    int count = 0;
+    for (const RendererEntry& entry : renderers()) {
+        const auto renderer = entry.make();
+        const auto* tiled = dynamic_cast<const TiledRenderer*>(renderer.get());
+        if (tiled == nullptr) continue;
+        use(*tiled, entry.name);
+        ++count;
+    }
+    EXPECT_GE(count, 2);
+}
+
 TEST(TileRenderer, TilesDoNotDependOnThoseBefore) {
     const Scene scene = mixed_scene();
     const PixelBox all{0, 0, 44, 30};
     for (const int samples : {1, 3}) {
         const RenderJob job{scene, scene.cameras[0].camera, samples, 11, true};
-        for (const RendererEntry& entry : renderers()) {
-            const auto renderer = entry.make();
-            const auto kept = renderer->begin(job);
+        for_tiled_renderers([&](const TiledRenderer& renderer, const char* name) {
+            const auto kept = renderer.begin(job);
             Film alone(44, 30, all), in_a_row(44, 30, all);
             RayCounters alone_sum, row_sum;
             std::vector<PixelBox> tiles = tiles_of(all, 9);
             std::reverse(tiles.begin(), tiles.end());
             for (const PixelBox& tile : tiles) {
-                renderer->render_tile(job, tile, alone, alone_sum);
+                renderer.render_tile(job, tile, alone, alone_sum);
                 kept->render(tile, in_a_row, row_sum);
-                ASSERT_EQ(alone_sum.total_cast(), row_sum.total_cast()) << entry.name;
+                ASSERT_EQ(alone_sum.total_cast(), row_sum.total_cast()) << name;
                 ASSERT_EQ(alone_sum.tests.node_visits, row_sum.tests.node_visits);
                 ASSERT_EQ(alone_sum.tests.primitive_tests, row_sum.tests.primitive_tests);
             }
             expect_same_pixels(alone, in_a_row);
-        }
+        });
     }
 }
 
 TEST(TileRenderer, APixelIsWhatItIsAloneInItsPicture) {
     const Scene scene = mixed_scene();
     const RenderJob job{scene, scene.cameras[0].camera};
-    for (const RendererEntry& entry : renderers()) {
-        const auto renderer = entry.make();
+    for_tiled_renderers([&](const TiledRenderer& renderer, const char*) {
         Film film(33, 21, {0, 0, 33, 21}), single(33, 21, {0, 0, 33, 21});
         RayCounters counters;
-        renderer->render_tile(job, film.crop(), film, counters);
+        renderer.render_tile(job, film.crop(), film, counters);
         for (int y = 0; y < 21; ++y) {
             for (int x = 0; x < 33; ++x) {
-                renderer->render_tile(job, {x, y, x + 1, y + 1}, single, counters);
+                renderer.render_tile(job, {x, y, x + 1, y + 1}, single, counters);
             }
         }
         expect_same_pixels(film, single);
+    });
+}
+
+TEST(TiledRenderer, AnyThreadsAndTileSizeGiveTheSamePixelsAndCounts) {
+    const Scene scene = mixed_scene();
+    const PixelBox crop{5, 3, 40, 29};
+    for (const int samples : {1, 3}) {
+        RenderJob job{scene, scene.cameras[0].camera, samples, 11, true};
+        for_tiled_renderers([&](const TiledRenderer& renderer, const char* name) {
+            Film expected(44, 30, crop);
+            RayCounters counters;
+            renderer.render_tile(job, crop, expected, counters);
+            for (const int size : {1, 9, 64}) {
+                for (const int threads : {1, 2}) {
+                    job.control = {.threads = threads, .tile_size = size};
+                    Film film(44, 30, crop);
+                    const RenderReport report = renderer.render(job, film);
+                    expect_same_pixels(expected, film);
+                    EXPECT_TRUE(report.complete());
+                    EXPECT_EQ(report.parts, tiles_of(crop, size).size());
+                    EXPECT_LE(report.threads, threads);
+                    for (std::size_t kind = 0; kind < kRayKindCount; ++kind) {
+                        EXPECT_EQ(report.counters.rays[kind].cast, counters.rays[kind].cast)
+                            << name;
+                        EXPECT_EQ(report.counters.rays[kind].hit, counters.rays[kind].hit) << name;
+                    }
+                }
+            }
+        });
     }
+}
+
+/// Notes what it is told, and requests a stop after some parts.
+class Notes final : public ProgressSink {
+  public:
+    std::vector<std::size_t> done;
+    std::size_t total = 0, stop_after = 0;
+    StopFlag stop;
+
+    void update(std::string_view phase, std::size_t now, std::size_t of) override {
+        EXPECT_EQ(phase, "render");
+        done.push_back(now);
+        total = of;
+        if (now == stop_after) stop.request();
+    }
+};
+
+TEST(TiledRenderer, ProgressCountsTheTiles) {
+    const Scene scene = mixed_scene();
+    RenderJob job{scene, scene.cameras[0].camera};
+    Notes notes;
+    job.control = {.threads = 2, .tile_size = 8, .progress = &notes};
+    Film film(24, 20, {0, 0, 24, 20});
+    EXPECT_TRUE(Whitted{}.render(job, film).complete());
+    EXPECT_EQ(notes.total, 9u);
+    ASSERT_EQ(notes.done.size(), 9u);
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(notes.done[i], i + 1);
+}
+
+TEST(TiledRenderer, AStopLeavesTheTilesThatAreNotDoneBlack) {
+    Scene scene = mixed_scene();
+    scene.background = {1, 1, 1};
+    RenderJob job{scene, scene.cameras[0].camera};
+    Notes notes;
+    notes.stop_after = 2;
+    job.control = {.threads = 1, .tile_size = 8, .stop = &notes.stop, .progress = &notes};
+    Film film(24, 20, {0, 0, 24, 20}), whole(24, 20, {0, 0, 24, 20});
+    const RenderReport report = Whitted{}.render(job, film);
+    EXPECT_FALSE(report.complete());
+    EXPECT_EQ(report.parts, 9u);
+    EXPECT_EQ(report.done, 2u);
+    EXPECT_GT(report.counters.total_cast(), 0u);
+    job.control = {};
+    EXPECT_TRUE(Whitted{}.render(job, whole).complete());
+    std::size_t done = 0;
+    for (const PixelBox& tile : tiles_of(film.crop(), 8)) {
+        bool black = true, same = true;
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                black = black && film.at(x, y) == Rgb{};
+                same = same && film.at(x, y) == whole.at(x, y);
+            }
+        }
+        EXPECT_TRUE(black || same);
+        done += same;
+    }
+    EXPECT_EQ(done, 2u);
+}
+
+TEST(BoxFilter, IsTheMeanOfTheFiniteSamples) {
+    BoxFilter filter;
+    EXPECT_EQ(filter.value(), Rgb{});
+    EXPECT_TRUE(filter.add({1, 2, 3}));
+    EXPECT_EQ(filter.value(), (Rgb{1, 2, 3}));
+    EXPECT_FALSE(filter.add({0, std::numeric_limits<double>::quiet_NaN(), 0}));
+    EXPECT_FALSE(filter.add({std::numeric_limits<double>::infinity(), 0, 0}));
+    EXPECT_TRUE(filter.add({3, 0, 1}));
+    EXPECT_EQ(filter.value(), (Rgb{2, 1, 2}));
 }
 
 TEST(EyeRays, AreThoseOfTheFormulaOfTheirCamera) {

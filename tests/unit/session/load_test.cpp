@@ -1,0 +1,56 @@
+#include "alhazen/session/load.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "alhazen/base/error.h"
+#include "alhazen/session/statistics.h"
+#include "support/test_data.h"
+
+namespace alhazen {
+namespace {
+
+/// Counts the phases that begin.
+class Phases final : public ProgressSink {
+  public:
+    int loads = 0, builds = 0;
+
+    void update(std::string_view phase, std::size_t done, std::size_t) override {
+        loads += phase == "load" && done == 0;
+        builds += phase == "build" && done == 0;
+    }
+};
+
+TEST(Load, TheAggregateIsBuiltWhenItIsAskedFor) {
+    const std::filesystem::path path = testing::source_folder() / "scenes/one_plane.alhazen";
+    Phases phases;
+    LoadOptions options;
+    options.progress = &phases;
+    const LoadedScene whole = load(path, options);
+    EXPECT_EQ(phases.builds, 1);
+    options.with_aggregate = false;
+    LoadedScene loaded = load(path, options);
+    EXPECT_EQ(phases.loads, 2);
+    EXPECT_EQ(loaded.scene.aggregate, nullptr);
+    RenderOptions render_options;
+    render_options.width = 16;
+    render_options.height = 12;
+    EXPECT_THROW((void)render(loaded, render_options), Error);
+    const RenderResult nothing(Film(1, 1, {0, 0, 1, 1}));
+    const auto report = statistics("none", loaded, render_options, nothing, 0.0);
+    EXPECT_TRUE(report["accelerator"].is_null());
+    EXPECT_EQ(report["memory"]["accelerator_bytes"], 0);
+    build_aggregate(loaded, options);
+    const Aggregate* built = loaded.scene.aggregate.get();
+    ASSERT_NE(built, nullptr);
+    build_aggregate(loaded, options);
+    EXPECT_EQ(loaded.scene.aggregate.get(), built);
+    EXPECT_EQ(render(loaded, render_options).film.to_image().samples,
+              render(whole, render_options).film.to_image().samples);
+}
+
+}  // namespace
+}  // namespace alhazen
