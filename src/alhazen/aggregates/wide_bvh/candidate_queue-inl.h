@@ -1,4 +1,4 @@
-/// What rays of a packet may hit, kept until it is decided.
+/// The candidate queue of a packet.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -19,8 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Triangles that rays of a packet may hit, until the test in double decides. Most rays have one:
-/// that is kept in lanes, and others beside it in a list.
+/// Triangles that rays of a packet may hit, until exact resolution. Most rays have one: it is kept
+/// in lanes, further ones in a list.
 class CandidateQueue {
   public:
     static constexpr float kNone = std::numeric_limits<float>::infinity();
@@ -30,15 +30,15 @@ class CandidateQueue {
         for (std::size_t g = 0; g < packet.group_count; ++g) store_lanes(none, kept_[g].lo);
     }
 
-    /// Remembers a triangle for the rays of `candidates`; one that lies behind what a ray still
-    /// needs is forgotten. False when the list is full: then nothing is done.
+    /// Adds a triangle for the rays of `candidates`; a kept one beyond the s_max of its ray is
+    /// replaced. False when the list is full: then nothing is done.
     [[nodiscard]] HWY_INLINE bool add(std::size_t g, TrianglePlace place,
                                       const LaneMask<float, kGroupRays>& candidates,
                                       const GroupFloats& begin) {
         const RayGroup& group = packet_.groups[g];
         Kept& kept = kept_[g];
         const GroupFloats lo = load_lanes<kGroupRays>(kept.lo), none(kNone);
-        // A NaN is put beside, so that it is never forgotten.
+        // A NaN goes to the list, where it is never replaced.
         const auto keep = candidates & (begin < none) &
                           ((lo > load_lanes<kGroupRays>(group.s_max)) | (lo >= none));
         std::uint32_t rest = bits_of(candidates) & ~bits_of(keep) & group.used;
@@ -58,9 +58,9 @@ class CandidateQueue {
         return true;
     }
 
-    /// Calls `decide(ray, place)` for all, or only those beside, and forgets them.
-    template <class Decide>
-    HWY_INLINE void take_all(Decide&& decide) {
+    /// Calls `resolve(ray, place)` for all candidates, or only those of the list, and drops them.
+    template <class Resolve>
+    HWY_INLINE void take_all(Resolve&& resolve) {
         for (std::size_t g = 0; g < packet_.group_count; ++g) {
             const RayGroup& group = packet_.groups[g];
             const GroupFloats lo = load_lanes<kGroupRays>(kept_[g].lo);
@@ -69,21 +69,21 @@ class CandidateQueue {
                 group.used;
             for (; rest != 0; rest &= rest - 1) {
                 const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-                decide(g * kGroupRays + lane, std::bit_cast<TrianglePlace>(kept_[g].place[lane]));
+                resolve(g * kGroupRays + lane, std::bit_cast<TrianglePlace>(kept_[g].place[lane]));
             }
             store_lanes(GroupFloats(kNone), kept_[g].lo);
         }
-        take_beside(decide);
+        take_beside(resolve);
     }
-    template <class Decide>
-    HWY_INLINE void take_beside(Decide&& decide) {
+    template <class Resolve>
+    HWY_INLINE void take_beside(Resolve&& resolve) {
         for (std::size_t n = 0; n < beside_count_; ++n) {
             const Beside& b = beside_[n];
             const RayGroup& group = packet_.groups[b.ray / kGroupRays];
             const std::size_t lane = b.ray % kGroupRays;
             // Written so that a NaN is not passed over.
             if ((group.used >> lane & 1) == 0 || b.lo > group.s_max[lane]) continue;
-            decide(b.ray, b.place);
+            resolve(b.ray, b.place);
         }
         beside_count_ = 0;
     }

@@ -1,4 +1,4 @@
-/// Takes queries through the tree of their scene: one ray, or a batch.
+/// Dispatch: traverses the tree of a scene for one ray, or for a batch.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -41,8 +41,7 @@ HWY_INLINE bool run(Query& query, TraversalStats* stats) {
     });
 }
 
-/// The rays of a batch one after the other; those that cannot be traced, or need not be, are left
-/// out.
+/// The rays of a batch in order, without invalid and finished ones.
 template <class Query, class Result>
 class BatchSource {
   public:

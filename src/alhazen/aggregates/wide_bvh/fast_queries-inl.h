@@ -1,10 +1,9 @@
-/// Queries in which float decides about triangles: for who would rather be wrong at an edge at
-/// times than wait for the test in double.
+/// Single-precision queries: faster, may err at edges.
 ///
 /// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without
-/// what makes it watertight at vertices. Boxes have no slack.
+/// the fallback that makes it watertight at vertices. Boxes have no slack.
 /// Conventions: included once per target (see simd/lanes-inl.h). Spheres and all other primitives
-/// are tested in double as ever. Parameters of hits carry the rounding of float.
+/// are tested in double. Parameters of hits carry the rounding of float.
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_FAST_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_AGGREGATES_WIDE_BVH_FAST_QUERIES_INL_H_
@@ -19,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Edge functions and places of the triangles of a block, and which of them are hit.
+/// Edge functions and parameters of the triangles of a block, and bits of those that are hit.
 struct FastTriangles {
     Floats eu, ev, ew, det, s;
     std::uint32_t hit;
@@ -40,7 +39,7 @@ HWY_INLINE FastTriangles test_triangles(const TriangleBlock& block, const Triang
     r.det = r.eu + r.ev + r.ew;
     r.s = mul_add(r.eu, v.corner[0].z, mul_add(r.ev, v.corner[1].z, r.ew * v.corner[2].z)) *
           Floats(ray.sz) / r.det;
-    // A NaN, of a triangle seen edge on, is not hit.
+    // A NaN (a triangle seen edge on) is not a hit.
     r.hit &= bits_of((r.s >= Floats(s_min)) & (r.s <= Floats(s_max)));
     return r;
 }

@@ -1,8 +1,8 @@
-/// The queries of the wide BVH aggregate on the leaves: what is asked of a block, and what of the
-/// primitives that are left of it.
+/// The queries of the wide BVH aggregate on the leaves: the filter on a block, then exact
+/// resolution of the primitives that pass.
 ///
-/// Conventions: included once per target (see simd/lanes-inl.h). The queries are what the
-/// traversals of accel/wide_bvh take; every decision is that of the scalar tests.
+/// Conventions: included once per target (see simd/lanes-inl.h). The traversals of accel/wide_bvh
+/// take these queries; every result is that of the scalar tests.
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LEAF_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LEAF_QUERIES_INL_H_
@@ -25,10 +25,10 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The part of a query on one ray that is the same for all. `Derived` offers
+/// The common part of queries on one ray. `Derived` offers
 /// `bool block(triangle_block, stats)`, `bool other(id, stats)` and `bool crossing(id, hit)`, for a
-/// primitive that is hit for certain, true to stop; `DistanceBound slab_slack(frame)`, the slack of
-/// its slab test; and `kFirstCrossings`: the first crossing with a shape tells it all.
+/// primitive that is hit, true to stop; `DistanceBound slab_slack(frame)`, the slack of
+/// its slab test; and `kFirstCrossings`: the first crossing with a shape suffices.
 template <class Derived>
 struct LeafQuery {
     SlabRay slabs;
@@ -41,8 +41,7 @@ struct LeafQuery {
     bool valid;  ///< false: the ray cannot be traced
 
     HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r) : ray(r), source(&r), scene(s) {
-        // From the caller's ray, not from the copy: that could not be loaded by the lane before it
-        // is in the cache.
+        // From the caller's ray: loading lanes of the copy would stall until its stores complete.
         const LocalFrame& frame = s.layout->frame;
         valid = make_ray(frame, Derived::slab_slack(frame), r, slabs,
                          [&](const LocalRay& local) HWY_ATTR {
@@ -76,7 +75,7 @@ struct LeafQuery {
         return true;
     }
 
-    /// Made anew for the few tests that need it.
+    /// Computed for the few tests that need it.
     [[nodiscard]] HWY_INLINE RayShear shear() const { return RayShear(ray.direction); }
     [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
         return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
@@ -107,7 +106,7 @@ struct LeafQuery {
         return false;
     }
 
-    /// The first crossing with a sphere is all that most queries ask for.
+    /// Most queries need only the first crossing with a sphere.
     template <class Stats>
     HWY_NOINLINE bool visit_sphere(BlockId id, Stats stats) {
         Derived& query = static_cast<Derived&>(*this);
@@ -125,7 +124,7 @@ struct LeafQuery {
         return query.crossing(id, hit);
     }
 
-    /// Triangles of which the leaf has the numbers only: all are tested in double, eight at a time.
+    /// Indexed triangles: all are tested in double, eight at a time.
     template <class Stats>
     HWY_NOINLINE bool visit_indices(NodeRef ref, Stats stats) {
         const IndexBlock* blocks = &scene.layout->indices[ref.offset()];
@@ -143,7 +142,7 @@ struct LeafQuery {
             const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
             pairs.set(lane, ray, {a, b, c});
         }
-        const TrianglePairs::Verdict verdict = pairs.decide();
+        const TrianglePairs::Verdict verdict = pairs.resolve();
         for (std::uint32_t rest = (verdict.hit | verdict.unsure) & ((1u << used) - 1); rest != 0;
              rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -161,8 +160,8 @@ struct LeafQuery {
     }
 };
 
-/// The queries whose answers are those of the tests in double: the filter goes before. `Derived`
-/// offers `bool triangles(block, found, stats)`.
+/// Queries with exact hits: the filter, then exact resolution. `Derived` offers `bool
+/// triangles(block, found, stats)`.
 template <class Derived>
 struct RobustQuery : LeafQuery<Derived> {
     using Base = LeafQuery<Derived>;
@@ -198,35 +197,34 @@ struct RobustQuery : LeafQuery<Derived> {
             const PlainVerdict verdict = intersect_plain(ray, axis, corner, hit);
             if (HWY_LIKELY(verdict != PlainVerdict::Unsure)) return verdict == PlainVerdict::Hit;
         }
-        return hits_with_care(id, hit);
+        return hits_triangle_scalar(id, hit);
     }
 
   private:
-    HWY_NOINLINE bool hits_with_care(BlockId id, ShapeHit& hit) const {
+    HWY_NOINLINE bool hits_triangle_scalar(BlockId id, ShapeHit& hit) const {
         const auto [a, b, c] = scene.table->triangle_vertices(this->triangle(id.id()));
         return intersect_triangle(ray, this->shear(), a, b, c, hit);
     }
 };
 
-/// The nearest hit. Triangles are remembered as the filter finds them, each that is sure ends the
-/// search behind it, and the test in double decides among the few that are left in the end. Those
-/// that are not sure are mostly those that the ray leaves, which are missed: not worth an
-/// interruption.
+/// The closest hit. Triangles that pass the filter go to a candidate queue; each sure one ends the
+/// search behind it; exact resolution of the few that remain follows at the end. Triangles in doubt
+/// are mostly the one that the ray leaves, which is missed: not worth an interruption.
 struct ClosestQuery : RobustQuery<ClosestQuery> {
     static constexpr bool kOrdered = true;
     static constexpr bool kFirstCrossings = true;
     static constexpr std::uint32_t kMaxCandidates = 8;
 
     Hit& best;
-    std::uint32_t pending_count = 0;
+    std::uint32_t candidate_count = 0;
     struct {
         const TriangleBlock* block;
         std::uint32_t lane;
         float lo;
         [[nodiscard]] BlockId id() const { return block->ids[lane]; }
-    } pending[kMaxCandidates];
+    } candidates[kMaxCandidates];
 
-    /// `found` may hold a hit found before.
+    /// `found` may hold an earlier hit.
     HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
         : RobustQuery(s, r), best(found) {
         if (!best.found()) return;
@@ -242,8 +240,8 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
             // Written so that a NaN is not passed over.
             if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
             if (!scene.sees(block.ids[lane].id())) continue;
-            if (pending_count == kMaxCandidates) finish(stats);
-            pending[pending_count++] = {&block, lane, found.lo[lane]};
+            if (candidate_count == kMaxCandidates) finish(stats);
+            candidates[candidate_count++] = {&block, lane, found.lo[lane]};
             if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
         }
         return false;
@@ -252,7 +250,7 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
     HWY_INLINE bool other(BlockId id, Stats stats) {
         const double last = ray.t_max;
         scene.table->closest(id.id(), ray, kUnusedShear, best, stats, scene.mask);
-        // Most are missed, and the way from t to the float parameter is long.
+        // Most are missed, and converting t to the float parameter is slow.
         if (ray.t_max != last) shrink();
         return false;
     }
@@ -261,28 +259,28 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
         shrink();
         return false;
     }
-    /// Decides what is pending.
+    /// Resolves the candidates.
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
-        for (std::uint32_t i = 0; i < pending_count; ++i) {
-            if (pending[i].lo > s_max) continue;
-            decide(*pending[i].block, pending[i].lane, stats);
+        for (std::uint32_t i = 0; i < candidate_count; ++i) {
+            if (candidates[i].lo > s_max) continue;
+            resolve(*candidates[i].block, candidates[i].lane, stats);
         }
-        pending_count = 0;
+        candidate_count = 0;
     }
-    /// As `finish`, by and by.
+    /// As `finish`, in lanes with candidates of other rays.
     template <class Stats>
     HWY_INLINE void finish_later(TriangleResolution& resolution, Stats stats) {
-        for (std::uint32_t i = 0; i < pending_count; ++i) {
-            if (pending[i].lo > s_max) continue;
-            resolution.add(*source, best, *pending[i].block, pending[i].lane, stats);
+        for (std::uint32_t i = 0; i < candidate_count; ++i) {
+            if (candidates[i].lo > s_max) continue;
+            resolution.add(*source, best, *candidates[i].block, candidates[i].lane, stats);
         }
     }
 
   private:
-    /// The test in double.
+    /// Exact resolution.
     template <class Stats>
-    HWY_NOINLINE void decide(const TriangleBlock& block, std::size_t lane, Stats stats) {
+    HWY_NOINLINE void resolve(const TriangleBlock& block, std::size_t lane, Stats stats) {
         ShapeHit hit;
         if (!this->hits_triangle(block, lane, hit)) return;
         stats.primitive_hits(1);

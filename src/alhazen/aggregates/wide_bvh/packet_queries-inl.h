@@ -192,8 +192,8 @@ HWY_INLINE bool filter_group(const SeenTriangle& seen, const RayGroup& group, Fi
     return (bits_of(out.candidates) & group.used) != 0;
 }
 
-/// What is asked of the leaves. `Derived` offers `found(group number, place, result, stats)` for
-/// triangles. Shapes are met by eight rays at a time too, those of a group that may meet their box.
+/// The leaves of a packet. `Derived` offers `found(group number, place, result, stats)` for
+/// triangles. Shapes are tested eight rays at a time too, by the groups that intersect their box.
 template <class Derived>
 class PacketLeaves {
   public:
@@ -203,7 +203,7 @@ class PacketLeaves {
           rays_(rays),
           results_(results),
           packet_(packet),
-          pending_(packet),
+          candidates_(packet),
           resolution_(scene, packet, rays) {}
 
     template <class Stats>
@@ -277,7 +277,7 @@ class PacketLeaves {
     std::span<const Ray> rays_;
     std::span<Hit> results_;
     RayPacket& packet_;
-    CandidateQueue pending_;
+    CandidateQueue candidates_;
     PacketResolution resolution_;
 
   private:
@@ -297,7 +297,7 @@ class PacketLeaves {
     }
 };
 
-/// Takes what PacketResolution has found.
+/// Offers the hits of PacketResolution.
 struct Offered {
     std::span<Hit> best;
     void operator()(std::size_t i, PrimitiveId id, const ShapeHit& hit) const {
@@ -305,7 +305,7 @@ struct Offered {
         offer(hit, id, ray, best[i]);
     }
 };
-/// The nearest hits.
+/// The closest hits.
 class ClosestPacket : public PacketLeaves<ClosestPacket> {
   public:
     HWY_INLINE ClosestPacket(const WideBvhScene& scene, std::span<const Ray> rays,
@@ -328,23 +328,23 @@ class ClosestPacket : public PacketLeaves<ClosestPacket> {
         RayGroup& group = packet_.groups[g];
         const GroupFloats s_max = load_lanes<kGroupRays>(group.s_max);
         store_lanes(select_lanes(found.sure, min_lanes(found.hi, s_max), s_max), group.s_max);
-        while (HWY_UNLIKELY(!pending_.add(g, place, found.candidates, found.lo))) {
-            pending_.take_beside([&](std::size_t ray, TrianglePlace other)
-                                     HWY_ATTR { decide(ray, other, stats); });
+        while (HWY_UNLIKELY(!candidates_.add(g, place, found.candidates, found.lo))) {
+            candidates_.take_beside([&](std::size_t ray, TrianglePlace other)
+                                        HWY_ATTR { resolve(ray, other, stats); });
         }
     }
 
-    /// Decides all that is kept.
+    /// Resolves all candidates.
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
-        pending_.take_all([&](std::size_t ray, TrianglePlace place)
-                              HWY_ATTR { decide(ray, place, stats); });
-        resolution_.decide(Offered{results_}, stats);
+        candidates_.take_all([&](std::size_t ray, TrianglePlace place)
+                                 HWY_ATTR { resolve(ray, place, stats); });
+        resolution_.resolve(Offered{results_}, stats);
     }
 
   private:
     template <class Stats>
-    HWY_INLINE void decide(std::size_t ray, TrianglePlace place, Stats stats) {
+    HWY_INLINE void resolve(std::size_t ray, TrianglePlace place, Stats stats) {
         resolution_.add(ray, place, Offered{results_}, stats);
     }
 };

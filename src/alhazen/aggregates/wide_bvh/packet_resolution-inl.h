@@ -1,6 +1,6 @@
-/// The test in double of what packets have left, eight pairs of a ray and a triangle at a time.
+/// Exact resolution of the candidates of a packet, eight pairs of a ray and a triangle at a time,
+/// by TrianglePairs.
 ///
-/// Source: TrianglePairs, which decides. Differs: rays come from the packet.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_PACKET_RESOLUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -20,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// A triangle by where it lies: 8 times the number of its block, and the lane.
+/// Position of a triangle in the leaves: 8 times the number of its block, plus the lane.
 using TrianglePlace = std::uint32_t;
 
 class PacketResolution {
@@ -29,15 +29,15 @@ class PacketResolution {
                                 std::span<const Ray> rays)
         : scene_(scene), packet_(packet), rays_(rays) {}
 
-    /// Calls `hit(ray, id, shape_hit, stats)` for pairs that have been added so far, now or later.
+    /// Adds a pair; calls `hits(ray, id, shape_hit)` for those that hit, at once or later.
     template <class Hits, class Stats>
     HWY_INLINE void add(std::size_t ray, TrianglePlace place, Hits&& hits, Stats stats) {
         ray_[count_] = static_cast<std::uint32_t>(ray);
         place_[count_] = place;
-        if (++count_ == kLaneCount) decide(hits, stats);
+        if (++count_ == kLaneCount) resolve(hits, stats);
     }
     template <class Hits, class Stats>
-    HWY_NOINLINE void decide(Hits&& hits, Stats stats) {
+    HWY_NOINLINE void resolve(Hits&& hits, Stats stats) {
         if (count_ == 0) return;
         // Free lanes repeat the first.
         for (std::size_t i = count_; i < kLaneCount; ++i) {
@@ -45,13 +45,13 @@ class PacketResolution {
             place_[i] = place_[0];
         }
         const std::uint32_t plain = fill();
-        const TrianglePairs::Verdict verdict = pairs_.decide();
+        const TrianglePairs::Verdict verdict = pairs_.resolve();
         const std::uint32_t used = (1u << count_) - 1;
         const std::uint32_t alone = (verdict.unsure | ~plain) & used;
         for (std::uint32_t rest = (verdict.hit & used) | alone; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             ShapeHit hit{pairs_.t[lane], pairs_.u[lane], pairs_.v[lane], 0};
-            if ((alone >> lane & 1) != 0 && !decide_alone(lane, hit)) continue;
+            if ((alone >> lane & 1) != 0 && !resolve_scalar(lane, hit)) continue;
             stats.primitive_hits(1);
             hits(ray_[lane], id(lane).id(), hit);
         }
@@ -63,7 +63,7 @@ class PacketResolution {
         return scene_.layout->triangles[place_[lane] / kBlockWidth].ids[place_[lane] % kBlockWidth];
     }
 
-    /// Bits of the lanes that are set as the test needs them.
+    /// Bits of the lanes with the main axis of the packet.
     HWY_INLINE std::uint32_t fill() {
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
         for (std::size_t i = 0; i < kLaneCount; ++i) {
@@ -89,7 +89,7 @@ class PacketResolution {
         const LocalFrame& frame = scene_.layout->frame;
         const double center[3] = {frame.center.x, frame.center.y, frame.center.z};
         const std::size_t axes[3] = {packet_.kx, packet_.ky, packet_.kz};
-        // One by one: gathers take longer on processors that mend them in microcode.
+        // One by one: gathers are slower on processors with the microcode mitigation.
         HWY_ALIGN float x[3][3][kLaneCount];
         for (std::size_t i = 0; i < kLaneCount; ++i) {
             const TriangleBlock& block = scene_.layout->triangles[place_[i] / kBlockWidth];
@@ -131,7 +131,7 @@ class PacketResolution {
             pairs_.vertex[2][k][lane] = c[axis];
         }
     }
-    HWY_NOINLINE bool decide_alone(std::size_t lane, ShapeHit& hit) const {
+    HWY_NOINLINE bool resolve_scalar(std::size_t lane, ShapeHit& hit) const {
         const auto [a, b, c] = scene_.table->triangle_vertices(triangle(lane));
         const Ray& ray = rays_[ray_[lane]];
         return intersect_triangle(ray, RayShear(ray.direction), a, b, c, hit);

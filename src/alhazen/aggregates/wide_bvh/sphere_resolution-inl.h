@@ -1,8 +1,8 @@
-/// The test in double of a sphere that the filter has left, without a call into code for another
-/// instruction set.
+/// Exact resolution of a sphere that passes the filter, in double, without a call into code for
+/// another instruction set.
 ///
-/// Source: geometry/sphere_roots.h, the same formulas in the same order: the bits are those of the
-/// test of the shape. What is not plain is left to that one.
+/// Formulas and their order are those of geometry/sphere_roots.h: the bits are those of the test of
+/// the shape. Cases in doubt are left to that test.
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_SPHERE_RESOLUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,9 +1,8 @@
-/// The test in double of the triangles that the filter has left, eight rays at a time.
+/// Exact resolution of the triangles that pass the filter, in double, eight rays at a time.
 ///
-/// Source: geometry/watertight_triangle.h, the same formulas in the same order: what lanes decide
-/// has the bits of the scalar test. Lanes that are not plain (a zero among the edge functions, a
-/// triangle seen nearly edge on) are left to that one.
-/// Conventions: included once per target (see simd/lanes-inl.h).
+/// Formulas and their order are those of geometry/watertight_triangle.h: lanes give the bits of the
+/// scalar test. Lanes in doubt (a zero among the edge functions, a triangle seen nearly edge on)
+/// are left to the scalar test. Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_RESOLUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_RESOLUTION_INL_H_
@@ -34,7 +33,7 @@ namespace triangle_lanes {
 
 enum class PlainVerdict { Missed, Hit, Unsure };
 
-/// `intersect_triangle` for one ray and the cases that need no care, without a call into code for
+/// `intersect_triangle` for one ray, except for the cases in doubt, without a call into code for
 /// another instruction set. `axis` is the order of axes of RayShear for a direction whose largest
 /// component is the third of them and no other; corners are [corner][axis in that order].
 HWY_INLINE PlainVerdict intersect_plain(const Ray& ray, const std::uint32_t (&axis)[3],
@@ -93,8 +92,8 @@ struct TrianglePairs {
     struct Verdict {
         std::uint32_t hit, unsure;
     };
-    /// Makes the test of all lanes.
-    HWY_INLINE Verdict decide() {
+    /// Tests all lanes.
+    HWY_INLINE Verdict resolve() {
         using triangle_lanes::edge_function;
         using D = Doubles;
         const D dz = load_lanes(direction[2]);
@@ -132,8 +131,8 @@ struct TrianglePairs {
     }
 };
 
-/// Collects rays with a triangle each, and offers what is hit to the ray's best. Vertices that are
-/// not in the block are fetched from the mesh in two steps, eight triangles after each other.
+/// Collects pairs of a ray and a triangle, and offers hits to the best of the ray. Vertices that
+/// are not in the block are fetched from the mesh in two steps, eight triangles at a time.
 class TriangleResolution {
   public:
     HWY_INLINE explicit TriangleResolution(const WideBvhScene& scene) : scene_(scene) {}
@@ -153,12 +152,12 @@ class TriangleResolution {
         fetching_[fetching_count_++] = {&ray, &best, id.id()};
         if (fetching_count_ == kLaneCount) fetch(stats);
     }
-    /// Decides what has been added so far.
+    /// Resolves the pairs added so far.
     template <class Stats>
     HWY_NOINLINE void flush(Stats stats) {
         fetch(stats);
         fetch(stats);
-        if (count_ > 0) decide(stats);
+        if (count_ > 0) resolve(stats);
     }
 
   private:
@@ -172,7 +171,7 @@ class TriangleResolution {
         return static_cast<std::uint32_t>(id) - scene_.table->first(kTriangleKind);
     }
 
-    /// Places the triangles whose vertices have been fetched, and fetches those of the next.
+    /// Places the triangles whose vertices have been fetched, and fetches the next ones.
     template <class Stats>
     HWY_NOINLINE void fetch(Stats stats) {
         for (std::size_t i = 0; i < fetched_count_; ++i) {
@@ -194,27 +193,27 @@ class TriangleResolution {
     HWY_INLINE void place(const Pair& pair, const Vec3 (&corners)[3], Stats stats) {
         pairs_.set(count_, *pair.ray, corners);
         pair_[count_] = pair;
-        if (++count_ == kLaneCount) decide(stats);
+        if (++count_ == kLaneCount) resolve(stats);
     }
 
     template <class Stats>
-    HWY_NOINLINE void decide(Stats stats) {
+    HWY_NOINLINE void resolve(Stats stats) {
         // Lanes beyond the count hold what was there before, or zeros.
-        const TrianglePairs::Verdict verdict = pairs_.decide();
+        const TrianglePairs::Verdict verdict = pairs_.resolve();
         const std::uint32_t used = (1u << count_) - 1;
         for (std::uint32_t rest = (verdict.hit | verdict.unsure) & used; rest != 0;
              rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             const Pair& pair = pair_[lane];
             ShapeHit hit = pairs_.hit(lane);
-            if ((verdict.unsure >> lane & 1) != 0 && !decide_alone(pair, hit)) continue;
+            if ((verdict.unsure >> lane & 1) != 0 && !resolve_scalar(pair, hit)) continue;
             stats.primitive_hits(1);
             Ray ray = *pair.ray;
             offer(hit, pair.id, ray, *pair.best);
         }
         count_ = 0;
     }
-    HWY_NOINLINE bool decide_alone(const Pair& pair, ShapeHit& hit) const {
+    HWY_NOINLINE bool resolve_scalar(const Pair& pair, ShapeHit& hit) const {
         const auto [a, b, c] = scene_.table->triangle_vertices(triangle(pair.id));
         return intersect_triangle(*pair.ray, RayShear(pair.ray->direction), a, b, c, hit);
     }
