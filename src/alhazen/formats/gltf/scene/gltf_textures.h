@@ -13,7 +13,7 @@
 
 namespace alhazen::gltf {
 
-/// Color encoding of an image.
+/// Colour encoding of an image.
 enum class ColorSpace { Linear, Srgb };
 
 /// KHR_texture_transform converted to upward v.
