@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// What BRL-CAD's pictures mean.
+/// Shading conventions of BRL-CAD's images.
 ShadingConventions brlcad_conventions() {
     ShadingConventions c;
     c.highlight = ShadingConventions::Highlight::Phong;
@@ -21,7 +21,7 @@ ShadingConventions brlcad_conventions() {
     return c;
 }
 
-/// Larger scripts are none.
+/// Size limit of view scripts.
 constexpr std::uint64_t kMaxScriptBytes = std::uint64_t{16} << 20;
 
 void add_cameras(const ImportSource& source, SceneDescription& scene, const Box3& box,

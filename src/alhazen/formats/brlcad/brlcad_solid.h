@@ -22,7 +22,7 @@ struct BrlcadArb8 {
     std::array<Vec3, 8> corners;
 };
 
-/// Center and semi-axes.
+/// Centre and semi-axes.
 struct BrlcadEllipsoid {
     Vec3 center, a, b, c;
 };
