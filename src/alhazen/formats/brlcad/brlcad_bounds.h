@@ -1,9 +1,10 @@
 #pragma once
-/// Boxes of the objects of a scene description, before it is compiled.
+/// Bounding boxes of the objects of a scene description, before it is compiled.
 ///
-/// Source: BRL-CAD, manual page of `rt`: the view is fitted to the box of the model. Differs:
-/// nothing. Conventions: of things side by side and of unions only the bounded ones count; an
-/// intersection lies within the box of each of its parts, a difference in that of its first.
+/// Source: BRL-CAD, manual page of `rt`: the view is fitted to the box of the model.
+/// Conventions: of the parts of an object and of the operands of a union only bounded ones count.
+/// The box of an intersection is the intersection of its operands' boxes; the box of a difference
+/// is that of its first operand.
 
 #include <optional>
 #include <vector>
@@ -15,10 +16,10 @@ namespace alhazen {
 
 class BrlcadBounds {
   public:
-    /// The scene must not change afterwards, and no object may contain itself.
+    /// The scene must not change during the lifetime; no object may contain itself.
     explicit BrlcadBounds(const SceneDescription& scene);
     [[nodiscard]] Box3 of(ObjectIndex object);
-    /// In the frame of the object that owns the part.
+    /// In the frame of the object with the part.
     [[nodiscard]] Box3 of(const Part& part);
 
   private:

@@ -1,12 +1,14 @@
 #pragma once
-/// Makes the objects of a scene of a BRL-CAD database.
+/// Builds the objects of a scene from a BRL-CAD database.
 ///
-/// Source: BRL-CAD, "MGED User's Manual", on regions and what combinations hand down; manual page
-/// of `rt` on air. Differs: a region that holds a solid that is not read is left out as a whole,
-/// with a warning, so that nothing is shown in a wrong shape. Conventions: a region is one solid of
-/// one material, also where it is cut. Operators above the regions act on each region of their left
-/// operand, which keeps its material. What is in no region is one by itself. Complexity: objects
-/// are made once for each material they have; operators above regions copy the regions under them.
+/// Source: BRL-CAD, "MGED User's Manual", on regions and attributes inherited from combinations;
+/// manual page of `rt` on air.
+/// Differs: a region with an unsupported solid is omitted as a whole, with a warning, so that no
+/// wrong shape appears.
+/// Conventions: a region is one solid of one material, also on the surfaces of cuts. Operators
+/// above the regions apply to each region of their left operand, which keeps its material. A solid
+/// outside any region forms a region of its own. Complexity: each object is made once per material;
+/// operators above regions copy the regions below them.
 
 #include <map>
 #include <optional>
@@ -26,14 +28,14 @@ class BrlcadBuilder {
   public:
     BrlcadBuilder(const BrlcadDatabase& database, const ImportSource& source,
                   SceneDescription& scene, BrlcadMaterials& materials, Diagnostics& diagnostics);
-    /// Makes the root of the objects of these names; of all that no other object uses if none.
+    /// Makes the root from the objects of these names; without names, from all top-level objects.
     void build(std::span<const std::string> names);
 
   private:
     enum class Outcome {
         Present,
-        Empty,   ///< there is nothing, as in a combination without members
-        Unread,  ///< there is something that is not read
+        Empty,   ///< no solid, for example a combination without members
+        Unread,  ///< contains an unsupported solid
     };
     struct Operand {
         Outcome outcome = Outcome::Empty;
@@ -45,7 +47,7 @@ class BrlcadBuilder {
     };
     using Regions = std::vector<PlacedRegion>;
 
-    /// Counts how deep operators lie in operators. Throws Error (Resource).
+    /// Counts the nesting depth of operators. Throws Error (Resource) above the limit.
     class Nesting {
       public:
         Nesting(BrlcadBuilder& builder, const BrlcadPlace& place);
@@ -99,14 +101,14 @@ class BrlcadBuilder {
     Diagnostics& diagnostics_;
     std::uint64_t max_parts_;
     std::uint64_t parts_ = 0;
-    std::set<const BrlcadObject*> open_;  ///< combinations that are being made
+    std::set<const BrlcadObject*> open_;  ///< combinations under construction; detects cycles
     std::map<std::pair<const BrlcadObject*, MaterialId>, Operand> objects_;
     std::map<std::pair<const BrlcadObject*, StateKey>, Operand> groups_;
     std::map<std::pair<const BrlcadObject*, StateKey>, std::optional<PlacedRegion>> regions_;
     std::map<const BrlcadObject*, BrlcadPieces> pieces_;
     std::map<const BrlcadObject*, MeshIndex> meshes_;
     std::set<MeshIndex> surface_meshes_;
-    std::set<ObjectIndex> surface_objects_;  ///< that hold such meshes
+    std::set<ObjectIndex> surface_objects_;  ///< objects with surface meshes
     std::set<std::string> missing_;
     std::string unread_;  ///< why the last operand is Unread
     std::map<const BrlcadObject*, std::string> unread_of_;

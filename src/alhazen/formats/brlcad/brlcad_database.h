@@ -1,8 +1,9 @@
 #pragma once
-/// A BRL-CAD database as its text says it: solids and combinations by name.
+/// A BRL-CAD database as read from text: solids and combinations by name.
 ///
-/// Source: BRL-CAD, "MGED User's Manual", and the text that its program `g2asc` writes. Differs:
-/// what only other programs use is not kept (materials of the ballistic codes, lines of sight).
+/// Source: BRL-CAD, "MGED User's Manual", and the text output of its program `g2asc`.
+/// Differs: attributes of other programs are dropped (materials of the ballistic codes, lines of
+/// sight).
 /// Conventions: millimetres.
 
 #include <optional>
@@ -19,12 +20,12 @@
 namespace alhazen {
 
 struct BrlcadCombination {
-    bool region = false;  ///< one solid thing of one material; else a group of such, or a part
+    bool region = false;  ///< one solid of one material; else a group of regions or a part of one
     int region_id = 0;
-    int air = 0;               ///< not 0: filled with air, which is not drawn
+    int air = 0;               ///< nonzero: filled with air, not drawn
     std::optional<Rgb> color;  ///< 0..1
     std::string shader;        ///< with its parameters; empty: none
-    bool inherit = false;      ///< colour and shader hold for all below, whatever they say
+    bool inherit = false;      ///< colour and shader override those of all members
     BrlcadTree tree;
 };
 
@@ -34,14 +35,14 @@ struct BrlcadObject {
     BrlcadPlace place;
 };
 
-/// Regions of these numbers have this colour.
+/// Colour of the regions with an id in first..last.
 struct BrlcadRegionColor {
     int first = 0, last = 0;
     Rgb color;
 };
 
 struct BrlcadDatabase {
-    std::string file;  ///< for locations
+    std::string file;  ///< name for messages
     std::string title;
     std::vector<BrlcadObject> objects;
     std::unordered_map<std::string, std::size_t> by_name;
@@ -58,7 +59,7 @@ struct BrlcadDatabase {
         const auto found = by_name.find(name);
         return found == by_name.end() ? nullptr : &objects[found->second];
     }
-    /// Adds an object; one of the same name is an error, and the first one stays.
+    /// Adds an object. Reports a duplicate name as an error and keeps the first object.
     void add(BrlcadObject object, Diagnostics& diagnostics) {
         const auto [entry, fresh] = by_name.try_emplace(object.name, objects.size());
         if (!fresh) {
@@ -71,14 +72,14 @@ struct BrlcadDatabase {
     }
 };
 
-/// A colour of three numbers 0 to 255.
+/// Converts components 0..255, clamped, to a colour 0..1.
 [[nodiscard]] inline Rgb brlcad_color(double r, double g, double b) {
     const auto part = [](double c) { return (c < 0.0 ? 0.0 : c > 255.0 ? 255.0 : c) / 255.0; };
     return {part(r), part(g), part(b)};
 }
 
-/// The transform of the sixteen numbers of a matrix, row by row; the last one divides all others.
-/// None for one that is no affine transform.
+/// The transform of a 4 x 4 row-major matrix; the last number divides all others. None if the
+/// matrix is not affine.
 [[nodiscard]] inline std::optional<Affine> brlcad_transform(const std::array<double, 16>& m) {
     if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] == 0.0) return std::nullopt;
     const double s = 1.0 / m[15];

@@ -21,7 +21,7 @@ Conventions brlcad_conventions() {
     return c;
 }
 
-/// Larger scripts are none.
+/// Size limit of view scripts.
 constexpr std::uint64_t kMaxScriptBytes = std::uint64_t{16} << 20;
 
 void add_cameras(const ImportSource& source, SceneDescription& scene, const Box3& box,

@@ -5,9 +5,9 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kMaxLights = 1000;
-/// What lights share; the rest of full light is ambient.
+/// Share of full light that the lights have together.
 constexpr double kDirect = 5.0 / 6.0;
-/// Ambient light of 0.4 comes from the eye in BRL-CAD; this is its mean over a sphere that is seen.
+/// BRL-CAD's ambient light of 0.4 comes from the eye; this is its mean over a visible sphere.
 constexpr double kAmbient = 0.4 * 0.5;
 
 class LightFinder {
@@ -22,7 +22,7 @@ class LightFinder {
         const Part* part = nullptr;
     };
 
-    /// Stops after kMaxLights + 1.
+    /// Appends the lights of an object and its descendants; stops after kMaxLights + 1.
     void find(ObjectIndex object, const Affine& world_from_object, std::vector<Found>& found) {
         for (const Part& part : scene_.objects[static_cast<std::size_t>(object)].parts) {
             if (found.size() > kMaxLights) return;
@@ -39,7 +39,7 @@ class LightFinder {
     }
 
   private:
-    /// The light that a part is: a shape, or a solid of them.
+    /// The light of a part that is a shape or a solid of shapes; else null.
     const BrlcadLight* light_of(const Part& part) {
         const auto* child = std::get_if<ObjectIndex>(&part.what);
         if (child == nullptr) return materials_.light(part.material);

@@ -10,13 +10,13 @@ namespace alhazen {
 
 namespace {
 
-/// Phong's model as the shaders have it.
+/// Parameters of the shaders' Phong model with their defaults.
 struct Phong {
     double shine = 10, specular = 0.7, diffuse = 0.3;
     double transmit = 0, reflect = 0, index = 1, emission = 0;
 };
 
-/// The name of a shader, and its parameters in the order of the text: "a=1 b=2" or {a 1 b 2}.
+/// A shader's name and its parameters in text order, parsed from "a=1 b=2" or {a 1 b 2}.
 struct ShaderText {
     std::string name;
     std::vector<std::pair<std::string, std::string>> parameters;
@@ -35,13 +35,13 @@ struct ShaderText {
 
 ShaderText parse(const std::string& text) {
     ShaderText shader;
-    // Words are the same with and without '=' between them.
+    // An '=' between words is optional.
     std::vector<std::string> words;
     TclTokens tokens(text);
     for (TclToken token = tokens.next(); token.kind != TclTokenKind::End; token = tokens.next()) {
         if (token.kind != TclTokenKind::Word) continue;
         std::string_view word = token.word.text;
-        // A stack of shaders is as good as the first of them.
+        // Only the first shader of a stack is used.
         if (words.empty() && (word == "stack" || word == "envmap")) {
             if (word == "envmap") return {"envmap", {}};
             continue;
@@ -114,7 +114,7 @@ Material BrlcadMaterials::make(const std::string& shader, const Rgb& color,
         light->shown = text.number("visible", "v").value_or(1.0) != 0.0 &&
                        text.number("invisible", "").value_or(0.0) == 0.0;
         light->infinite = text.number("infinite", "").value_or(0.0) != 0.0;
-        // Its own light passes through it, so that it may come from within.
+        // Transparent to its own light, whose source is inside.
         if (light->shown) material.emission.color = color;
         material.transmissive.color = {1, 1, 1};
         return material;

@@ -1,10 +1,11 @@
 #pragma once
-/// Materials of BRL-CAD's shaders, and the state that combinations hand down to their regions.
+/// Materials from BRL-CAD's shaders, and the state that regions inherit from combinations.
 ///
 /// Source: BRL-CAD, manual pages of `rt` and of its shaders (plastic, mirror, glass, light) for
-/// names and values of their parameters. Differs: shaders that make a pattern (cloud, checker,
-/// textures, bumps) are shown as plain plastic, with a warning; light shines through its own
-/// source. Conventions: colours 0..1, linear as in BRL-CAD's pictures.
+/// names and values of their parameters.
+/// Differs: pattern shaders (cloud, checker, textures, bumps) become plain plastic, with a warning.
+/// The solid of a light does not block its own light.
+/// Conventions: colours 0..1, linear as in BRL-CAD's images.
 
 #include <map>
 #include <optional>
@@ -18,13 +19,13 @@
 
 namespace alhazen {
 
-/// Colour and shader that hold at a place of the tree above the regions.
+/// Colour and shader inherited at a position in the tree above the regions.
 struct BrlcadState {
     std::optional<Rgb> color;
     std::string shader;
-    bool color_fixed = false, shader_fixed = false;  ///< nothing below changes it
+    bool color_fixed = false, shader_fixed = false;  ///< overrides everything below
 
-    /// That of the members of a combination.
+    /// The state for the members of a combination.
     [[nodiscard]] BrlcadState below(const BrlcadCombination& comb) const;
     [[nodiscard]] auto key() const {
         const Rgb c = color.value_or(Rgb{-1, -1, -1});
@@ -32,12 +33,12 @@ struct BrlcadState {
     }
 };
 
-/// The share that a region with the shader `light` has in the light of the scene.
+/// Light source of a region with the shader `light`.
 struct BrlcadLight {
     Rgb color;
     double intensity = 1;
     bool shown = true;
-    bool infinite = false;  ///< as from far away
+    bool infinite = false;  ///< directional, at infinity
 };
 
 class BrlcadMaterials {
@@ -46,8 +47,8 @@ class BrlcadMaterials {
                     Diagnostics& diagnostics)
         : database_(database), scene_(scene), diagnostics_(diagnostics) {}
 
-    /// The material of a region in that state; `region_id` may change its colour by the database's
-    /// table. 0 for what is in no region.
+    /// The material of a region in that state. The colour table of the database may override its
+    /// colour by `region_id`; 0 outside regions.
     MaterialId of(const BrlcadState& state, int region_id, const BrlcadPlace& place);
     [[nodiscard]] const BrlcadLight* light(MaterialId material) const {
         const auto found = lights_.find(material);
@@ -64,7 +65,7 @@ class BrlcadMaterials {
     Diagnostics& diagnostics_;
     std::map<std::tuple<double, double, double, std::string>, MaterialId> known_;
     std::map<MaterialId, BrlcadLight> lights_;
-    std::set<std::string> told_;  ///< shaders that there was a warning about
+    std::set<std::string> told_;  ///< shaders already warned about
 };
 
 }  // namespace alhazen

@@ -8,21 +8,21 @@ namespace alhazen {
 
 namespace {
 
-/// Half the width of a conic's section at a depth from 0 (the base) to 1 (the apex) is, squared,
-/// scale * q(depth) with q(0) = 1: coefficients of q - 1, by powers of the depth.
+/// Profile of a conic: the squared half width of its section at a depth from 0 (the base) to 1 (the
+/// apex) is scale * q(depth) with q(0) = 1. Coefficients of q - 1 by powers of the depth.
 struct ConicProfile {
     double linear = -1, square = 0;
 };
 
-/// Of a parabola, or of a hyperbola whose asymptotes meet at `c` above the apex, in units of the
-/// depth: ((1 + c - s)^2 - c^2) / ((1 + c)^2 - c^2).
+/// Profile of a parabola, or of a hyperbola whose asymptotes intersect at `c` above the apex:
+/// q(s) = ((1 + c - s)^2 - c^2) / ((1 + c)^2 - c^2), all in units of the depth.
 ConicProfile profile(bool hyperbolic, double c) {
     if (!hyperbolic) return {};
     const double whole = 1.0 + 2.0 * c;
     return {-2.0 * (1.0 + c) / whole, 1.0 / whole};
 }
 
-/// Perpendicular to both, of that length.
+/// The vector perpendicular to both, of length `wanted`.
 Vec3 across(const Vec3& a, const Vec3& b, double wanted) {
     const Vec3 n = cross(a, b);
     return (wanted / length(n)) * n;
@@ -75,7 +75,7 @@ std::string digits(double value) {
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-/// A further term of a sum.
+/// A further term of a sum, with its sign.
 std::string term(double factor, const char* power) {
     return (std::signbit(factor) ? " - " : " + ") + digits(std::abs(factor)) + power;
 }
@@ -87,7 +87,7 @@ std::optional<BrlcadQuartic> brlcad_quartic(const BrlcadEllipticTorus& solid) {
           length(solid.axis) > 0.0)) {
         return std::nullopt;
     }
-    // In units of the circle's radius; the long semi-axis has the part cz along the axis.
+    // Unit: the radius of the circle. The semi-axis c has the component cz along the axis.
     const Vec3 axis = normalize(solid.axis);
     const double c = length(solid.c) / solid.major;
     const double m = solid.minor / solid.major;
@@ -96,8 +96,8 @@ std::optional<BrlcadQuartic> brlcad_quartic(const BrlcadEllipticTorus& solid) {
     const double reach = std::hypot(cr, m * cz / c);
     const double height = std::hypot(cz, m * cr / c);
     if (!(reach < 1.0)) return std::nullopt;
-    // a (rho - 1)^2 + 2 b (rho - 1) z + d z^2 = 1, with rho the distance from the axis. What is odd
-    // in rho is squared on one side, so that rho^2 = x^2 + y^2 alone is left.
+    // a (rho - 1)^2 + 2 b (rho - 1) z + d z^2 = 1, with rho the distance from the axis. Moving the
+    // terms odd in rho to one side and squaring leaves only rho^2 = x^2 + y^2.
     const double c4 = c * c * c * c, cm = c * c * m * m;
     const double a = cr * cr / c4 + cz * cz / cm;
     const double b = cr * cz * (1.0 / c4 - 1.0 / cm);
@@ -106,7 +106,7 @@ std::optional<BrlcadQuartic> brlcad_quartic(const BrlcadEllipticTorus& solid) {
     made.shape.expression = "(" + digits(a) + "*(x^2 + y^2)" + term(d, "*z^2") +
                             term(-2.0 * b, "*z") + term(a - 1.0, "") + ")^2 - (x^2 + y^2)*(" +
                             digits(2.0 * a) + term(-2.0 * b, "*z") + ")^2";
-    constexpr double kRoom = 1.0 + 1e-6;  // the box only touches the solid
+    constexpr double kRoom = 1.0 + 1e-6;  // margin: the box is tangent to the solid
     const double side = kRoom * (1.0 + reach);
     made.shape.clip_box = {{-side, -side, -kRoom * height}, {side, side, kRoom * height}};
     const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};

@@ -1,10 +1,11 @@
 #pragma once
-/// Solids of BRL-CAD that are quadrics or quartics in a frame of their own.
+/// Solids of BRL-CAD that are quadrics or quartics in a local frame.
 ///
 /// Source: BRL-CAD, the definitions of rpc, rhc, epa, ehy, hyp and eto in the manual page of MGED's
-/// command `in`. Differs: each is a general quadric (or a polynomial of degree 4) within a box of
-/// unit size, placed by a transform. Conventions: of hyperbolas the asymptotes meet at the distance
-/// c above the apex.
+/// command `in`.
+/// Differs: each is a general quadric (or a polynomial of degree 4) clipped to a box of unit size
+/// and placed by a transform.
+/// Conventions: the asymptotes of a hyperbola intersect at the distance c above the apex.
 
 #include <optional>
 
@@ -12,7 +13,7 @@
 
 namespace alhazen {
 
-/// The shape, and its place; the caller checks both.
+/// A shape and its transform; the caller validates both.
 struct BrlcadQuadric {
     Quadric shape;
     Affine solid_from_shape;
@@ -27,7 +28,7 @@ struct BrlcadQuartic {
     Affine solid_from_shape;
 };
 
-/// None where the ellipse reaches the axis, or has no area.
+/// None if the ellipse reaches the axis or has no area.
 [[nodiscard]] std::optional<BrlcadQuartic> brlcad_quartic(const BrlcadEllipticTorus& solid);
 
 }  // namespace alhazen

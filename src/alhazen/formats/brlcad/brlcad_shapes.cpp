@@ -8,7 +8,7 @@ namespace alhazen {
 
 namespace {
 
-/// Adds a piece, when its shape says that it is one.
+/// Adds a piece if its shape is valid; else sets the reason.
 template <class S>
 void add(BrlcadPieces& pieces, S shape, const Affine& solid_from_shape = {}) {
     Diagnostics findings;
@@ -20,12 +20,12 @@ void add(BrlcadPieces& pieces, S shape, const Affine& solid_from_shape = {}) {
     pieces.pieces.push_back({AnyShape(std::move(shape)), solid_from_shape});
 }
 
-/// The direction of one vector with the length of another.
+/// `direction` scaled to the length of `other`.
 Vec3 as_long_as(const Vec3& direction, const Vec3& other) {
     return (length(other) / length(direction)) * direction;
 }
 
-/// In the plane of a half space, nearest to the origin.
+/// The boundary plane of a half space, through its point nearest to the origin.
 OrientedPlane plane_of(const BrlcadHalfSpace& half) {
     return {(half.distance / dot(half.normal, half.normal)) * half.normal, half.normal};
 }
@@ -53,7 +53,7 @@ struct Maker {
         tgc.axis_b = given.b;
         tgc.axis_c = given.c;
         tgc.axis_d = given.d;
-        // The upper end says how long its semi-axes are; they are parallel to those of the base.
+        // Only the lengths of the upper semi-axes count; they are parallel to those of the base.
         if (length(given.a) > 0.0) tgc.axis_c = as_long_as(given.a, given.c);
         if (length(given.b) > 0.0) tgc.axis_d = as_long_as(given.b, given.d);
         add(made, tgc);
@@ -83,7 +83,7 @@ struct Maker {
     void operator()(const BrlcadParticle& particle) {
         const double height = length(particle.height);
         const double shrink = particle.base_radius - particle.top_radius;
-        // Where one sphere holds the other it is all that there is.
+        // If one sphere contains the other, it is the whole solid.
         const bool base = height > -shrink;
         const bool top = height > shrink;
         const auto add_sphere = [&](const Vec3& center, double radius) {
@@ -97,7 +97,7 @@ struct Maker {
         if (base) add_sphere(particle.base, particle.base_radius);
         if (top) add_sphere(end, particle.top_radius);
         if (!base || !top) return;
-        // The cone touches the spheres in circles; s is the sine of its half angle.
+        // The cone touches the spheres along circles; s is the sine of its half angle.
         const double s = shrink / height;
         const double c = std::sqrt((1.0 - s) * (1.0 + s));
         const Vec3 along = particle.height / height;

@@ -1,9 +1,9 @@
 #pragma once
-/// The exact shapes that solids of BRL-CAD are made of.
+/// Exact shapes of the solids of BRL-CAD.
 ///
 /// Source: BRL-CAD, the definitions of its solids in the manual page of MGED's command `in`.
-/// Differs: faces of an arb8 that are not quite plane are treated as in `polyhedron.h`; a plate of
-/// a bot is a surface.
+/// Differs: slightly non-planar faces of an arb8 are handled as in `polyhedron.h`; a plate-mode bot
+/// is a surface.
 
 #include <string>
 #include <variant>
@@ -19,11 +19,11 @@ struct BrlcadPiece {
     Affine solid_from_piece;
 };
 
-/// The union of the pieces is the solid.
+/// Pieces with the solid as their union.
 struct BrlcadPieces {
     std::vector<BrlcadPiece> pieces;
-    bool closed = true;   ///< it bounds a volume
-    std::string refused;  ///< why there are none
+    bool closed = true;   ///< bounds a volume
+    std::string refused;  ///< reason if there are no pieces
 };
 
 [[nodiscard]] BrlcadPieces brlcad_pieces(const BrlcadSolid& solid);

@@ -1,9 +1,10 @@
 #pragma once
-/// The solids of a BRL-CAD database as the file gives them, whatever its version.
+/// Solids of a BRL-CAD database with their parameters from the file, for versions 4 and 5.
 ///
-/// Source: BRL-CAD, "MGED Quick Reference" and the text that its program `g2asc` writes. Differs:
-/// solids of the two versions become the same structures; arb4 to arb8 are all eight points,
-/// spheres are ellipsoids, all cylinders and cones are `tgc`. Conventions: millimetres.
+/// Source: BRL-CAD, "MGED Quick Reference" and the text output of its program `g2asc`.
+/// Differs: both versions use the same structures. arb4 to arb8 have eight points each, spheres are
+/// ellipsoids, all cylinders and cones are `tgc`.
+/// Conventions: millimetres.
 
 #include <array>
 #include <memory>
@@ -16,17 +17,18 @@
 
 namespace alhazen {
 
-/// A convex solid of eight corners, of which some may coincide; four a side, as a cube's.
+/// A convex solid of eight corners with the topology of a cube; corners may coincide.
 struct BrlcadArb8 {
     std::array<Vec3, 8> corners;
 };
 
-/// Three semi-axes.
+/// Centre and semi-axes.
 struct BrlcadEllipsoid {
     Vec3 center, a, b, c;
 };
 
-/// Between the ellipse a, b around `base` and the ellipse c, d around `base + height`.
+/// A truncated cone with the ellipse a, b around `base` and the ellipse c, d around
+/// `base + height`.
 struct BrlcadTgc {
     Vec3 base, height, a, b, c, d;
 };
@@ -36,42 +38,44 @@ struct BrlcadTorus {
     double major = 0, minor = 0;
 };
 
-/// dot(normal, p) <= distance.
+/// All p with dot(normal, p) <= distance.
 struct BrlcadHalfSpace {
     Vec3 normal;
     double distance = 0;
 };
 
-/// A sphere that grows or shrinks while it moves along `height`.
+/// The sweep of a sphere along `height`, its radius changing linearly.
 struct BrlcadParticle {
     Vec3 base, height;
     double base_radius = 0, top_radius = 0;
 };
 
-/// A parabola (rpc), or a hyperbola whose asymptotes meet at `apex_distance` above it (rhc),
-/// through base + breadth, of half width `half_width` at the base, moved along `height`.
+/// A cylinder over a parabola (rpc) or a hyperbola (rhc) through base + breadth, with half width
+/// `half_width` at the base, extruded along `height`. The asymptotes of the hyperbola intersect at
+/// `apex_distance` above it.
 struct BrlcadConicCylinder {
     Vec3 base, height, breadth;
     double half_width = 0, apex_distance = 0;
     bool hyperbolic = false;
 };
 
-/// An elliptic paraboloid (epa), or one sheet of a hyperboloid (ehy), with its apex at base +
-/// height; its section at the base has the semi-axes `radius_a` along `a` and `radius_b` across.
+/// An elliptic paraboloid (epa) or one sheet of a hyperboloid (ehy) with its apex at base + height.
+/// Its section at the base has the semi-axes `radius_a` along `a` and `radius_b` perpendicular.
 struct BrlcadConicDome {
     Vec3 base, height, a;
     double radius_a = 0, radius_b = 0, apex_distance = 0;
     bool hyperbolic = false;
 };
 
-/// An ellipse of semi-axis `c` and a perpendicular one of length `minor`, turned about `axis`.
+/// The revolution about `axis` of an ellipse with semi-axis `c` and a perpendicular one of length
+/// `minor`.
 struct BrlcadEllipticTorus {
     Vec3 center, axis, c;
     double major = 0, minor = 0;
 };
 
-/// A hyperboloid of one sheet from `base` along `height`: semi-axes `a` and one of length
-/// `radius_b` at both ends, `neck` times as long in the middle.
+/// A hyperboloid of one sheet from `base` along `height`. The semi-axes at both ends are `a` and a
+/// perpendicular one of length `radius_b`; in the middle they are scaled by `neck`.
 struct BrlcadHyperboloid {
     Vec3 base, height, a;
     double radius_b = 0, neck = 0;
@@ -87,18 +91,18 @@ struct BrlcadPolyhedron {
     std::vector<BrlcadHalfSpace> planes;
 };
 
-/// ars and bot.
+/// A mesh of an ars or bot.
 struct BrlcadMesh {
     std::shared_ptr<TriangleMesh> mesh;
-    bool solid = true;   ///< else a surface only
-    bool plate = false;  ///< a surface that has a thickness, which is not kept
+    bool solid = true;   ///< else a surface
+    bool plate = false;  ///< a surface with a thickness, which is dropped
 };
 
-/// A solid of a type that is not read.
+/// A solid of an unsupported type.
 struct BrlcadUnsupported {};
 
 struct BrlcadSolid {
-    std::string type;  ///< as in the file: "tgc"
+    std::string type;  ///< as in the file, for example "tgc"
     std::variant<BrlcadUnsupported, BrlcadArb8, BrlcadEllipsoid, BrlcadTgc, BrlcadTorus,
                  BrlcadHalfSpace, BrlcadParticle, BrlcadConicCylinder, BrlcadConicDome,
                  BrlcadEllipticTorus, BrlcadHyperboloid, BrlcadSuperellipsoid, BrlcadPolyhedron,

@@ -1,4 +1,4 @@
-// What lies within a region: solids, and combinations of solids, of one material.
+// Contents of regions: solids and combinations of solids, of one material.
 
 #include "alhazen/formats/brlcad/brlcad_builder.h"
 
@@ -98,7 +98,7 @@ BrlcadBuilder::Operand BrlcadBuilder::combined(Combine combine, std::vector<Part
     object.location = database_.at(place);
     for (const Part& part : parts) {
         if (!is_surface(part)) continue;
-        // Surfaces can lie side by side; to cut them, or with them, has no meaning.
+        // Surfaces support only union: they bound no volume to cut.
         if (combine != Combine::Union) {
             unread_ = "'" + part.name + "' is a surface and bounds no volume";
             return {Outcome::Unread, {}};

@@ -68,7 +68,7 @@ bool TclCommands::skip_to_command() {
     return false;
 }
 
-/// Over blanks within a command; false at its end.
+/// Skips blanks within a command; false at its end.
 bool TclCommands::skip_to_word() {
     while (position_ < text_.size()) {
         const char c = text_[position_];

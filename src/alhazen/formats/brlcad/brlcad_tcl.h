@@ -1,10 +1,11 @@
 #pragma once
-/// The words of Tcl text: commands, and lists within braces. Nothing is evaluated.
+/// Tokens of Tcl text: commands, and lists in braces. Nothing is evaluated.
 ///
 /// Source: Ousterhout, "Tcl: An Embeddable Command Language", USENIX Winter 1990; the rules of
-/// Tcl's manual page `Tcl(n)`. Differs: variables and commands in brackets are refused, because
-/// data has none. Conventions: words point into the text, so that each has its place in it.
-/// Complexity: O(length); lists in lists are read as a stream of tokens and need no recursion.
+/// Tcl's manual page `Tcl(n)`.
+/// Differs: variables and commands in brackets are rejected, since data has none.
+/// Conventions: words are views into the text, so that each has a position.
+/// Complexity: O(length); nested lists are read as a token stream without recursion.
 
 #include <string>
 #include <string_view>
@@ -15,7 +16,7 @@
 
 namespace alhazen {
 
-/// Lines and columns of places in a text; fast where places are asked for in their order.
+/// Lines and columns of positions in a text; fast for ascending positions.
 class TextPlaces {
   public:
     explicit TextPlaces(std::string_view text) : text_(text) {}
@@ -28,19 +29,20 @@ class TextPlaces {
 };
 
 struct TclWord {
-    std::string_view text;  ///< without the braces or quotes around it
+    std::string_view text;  ///< without surrounding braces or quotes
     bool braced = false;
 };
 
-/// The word with its backslashes resolved.
+/// The word with its backslash escapes resolved.
 [[nodiscard]] std::string tcl_value(const TclWord& word);
 
 /// Splits a text into commands.
 class TclCommands {
   public:
     explicit TclCommands(std::string_view text) : text_(text) {}
-    /// The words of the next command that is not empty; false at the end. Throws Error (Scene) with
-    /// no location for what is no Tcl; `at()` tells where. Reading may go on with the next line.
+    /// Reads the words of the next non-empty command; false at the end. Throws Error (Scene)
+    /// without a location for invalid Tcl; `at()` gives the position. Reading may continue after
+    /// skip_line().
     bool next(std::vector<TclWord>& words);
     [[nodiscard]] const char* at() const { return text_.data() + position_; }
     void skip_line();

@@ -30,7 +30,7 @@ std::uint32_t BrlcadTree::combine(BrlcadOperator op, std::uint32_t left, std::ui
     switch (op) {
         case BrlcadOperator::Union:
         case BrlcadOperator::Intersection: {
-            // Neither asks for an order.
+            // Both operators are commutative; append to the larger chain.
             if (nodes_[left].op != op ||
                 (nodes_[right].op == op &&
                  nodes_[right].operands.size() > nodes_[left].operands.size())) {

@@ -1,10 +1,10 @@
 #pragma once
-/// The tree of operators of a BRL-CAD combination.
+/// Operator tree of a BRL-CAD combination.
 ///
-/// Source: BRL-CAD, "MGED User's Manual", chapter on combinations and regions. Differs: operators
-/// have any number of operands: (a u b) u c is one union of three, (a - b) - c one difference, so
-/// that the long chains of the files are not deep. Complexity: `combine` O(operands of the smaller
-/// side).
+/// Source: BRL-CAD, "MGED User's Manual", chapter on combinations and regions.
+/// Differs: operators are n-ary: (a u b) u c is one union of three, (a - b) - c one difference, so
+/// that long chains stay shallow.
+/// Complexity: `combine` O(operands of the smaller side).
 
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace alhazen {
 
-/// A place in the text of the database.
+/// A position in the text of the database.
 struct BrlcadPlace {
     int line = 0, column = 0;
 };
@@ -23,20 +23,20 @@ enum class BrlcadOperator : std::uint8_t { Leaf, Union, Intersection, Difference
 
 struct BrlcadNode {
     BrlcadOperator op = BrlcadOperator::Leaf;
-    std::vector<std::uint32_t> operands;  ///< of Difference: the first without the others
-    std::string member;                   ///< of Leaf: the name of what is placed here
+    std::vector<std::uint32_t> operands;  ///< of Difference: the first minus the others
+    std::string member;                   ///< of Leaf: the name of the placed object
     Affine comb_from_member;
     BrlcadPlace place;
 };
 
 class BrlcadTree {
   public:
-    /// Meaning of `root` in a combination without members.
+    /// Value of `root` for a combination without members.
     static constexpr std::uint32_t kEmpty = ~std::uint32_t{0};
 
     std::uint32_t add_leaf(std::string member, const Affine& comb_from_member,
                            const BrlcadPlace& place);
-    /// The node that joins two others, which then belong to it; either may be kEmpty.
+    /// Joins two nodes under an operator, which takes ownership of them. Either may be kEmpty.
     std::uint32_t combine(BrlcadOperator op, std::uint32_t left, std::uint32_t right);
 
     [[nodiscard]] const BrlcadNode& node(std::uint32_t index) const { return nodes_[index]; }
@@ -51,13 +51,12 @@ class BrlcadTree {
     std::uint32_t root_ = kEmpty;
 };
 
-/// Puts members that are given one after another, each with the operator in front of it, into a
-/// tree: union binds least, the others are taken from left to right. The operator of the first is
-/// of no meaning.
+/// Builds a tree from a sequence of members, each with its operator in front. Union binds weakest;
+/// the other operators associate to the left. The operator of the first member is ignored.
 class BrlcadMemberList {
   public:
     void add(BrlcadTree& tree, BrlcadOperator op, std::uint32_t leaf);
-    /// The root; kEmpty without members. The list is empty then.
+    /// Returns the root (kEmpty without members) and clears the list.
     [[nodiscard]] std::uint32_t finish(BrlcadTree& tree);
 
   private:

@@ -1,9 +1,9 @@
 #pragma once
-/// Reads the text of version 4: one record a line, each kind by the letter it begins with.
+/// Reader of the text of version 4: one record per line, its kind given by the first letter.
 ///
-/// Source: BRL-CAD, the text that its program `g2asc` writes of databases of version 4. Differs:
-/// numbers in the records that are documented as unused may be missing. Conventions: faults of a
-/// record are errors, and the reader goes on behind it.
+/// Source: BRL-CAD, the text output of its program `g2asc` for databases of version 4.
+/// Differs: numbers documented as unused may be missing.
+/// Conventions: a fault in a record is an error; reading continues after it.
 
 #include <cstdint>
 #include <span>
@@ -20,7 +20,7 @@ class BrlcadV4Reader {
     BrlcadV4Reader(const ImportSource& source, BrlcadDatabase& database, Diagnostics& diagnostics);
     void read();
 
-    /// True when the text begins as such a file does.
+    /// True if the text begins like a version 4 file.
     [[nodiscard]] static bool recognise(std::string_view text);
 
   private:
@@ -45,15 +45,15 @@ class BrlcadV4Reader {
     void add_solid(std::string name, BrlcadSolid solid, const BrlcadPlace& place);
     bool read_ars_points(std::size_t count, std::vector<Vec3>& points);
     bool read_bot_faces(bool thick, std::size_t count, TriangleMesh& mesh);
-    /// Into the next line, behind its first word, if that is this one; else stays.
+    /// Moves behind the first word of the next line if it is `kind`; else stays.
     bool go_to_next(std::string_view kind);
-    /// Spends `count` of the elements that a file may have.
+    /// Counts `count` elements against the limit of the file.
     void check_room(std::int64_t count);
 
     bool name(std::string& value);
     bool numbers(std::span<double> values);
     bool integer(std::int64_t& value, std::int64_t least, std::int64_t most);
-    /// The integer at the cursor, or what it is by default at the end of the line.
+    /// The integer at the cursor, or `missing` at the end of the line.
     std::int64_t optional_integer(std::int64_t missing);
     [[nodiscard]] BrlcadPlace place() const;
     bool fail(const std::string& message);
@@ -63,7 +63,7 @@ class BrlcadV4Reader {
     BrlcadDatabase& database_;
     Diagnostics& diagnostics_;
     std::uint64_t elements_ = 0;
-    BrlcadPlace record_;  ///< where the record begins
+    BrlcadPlace record_;  ///< start of the current record
     BrlcadObject combination_;
     BrlcadMemberList members_;
     bool in_combination_ = false;

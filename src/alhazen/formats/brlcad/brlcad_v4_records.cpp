@@ -1,4 +1,4 @@
-// The records of version 4 that stand on several lines, or for solids of few numbers.
+// Records of version 4 of several lines, or of solids with few numbers.
 
 #include <array>
 
@@ -87,7 +87,7 @@ void BrlcadV4Reader::read_ars() {
         check_room(per_curve);
         if (!read_ars_points(static_cast<std::size_t>(per_curve), points)) return;
     }
-    // All but the first point are relative to it.
+    // All points but the first are relative to it.
     for (std::size_t i = 1; i < points.size(); ++i) points[i] = points[0] + points[i];
     add_solid(std::move(solid_name),
               {"ars", brlcad_ars(points, static_cast<std::size_t>(curves),
@@ -111,7 +111,7 @@ bool BrlcadV4Reader::read_bot_faces(bool thick, std::size_t count, TriangleMesh&
                                   static_cast<std::uint32_t>(v[1]),
                                   static_cast<std::uint32_t>(v[2])});
     }
-    if (thick) cursor_.skip_line();  // the bits that say where the thickness lies
+    if (thick) cursor_.skip_line();  // bits for the position of the thickness
     return true;
 }
 
@@ -181,7 +181,7 @@ void BrlcadV4Reader::read_nmg() {
     if (!integer(version, -kMost, kMost) || !name(solid_name) || !integer(granules, 0, kMost)) {
         return;
     }
-    // A line of counts, then four lines of hexadecimal digits for each granule.
+    // Per granule: four lines of hexadecimal digits, after one line of counts.
     for (std::int64_t i = 0; i < 1 + 4 * granules; ++i) {
         if (cursor_.bytes_left() == 0) {
             fail("the file ends within '" + solid_name + "'");
@@ -213,7 +213,7 @@ void BrlcadV4Reader::read_spline() {
     std::string type;
     if (!name(type)) return;
     read_unsupported("spline");
-    // Its surfaces: lines of numbers, and ones that begin with d.
+    // Surfaces: lines of numbers, and lines that begin with d.
     for (;;) {
         TextCursor ahead = cursor_;
         ahead.skip_line();

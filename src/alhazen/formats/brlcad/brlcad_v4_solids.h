@@ -1,8 +1,8 @@
 #pragma once
-/// The solids of version 4 that are one record of 24 numbers.
+/// Solids of version 4 stored as one record of 24 numbers.
 ///
-/// Source: BRL-CAD, the text that its program `g2asc` writes; GIFT users manual (BRL report 1802,
-/// 1975) for the vectors of each solid. Differs: nothing.
+/// Source: BRL-CAD, the text output of its program `g2asc`; GIFT users manual (BRL report 1802,
+/// 1975) for the vectors of each solid.
 
 #include <array>
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace alhazen {
 
-/// The solid of a record of this type; one of no type that is read is BrlcadUnsupported.
+/// The solid of a record of this type; BrlcadUnsupported for unsupported types.
 [[nodiscard]] BrlcadSolid brlcad_v4_solid(std::int64_t type, const std::array<double, 24>& values);
 
-/// A mesh of the points of an ars: `curves` closed curves of `points_per_curve` points, each joined
-/// to the next by triangles; those of no area are left out.
+/// The mesh of an ars: `curves` closed curves of `points_per_curve` points, consecutive ones joined
+/// by triangles. Triangles of zero area are dropped.
 [[nodiscard]] BrlcadMesh brlcad_ars(const std::vector<Vec3>& points, std::size_t curves,
                                     std::size_t points_per_curve);
 

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// The whole number that a word is; none for anything else.
+/// The integer of a word; none for other words.
 std::optional<int> whole_number(const TclWord& word) {
     TextCursor cursor(word.text);
     std::int64_t value = 0;
@@ -24,7 +24,7 @@ bool is_yes(const TclWord& word) {
            word.text == "true" || word.text == "on";
 }
 
-/// Three numbers with slashes, commas or blanks between them.
+/// Three numbers separated by slashes, commas or blanks.
 std::optional<Rgb> color_of(const TclWord& word) {
     std::string text(word.text);
     std::replace(text.begin(), text.end(), '/', ' ');
@@ -75,7 +75,7 @@ void BrlcadV5Reader::read() {
     TclCommands commands(text_);
     std::vector<TclWord> words;
     try {
-        // No more errors are kept than that.
+        // Later errors would not be kept.
         while (diagnostics_.error_count() < Diagnostics::kMaxKept && commands.next(words)) {
             try {
                 read_command(words);
@@ -101,7 +101,7 @@ void BrlcadV5Reader::read_command(std::span<const TclWord> words) {
         if (words.size() > 1) database_.title = tcl_value(words[1]);
         return;
     }
-    if (command == "units") return;  // only for what its programs show
+    if (command == "units") return;  // for display in BRL-CAD's programs only
     if (command == "dbbinary" || command == "bo") {
         diagnostics_.warning(location(words[0]),
                              "'" + std::string(command) + "' (binary data) is not read");
@@ -183,7 +183,7 @@ void BrlcadV5Reader::set_attribute(BrlcadCombination& comb, const TclWord& key,
     } else if (name == "inherit") {
         comb.inherit = is_yes(value);
     }
-    // All others (material_id, los, comments of people) say nothing of the picture.
+    // Other attributes (material_id, los, comments) do not affect the image.
 }
 
 void BrlcadV5Reader::read_attributes(std::span<const TclWord> words) {

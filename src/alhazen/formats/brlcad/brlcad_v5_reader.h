@@ -1,10 +1,11 @@
 #pragma once
-/// Reads the text of version 5: Tcl commands that would make the database again.
+/// Reader of the text of version 5: Tcl commands that recreate the database.
 ///
-/// Source: BRL-CAD, the text that its program `g2asc` writes, and the documentation of the MGED
-/// commands put, attr, title, units and color. Differs: Tcl is not evaluated; other commands are
-/// refused. Conventions: a fault within a command is an error, and the reader goes on behind it;
-/// text that is no Tcl ends the reading.
+/// Source: BRL-CAD, the text output of its program `g2asc`, and the documentation of the MGED
+/// commands put, attr, title, units and color.
+/// Differs: Tcl is not evaluated; other commands are rejected.
+/// Conventions: a fault within a command is an error; reading continues after it. Invalid Tcl ends
+/// the reading.
 
 #include <map>
 #include <span>
@@ -20,7 +21,7 @@ class BrlcadV5Reader {
     BrlcadV5Reader(const ImportSource& source, BrlcadDatabase& database, Diagnostics& diagnostics);
     void read();
 
-    /// True when the text begins as such a file does.
+    /// True if the text begins like a version 5 file.
     [[nodiscard]] static bool recognise(std::string_view text);
 
   private:
@@ -42,20 +43,20 @@ class BrlcadV5Reader {
     std::uint64_t elements_ = 0;
 };
 
-/// The tree of a combination: nested lists of operators, members and matrices. Throws Error
-/// (Scene), located in the file of that name.
+/// Parses the tree of a combination: nested lists of operators, members and matrices. Throws Error
+/// (Scene) with a location in `file`.
 [[nodiscard]] BrlcadTree read_brlcad_tree(std::string_view text, TextPlaces& places,
                                           const std::string& file);
 
-/// The solid that a list of parameter names and values describes; one of a type that is not read is
-/// BrlcadUnsupported. `max_elements`: vertices and faces. Throws Error (Scene or Resource).
+/// The solid of a list of parameter names and values; BrlcadUnsupported for unsupported types.
+/// `max_elements` limits vertices and faces. Throws Error (Scene or Resource).
 [[nodiscard]] BrlcadSolid read_brlcad_v5_solid(const TclWord& type,
                                                std::span<const TclWord> parameters,
                                                TextPlaces& places, const std::string& file,
                                                std::uint64_t max_elements);
 
-/// Reads the numbers of a list, which may lie in lists within it; nothing but numbers, at most
-/// `most` of them. Throws Error (Scene).
+/// Reads a list of at most `most` numbers, which may be nested lists. Throws Error (Scene) for
+/// other content.
 [[nodiscard]] std::vector<double> tcl_numbers(std::string_view list, std::size_t most);
 
 }  // namespace alhazen

@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The parameters of a solid by name.
+/// Parameters of a solid by name.
 class Parameters {
   public:
     Parameters(const TclWord& type, std::span<const TclWord> words, TextPlaces& places,
@@ -56,7 +56,7 @@ class Parameters {
         const std::vector<double> v = numbers(name, 3);
         return {v[0], v[1], v[2]};
     }
-    /// A count, and how many may be of them.
+    /// An integer from `least` to `most`.
     std::size_t count(std::string_view name, std::size_t least, std::uint64_t most) const {
         const double n = number(name);
         if (!(n >= static_cast<double>(least) && n <= static_cast<double>(most)) ||

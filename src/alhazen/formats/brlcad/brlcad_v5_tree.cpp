@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// Reads a tree without recursion: files have chains of thousands of operators.
+/// Reads a tree without recursion, since files have chains of thousands of operators.
 class TreeReader {
   public:
     TreeReader(std::string_view text, TextPlaces& places, const std::string& file)
@@ -15,7 +15,7 @@ class TreeReader {
 
     BrlcadTree read() {
         TclToken token = tokens_.next();
-        // The braces around the whole are gone: its first word is an operator already.
+        // The outer braces are stripped: the first word is an operator.
         if (token.kind != TclTokenKind::End) open(token);
         while (!open_.empty()) {
             token = tokens_.next();
@@ -43,7 +43,7 @@ class TreeReader {
         throw Error(ErrorKind::Scene, "tree: " + message, {file_, place.line, place.column});
     }
 
-    /// A word, or what stands in braces of its own.
+    /// A word, or the content of its own braces.
     std::string name() {
         TclToken token = tokens_.next();
         if (token.kind == TclTokenKind::Word) return tcl_value(token.word);

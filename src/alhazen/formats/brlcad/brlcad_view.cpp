@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Exact at quarter turns.
+/// Cosine and sine of an angle; exact at quarter turns.
 Vec2 turn(double degrees) {
     const double rest = std::fmod(degrees, 360.0);
     const double positive = rest < 0.0 ? rest + 360.0 : rest;
@@ -21,7 +21,7 @@ Vec2 turn(double degrees) {
     return {std::cos(degrees * kRadiansPerDegree), std::sin(degrees * kRadiansPerDegree)};
 }
 
-/// The box in whole millimetres, and what is seen of it from far enough away.
+/// The model's box rounded out to whole millimetres, and the view that fits it.
 struct Fit {
     Vec3 center;
     double size = 0;
@@ -77,13 +77,13 @@ std::vector<CameraDescription> brlcad_cameras(const Box3& box, const FileLocatio
 
 namespace {
 
-/// Reads the statements of a script, which end at semicolons.
+/// Reads the statements of a script, separated by semicolons.
 class ViewReader {
   public:
     ViewReader(std::string_view text, const std::string& file, const Box3& box,
                Diagnostics& diagnostics)
         : file_(file), fit_(box), diagnostics_(diagnostics) {
-        // A script of the shell has its input for `rt` in a document of its own.
+        // A shell script has the input for `rt` in a here-document.
         std::int64_t line = 1;
         const std::size_t document = text.find("<<");
         if (document != std::string_view::npos) {
@@ -169,7 +169,7 @@ class ViewReader {
         return false;
     }
 
-    /// set perspective=ANGLE
+    /// Reads set perspective=ANGLE.
     void set(TextCursor& cursor) {
         if (!cursor.skip_to_word()) return;
         const std::string_view word = cursor.word();

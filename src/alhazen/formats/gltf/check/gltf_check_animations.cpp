@@ -1,4 +1,4 @@
-// Skins and animations refer to nodes and accessors that suit them.
+// Checks that skins and animations refer to suitable nodes and accessors.
 #include <map>
 
 #include "alhazen/formats/gltf/document/gltf_accessors.h"
@@ -21,7 +21,7 @@ void check_bind_matrices(const Loading& loading, const Skin& skin, const std::st
     }
 }
 
-/// Which nodes are at the top of the scene that is shown.
+/// True for the root nodes of the displayed scene, [node].
 std::vector<bool> scene_roots(const Document& document) {
     std::vector<bool> roots(document.nodes.size(), false);
     if (document.scenes.empty()) return roots;
@@ -45,8 +45,7 @@ void check_joints(const Loading& loading, const NodeTree& tree, const std::vecto
         }
     }
     if (one_root) return;
-    // Some programs write skeletons of several trees; where all of them are shown nothing is
-    // missing.
+    // Some programs write skeletons of several trees: only a warning if all of them are displayed.
     const char* message = "the joints have no common root";
     in_scene ? loading.warning(place + "/joints", message)
              : loading.error(place + "/joints", message);
@@ -117,7 +116,7 @@ class AnimationChecker {
                                       (integers ? " or of normalised integers" : ""));
         }
         const bool cubic = sampler.interpolation == Interpolation::CubicSpline;
-        // Counts are below 2^53 and an accessor of so many elements was refused: no overflow.
+        // No overflow: counts are below 2^53 and larger accessors were rejected.
         const std::uint64_t each = per_key * (cubic ? 3 : 1);
         if (output.count % each == 0 && output.count / each == keys) return;
         loading_.error(place, "the output has " + std::to_string(output.count) +
@@ -129,7 +128,7 @@ class AnimationChecker {
     const Document& document_;
     const Animation& animation_;
     std::string place_;
-    std::map<std::pair<Index, AnimationPath>, std::size_t> targets_;  ///< to the channel
+    std::map<std::pair<Index, AnimationPath>, std::size_t> targets_;  ///< index of the channel
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The numbers in the buffers: bounds, indices, unit vectors, times, matrices. What would be read
-// wrong or out of range is an error, what is only untidy a warning.
+// Checks of the numbers in the buffers: bounds, indices, unit vectors, times, matrices. Values that
+// would be misread or are out of range are errors; other deviations are warnings.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,10 +13,10 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// How far from 1 the length of a vector stored in few bits may be; as Khronos' validator.
+/// Tolerances for the length of unit vectors stored in few bits; same as Khronos' validator.
 constexpr double kUnitVectorTolerance = 0.00674, kUnitQuaternionTolerance = 0.00769;
 
-/// Declared numbers have to be those of the data once rounded as the data is.
+/// True if the declared number equals the number found after rounding to the stored type.
 bool agrees(double declared, double found, ComponentType type) {
     if (type == ComponentType::Float) {
         return static_cast<float>(declared) == static_cast<float>(found);
@@ -24,7 +24,7 @@ bool agrees(double declared, double found, ComponentType type) {
     return declared == found;
 }
 
-/// Whether the last row of a column-major matrix is 0, 0, 0, 1, up to what rounding leaves there.
+/// True if the last row of a column-major matrix is 0, 0, 0, 1 up to rounding.
 bool is_affine(const double* m) {
     constexpr double kTolerance = 1e-5;
     return std::abs(m[3]) < kTolerance && std::abs(m[7]) < kTolerance &&
@@ -57,10 +57,10 @@ class DataChecker {
     }
 
   private:
-    /// What later checks need of an extent; there may be very many accessors.
+    /// The parts of an extent that later checks use; kept small, since there may be many accessors.
     struct Found {
         std::array<double, 4> max{};
-        bool within_unit = false;  ///< all numbers are from 0 to 1
+        bool within_unit = false;  ///< all numbers are in 0..1
     };
 
     void bounds(std::size_t position) {
@@ -82,7 +82,7 @@ class DataChecker {
         declared(accessor.max, extent.max, accessor.component, place + "/max");
     }
 
-    /// Without data the numbers are what an extension may put there.
+    /// False for accessors without data: an extension may supply the numbers.
     [[nodiscard]] bool has_data(Index index) const {
         const Accessor& accessor = document_.accessors[index];
         return accessor.view || accessor.sparse;
@@ -122,7 +122,7 @@ class DataChecker {
         }
     }
 
-    /// Colours and weights; untidy beyond, but of use.
+    /// Warns of colours and weights outside 0..1; they remain usable.
     void zero_to_one(Index index, const std::string& place) const {
         const Accessor& accessor = document_.accessors[index];
         if (accessor.component != ComponentType::Float) return;
@@ -161,8 +161,8 @@ class DataChecker {
         }
     }
 
-    /// The joints that vertices name exist in the skin. Per mesh and not per node, as many nodes
-    /// can use one mesh of many primitives.
+    /// Checks that the joints of the vertices exist in the skin. Runs per mesh, not per node, since
+    /// many nodes may share a mesh of many primitives.
     void skinned_nodes() const {
         std::vector<double> largest(document_.meshes.size(), -1);
         for (std::size_t i = 0; i < document_.meshes.size(); ++i) {
@@ -235,7 +235,8 @@ class DataChecker {
     void quaternions(Index index, bool cubic, const std::string& place) const {
         if (!has_data(index)) return;
         const std::vector<double> q = read_numbers(document_, index);
-        // Of a cubic spline the middle one of each three is a value, the others are tangents.
+        // A key of a cubic spline has three values; the middle one is the rotation, the others
+        // tangents.
         for (std::size_t i = cubic ? 4 : 0; i + 4 <= q.size(); i += cubic ? 12 : 4) {
             const double length = std::sqrt(q[i] * q[i] + q[i + 1] * q[i + 1] +
                                             q[i + 2] * q[i + 2] + q[i + 3] * q[i + 3]);
@@ -247,7 +248,7 @@ class DataChecker {
         }
     }
 
-    /// Bytes are coarse: half a step in each of four components.
+    /// Half a quantisation step in each of four components for bytes.
     static double tolerance_of(ComponentType type) {
         const bool is_byte = type == ComponentType::Byte || type == ComponentType::UnsignedByte;
         return is_byte ? 2 * kUnitQuaternionTolerance : kUnitQuaternionTolerance;
@@ -256,7 +257,7 @@ class DataChecker {
     const Loading& loading_;
     const Document& document_;
     std::vector<Found> found_;
-    // Accessors that were walked over once need not be walked over again.
+    // Accessors already checked.
     std::set<Index> checked_vectors_, checked_matrices_, checked_times_;
     std::set<std::pair<Index, bool>> checked_quaternions_;
 };

@@ -1,4 +1,4 @@
-// Nodes are a forest; scenes name its roots; skins and weights suit the meshes.
+// Checks that nodes form a forest, scenes name its roots, and skins and weights suit the meshes.
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 #include "alhazen/formats/gltf/scene/gltf_node_tree.h"
 
@@ -146,7 +146,7 @@ void check_graph(const Loading& loading) {
     const std::vector<Node>& nodes = loading.document.nodes;
     check_parents(loading);
     const NodeTree tree(nodes);
-    // Once for each mesh, as many nodes can use one of many primitives.
+    // Once per mesh: many nodes may share a mesh of many primitives.
     std::vector<bool> skinned;
     for (const Mesh& mesh : loading.document.meshes) {
         skinned.push_back(has_attribute(mesh, "JOINTS_0"));

@@ -1,4 +1,4 @@
-// Images: what their bytes say they are.
+// Checks the format of images from their first bytes.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +19,7 @@ bool begins_with(std::string_view bytes, std::string_view start) {
     return bytes.substr(0, start.size()) == start;
 }
 
-/// "image/png" and the like; empty when the first bytes are of no format that glTF knows.
+/// The media type, for example "image/png"; empty if the first bytes match no format of glTF.
 std::string media_type_of(std::string_view bytes) {
     if (begins_with(bytes, "\x89PNG\r\n\x1a\n")) return "image/png";
     if (begins_with(bytes, "\xff\xd8\xff")) return "image/jpeg";
@@ -27,10 +27,10 @@ std::string media_type_of(std::string_view bytes) {
     return "";
 }
 
-/// Of a larger picture only so much is looked at; where that does not tell, decoding it will.
+/// Only so much of an image is inspected; decoding finds errors beyond.
 constexpr std::size_t kHeadBytes = std::size_t{1} << 20;
 
-/// Walks the segments up to the one with the picture's size: why that fails, or nothing.
+/// Walks the JPEG segments up to the frame header. Returns the error message, empty on success.
 std::string jpeg_refusal(std::string_view bytes) {
     constexpr int kMaxSegments = 10'000;
     std::size_t position = 2;
@@ -80,9 +80,9 @@ void check_bytes(const Loading& loading, const Image& image, const std::string& 
     if (!refusal.empty()) loading.error(place, refusal);
 }
 
-/// The beginning of a regular file.
+/// The first bytes of a regular file.
 std::string head_of(const std::filesystem::path& path) {
-    // Nothing that opening would wait for, as a FIFO.
+    // Opening another kind of file may block, as for a FIFO.
     if (!std::filesystem::is_regular_file(path)) {
         throw Error(ErrorKind::File, path.string() + ": there is no such file");
     }
@@ -108,7 +108,7 @@ void check_file(const Loading& loading, const Image& image, const std::string& p
 
 void check_images(const Loading& loading) {
     const Document& document = loading.document;
-    std::set<std::string> checked;  // a file that many images name need not be read for each
+    std::set<std::string> checked;  // files already checked; many images may name one
     for (std::size_t i = 0; i < document.images.size(); ++i) {
         const Image& image = document.images[i];
         const std::string place = pointer_to("images", i);
@@ -117,7 +117,7 @@ void check_images(const Loading& loading) {
         } else if (image.view) {
             const BufferView& view = document.views[*image.view];
             const std::size_t size = document.buffers[view.buffer].bytes.size();
-            // A view that leaves its buffer was reported already.
+            // A view outside its buffer is already reported.
             if (view.offset <= size && view.length <= size - view.offset) {
                 check_bytes(loading, image, place, bytes_of(document, view).substr(0, kHeadBytes));
             }

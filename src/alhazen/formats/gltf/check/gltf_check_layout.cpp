@@ -1,4 +1,4 @@
-// Views lie in their buffers, accessors in their views, sparse indices ascend.
+// Checks that views lie in their buffers, accessors in their views, and sparse indices ascend.
 #include <algorithm>
 
 #include "alhazen/formats/gltf/document/gltf_accessors.h"
@@ -8,8 +8,8 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Whether `count` elements of `size` bytes, `stride` apart from `offset` on, fit in `length`
-/// bytes; without overflow for any arguments.
+/// True if `count` elements of `size` bytes with this `stride`, from `offset` on, fit in `length`
+/// bytes. No overflow for any arguments.
 bool fits(std::uint64_t offset, std::uint64_t count, std::uint64_t stride, std::uint64_t size,
           std::uint64_t length) {
     if (count == 0) return offset <= length;
@@ -48,7 +48,7 @@ class LayoutChecker {
     }
 
   private:
-    /// Whether the elements lie in the view.
+    /// True if the elements lie in the view.
     bool range(const Accessor& accessor, const ElementLayout& layout,
                const std::string& place) const {
         const BufferView& view = document_.views[*accessor.view];
@@ -72,7 +72,7 @@ class LayoutChecker {
         return true;
     }
 
-    /// Accessors may overlap, so that a small file could speak of endless work.
+    /// Limits the numbers of all accessors. Accessors may overlap, so the file size is no bound.
     void limit_numbers(const Accessor& accessor, const std::string& place) {
         const std::uint64_t most =
             kNumbersPerElement * std::min(loading_.source.options.max_elements, kMostElements);
@@ -87,7 +87,7 @@ class LayoutChecker {
                     {loading_.file, 0, 0});
     }
 
-    /// Zeros cost nothing in the file, so the file does not bound them.
+    /// Limits the numbers of accessors without data, which take no space in the file.
     void limit_zeros(const Accessor& accessor, const std::string& place) {
         const std::uint64_t most = loading_.source.options.max_elements / kElementsPerZero;
         const std::uint64_t n = component_count(accessor.type);
@@ -151,11 +151,12 @@ class LayoutChecker {
         }
     }
 
-    // What the limit of elements means here: by default 1.6 * 10^9 numbers, 25 million of them
+    // Multiples of the limit of elements: by default 1.6 * 10^9 numbers, of which 25 million may be
     // zeros.
     static constexpr std::uint64_t kNumbersPerElement = 4, kElementsPerZero = 16;
 
-    static constexpr std::uint64_t kMostElements = std::uint64_t{1} << 60;  // so that 4 fit
+    static constexpr std::uint64_t kMostElements = std::uint64_t{1}
+                                                   << 60;  // 4 * kMostElements does not overflow
 
     const Loading& loading_;
     const Document& document_;

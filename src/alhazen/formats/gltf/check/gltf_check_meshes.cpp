@@ -1,4 +1,4 @@
-// Attributes, indices and morph targets of each primitive fit together.
+// Checks that attributes, indices and morph targets of each primitive fit together.
 #include <map>
 #include <set>
 
@@ -10,7 +10,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// The accessor of an attribute in words: "VEC4 of FLOAT".
+/// Type of the accessor for messages: "VEC4 of FLOAT".
 std::string description(const Accessor& accessor) {
     return std::string(name_of(accessor.type)) + " of " +
            (accessor.normalized ? "normalised " : "") + name_of(accessor.component);
@@ -57,7 +57,7 @@ class PrimitiveChecker {
         }
     }
 
-    /// Numbered attributes count from 0 without a gap; joints and weights come in pairs.
+    /// Numbered attributes start at 0 without gaps; joints and weights come in pairs.
     void sets() const {
         std::map<std::string_view, std::set<std::uint32_t>> sets;
         for (const auto& [name, index] : primitive_.attributes) {

@@ -7,7 +7,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Sets of component types as bits.
+/// Set of component types, one bit each.
 using Formats = unsigned;
 constexpr Formats kFloat = 1, kByte = 2, kByteN = 4, kUByte = 8, kUByteN = 16, kShort = 32,
                   kShortN = 64, kUShort = 128, kUShortN = 256, kUInt = 512;
@@ -38,11 +38,11 @@ struct Rule {
     const char* name;
     bool numbered;
     ElementType least, most;  ///< VEC3 or VEC4 for colours
-    Formats plain;            ///< in every file
-    Formats quantized;        ///< also with KHR_mesh_quantization
+    Formats plain;            ///< allowed in every file
+    Formats quantized;        ///< additionally with KHR_mesh_quantization
     ElementType target_least, target_most;
-    Formats target;            ///< none: not for morph targets
-    Formats target_quantized;  ///< also with KHR_mesh_quantization
+    Formats target;            ///< 0: not allowed for morph targets
+    Formats target_quantized;  ///< additionally with KHR_mesh_quantization
 };
 
 constexpr ElementType kVec2 = ElementType::Vec2, kVec3 = ElementType::Vec3,
@@ -78,7 +78,7 @@ std::optional<Semantic> parse_semantic(std::string_view attribute) {
     std::uint32_t set = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), set);
     const bool whole = error == std::errc() && end == digits.data() + digits.size();
-    // No sign and no leading zeros.
+    // Rejects signs and leading zeros.
     if (!whole || digits != std::to_string(set)) return std::nullopt;
     return Semantic{attribute.substr(0, bar), set, false};
 }

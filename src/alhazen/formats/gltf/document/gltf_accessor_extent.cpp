@@ -12,13 +12,13 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// For one column of `rows` components; `rows` is a constant so that the loop is unrolled.
+/// Extent of one column of `rows` components; constant `rows` lets the compiler unroll the loop.
 template <class T, std::size_t rows>
 bool widen(const char* from, std::size_t stride, std::uint64_t count, T* min, T* max) {
     std::array<T, rows> lo, hi;
     std::copy_n(min, rows, lo.begin());
     std::copy_n(max, rows, hi.begin());
-    T sum = 0;  // of x - x: not zero when a component is NaN or infinite
+    T sum = 0;  // of x - x: nonzero if a component is NaN or infinite
     for (std::uint64_t i = 0; i < count; ++i, from += stride) {
         std::array<T, rows> value;
         std::memcpy(value.data(), from, sizeof(value));

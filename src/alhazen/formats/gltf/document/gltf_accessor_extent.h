@@ -1,8 +1,7 @@
 #pragma once
-/// The smallest and largest stored value of each component of an accessor.
+/// Smallest and largest stored value of each component of an accessor.
 ///
 /// Source: "glTF 2.0 Specification", 2021, section 3.6.2.5 (accessor bounds).
-/// Differs: nothing.
 
 #include <array>
 
@@ -15,7 +14,7 @@ struct Extent {
     bool is_finite = true;                ///< no component is NaN or infinite
 };
 
-/// One pass over the elements; zeros for an accessor without data.
+/// Takes one pass over the elements; zeros for an accessor without data.
 [[nodiscard]] Extent extent_of(const Document& document, const Accessor& accessor);
 
 }  // namespace alhazen::gltf

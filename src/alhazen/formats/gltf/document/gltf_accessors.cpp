@@ -30,7 +30,7 @@ struct ElementName {
     const char* name;
     std::size_t rows, columns;
 };
-/// In the order of ElementType.
+/// Indexed by ElementType.
 constexpr ElementName kElements[] = {{"SCALAR", 1, 1}, {"VEC2", 2, 1}, {"VEC3", 3, 1},
                                      {"VEC4", 4, 1},   {"MAT2", 2, 2}, {"MAT3", 3, 3},
                                      {"MAT4", 4, 4}};
@@ -42,7 +42,7 @@ const ComponentName& entry_of(ComponentType type) {
     return kComponents[5];
 }
 
-/// Puts the components of all elements into `out`, converted by `convert`.
+/// Writes the components of all elements to `out`, converted by `convert`.
 template <class T, class Out, class Convert>
 void copy_as(const Document& document, const Accessor& accessor, std::vector<Out>& out,
              Convert convert) {
@@ -71,13 +71,13 @@ void copy_numbers(const Document& document, const Accessor& accessor, std::vecto
         copy_as<T>(document, accessor, out, [](T x) { return static_cast<double>(x); });
         return;
     }
-    // Divided, not multiplied by the inverse: the largest value is exactly 1.
+    // Division keeps the largest value exactly 1; multiplication by the inverse would not.
     const double most = static_cast<double>(std::numeric_limits<T>::max());
     copy_as<T>(document, accessor, out,
                [most](T x) { return std::max(static_cast<double>(x) / most, -1.0); });
 }
 
-/// All numbers of an accessor, which need not be one of the document's own.
+/// All numbers of an accessor, which may be a copy outside the document.
 std::vector<double> numbers_of(const Document& document, const Accessor& accessor) {
     std::vector<double> out(accessor.count * component_count(accessor.type), 0.0);
     switch (accessor.component) {
@@ -268,7 +268,7 @@ std::vector<std::uint32_t> read_integers(const Document& document, Index index) 
             copy_as<std::uint32_t>(document, accessor, out, copy);
             break;
         default:
-            break;  // no such accessor passes the checks where integers are expected
+            break;  // the checks reject these types for integers
     }
     return out;
 }

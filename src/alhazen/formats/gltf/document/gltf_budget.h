@@ -1,7 +1,7 @@
 #pragma once
-/// What one glTF file may cost together: elements that are read, against `max_elements` of the
-/// options (a small file may name the same accessor many times), and bytes that are made of them,
-/// against `max_made_bytes` (morph weights, skins and instances multiply what is in the file).
+/// Limits for one glTF file: elements read, against `max_elements` of the import options (a small
+/// file may refer to the same accessor many times), and bytes made from them, against
+/// `max_made_bytes` (morph weights, skins and instances multiply the data of the file).
 
 #include <algorithm>
 #include <cstdint>
@@ -18,7 +18,7 @@ class Budget {
                     std::uint64_t bytes = std::numeric_limits<std::uint64_t>::max())
         : elements_(elements), bytes_(bytes) {}
 
-    /// Elements that are about to be read. Throws Error (Resource) when the limit is exceeded.
+    /// Counts elements before they are read. Throws Error (Resource) above the limit.
     void take(std::uint64_t count) {
         if (count > elements_ - taken_) {
             throw Error(ErrorKind::Resource,
@@ -27,13 +27,13 @@ class Budget {
         taken_ += count;
     }
 
-    /// Memory that `count` things of `size` bytes are about to need. Throws as `take`.
+    /// Counts memory before it is allocated: `count` items of `size` bytes. Throws as `take`.
     void make(std::uint64_t count, std::uint64_t size) {
         expect(count, size);
         made_ += count * size;
     }
 
-    /// Throws when `make` would.
+    /// Throws if `make` would throw; counts nothing.
     void expect(std::uint64_t count, std::uint64_t size) const {
         if (size != 0 && count > (bytes_ - made_) / size) {
             throw Error(ErrorKind::Resource,
@@ -44,9 +44,10 @@ class Budget {
         }
     }
 
-    /// The limit of bytes for a file of `file_bytes` with its buffers, when none is given: real
-    /// files stay far below (a vertex of 12 bytes becomes one of 24, a node of 20 a part of 500),
-    /// and what a small file makes still fits into memory with the tree that is built over it.
+    /// Default limit of bytes, for a file of `file_bytes` including its buffers. Real files stay
+    /// far below it: a vertex of 12 bytes becomes one of 24, a node of 20 bytes a part of 500. The
+    /// result of a small file fits into memory together with the acceleration structure built over
+    /// it.
     [[nodiscard]] static std::uint64_t default_bytes(std::uint64_t file_bytes) {
         constexpr std::uint64_t kMiB = std::uint64_t{1} << 20, kPerByte = 64;
         constexpr std::uint64_t kLeast = 64 * kMiB, kMost = 16384 * kMiB;

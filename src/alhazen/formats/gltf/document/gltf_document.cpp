@@ -30,13 +30,14 @@ constexpr Named kTopLevel[] = {
     {"textures", Collection::Textures},
 };
 
-/// Of the JSON text. A low limit of elements is meant for the buffers, not for the names in a file.
+/// Limit for the values of the JSON text. A low limit of elements applies to the buffers, not to
+/// the names in a file.
 std::uint64_t max_values(const ImportOptions& options) {
     constexpr std::uint64_t kElementsPerValue = 20, kLeast = 1'000'000;
     return std::max(kLeast, options.max_elements / kElementsPerValue);
 }
 
-/// A list of names without repetitions.
+/// A list of distinct names.
 std::vector<std::string> names_in(const JsonObject& root, std::string_view key) {
     std::vector<std::string> names;
     const nlohmann::json* list = root.find(key);
@@ -71,7 +72,7 @@ void count_arrays(const JsonObject& root, Loading& loading) {
     });
 }
 
-/// "2.0" -> 2, 0.
+/// "2.0" -> {2, 0}.
 std::optional<std::array<int, 2>> version_in(const JsonObject& asset, std::string_view key) {
     const auto text = asset.text(key);
     if (!text) return std::nullopt;
@@ -88,7 +89,7 @@ std::optional<std::array<int, 2>> version_in(const JsonObject& asset, std::strin
     return std::array<int, 2>{std::stoi(text->substr(0, dot)), std::stoi(text->substr(dot + 1))};
 }
 
-/// Reads everything; false after an error.
+/// Reads all arrays; false after an error.
 void read_all(const JsonObject& root, Loading& loading) {
     read_buffers(root, loading);
     read_accessors(root, loading);
@@ -172,7 +173,7 @@ Document read_gltf_document(const ImportSource& source, Diagnostics& diagnostics
         if (!tree) return {};
         const Place top;
         {
-            // Its own object, as the next one needs to know which extensions are declared.
+            // A separate JsonObject: the next one needs the declared extensions.
             for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
                 if (!tree->contains(key)) continue;
                 nlohmann::json only = {{key, (*tree)[key]}};

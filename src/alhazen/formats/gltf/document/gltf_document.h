@@ -1,12 +1,11 @@
 #pragma once
-/// A glTF 2.0 file as it stands: parsed, its buffers loaded, everything that refers to something
-/// checked. What comes out of `read_gltf_document` can be used without looking again: indices are
-/// in range, accessors lie in their buffers, the nodes are a forest.
+/// A parsed and checked glTF 2.0 file with its buffers loaded. `read_gltf_document` guarantees:
+/// indices are in range, accessors lie within their buffers, the nodes form a forest.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022); extensions by their names.
 /// Differs: see docs/reference/formats/gltf.md.
-/// Conventions: names and units are those of the specification (angles in radians, right-handed, Y
-/// up, texture coordinates from the upper left corner).
+/// Conventions: names and units of the specification (angles in radians, right-handed, Y up,
+/// texture coordinates from the upper left corner).
 
 #include <array>
 #include <cstdint>
@@ -26,8 +25,8 @@ using Index = std::uint32_t;
 
 struct Buffer {
     std::shared_ptr<const std::string>
-        owned;               ///< null for the chunk of a GLB, which the source holds
-    std::string_view bytes;  ///< byteLength of them; empty for a buffer that nothing refers to
+        owned;               ///< null for the chunk of a GLB, which the source owns
+    std::string_view bytes;  ///< byteLength bytes; empty for a buffer without references
 };
 struct BufferView {
     Index buffer = 0;
@@ -61,31 +60,37 @@ struct Accessor {
     ElementType type = ElementType::Scalar;
     bool normalized = false;
     std::optional<SparseAccessor> sparse;
-    std::vector<double> min, max;  ///< as declared, of the stored values; empty: not declared
+    std::vector<double> min, max;  ///< as declared, of stored values; empty: undeclared
 };
 
 struct Image {
     std::string name;
-    std::string uri;            ///< decoded name of a file, relative to the document; or empty
-    std::optional<Index> view;  ///< the encoded picture
-    std::string data;           ///< the encoded picture of a data: URI
-    std::string mime_type;      ///< as declared; empty: not
+    std::string uri;            ///< decoded file name relative to the document; or empty
+    std::optional<Index> view;  ///< the encoded image
+    std::string data;           ///< the encoded image of a data: URI
+    std::string mime_type;      ///< as declared; empty: undeclared
 };
-enum class Filter { Unset, Nearest, Linear, NearestMipmap, LinearMipmap };  ///< Mipmap: any of them
+enum class Filter {
+    Unset,
+    Nearest,
+    Linear,
+    NearestMipmap,
+    LinearMipmap
+};  ///< Mipmap: any mipmap mode
 struct Sampler {
     Filter magnify = Filter::Unset, minify = Filter::Unset;
     Wrap wrap_s = Wrap::Repeat, wrap_t = Wrap::Repeat;
 };
 struct Texture {
     std::optional<Index> sampler;
-    std::optional<Index> source;  ///< none: no picture that can be read (an extension's)
+    std::optional<Index> source;  ///< none: only an unsupported extension has an image
 };
 struct TextureInfo {
     Index texture = 0;
-    Index tex_coord = 0;  ///< KHR_texture_transform's own one where it has one
+    Index tex_coord = 0;                              ///< KHR_texture_transform may override it
     std::array<double, 2> offset{0, 0}, scale{1, 1};  ///< KHR_texture_transform
     double rotation = 0;                              ///< KHR_texture_transform, radians
-    double strength = 1;  ///< scale of a normal texture, strength of an occlusion texture
+    double strength = 1;  ///< scale of a normal texture or strength of an occlusion texture
 };
 struct Material {
     std::string name;
@@ -145,7 +150,8 @@ struct Node {
     std::vector<Index> children;
     std::optional<Index> mesh, skin, camera, light;
     std::vector<double> weights;
-    std::optional<std::array<double, 16>> matrix;  ///< column-major; then the three are unset
+    std::optional<std::array<double, 16>>
+        matrix;  ///< column-major; replaces translation, rotation, scale
     std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
     std::array<double, 4> rotation{0, 0, 0, 1};  ///< quaternion x, y, z, w
     Attributes instances;                        ///< EXT_mesh_gpu_instancing; empty: none
@@ -182,7 +188,7 @@ struct AnimationSampler {
 enum class AnimationPath { Translation, Rotation, Scale, Weights };
 struct AnimationChannel {
     Index sampler = 0;
-    std::optional<Index> node;  ///< none: nothing of this document (an extension's)
+    std::optional<Index> node;  ///< none: the target belongs to an extension
     AnimationPath path = AnimationPath::Translation;
 };
 struct Animation {
@@ -206,30 +212,29 @@ struct Document {
     std::vector<PunctualLight> lights;
     std::vector<Animation> animations;
     std::vector<Scene> scenes;
-    std::optional<Index> scene;  ///< the default one
+    std::optional<Index> scene;  ///< the default scene
     std::vector<std::string> extensions_used, extensions_required;
 };
 
-/// Parses JSON or GLB, loads the buffers (not the images) and checks all of it. Findings go to
-/// `diagnostics`, each beginning with the JSON pointer of its place ("#/meshes/0/primitives/1:
-/// ..."); after an error the document must not be used. A required extension that is not supported
-/// is an error that names it; one that is only used, a warning. Throws Error (Resource) for limits.
-/// The document refers to `source.bytes` (the chunk of a GLB is not copied) and must not outlive
-/// it.
+/// Parses JSON or GLB, loads the buffers (not the images) and checks the whole document. Reports
+/// to `diagnostics`; each message begins with a JSON pointer ("#/meshes/0/primitives/1: ...").
+/// After an error the document must not be used. An unsupported extension is an error that names it
+/// if required, a warning if only used. Throws Error (Resource) above a limit. The document refers
+/// to `source.bytes` (the chunk of a GLB is not copied) and must not outlive it.
 [[nodiscard]] Document read_gltf_document(const ImportSource& source, Diagnostics& diagnostics);
 
-/// Numbers in an element of this type: 1, 2, 3, 4, 4, 9, 16.
+/// Number of components of an element: 1, 2, 3, 4, 4, 9, 16.
 [[nodiscard]] std::size_t component_count(ElementType type);
 
-/// All numbers of an accessor, element after element, [count * component_count]; normalised
-/// integers as -1..1 or 0..1, matrices column-major without padding, sparse values put in place.
+/// All numbers of an accessor in element order, [count * component_count]. Normalised integers are
+/// converted to -1..1 or 0..1; matrices are column-major without padding; sparse values are
+/// applied.
 [[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor);
-/// The same of its first elements, at most `most` of them; costs no more than these.
+/// The first `most` elements only, at a cost proportional to `most`.
 [[nodiscard]] std::vector<double> read_numbers(const Document& document, Index accessor,
                                                std::uint64_t most);
-/// The same for unsigned integers (indices, joints).
+/// All numbers of an accessor of unsigned integers (indices, joints).
 [[nodiscard]] std::vector<std::uint32_t> read_integers(const Document& document, Index accessor);
-/// The bytes of a buffer view.
 [[nodiscard]] std::string_view bytes_of(const Document& document, const BufferView& view);
 
 }  // namespace alhazen::gltf

@@ -16,7 +16,7 @@ std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
     return word;
 }
 
-/// Why the container is not one; empty: it is.
+/// Splits the container; returns the error message, empty on success.
 std::string split(std::string_view bytes, Container& out) {
     if (bytes.size() < 12) return "the header is cut off";
     const std::uint32_t version = word_at(bytes, 4);

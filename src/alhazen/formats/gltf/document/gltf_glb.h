@@ -1,8 +1,8 @@
 #pragma once
-/// The binary container of glTF: a header, a chunk of JSON and at most one chunk of bytes.
+/// The binary container of glTF: a header, a JSON chunk and at most one binary chunk.
 ///
-/// Source: "glTF 2.0 Specification", 2021, section 4, GLB File Format Specification.
-/// Differs: nothing. Chunks of other types are skipped, as it asks.
+/// Source: "glTF 2.0 Specification", 2021, section 4, GLB File Format Specification. Chunks of
+/// other types are skipped, as the specification requires.
 
 #include <optional>
 #include <string>
@@ -14,15 +14,15 @@ namespace alhazen::gltf {
 
 struct Container {
     std::string_view json;
-    std::optional<std::string_view> binary;  ///< none: there is no such chunk
+    std::optional<std::string_view> binary;  ///< none: no binary chunk
     bool is_glb = false;
 };
 
-/// Whether the bytes begin as a GLB file does.
+/// True if the bytes begin with the GLB magic.
 [[nodiscard]] bool is_glb(std::string_view bytes);
 
-/// The parts of a GLB, or all of the bytes as JSON for another file; views into `bytes`. Reports
-/// what is wrong and then returns nothing.
+/// The chunks of a GLB; for any other file all bytes as JSON. Views into `bytes`. Reports errors
+/// and then returns none.
 [[nodiscard]] std::optional<Container> open_container(std::string_view bytes,
                                                       const std::string& file,
                                                       Diagnostics& diagnostics);

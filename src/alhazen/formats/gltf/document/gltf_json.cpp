@@ -51,7 +51,7 @@ std::string Place::pointer() const {
             text += std::to_string(p->position_);
             return;
         }
-        // RFC 6901: these two are written as ~0 and ~1. A name is cut, as it can be of any length.
+        // RFC 6901: ~ and / are escaped as ~0 and ~1. Names can have any length and are cut.
         for (const char c : p->key_.substr(0, 80)) {
             text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
         }
@@ -80,7 +80,7 @@ JsonObject::JsonObject(json& value, const Place& place, const JsonContext& conte
     if (!is_object(*extensions, where)) return;
     for (const auto& [name, unused] : extensions->items()) {
         if (context_.extensions_used.count(name) != 0) continue;
-        // What is known can be read all the same; what is not may be anything.
+        // A supported extension is readable without its declaration.
         const char* message = "the extension is not listed in extensionsUsed";
         const Place at(where, name);
         is_supported(name) ? context_.warning(at, message) : context_.error(at, message);
@@ -272,17 +272,17 @@ std::vector<Index> JsonObject::indices(std::string_view key, Collection collecti
 namespace {
 
 constexpr int kMaxDepth = 64;
-// What the tree needs for them, in plain values; a text of one sort of value is then never much
-// larger in memory than one of another.
+// Costs in plain values, in proportion to the memory of the tree, so that the limit bounds memory
+// for any mix of values.
 constexpr std::uint64_t kStringCost = 4, kContainerCost = 8;
 
-/// Thrown out of the parser to end it.
+/// Thrown to abort the parser.
 struct Refused {
     std::string message;
 };
 
-/// Counts what is in a text before it is parsed. A pass of its own: the parser can be watched too,
-/// but then takes quadratic time for long arrays of objects.
+/// Counts the values of a text before it is parsed. A separate pass: the parser's own callback
+/// takes quadratic time for long arrays of objects.
 class Watch final : public nlohmann::json_sax<json> {
   public:
     explicit Watch(std::uint64_t most) : most_(most) {}
@@ -308,7 +308,7 @@ class Watch final : public nlohmann::json_sax<json> {
     }
     bool start_array(std::size_t) override { return open(); }
     bool end_array() override { return close(); }
-    /// The parser will find the same.
+    /// Ignored here: the parser reports the same error.
     bool parse_error(std::size_t, const std::string&, const json::exception&) override {
         return false;
     }
@@ -331,13 +331,12 @@ class Watch final : public nlohmann::json_sax<json> {
                         "max_elements of the import options)");
     }
 
-    std::vector<std::set<std::string>> keys_;  ///< of the objects that are open
+    std::vector<std::set<std::string>> keys_;  ///< of the open objects
     int depth_ = 0;
     std::uint64_t most_, values_ = 0;
 };
 
-/// The parser's words without its own prefix "[json.exception...] ", and not the whole of a long
-/// string that it found.
+/// The parser's message without its prefix "[json.exception...] "; long strings in it are cut.
 std::string plain(const std::string& what) {
     const std::size_t end = what.find("] ");
     return what.substr(end == std::string::npos ? 0 : end + 2, 300);

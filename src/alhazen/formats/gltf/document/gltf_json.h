@@ -1,12 +1,12 @@
 #pragma once
-/// Checked reading of the JSON part of a glTF file: every member is asked for by its type and
-/// range, and what is wrong is reported with the JSON pointer of its place.
+/// Checked reading of the JSON part of a glTF file. Members are read by type and range; errors are
+/// reported with their JSON pointer.
 ///
 /// Source: IETF RFC 8259 (JSON), RFC 6901 (JSON pointer); "glTF 2.0 Specification", 2021, sections
 /// 2.7 and 3.1.
 /// Differs: pointers are written in URI form ("#/meshes/0"). Integers may be written as 3.0.
-/// Conventions: a reading function returns nothing (or the default) after it has reported an error;
-/// members that nobody asks for are ignored, as extensions and newer versions may add them.
+/// Conventions: a reading function returns none (or the default) after it has reported an error.
+/// Unknown members are ignored: extensions and newer versions may add them.
 
 #include <array>
 #include <cstdint>
@@ -24,14 +24,14 @@
 
 namespace alhazen::gltf {
 
-/// Whether an extension is read.
+/// True if the extension is supported.
 [[nodiscard]] bool is_supported(std::string_view extension);
 
-/// A number in as few digits as tell it from all others, for messages.
+/// The shortest decimal text that identifies the number, for messages.
 [[nodiscard]] std::string written(double x);
 
-/// A place in the JSON tree: a link to the place around it and its own key or position. Lives on
-/// the stack of the reader, so that a pointer costs nothing until it is written.
+/// A position in the JSON tree: a link to the parent and its own key or index. Lives on the stack
+/// of the reader; builds the pointer text only on demand.
 class Place {
   public:
     Place() = default;
@@ -48,7 +48,7 @@ class Place {
     bool is_position_ = false;
 };
 
-/// The top-level arrays that something can refer to by an index.
+/// Top-level arrays with references by index.
 enum class Collection {
     Accessors,
     Buffers,
@@ -66,7 +66,7 @@ enum class Collection {
 };
 inline constexpr std::size_t kCollectionCount = 13;
 
-/// What all readers of one document share.
+/// Shared state of the readers of one document.
 struct JsonContext {
     Diagnostics& diagnostics;
     std::string file;
@@ -75,7 +75,7 @@ struct JsonContext {
 
     void error(const Place& place, const std::string& message) const;
     void warning(const Place& place, const std::string& message) const;
-    /// For checks after the JSON is gone: `pointer` as in "#/meshes/0".
+    /// For checks after the JSON is freed: `pointer` as in "#/meshes/0".
     void error(const std::string& pointer, const std::string& message) const;
     void warning(const std::string& pointer, const std::string& message) const;
     [[nodiscard]] std::size_t size_of(Collection collection) const {
@@ -92,17 +92,16 @@ inline constexpr Range kUnitRange{0, 1};
 inline constexpr Range kNotNegative{0};
 inline constexpr Range kPositive{.lo = 0, .above_lo = true};
 
-/// One JSON object that is being read.
+/// A JSON object being read.
 class JsonObject {
   public:
-    /// Reports extensions on the object that the file does not declare: an error when they are not
-    /// known, else a warning.
+    /// Reports undeclared extensions of the object: an error if unsupported, else a warning.
     JsonObject(nlohmann::json& value, const Place& place, const JsonContext& context);
 
     [[nodiscard]] const Place& place() const { return place_; }
     [[nodiscard]] const JsonContext& context() const { return context_; }
     [[nodiscard]] bool has(std::string_view key) const;
-    /// Any member, without a check.
+    /// The member without a type check; null if absent.
     [[nodiscard]] nlohmann::json* find(std::string_view key) const;
     [[nodiscard]] std::vector<std::string> keys() const;
 
@@ -111,9 +110,9 @@ class JsonObject {
     std::optional<double> number(std::string_view key, Range range = {}) const;
     [[nodiscard]] bool flag(std::string_view key, bool otherwise = false) const;
     std::optional<std::string> text(std::string_view key) const;
-    /// The same; the tree gives its own text away, as it may be large.
+    /// Like `text`, but moves the string out of the tree, since it may be large.
     std::optional<std::string> take_text(std::string_view key) const;
-    /// A list of numbers; `size` of them unless that is 0. Not empty.
+    /// A non-empty list of `size` numbers; any number of them if `size` is 0.
     std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size,
                                                Range range = {}) const;
     template <std::size_t n>
@@ -123,14 +122,14 @@ class JsonObject {
     void number_into(std::string_view key, double& out, Range range = {}) const {
         out = number(key, range).value_or(out);
     }
-    /// A position in a top-level array that is there.
+    /// A valid index into a top-level array.
     std::optional<Index> index(std::string_view key, Collection collection) const;
-    /// A list of them, not empty and without repetitions.
+    /// A non-empty list of distinct indices.
     [[nodiscard]] std::vector<Index> indices(std::string_view key, Collection collection) const;
-    /// Reports that a member is missing; the way to demand one.
+    /// Reports a missing member.
     void require(std::string_view key) const;
 
-    /// Calls f(JsonObject&) for a member that is an object.
+    /// Calls f(JsonObject&) if the member exists and is an object.
     template <class F>
     void with_object(std::string_view key, F&& f) const {
         nlohmann::json* value = find(key);
@@ -140,13 +139,13 @@ class JsonObject {
         JsonObject object(*value, place, context_);
         f(object);
     }
-    /// The same for an extension of this object.
+    /// Calls f(JsonObject&) for an extension of this object.
     template <class F>
     void with_extension(std::string_view name, F&& f) const {
         if (find("extensions") == nullptr) return;
         with_object("extensions", [&](JsonObject& extensions) { extensions.with_object(name, f); });
     }
-    /// Calls f(JsonObject&, position) for each object of a list, which must not be empty.
+    /// Calls f(JsonObject&, position) for each object of a non-empty list.
     template <class F>
     void each_object(std::string_view key, F&& f) const {
         nlohmann::json* value = find(key);
@@ -163,7 +162,7 @@ class JsonObject {
             ++position;
         }
     }
-    /// Reports at the member `key`, or at the object when it is empty.
+    /// Reports at the member `key`, or at the object if `key` is empty.
     void error(std::string_view key, const std::string& message) const;
     void warning(std::string_view key, const std::string& message) const;
 
@@ -183,10 +182,10 @@ class JsonObject {
     const JsonContext& context_;
 };
 
-/// The tree of a JSON text. Reports (and returns nothing for) a syntax error with its line and
-/// column, a key that occurs twice in an object and nesting beyond 64. Throws Error (Resource) for
-/// more than `most` values, of which strings and keys count as 4, objects and arrays as 8: what
-/// they need of memory (about 20 bytes each).
+/// Parses a JSON text. Reports a syntax error with line and column, a duplicate key in an object,
+/// and nesting beyond 64; then returns none. Throws Error (Resource) above `most` values; strings
+/// and keys count as 4, objects and arrays as 8, in proportion to their memory (about 20 bytes per
+/// count).
 [[nodiscard]] std::optional<nlohmann::json> parse_json(std::string_view text,
                                                        const std::string& file, std::uint64_t most,
                                                        Diagnostics& diagnostics);

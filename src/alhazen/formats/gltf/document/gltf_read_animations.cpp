@@ -1,4 +1,4 @@
-// Skins and animations.
+// Readers of skins and animations.
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 
 namespace alhazen::gltf {
@@ -50,7 +50,7 @@ void read_target(const JsonObject& target, AnimationChannel& channel) {
             target.warning("path", "expected translation, rotation, scale or weights; ignored");
         }
     }
-    // Its channels are ignored, but a file that contradicts itself is refused.
+    // The channels of this extension are ignored, but contradictions in the file are errors.
     target.with_extension("KHR_animation_pointer", [&](const JsonObject& extension) {
         channel.node.reset();
         if (target.has("node")) extension.error({}, "the target must not have a node as well");

@@ -1,4 +1,4 @@
-// Buffers and the views into them.
+// Readers of buffers and buffer views.
 #include <map>
 
 #include "alhazen/base/file.h"
@@ -11,7 +11,7 @@ namespace {
 
 using SharedBytes = std::shared_ptr<const std::string>;
 
-/// Loads what the buffers name, each file once.
+/// Loads the data of the buffers, each file once.
 class BufferLoader {
   public:
     BufferLoader(const Loading& loading, std::vector<bool> used)
@@ -27,7 +27,7 @@ class BufferLoader {
             if (buffer.owned) buffer.bytes = *buffer.owned;
         } else if (position == 0 && loading_.binary) {
             buffer.bytes = *loading_.binary;
-            // The chunk is padded to a multiple of 4.
+            // The chunk is padded to a multiple of 4 bytes.
             if (buffer.bytes.size() >= *length + 4) {
                 object.warning({}, "the binary chunk is larger than the buffer");
             }
@@ -45,7 +45,7 @@ class BufferLoader {
     }
 
   private:
-    /// The bytes behind the member "uri"; null after an error, or when they are not needed.
+    /// The bytes of the member "uri"; null after an error or if the buffer is unused.
     SharedBytes named(const JsonObject& object, std::size_t position) {
         const auto uri = object.take_text("uri");
         if (!uri) return nullptr;

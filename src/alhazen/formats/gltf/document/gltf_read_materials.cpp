@@ -1,4 +1,4 @@
-// Materials and their extensions.
+// Readers of materials and their extensions.
 #include "alhazen/formats/gltf/document/gltf_texture_info.h"
 
 namespace alhazen::gltf {
@@ -33,7 +33,7 @@ void read_alpha(const JsonObject& object, Material& material) {
 void read_dielectric_extensions(const JsonObject& object, Material& material) {
     object.with_extension("KHR_materials_ior", [&](const JsonObject& extension) {
         extension.number_into("ior", material.ior, kNotNegative);
-        // 0 has a meaning of its own: all light is reflected.
+        // 0 has a special meaning: total reflection.
         if (material.ior != 0 && material.ior < 1) {
             extension.error("ior", "expected 0 or a number from 1");
         }
@@ -56,7 +56,7 @@ void read_dielectric_extensions(const JsonObject& object, Material& material) {
     });
 }
 
-/// Numbers of extensions that are ignored: out of their range the file is still wrong.
+/// Checks the ranges of numbers in ignored extensions; the file is invalid outside them.
 void check_ignored_extensions(const JsonObject& object) {
     struct Limited {
         const char* extension;

@@ -1,4 +1,4 @@
-// Meshes, their primitives and morph targets.
+// Readers of meshes, primitives and morph targets.
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 
 namespace alhazen::gltf {

@@ -1,4 +1,4 @@
-// Nodes and scenes.
+// Readers of nodes and scenes.
 #include <cmath>
 
 #include "alhazen/formats/gltf/document/gltf_readers.h"
@@ -23,7 +23,7 @@ void read_matrix(const JsonObject& object, Node& node) {
 }
 
 void read_rotation(const JsonObject& object, Node& node) {
-    constexpr double kTolerance = 0.00769;  // of quaternions written with few digits
+    constexpr double kTolerance = 0.00769;  // for quaternions written with few digits
     object.numbers_into("rotation", node.rotation, {-1 - kTolerance, 1 + kTolerance});
     double squared = 0;
     for (const double q : node.rotation) squared += q * q;

@@ -1,4 +1,4 @@
-// Images, samplers, textures, and the references of materials to textures.
+// Readers of images, samplers, textures, and texture references of materials.
 #include "alhazen/formats/gltf/document/gltf_texture_info.h"
 #include "alhazen/formats/gltf/document/gltf_uri.h"
 
@@ -85,7 +85,7 @@ void read_textures(const JsonObject& root, Loading& loading) {
     root.each_object("textures", [&](const JsonObject& object, std::size_t) {
         loading.document.textures.push_back({object.index("sampler", Collection::Samplers),
                                              object.index("source", Collection::Images)});
-        // The picture for programs that know the extension; what it refers to must be there.
+        // The extension's image is not read, but its index must be valid.
         object.with_extension("EXT_texture_webp", [](const JsonObject& extension) {
             (void)extension.index("source", Collection::Images);
         });

@@ -1,4 +1,4 @@
-// Cameras and lights.
+// Readers of cameras and lights.
 #include <numbers>
 
 #include "alhazen/formats/gltf/document/gltf_readers.h"

@@ -1,8 +1,7 @@
 #pragma once
-/// The references of materials to textures.
+/// References of materials to textures.
 ///
 /// Source: "glTF 2.0 Specification", 2021, section 5.30 (textureInfo); KHR_texture_transform.
-/// Differs: nothing.
 
 #include <optional>
 #include <string_view>
@@ -11,11 +10,11 @@
 
 namespace alhazen::gltf {
 
-/// Largest number of a set of texture coordinates.
+/// Largest index of a texture coordinate set.
 inline constexpr std::uint64_t kMaxTexCoord = 1'000'000;
 
-/// The member `key` of a material; `strength` is the name of its own factor ("scale" of a normal
-/// texture, "strength" of an occlusion texture) or empty.
+/// Reads the member `key` of a material. `strength`: name of its factor ("scale" of a normal
+/// texture, "strength" of an occlusion texture), or empty.
 [[nodiscard]] std::optional<TextureInfo> read_texture_info(const JsonObject& owner,
                                                            std::string_view key,
                                                            std::string_view strength = {});

@@ -17,7 +17,7 @@ constexpr std::array<std::uint8_t, 256> make_digits() {
     for (std::size_t i = 0; i < kAlphabet.size(); ++i) {
         digits[static_cast<unsigned char>(kAlphabet[i])] = static_cast<std::uint8_t>(i);
     }
-    // RFC 4648, section 5: the URL-safe letters.
+    // RFC 4648, section 5: the URL-safe alphabet.
     digits[static_cast<unsigned char>('-')] = 62;
     digits[static_cast<unsigned char>('_')] = 63;
     return digits;
@@ -111,7 +111,7 @@ std::optional<DataUri> read_data_uri(std::string_view uri) {
     if (!begins_with(head.substr(head.size() - kBase64.size()), kBase64)) return std::nullopt;
     head.remove_suffix(kBase64.size());
     DataUri result;
-    // Parameters follow the media type; each is name=value.
+    // Parameters of the form name=value follow the media type.
     std::size_t start = head.find(';');
     result.media_type = std::string(head.substr(0, start));
     while (start != std::string_view::npos) {

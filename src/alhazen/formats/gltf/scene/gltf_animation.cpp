@@ -11,26 +11,26 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Between which keys a time lies: the second is `from` + 1 unless the time is at an end, where
-/// `fraction` is 0.
+/// The keys around a time: `from` and `from` + 1. Before the first and after the last key
+/// `fraction` is 0 and only `from` counts.
 struct Span {
     std::size_t from = 0;
     double fraction = 0;  ///< in [0, 1)
-    double duration = 0;  ///< seconds between the two keys
+    double duration = 0;  ///< seconds between the keys
 };
 
 Span find_span(const std::vector<double>& times, double time) {
-    // A time that is not a number compares false and gives the first key.
+    // NaN compares false and gives the first key.
     if (!(time > times.front())) return {};
     if (time >= times.back()) return {times.size() - 1, 0, 0};
     const auto after = std::upper_bound(times.begin(), times.end(), time);
-    if (after == times.begin()) return {};  // only where the times do not ascend
+    if (after == times.begin()) return {};  // only if the times do not ascend
     const std::size_t from = std::size_t(after - times.begin()) - 1;
     const double duration = times[from + 1] - times[from];
     return {from, (time - times[from]) / duration, duration};
 }
 
-/// Number `c` of the value of a key.
+/// Component `c` of the value of a key.
 double key_value(const Keys& keys, std::size_t key, std::size_t c) {
     const bool cubic = keys.interpolation == Interpolation::CubicSpline;
     return keys.values[(cubic ? 3 * key + 1 : key) * keys.width + c];
@@ -52,13 +52,13 @@ double cubic(const Keys& keys, const Span& span, std::size_t c) {
 Quaternion slerp(const Quaternion& a, Quaternion b, double t) {
     double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
     if (cosine < 0.0) {
-        // -b is the same rotation, reached the shorter way around.
+        // -b is the same rotation along the shorter arc.
         for (double& c : b) c = -c;
         cosine = -cosine;
     }
     double wa = 1.0 - t, wb = t;
     const double angle = std::acos(std::min(cosine, 1.0));
-    // Where the two are all but equal the sines cancel and the straight line is as good.
+    // For nearly equal rotations the sines cancel; linear interpolation is as accurate.
     if (const double sine = std::sin(angle); sine > 1e-6) {
         wa = std::sin((1.0 - t) * angle) / sine;
         wb = std::sin(t * angle) / sine;
@@ -147,7 +147,7 @@ class Animator {
         return read_numbers(document_, accessor);
     }
 
-    /// Channels share their times, often all of them: read once.
+    /// Key times, read once: many channels share them.
     const std::vector<double>& times(Index accessor) {
         const auto [entry, fresh] = times_.try_emplace(accessor);
         if (fresh) entry->second = read(accessor);
@@ -171,7 +171,7 @@ std::string list_of(const std::vector<Animation>& animations) {
     return text.empty() ? "the file has none" : "the file has " + text;
 }
 
-/// The animation of that name, else the one at that position.
+/// The animation of that name, else the one at that index.
 Index find_animation(const Document& document, const std::string& wanted) {
     const auto& animations = document.animations;
     for (Index i = 0; i < animations.size(); ++i) {

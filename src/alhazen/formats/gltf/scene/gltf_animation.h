@@ -1,9 +1,9 @@
 #pragma once
-/// glTF animations at one time: the channels of a document change a pose.
+/// Evaluates glTF animations at one time: the channels of a document modify a pose.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.11 and appendix C.
-/// Differs: nothing. Conventions: seconds; before the first and after the last key the value of
-/// that key; linear rotations take the shorter way around.
+/// Conventions: times in seconds. Before the first and after the last key the value of that key
+/// holds. Linear interpolation of rotations takes the shorter arc.
 
 #include <span>
 
@@ -13,8 +13,8 @@
 
 namespace alhazen::gltf {
 
-/// The keys of one sampler. `values` holds `width` numbers a key; three times as many for cubic
-/// splines (in-tangent, value, out-tangent).
+/// Keys of one sampler. `values` has `width` numbers per key, for cubic splines three times as many
+/// (in-tangent, value, out-tangent).
 struct Keys {
     std::vector<double> times;  ///< ascending
     std::vector<double> values;
@@ -22,14 +22,14 @@ struct Keys {
     Interpolation interpolation = Interpolation::Linear;
 };
 
-/// The value at `time`, `width` numbers; linear ones component by component.
+/// The `width` numbers at `time`; linear interpolation works per component.
 [[nodiscard]] std::vector<double> value_at(const Keys& keys, double time);
-/// The same for quaternions (width 4): spherical where linear, unit in any case.
+/// The rotation at `time` (width 4): linear interpolation is spherical. The result is unit.
 [[nodiscard]] Quaternion rotation_at(const Keys& keys, double time);
 
-/// Applies the animations that `options` chooses at options.time to `pose`; nothing without a time.
-/// Throws Error (Usage) when options.animation is neither a name nor a position in the file; the
-/// message lists what there is.
+/// Applies the animations selected by `options` at options.time to `pose`; does nothing without a
+/// time. Throws Error (Usage) if options.animation is neither a name nor an index in the file; the
+/// message lists the animations.
 void apply_animations(const Document& document, const ImportSource& source, Pose& pose,
                       Budget& budget, Diagnostics& diagnostics);
 

@@ -11,10 +11,10 @@ namespace alhazen::gltf {
 
 namespace {
 
-/// Numbers of an attribute and of its morph targets.
+/// Values of an attribute with its morph targets.
 struct Values {
     std::vector<double> numbers;  ///< [vertex][width]
-    std::size_t width = 0;        ///< 0: the primitive has no such attribute
+    std::size_t width = 0;        ///< 0: the primitive lacks the attribute
 
     [[nodiscard]] Vec3 vec3(std::size_t vertex) const {
         const double* p = numbers.data() + vertex * width;
@@ -60,8 +60,8 @@ class PrimitiveReader {
         return order;
     }
 
-    /// Vertices that no triangle uses are left out: primitives that share one large vertex buffer
-    /// would otherwise each carry all of it. The others keep their order.
+    /// Drops unused vertices, since primitives that share one large vertex buffer would otherwise
+    /// each carry all of it. The other vertices keep their order.
     void number_used_vertices(std::vector<std::array<std::uint32_t, 3>>& triangles) {
         constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
         std::vector<std::uint32_t> new_number(vertex_count_, kUnused);
@@ -79,7 +79,7 @@ class PrimitiveReader {
         }
     }
 
-    /// The attribute with the morph targets added.
+    /// The attribute plus the weighted morph targets.
     Values read(const std::string& semantic) {
         Values values = read_accessor(primitive_.attributes, semantic);
         const std::size_t targets = std::min(weights_.size(), primitive_.targets.size());
@@ -87,7 +87,7 @@ class PrimitiveReader {
             if (weights_[t] == 0.0) continue;
             const Values deltas = read_accessor(primitive_.targets[t], semantic);
             if (deltas.width == 0) continue;
-            // A target of a tangent has no handedness, that of a colour may have no alpha.
+            // A tangent target has no handedness; a colour target may lack alpha.
             const std::size_t width = std::min(values.width, deltas.width);
             const std::size_t count = std::min(vertex_count_, deltas.numbers.size() / deltas.width);
             for (std::size_t v = 0; v < count; ++v) {
@@ -126,7 +126,7 @@ class PrimitiveReader {
             };
             return VertexColor{number(0), number(1), number(2), v.width > 3 ? number(3) : 1.0f};
         });
-        // Flat shading has no tangents of its own: the specification has them ignored.
+        // Without normals the shading is flat, and the specification ignores tangents.
         if (mesh.normals.empty()) return;
         fill(mesh.tangents, "TANGENT", 4, [](const Values& v, std::size_t i) {
             const Vec3 t = unit_or(v.vec3(i), {});
@@ -154,7 +154,7 @@ class PrimitiveReader {
             const Accessor& accessor = document_.accessors[joints->second];
             if (accessor.count < vertex_count_ || accessor.type != ElementType::Vec4) break;
             const std::vector<std::uint32_t> numbers = read_integers(document_, joints->second);
-            // Sets are interleaved, so that a vertex has its joints side by side.
+            // Interleaves the sets, so that the joints of a vertex are contiguous.
             const std::size_t old = out.per_vertex;
             budget_.make(vertices, 4 * (sizeof(std::uint32_t) + sizeof(double)));
             VertexJoints wider{old + 4, {}, {}};
@@ -178,7 +178,7 @@ class PrimitiveReader {
     std::span<const double> weights_;
     Budget& budget_;
     std::size_t vertex_count_ = 0;
-    std::vector<std::uint32_t> used_;  ///< vertices of the file that the mesh keeps, ascending
+    std::vector<std::uint32_t> used_;  ///< kept vertices of the file, ascending
 };
 
 }  // namespace
@@ -204,7 +204,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(PrimitiveMode mode,
         if (mode == PrimitiveMode::TriangleFan) {
             triangles.push_back({order[i + 1], order[i + 2], order[0]});
         } else {
-            // Every second triangle of a strip is turned, so that all face the same way.
+            // Every second triangle of a strip is reversed, so that all face the same way.
             const std::size_t odd = i % 2;
             triangles.push_back({order[i], order[i + 1 + odd], order[i + 2 - odd]});
         }

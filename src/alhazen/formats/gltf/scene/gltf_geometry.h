@@ -1,10 +1,10 @@
 #pragma once
-/// The triangles of a glTF primitive, with morph targets applied, and the joints of its vertices.
+/// Triangles of a glTF primitive with morph targets applied, and the joints of its vertices.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.7.2.
-/// Differs: triangles without area stay; vertices that no triangle uses go.
-/// Conventions: texture coordinates are turned so that v runs upward; without normals in the file
-/// the mesh has none, which is flat shading, as the specification asks.
+/// Differs: triangles of zero area are kept; unused vertices are dropped.
+/// Conventions: texture coordinates are flipped so that v runs upward. A mesh without normals in
+/// the file has none and is shaded flat, as the specification requires.
 
 #include <span>
 
@@ -14,9 +14,9 @@
 
 namespace alhazen::gltf {
 
-/// Which joints move a vertex, and how much: `per_vertex` of each.
+/// Joints of the vertices and their weights: `per_vertex` of each.
 struct VertexJoints {
-    std::size_t per_vertex = 0;         ///< 0: the vertices have none
+    std::size_t per_vertex = 0;         ///< 0: no joints
     std::vector<std::uint32_t> joints;  ///< [vertex][per_vertex]
     std::vector<double> weights;        ///< [vertex][per_vertex]
 };
@@ -29,12 +29,12 @@ struct PrimitiveGeometry {
 /// True for the modes that make triangles.
 [[nodiscard]] bool makes_surface(PrimitiveMode mode);
 
-/// The vertex numbers of a strip, a fan or a list of triangles that runs through `order`.
+/// Vertex numbers of the triangles of a list, strip or fan that runs through `order`.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
     PrimitiveMode mode, std::span<const std::uint32_t> order);
 
-/// Empty when the primitive makes no surface or has no positions. `weights`: of the morph targets,
-/// missing ones are zero. `with_joints`: also reads JOINTS_n and WEIGHTS_n.
+/// Empty if the primitive has no triangles or no positions. `weights`: of the morph targets, zero
+/// where missing. `with_joints`: also reads JOINTS_n and WEIGHTS_n.
 [[nodiscard]] PrimitiveGeometry read_primitive(const Document& document, const Primitive& primitive,
                                                std::span<const double> weights, bool with_joints,
                                                Budget& budget);

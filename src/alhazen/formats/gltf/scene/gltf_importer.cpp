@@ -29,11 +29,12 @@ Conventions gltf_conventions() {
     return c;
 }
 
-/// The text is a JSON object with a key "asset", as far as its first bytes and a search tell.
+/// True if the text appears to be a JSON object with a key "asset", from its first bytes and a
+/// search for the key.
 bool looks_like_json_gltf(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     if (begin == std::string_view::npos || text[begin] != '{') return false;
-    // A large file may have its buffers in front: the key is looked for everywhere.
+    // Large files may have their buffers in front, so the search covers the whole text.
     for (std::size_t at = text.find("\"asset\""); at != std::string_view::npos;
          at = text.find("\"asset\"", at + 1)) {
         const std::size_t next = text.find_first_not_of(" \t\r\n", at + 7);
@@ -42,7 +43,7 @@ bool looks_like_json_gltf(std::string_view text) {
     return false;
 }
 
-/// The root nodes of what is shown.
+/// Root nodes of the displayed scene.
 std::vector<gltf::Index> shown_nodes(const gltf::Document& document, const ImportSource& source,
                                      Diagnostics& diagnostics) {
     if (document.scene) return document.scenes[*document.scene].nodes;

@@ -1,9 +1,9 @@
 #pragma once
-/// glTF 2.0 scenes: .gltf with its files or with data URIs, and .glb.
+/// Importer of glTF 2.0 scenes: .gltf with external files or data URIs, and .glb.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, and the extensions listed in
 /// docs/reference/formats/gltf.md.
-/// Differs: points and lines make no surface and are left out; see docs/reference/formats/gltf.md.
+/// Differs: points and lines are left out; see docs/reference/formats/gltf.md.
 
 #include "alhazen/formats/core/importer.h"
 

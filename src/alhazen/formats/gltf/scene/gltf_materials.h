@@ -1,5 +1,5 @@
 #pragma once
-/// glTF materials as materials of a scene: all parameters kept, none translated.
+/// Converts glTF materials to materials of a scene. Keeps all parameters unchanged.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and the KHR_materials extensions
 /// of docs/reference/formats/gltf.md.
@@ -8,11 +8,11 @@
 
 namespace alhazen::gltf {
 
-/// Adds the materials of the document to `scene`, in their order.
+/// Adds the materials of the document to `scene` in their order.
 void add_materials(const Document& document, const ImportSource& source, SceneDescription& scene,
                    Diagnostics& diagnostics);
 
-/// The material of primitives that name none; added to `scene` at its first use.
+/// Material of primitives without one; added to `scene` at its first use.
 class DefaultMaterial {
   public:
     explicit DefaultMaterial(SceneDescription& scene) : scene_(scene) {}

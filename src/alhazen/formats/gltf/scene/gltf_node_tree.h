@@ -1,10 +1,11 @@
 #pragma once
-/// Who is above whom among the nodes of a document, answered at once for any two.
+/// Ancestor queries on the nodes of a document.
 ///
-/// Source: the intervals of a depth-first walk; R. E. Tarjan, "Depth-first search and linear graph
+/// Source: intervals of a depth-first traversal; R. E. Tarjan, "Depth-first search and linear graph
 /// algorithms", SIAM Journal on Computing 1(2), 1972.
-/// Differs: no recursion, so that depth costs no stack. Nodes in or below a loop have no root.
-/// Complexity and threads: built in O(nodes); queries in O(1), from any thread.
+/// Differs: iterative, so that deep trees do not overflow the stack. Nodes in or below a cycle have
+/// no root.
+/// Complexity and threads: O(nodes) to build; queries O(1), thread-safe.
 
 #include <vector>
 
@@ -17,11 +18,11 @@ class NodeTree {
     explicit NodeTree(const std::vector<Node>& nodes);
 
     [[nodiscard]] bool has_parent(Index node) const;
-    /// In a loop, or below a node that is.
+    /// True for a node in a cycle or below one.
     [[nodiscard]] bool is_in_loop(Index node) const;
-    /// The topmost node above, itself for a root; meaningless in a loop.
+    /// The topmost ancestor, for a root the node itself; undefined in a cycle.
     [[nodiscard]] Index root_of(Index node) const;
-    /// Whether `node` is `ancestor` or below it.
+    /// True if `node` is `ancestor` or a descendant of it.
     [[nodiscard]] bool contains(Index ancestor, Index node) const;
 
   private:

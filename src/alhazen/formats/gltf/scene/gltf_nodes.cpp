@@ -24,17 +24,17 @@ bool has_joints(const Primitive& primitive) {
     return primitive.attributes.count("JOINTS_0") != 0;
 }
 
-/// The instances of EXT_mesh_gpu_instancing; attributes that are not read count them, too.
+/// Number of instances of EXT_mesh_gpu_instancing; ignored attributes count, too.
 std::uint64_t instance_count(const Document& document, const Attributes& attributes) {
     std::uint64_t count = std::numeric_limits<std::uint64_t>::max();
     for (const auto& [semantic, accessor] : attributes) {
-        // The counts of a valid file agree.
+        // All counts agree in a valid file.
         count = std::min(count, document.accessors[accessor].count);
     }
     return attributes.empty() ? 0 : count;
 }
 
-/// [instance]
+/// Transforms of the instances, [instance].
 std::vector<Affine> instance_transforms(const Document& document, const Attributes& attributes,
                                         std::uint64_t count, Budget& budget) {
     const auto read = [&](const char* semantic, std::size_t width) {
@@ -192,7 +192,7 @@ void NodeBuilder::place(ObjectIndex object, const Affine& world_from_part, std::
 void NodeBuilder::place_instances(const Node& node, ObjectIndex object,
                                   const Affine& world_from_node, const std::string& name) {
     const std::uint64_t count = instance_count(document_, node.instances);
-    // Before anything is read: an accessor without data may have any number of elements.
+    // Check the budget before reading: an accessor without data may have any number of elements.
     budget_.expect(count, part_bytes(name));
     const std::vector<Affine> transforms =
         instance_transforms(document_, node.instances, count, budget_);

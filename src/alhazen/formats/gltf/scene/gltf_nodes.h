@@ -1,9 +1,9 @@
 #pragma once
-/// The nodes of a glTF scene as parts of one object: transforms are multiplied out along the
-/// hierarchy, meshes are objects that their nodes share.
+/// Converts the nodes of a glTF scene to parts of one object. Transforms are concatenated along the
+/// hierarchy; nodes share the objects of their meshes.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, sections 3.5 and 3.7; EXT_mesh_gpu_instancing.
-/// Differs: a node whose transform is singular is not seen (a scale of zero is how files hide
+/// Differs: a node with a singular transform is omitted (files hide nodes with a scale of zero).
 /// things).
 
 #include "alhazen/formats/gltf/scene/gltf_geometry.h"
@@ -17,18 +17,18 @@ class NodeBuilder {
     NodeBuilder(const Document& document, const ImportSource& source, const Pose& pose,
                 Budget& budget, SceneDescription& scene, Diagnostics& diagnostics);
 
-    /// Adds the meshes of these nodes to the root object (number 0), which must be there.
+    /// Adds the meshes of these nodes to the root object (index 0), which must exist.
     void add(std::span<const Index> nodes, const std::vector<Affine>& world_from_node);
 
   private:
-    /// What of a mesh an object holds: of a node with a skin, the primitives with joints are in
-    /// the world already, those without are moved by the node as any other.
+    /// Primitives of a mesh in an object. Of a node with a skin, primitives with joints are already
+    /// in world space; those without are transformed by the node.
     enum class Primitives { All, WithJoints, WithoutJoints };
     struct ObjectKey {
         Index mesh;
         std::vector<double> weights;  ///< of the morph targets
         Primitives primitives = Primitives::All;
-        Index skin = 0;  ///< of those with joints
+        Index skin = 0;  ///< for WithJoints
 
         friend auto operator<=>(const ObjectKey&, const ObjectKey&) = default;
     };
@@ -45,7 +45,7 @@ class NodeBuilder {
     void place(ObjectIndex object, const Affine& world_from_part, std::string name);
     void place_instances(const Node& node, ObjectIndex object, const Affine& world_from_node,
                          const std::string& name);
-    /// What a part of this name costs, for the budget.
+    /// Size of a part of this name, for the budget.
     [[nodiscard]] std::size_t part_bytes(const std::string& name) const;
     [[nodiscard]] std::string mesh_name(Index mesh) const;
     void report_left_out() const;
@@ -57,11 +57,11 @@ class NodeBuilder {
     SceneDescription& scene_;
     Diagnostics& diagnostics_;
     DefaultMaterial default_material_;
-    std::map<ObjectKey, ObjectIndex> objects_;     ///< shared by the nodes that show the same
-    std::map<Index, std::vector<Affine>> joints_;  ///< of the skins that are used
-    std::vector<char> mesh_seen_;                  ///< [mesh] counted in what follows
-    std::size_t points_ = 0, lines_ = 0, without_positions_ = 0;  ///< primitives left out
-    std::map<std::string, std::size_t> other_attributes_;         ///< that are not read
+    std::map<ObjectKey, ObjectIndex> objects_;                    ///< shared by nodes
+    std::map<Index, std::vector<Affine>> joints_;                 ///< of the used skins
+    std::vector<char> mesh_seen_;                                 ///< [mesh] already counted below
+    std::size_t points_ = 0, lines_ = 0, without_positions_ = 0;  ///< omitted primitives
+    std::map<std::string, std::size_t> other_attributes_;         ///< ignored attributes
 };
 
 }  // namespace alhazen::gltf

@@ -48,7 +48,7 @@ std::vector<Affine> world_transforms(const Document& document, const Pose& pose)
         world_from_node[i] =
             p.matrix ? *p.matrix : transform_of(p.translation, p.rotation, p.scale);
     }
-    // Parents come before their children, so each parent is complete when it is used.
+    // Parents precede their children, so each parent is complete when used.
     for (const Index node : nodes_below(document, root_nodes(document))) {
         for (const Index child : document.nodes[node].children) {
             world_from_node[child] = world_from_node[node] * world_from_node[child];

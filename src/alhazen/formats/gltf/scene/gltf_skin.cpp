@@ -15,7 +15,7 @@ void add(Affine& sum, double weight, const Affine& m) {
     sum.translation += weight * m.translation;
 }
 
-/// The blended transform of one vertex.
+/// Blended transform of a vertex.
 Affine blend(const VertexJoints& joints, std::size_t vertex,
              const std::vector<Affine>& world_from_bound) {
     Affine sum{{{}, {}, {}}, {}};
@@ -30,7 +30,7 @@ Affine blend(const VertexJoints& joints, std::size_t vertex,
     if (total != 0.0) {
         add(result, 1.0 / total, sum);
     } else if (joints.joints[first] < world_from_bound.size()) {
-        // A vertex that nothing moves goes with the first joint it names.
+        // A vertex without weights follows the first joint it names.
         result = world_from_bound[joints.joints[first]];
     } else {
         result = Affine{};
@@ -38,8 +38,8 @@ Affine blend(const VertexJoints& joints, std::size_t vertex,
     return result;
 }
 
-/// The normal of a transformed surface: the cofactors of the transform are its inverse transpose
-/// times its determinant, and exist where the inverse does not.
+/// The normal of a transformed surface. Uses the cofactor matrix, which equals the inverse
+/// transpose times the determinant and exists for singular transforms, too.
 Vec3 transformed_normal(const Mat3& m, const Vec3& n) {
     const Vec3 turned = n.x * cross(m.y_axis, m.z_axis) + n.y * cross(m.z_axis, m.x_axis) +
                         n.z * cross(m.x_axis, m.y_axis);
@@ -52,7 +52,7 @@ std::vector<Affine> joint_matrices(const Document& document, const Skin& skin,
                                    const std::vector<Affine>& world_from_node) {
     std::vector<double> inverse_bind;
     if (skin.inverse_bind_matrices) {
-        // The accessor may be far longer than the skin, and named by many skins.
+        // The accessor may be far longer than the skin and shared by many skins.
         inverse_bind = read_numbers(document, *skin.inverse_bind_matrices, skin.joints.size());
     }
     std::vector<Affine> matrices;
@@ -67,7 +67,8 @@ std::vector<Affine> joint_matrices(const Document& document, const Skin& skin,
 
 void apply_skin(PrimitiveGeometry& geometry, const std::vector<Affine>& world_from_bound) {
     TriangleMesh& mesh = geometry.mesh;
-    std::vector<double> turned(mesh.positions.size());  // [vertex] negative: mirrored
+    std::vector<double> turned(
+        mesh.positions.size());  // [vertex] determinant of the transform; negative: mirrored
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Affine m = blend(geometry.joints, i, world_from_bound);
         turned[i] = determinant(m.linear);
@@ -78,12 +79,12 @@ void apply_skin(PrimitiveGeometry& geometry, const std::vector<Affine>& world_fr
         if (!mesh.tangents.empty()) {
             VertexTangent& tangent = mesh.tangents[i];
             const Vec3 t = unit_or(m.linear * Vec3{tangent.x, tangent.y, tangent.z}, {});
-            // The bitangent is mirrored with the surface, the normal is not.
+            // A mirroring flips the bitangent, not the normal.
             const float sign = turned[i] < 0.0 ? -tangent.sign : tangent.sign;
             tangent = {float(t.x), float(t.y), float(t.z), sign};
         }
     }
-    // A mirror turns the winding, which says what the front is.
+    // A mirroring flips the winding, which defines the front.
     for (auto& [a, b, c] : mesh.triangles) {
         if (turned[a] + turned[b] + turned[c] < 0.0) std::swap(b, c);
     }

@@ -21,7 +21,7 @@ UvTransform uv_transform(const TextureInfo& info) {
     const double c = std::cos(info.rotation), s = std::sin(info.rotation);
     const double ss = c * info.scale[0], st = s * info.scale[1];
     const double ts = -s * info.scale[0], tt = c * info.scale[1];
-    // With v = 1 - t on both sides.
+    // Substitute v = 1 - t on both sides.
     UvTransform result;
     result.uu = ss;
     result.uv = -st;

@@ -1,10 +1,9 @@
 #pragma once
-/// The textures of a glTF document, each use a TextureDescription of its own; pictures are shared.
+/// Textures of a glTF document. Each distinct use becomes a TextureDescription; images are shared.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, sections 3.8 and 3.9; KHR_texture_transform.
-/// Differs: a filter is one of ours: any mipmap, or nothing said, is Mipmapped.
-/// Conventions: texture coordinates have v upward here, downward in the file; transforms are
-/// restated for that.
+/// Differs: filters map to TextureFilter; any mipmap filter, or none given, is Mipmapped.
+/// Conventions: v runs upward here and downward in the file; transforms are converted accordingly.
 
 #include <map>
 #include <tuple>
@@ -14,10 +13,10 @@
 
 namespace alhazen::gltf {
 
-/// Whether the colours of a picture are encoded for display.
+/// Colour encoding of an image.
 enum class ColorSpace { Linear, Srgb };
 
-/// KHR_texture_transform on our coordinates.
+/// KHR_texture_transform converted to upward v.
 [[nodiscard]] UvTransform uv_transform(const TextureInfo& info);
 [[nodiscard]] TextureFilter filter_of(const Sampler& sampler);
 
@@ -26,7 +25,7 @@ class Textures {
     Textures(const Document& document, const ImportSource& source, SceneDescription& scene,
              Diagnostics& diagnostics);
 
-    /// kNoTexture when there is none or it cannot be read (then reported).
+    /// kNoTexture if there is no texture, or if it cannot be read (reported).
     [[nodiscard]] TextureId use(const std::optional<TextureInfo>& info, ColorSpace space);
 
   private:

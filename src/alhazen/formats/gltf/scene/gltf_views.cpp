@@ -22,7 +22,7 @@ CameraDescription camera_of(const Camera& camera, const Affine& world_from_node)
     const Vec3& eye = world_from_node.translation;
     const Vec3 look = unit_or(-world_from_node.linear.z_axis, {0, 0, -1});
     Vec3 up = unit_or(world_from_node.linear.y_axis, {0, 1, 0});
-    // Scales of zero may leave an up that runs along the view.
+    // Scales of zero may leave an up vector parallel to the view direction.
     if (length(cross(look, up)) < 1e-9) up = perpendicular(look);
     CameraDescription result;
     if (camera.perspective) {

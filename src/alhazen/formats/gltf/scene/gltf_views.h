@@ -1,10 +1,11 @@
 #pragma once
-/// The cameras and lights of a glTF scene, placed in the world.
+/// Cameras and lights of a glTF scene in world space.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.10; KHR_lights_punctual.
-/// Differs: near and far planes do not cut; the edge of a spot light's cone is our smooth step.
-/// Conventions: photometric units are divided by pi, for surfaces here send back kd (N.L) of the
-/// light, without Lambert's 1 / pi.
+/// Differs: near and far planes do not clip; the edge of a spot cone is the smoothstep of Alhazen's
+/// spot lights.
+/// Conventions: photometric units are divided by pi, because surfaces reflect kd (N.L) of a light,
+/// without Lambert's 1 / pi.
 
 #include <span>
 
@@ -12,7 +13,7 @@
 
 namespace alhazen::gltf {
 
-/// `nodes`: those of the scene, in order; `world_from_node` [node]. Scale is left out of both.
+/// `nodes`: of the scene, in order; `world_from_node` [node]. Scale is ignored in both.
 void add_cameras(const Document& document, std::span<const Index> nodes,
                  const std::vector<Affine>& world_from_node, SceneDescription& scene);
 void add_lights(const Document& document, std::span<const Index> nodes,
