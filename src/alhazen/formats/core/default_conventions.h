@@ -1,11 +1,11 @@
 #pragma once
-/// The conventions of native scenes, and of formats that have none of their own.
+/// Shading conventions of native scenes and of formats that define none.
 
 #include "alhazen/shading/shading_conventions.h"
 
 namespace alhazen {
 
-/// Pictures are sRGB, attenuation is not clamped, the air's index is 1.
+/// sRGB images, unclamped attenuation, refractive index 1 for air.
 [[nodiscard]] ShadingConventions default_conventions();
 
 }  // namespace alhazen
