@@ -23,8 +23,8 @@ struct ImportOptions {
     int max_include_depth = 16;
     std::uint64_t max_included_bytes = std::uint64_t{1} << 32;
     /// Limit on vertices, triangles or primitives per file. glTF counts accessor elements once per
-    /// use (a mesh read for two sets of morph weights counts twice). JSON values: a twentieth of
-    /// this limit, or one million.
+    /// use (a mesh read for two sets of morph weights counts twice). JSON values: the larger
+    /// of a twentieth of this limit and one million.
     std::uint64_t max_elements = 400'000'000;
     /// Memory limit of the meshes and parts that a glTF file generates, including shared data
     /// expanded by morph weights, skins and instances. None: 64 MiB plus 64 times the bytes of the
