@@ -9,25 +9,25 @@ namespace alhazen {
 
 namespace {
 
-/// What the pictures of Haines' databases mean.
+/// Conventions of the reference images of Haines' databases.
 ShadingConventions nff_conventions() {
     ShadingConventions c;
     c.highlight = ShadingConventions::Highlight::Phong;
-    // A shadow ray asks whether anything is in the way, glass or not.
+    // A shadow ray tests for any occluder, glass included.
     c.shadow_tint = ShadingConventions::ShadowTint::Opaque;
     c.refraction_tint = ShadingConventions::RefractionTint::PerEvent;
-    // `ambient` of the materials is their diffuse colour, except where 'fm' gives it.
+    // Material `ambient` is the diffuse colour, except where 'fm' gives it.
     c.ambient_factor = ShadingConventions::AmbientFactor::Ambient;
     c.ambient_inside_times_kt = false;
     c.transmitting_surfaces_reflect = true;
     c.air_index = 1.0;
-    // The eye ray counts as the first of five generations.
+    // The eye ray is the first of five generations.
     c.headlight = false;
     c.max_depth = 4;
     return c;
 }
 
-/// The start of the text has lines that begin with each of the words.
+/// True when the start of the text has lines that begin with each of the words.
 bool has_lines(std::string_view text, std::span<const std::string_view> words) {
     return std::all_of(words.begin(), words.end(), [&](std::string_view word) {
         for (std::size_t at = text.find(word); at != std::string_view::npos;
