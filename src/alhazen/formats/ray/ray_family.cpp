@@ -41,7 +41,7 @@ void look_at(TextNode node, Signs& signs) {
     }
 }
 
-/// Lists of numbers hold no signs: not walking them keeps this fast for meshes.
+/// Number lists contain no indications of the family; skipping them keeps this fast for meshes.
 Signs signs_of(TextNode root) {
     Signs signs;
     std::vector<TextNode> pending{root};
@@ -54,8 +54,8 @@ Signs signs_of(TextNode root) {
             continue;
         }
         for (const TextNode child : node) {
-            // `gennormals;` and `name x;`: only the token parsers know words without a value or an
-            // equals sign.
+            // `gennormals;` and `name x;`: only the token parsers accept words without a value or
+            // an equals sign.
             if (child.is(NodeKind::Word, "gennormals") || child.is(NodeKind::Word, "name") ||
                 child.is(NodeKind::Entry, "name")) {
                 signs.token_spelling = true;
@@ -82,7 +82,7 @@ ShadingConventions conventions_of(bool dictionary) {
     c.pixel_sample = ShadingConventions::PixelSample::LowerLeftCorner;
     c.headlight = false;
     c.linear_output = true;
-    // The programs of the courses start with 0 and leave the rest to a slider; reflection and glass
+    // The course programs default to 0 and leave the depth to a slider; reflection and refraction
     // need more.
     c.max_depth = 5;
     return c;
