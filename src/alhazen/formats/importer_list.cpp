@@ -86,7 +86,7 @@ SceneDescription import_scene(const std::filesystem::path& path, const ImportOpt
     const Importer& importer = find_importer(source);
     if (!options.view_script.empty() && !importer.reads_view_scripts()) {
         throw Error(ErrorKind::Usage,
-                    "there are no view scripts of the format " + std::string(importer.name()));
+                    "view scripts are not supported by the format " + std::string(importer.name()));
     }
     SceneDescription description = importer.import(source, diagnostics);
     if (!options.objects.empty() && !importer.chooses_objects()) {

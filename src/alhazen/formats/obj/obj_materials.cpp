@@ -71,7 +71,7 @@ void ObjMaterials::load(const std::vector<ObjLibrary>& libraries) {
         }
         if (missing.empty()) continue;
         diagnostics_.warning(where, "the material file " + missing.substr(0, 1000) +
-                                        " is not there or lies outside of the scene's folder");
+                                        " does not exist or lies outside the scene's folder");
     }
 }
 
@@ -239,8 +239,8 @@ TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
     if (!found) found = finder_.find(map.file);
     if (!found) {
         diagnostics_.warning(map.location, "the picture '" + map.file.substr(0, 200) +
-                                               "' is not there or lies outside of the scene's "
-                                               "folder; it is left out");
+                                               "' does not exist or lies outside the scene's "
+                                               "folder; it is omitted");
         return kNoTexture;
     }
     Texture settings;
@@ -252,7 +252,7 @@ TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
     const auto id = textures_.load(*found, folder_, settings, map.file, map.location);
     if (picture_findings_.error_count() != errors && !picture_findings_.all().empty()) {
         diagnostics_.warning(map.location,
-                             picture_findings_.all().back().message + "; it is left out");
+                             picture_findings_.all().back().message + "; it is omitted");
     }
     if (!id) return kNoTexture;
     Texture& texture = scene_.textures[std::size_t(*id)].texture;

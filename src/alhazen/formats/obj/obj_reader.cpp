@@ -53,7 +53,7 @@ class PartMaker {
             return;
         }
         diagnostics_.warning({file_, 0, 0}, std::string("faces name '") + what +
-                                                "' statements, and the file has none: left out");
+                                                "' statements, and the file has none: omitted");
         indices.clear();
     }
     void check_indices() {

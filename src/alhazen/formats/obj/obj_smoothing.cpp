@@ -26,7 +26,7 @@ Vec3 face_normal(const ObjStatements& in, std::uint32_t begin, std::uint32_t end
 
 std::int32_t add_normal(ObjStatements& in, const Vec3& normal, const std::string& file) {
     if (in.normals.size() >= kMaxNormals) {
-        throw Error(ErrorKind::Resource, "too many normals to be made", {file, 0, 0});
+        throw Error(ErrorKind::Resource, "too many generated normals", {file, 0, 0});
     }
     in.normals.push_back(normal);
     return std::int32_t(in.normals.size() - 1);

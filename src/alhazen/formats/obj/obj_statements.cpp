@@ -61,7 +61,7 @@ class StatementReader {
         }
         if (errors_ == kMaxObjErrors) error("too many errors; the rest of the file is not read");
         if (!known_ && errors_ == 0) {
-            diagnostics_.error({file_, 0, 0}, "no statement of an OBJ file in it");
+            diagnostics_.error({file_, 0, 0}, "the file has no OBJ statement");
         }
         finish_colors();
         return std::move(result_);

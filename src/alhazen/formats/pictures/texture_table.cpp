@@ -14,10 +14,9 @@ namespace {
 class TotalExceeded : public Error {
   public:
     TotalExceeded(const ImageLimits& limits, const std::string& name)
-        : Error(ErrorKind::Resource, "the pictures of the scene take more than " +
-                                         std::to_string(limits.max_bytes >> 20) +
-                                         " MiB (--max-image-mib) with '" + name.substr(0, 200) +
-                                         "'") {}
+        : Error(ErrorKind::Resource,
+                "the images of the scene take more than " + std::to_string(limits.max_bytes >> 20) +
+                    " MiB (--max-image-mib) with '" + name.substr(0, 200) + "'") {}
 };
 
 }  // namespace

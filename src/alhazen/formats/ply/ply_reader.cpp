@@ -196,7 +196,7 @@ class BodyReader {
     }
     bool bad_index(const PlyElement& element, std::uint64_t item, const Values& at) {
         return fail(element, item,
-                    "a vertex index that is not below the " +
+                    "a vertex index outside the range of " +
                         std::to_string(mesh_.positions.size()) + " vertices",
                     at);
     }
@@ -231,7 +231,7 @@ class BodyReader {
         const Values start = values_;
         if (!read_value(element, *property.count_type, item, length)) return false;
         if (!(length >= 0.0) || length != std::floor(length)) {
-            return fail(element, item, "a list whose length is no whole number", start);
+            return fail(element, item, "a list length that is not a whole number", start);
         }
         if (length > double(values_.bytes_left() / Values::kListItemBytes)) {
             return fail(element, item, "a list longer than the rest of the file", start);
