@@ -53,7 +53,7 @@ const Importer& find_importer(const ImportSource& source) {
 
 namespace {
 
-/// Makes the objects of these names the root's only parts. Throws Error (Usage).
+/// Makes the objects of these names the only parts of the root. Throws Error (Usage).
 void choose_objects(SceneDescription& description, std::span<const std::string> names) {
     ObjectDescription root;
     root.name = "chosen";
@@ -79,22 +79,22 @@ void choose_objects(SceneDescription& description, std::span<const std::string> 
 SceneDescription import_scene(const std::filesystem::path& path, const ImportOptions& options,
                               Diagnostics& diagnostics) {
     const std::string file = read_file(path);
-    // A byte order mark says nothing here: all text formats are ASCII or UTF-8.
+    // A byte order mark carries no information: all text formats are ASCII or UTF-8.
     std::string_view bytes = file;
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     const ImportSource source{bytes, path, options};
     const Importer& importer = find_importer(source);
     if (!options.view_script.empty() && !importer.reads_view_scripts()) {
         throw Error(ErrorKind::Usage,
-                    "there are no view scripts of the format " + std::string(importer.name()));
+                    "view scripts are not supported by the format " + std::string(importer.name()));
     }
     SceneDescription description = importer.import(source, diagnostics);
     if (!options.objects.empty() && !importer.chooses_objects()) {
         choose_objects(description, options.objects);
     }
     description.files = diagnostics.files();
-    // A file with mistakes is validated too, so that all of them are told at once; but what
-    // validation says of the whole (nothing to see) may only be a consequence.
+    // An incomplete import is validated too, to report all errors at once. Findings about the whole
+    // scene (no visible geometry) are then suppressed: they may be consequences.
     const bool complete = diagnostics.error_count() == 0;
     Diagnostics findings;
     validate(description, findings);

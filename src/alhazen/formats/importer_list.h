@@ -1,5 +1,5 @@
 #pragma once
-/// The table of importers. ADD A FORMAT HERE (importer_list.cpp: one line).
+/// Table of importers. ADD A FORMAT HERE (importer_list.cpp: one line).
 
 #include <span>
 
@@ -7,11 +7,11 @@
 
 namespace alhazen {
 
-/// All importers, in the order in which they are asked.
+/// All importers, in the order of their queries.
 [[nodiscard]] std::span<const Importer* const> importers();
 
-/// The importer that recognises the bytes best. Throws Error (Scene) naming the known formats when
-/// none does.
+/// The importer that recognises the bytes with the highest confidence. Throws Error (Scene) with
+/// the known formats when none does.
 [[nodiscard]] const Importer& find_importer(const ImportSource& source);
 
 /// Reads, recognises, imports and validates a scene file. Throws Error; warnings go to

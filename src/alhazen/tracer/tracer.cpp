@@ -12,33 +12,33 @@ namespace {
 
 void check_lengths(std::size_t rays, std::size_t results) {
     if (rays == results) return;
-    throw Error(ErrorKind::Usage, "a batch of " + std::to_string(rays) + " rays with room for " +
-                                      std::to_string(results) + " results, expected as many");
+    throw Error(ErrorKind::Usage, "a batch of " + std::to_string(rays) + " rays has " +
+                                      std::to_string(results) + " results; expected one per ray");
 }
 
-/// The table as the builders want it. Nothing is transparent: there are no materials.
+/// Finishes the table for the builders. All geometry is opaque: there are no materials.
 PrimitiveTable finished(PrimitiveTable table) {
     table.material_opacity = {Opacity::Opaque};
     table.finish();
     return table;
 }
 
-/// Throws unless the id is one of the table's, an instance or not as expected.
+/// Throws unless the id is in the table and is an instance or not, as expected.
 void check_id(const PrimitiveTable& table, PrimitiveId id, bool instance) {
     const auto i = static_cast<std::uint32_t>(id);
     if (i < table.size() && (i >= table.first(kInstanceKind)) == instance) return;
-    throw Error(ErrorKind::Usage, id == kNoPrimitive ? "there are no details of a ray without a hit"
-                                                     : "the hit is not one of this tracer");
+    throw Error(ErrorKind::Usage, id == kNoPrimitive ? "the ray has no hit"
+                                                     : "the hit does not belong to this tracer");
 }
 
-/// Calls trace(ray) with a ray of usual length and the power of two by which its t are larger.
+/// Calls trace(ray, exponent) with a ray of usual length, whose t are 2^exponent times larger.
 template <class Trace>
 decltype(auto) with_usual(const Ray& ray, const Trace& trace) {
     const int exponent = unusual_exponent(ray.direction);
     return exponent == 0 ? trace(ray, 0) : trace(rescaled(ray, exponent), exponent);
 }
 
-/// The rays, copied and rescaled where some of them are of unusual length.
+/// The rays; copied and rescaled when some are of unusual length.
 class UsualRays {
   public:
     explicit UsualRays(std::span<const Ray> rays) : given_(rays) {
@@ -52,7 +52,7 @@ class UsualRays {
     [[nodiscard]] std::span<const Ray> rays() const {
         return unusual_ ? std::span<const Ray>(copies_) : given_;
     }
-    /// Gives the hits the t of the rays as they were given.
+    /// Converts t to the units of the given rays.
     void restore(std::span<Hit> hits) const {
         for (std::size_t i = 0; unusual_ && i < hits.size(); ++i) {
             hits[i].t = std::ldexp(hits[i].t, -unusual_exponent(given_[i].direction));

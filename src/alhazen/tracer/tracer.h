@@ -1,15 +1,14 @@
 #pragma once
-/// Traces rays through geometry for programs that want hits and no renderer.
+/// Ray tracing without rendering: hits of rays on geometry.
 ///
 /// Conventions: points are origin + t * direction with t in [t_min, t_max]; the direction need not
-/// be of unit length, and t is in units of it; it may be of any length that double holds
-/// (geometry/ray_scale.h). An invalid ray (`is_valid`) hits nothing. A query
-/// sees the geometry of which `visible_to` has a bit of its `mask`, through instances where that
-/// holds for each of them too. Every accelerator gives the same hits, bit for bit. At equal t the
-/// lower primitive wins: analytic shapes before triangles before instances, each kind in the order
-/// in which it was added.
-/// Complexity and threads: built in parallel, about O(n log n). Const functions may be called from
-/// many threads at once, and give a batch to one thread each. A copy shares what was built.
+/// be normalised, t is in units of it; any length in the range of double is valid
+/// (geometry/ray_scale.h). An invalid ray (`is_valid`) hits nothing. A query sees geometry whose
+/// `visible_to` shares a bit with its `mask`; the same holds for each enclosing instance. All
+/// accelerators give the same hits, bit for bit. At equal t the lower primitive wins: analytic
+/// shapes before triangles before instances, each kind in the order of addition. Complexity and
+/// threads: parallel build, about O(n log n). Const functions are thread-safe; a batch runs on its
+/// calling thread. Copies share the acceleration structure.
 
 #include <filesystem>
 #include <memory>
@@ -30,26 +29,26 @@
 namespace alhazen {
 
 struct TracerOptions {
-    /// One of `accelerator_table()`; another name throws Error (Usage) with the valid ones.
+    /// A name of `accelerator_table()`; others throw Error (Usage) with the valid names.
     std::string accelerator = kDefaultAccelerator;
-    /// How much work goes into the build: {.build = {.quality = BuildQuality::High}}.
+    /// Build effort: {.build = {.quality = BuildQuality::High}}.
     BuildOptions build{};
 };
 
-/// What a `Hit` of a tracer means, in the coordinates of the tracer: the point, the normals, the
-/// texture coordinates and what else a `Surface` holds. The materials in it mean nothing.
+/// The geometry of a `Hit` in tracer coordinates: point, normals, texture coordinates and the other
+/// members of `Surface`. Its materials are unused.
 struct HitDetails : Surface {
-    /// What was hit; inside of instances the id it has in the scene of the innermost.
+    /// The geometry hit; within instances, its id in the scene of the innermost one.
     GeometryId geometry{};
-    std::uint32_t primitive = 0;  ///< which triangle of a mesh; 0 of a shape
-    /// The instances around it as ids, the outermost first; each in the scene of the one before.
+    std::uint32_t primitive = 0;  ///< triangle of a mesh; 0 for a shape
+    /// Ids of the enclosing instances, outermost first; each in the scene of the previous one.
     InlineVector<GeometryId, kMaxInstanceDepth> instances;
 };
 
-/// All hits of a batch of rays, ray after ray.
+/// All hits of a batch of rays, in the order of the rays.
 struct HitLists {
     std::vector<Hit> hits;
-    std::vector<std::size_t> ends;  ///< [ray] where its hits end; they begin where those before end
+    std::vector<std::size_t> ends;  ///< [ray] end of its hits; they begin at the previous end
 
     [[nodiscard]] std::span<const Hit> of(std::size_t ray) const {
         const std::size_t begin = ray == 0 ? 0 : ends[ray - 1];
@@ -59,51 +58,50 @@ struct HitLists {
 
 class Tracer {
   public:
-    /// Builds over all of the scene; it may be empty.
+    /// Builds over the whole scene, which may be empty.
     explicit Tracer(TracerScene scene, const TracerOptions& options = {});
-    /// With a tree that `save` stored for the same scene, mapped into memory instead of built. The
-    /// hits are the same. Throws Error (File) when the file is damaged or of other geometry, or of
-    /// another version of the library: then build. Instances are loaded or built on their own.
+    /// Maps a tree stored by `save` for the same scene into memory instead of building it. The hits
+    /// are the same. Throws Error (File) when the file is damaged, of other geometry or of another
+    /// library version; build instead. Instances are loaded or built separately.
     [[nodiscard]] static Tracer load(TracerScene scene, const std::filesystem::path& file);
-    /// Stores the tree, not the geometry, as one step. Throws Error: Usage for an accelerator other
+    /// Stores the tree, not the geometry, atomically. Throws Error: Usage for an accelerator other
     /// than `wide_bvh`, File when the file cannot be written.
     void save(const std::filesystem::path& file) const;
 
-    /// The nearest hit: t, and u and v, the weights of the second and third vertex of a triangle or
-    /// the parameters of a shape. True when there is one; else `hit.found()` is false.
+    /// Finds the nearest hit: t, u and v (the weights of the second and third vertex of a triangle,
+    /// or the parameters of a shape). True on a hit; otherwise `hit.found()` is false.
     bool intersect(const Ray& ray, Hit& hit, RayMask mask = kAllRays) const;
-    /// True when there is any hit: cheaper than the nearest one.
+    /// True when there is any hit; cheaper than the nearest hit.
     [[nodiscard]] bool occluded(const Ray& ray, RayMask mask = kAllRays) const;
-    /// Replaces `hits` by every hit, the nearest first.
+    /// Replaces `hits` by all hits, nearest first.
     void all_hits(const Ray& ray, std::vector<Hit>& hits, RayMask mask = kAllRays) const;
 
-    // ---- The same for many rays of any kind and in any order. From about ten rays on the first
-    // two are faster than ray by ray. `coherence` says what is known of the rays
-    // (primitives/aggregate.h): Coherent makes eye rays in tiles and shadow rays of a point light
-    // faster, other rays slower, and changes no hit. Throws Error (Usage) where two spans differ
-    // in length.
+    // --- Batches: many rays of any kind in any order. `intersect` and `occluded` are faster than
+    // single rays from about ten rays on. `coherence` describes the rays (primitives/aggregate.h):
+    // Coherent speeds up eye rays in tiles and shadow rays of a point light, slows down other rays,
+    // and changes no hit. Throws Error (Usage) when two spans differ in length.
     void intersect(std::span<const Ray> rays, std::span<Hit> hits, RayMask mask = kAllRays,
                    Coherence coherence = Coherence::Any) const;
     void occluded(std::span<const Ray> rays, std::span<bool> occluded, RayMask mask = kAllRays,
                   Coherence coherence = Coherence::Any) const;
     void all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask = kAllRays) const;
 
-    /// Where a hit of this very tracer lies and what it belongs to. `leaving_ray`
-    /// (primitives/surface.h) begins the next ray there. Throws Error (Usage) when nothing was hit.
+    /// The surface at a hit of this tracer. `leaving_ray` (primitives/surface.h) starts the next
+    /// ray there. Throws Error (Usage) without a hit.
     [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
 
-    /// Spans, thickness and points inside, of the geometry that bounds volumes. Finds out which
-    /// does (a sort of the edges of every mesh): to be made once. Shares the geometry with the
-    /// tracer.
+    /// Spans, thickness and containment queries for geometry that bounds volumes. Creation tests
+    /// which geometry does (a sort of the edges of every mesh): create once. Shares the geometry
+    /// with the tracer.
     [[nodiscard]] SolidQueries solids() const { return SolidQueries(aggregate_); }
 
-    /// Holds all geometry; empty for an empty scene, infinite with planes in it.
+    /// Bounds all geometry; empty for an empty scene, infinite with planes.
     [[nodiscard]] Box3 box() const { return aggregate_->box(); }
     [[nodiscard]] std::size_t geometry_count() const { return geometry_count_; }
-    /// Bytes of the acceleration structure, without those of instanced tracers.
+    /// Bytes of the acceleration structure, excluding instanced tracers.
     [[nodiscard]] std::size_t memory_bytes() const { return aggregate_->memory_bytes(); }
-    /// For code that counts steps or asks for more than this class offers. It takes directions as
-    /// they are: of 2^-40 to 2^40 they give what this class gives.
+    /// For step counts and queries beyond this class. Takes directions unscaled: lengths of 2^-40
+    /// to 2^40 give the results of this class.
     [[nodiscard]] const Aggregate& aggregate() const { return *aggregate_; }
 
   private:
@@ -116,7 +114,7 @@ class Tracer {
 
     std::shared_ptr<const Aggregate> aggregate_;
     std::size_t geometry_count_;
-    std::size_t depth_;  ///< levels of instances
+    std::size_t depth_;  ///< levels of instancing
 };
 
 }  // namespace alhazen

@@ -9,7 +9,7 @@
 namespace alhazen {
 namespace {
 
-/// Where findings are said to be.
+/// The location of findings.
 FileLocation place_of(std::uint32_t geometry) {
     return {"geometry " + std::to_string(geometry), 0, 0};
 }
@@ -19,7 +19,7 @@ void check_transform(const Affine& transform, std::uint32_t geometry) {
     throw Error(ErrorKind::Scene, "the transform is singular or not finite", place_of(geometry));
 }
 
-/// Of a mesh or an analytic shape.
+/// Adds a mesh or an analytic shape.
 template <class Shape>
 void check_shape(const Shape& shape, std::uint32_t geometry) {
     Diagnostics diagnostics;
@@ -66,7 +66,7 @@ GeometryId TracerScene::add_mesh(std::shared_ptr<const TriangleMesh> mesh,
                                  const GeometryOptions& options) {
     if (!mesh) throw Error(ErrorKind::Usage, "the mesh is a null pointer", place_of(count_));
     if (!mesh->vertex_materials.empty()) {
-        throw Error(ErrorKind::Usage, "the mesh has materials at its vertices, expected none",
+        throw Error(ErrorKind::Usage, "the mesh has vertex materials; expected none",
                     place_of(count_));
     }
     const Affine& transform = options.world_from_geometry;

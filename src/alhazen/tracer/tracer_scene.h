@@ -1,10 +1,10 @@
 #pragma once
-/// The geometry that a `Tracer` is built over, collected piece by piece.
+/// Collects the geometry of a `Tracer`, piece by piece.
 ///
-/// Conventions: lengths are in any one unit, coordinates double; triangles are counter-clockwise
-/// from outside. What is added is checked at once: Error (Scene) lists what is wrong with it, and
-/// the scene is then as it was before.
-/// Complexity and threads: O(size of what is added); one thread at a time. Copies share meshes.
+/// Conventions: any one unit of length, coordinates in double; triangles are counter-clockwise from
+/// outside. Geometry is checked when it is added: Error (Scene) lists the findings, and the scene
+/// is unchanged. Complexity and threads: O(size of the geometry added); one thread at a time.
+/// Copies share meshes.
 
 #include <array>
 #include <cstdint>
@@ -21,51 +21,51 @@ namespace alhazen {
 
 class Tracer;
 
-/// One call of an `add` function: 0 for the first, then 1 and so on.
+/// Identifies one call of an `add` function: 0 for the first, then 1 and so on.
 enum class GeometryId : std::uint32_t {};
 
 struct GeometryOptions {
-    /// Where it stands: any affine transform that can be inverted.
+    /// Placement: any invertible affine transform.
     Affine world_from_geometry{};
-    /// Which rays see it: those whose mask has a bit in common with this one. What the bits mean is
-    /// up to the program; 0: none sees it.
+    /// Visible to rays whose mask has a bit in common with this one; the program defines the bits.
+    /// 0: invisible.
     RayMask visible_to = kAllRays;
 };
 
 class TracerScene {
   public:
-    /// A mesh, copied. positions[vertex]; triangles[triangle] are three indices of vertices.
+    /// Adds a mesh, copied. positions[vertex]; triangles[triangle] are three vertex indices.
     /// Triangles without area are kept and never hit.
     GeometryId add_mesh(std::span<const Vec3> positions,
                         std::span<const std::array<std::uint32_t, 3>> triangles,
                         const GeometryOptions& options = {});
-    /// The same of flat arrays: coordinates[3 * vertex + axis], indices[3 * triangle + corner].
-    /// Throws Error (Usage) where a length is no multiple of three.
+    /// The same from flat arrays: coordinates[3 * vertex + axis], indices[3 * triangle + corner].
+    /// Throws Error (Usage) when a length is not a multiple of three.
     GeometryId add_mesh(std::span<const float> coordinates, std::span<const std::uint32_t> indices,
                         const GeometryOptions& options = {});
-    /// A mesh with all that a vertex may carry but materials. Without a transform it is not copied,
-    /// and must not be changed any more.
+    /// Adds a mesh with all vertex attributes except materials. Without a transform the mesh is
+    /// shared, not copied, and must not change any more.
     GeometryId add_mesh(std::shared_ptr<const TriangleMesh> mesh,
                         const GeometryOptions& options = {});
 
     GeometryId add_sphere(const Vec3& center, double radius, const GeometryOptions& options = {});
-    /// Any shape of shapes/shape_list.h, exact and not tessellated: add(Cylinder{...}).
+    /// Adds any shape of shapes/shape_list.h, exact and not tessellated: add(Cylinder{...}).
     GeometryId add(const AnyShape& shape, const GeometryOptions& options = {});
-    /// All that `inner` traces, once more in another place, without a copy: instances of instances
-    /// may be `kMaxInstanceDepth` deep.
+    /// Adds all geometry of `inner` at another placement, without a copy. Instances may be nested
+    /// `kMaxInstanceDepth` deep.
     GeometryId add_instance(const Tracer& inner, const GeometryOptions& options = {});
 
     [[nodiscard]] std::size_t geometry_count() const { return count_; }
 
   private:
     friend class Tracer;
-    /// Puts a mesh that was checked into the table.
+    /// Adds a checked mesh to the table.
     GeometryId place_mesh(std::shared_ptr<const TriangleMesh> mesh, bool mirrored,
                           RayMask visible_to);
 
-    PrimitiveTable table_;  ///< `part` of what is in it is the GeometryId
+    PrimitiveTable table_;  ///< `part` of an entry is its GeometryId
     std::uint32_t count_ = 0;
-    std::size_t depth_ = 0;  ///< levels of instances
+    std::size_t depth_ = 0;  ///< levels of instancing
 };
 
 }  // namespace alhazen

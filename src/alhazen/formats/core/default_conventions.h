@@ -1,5 +1,5 @@
 #pragma once
-/// The conventions of native scenes, and of formats that have none of their own.
+/// Shading conventions of native scenes and of formats that define none.
 
 #include "alhazen/scene_model/conventions.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Bytes in, scene description and diagnostics out. To add a format: CONTRIBUTING.md.
+/// Importer interface: bytes in, scene description and diagnostics out. Adding a format:
+/// CONTRIBUTING.md.
 
 #include <filesystem>
 #include <optional>
@@ -14,32 +15,33 @@
 namespace alhazen {
 
 struct ImportOptions {
-    /// Files named by the scene are looked for relative to the scene file. They must lie inside its
-    /// own folder (or what the format prescribes) or one of these, symbolic links followed.
+    /// File names in a scene are resolved relative to the scene file. The files must lie in the
+    /// scene's folder (or the one that the format prescribes) or in one of these folders, after
+    /// following symbolic links.
     std::vector<std::filesystem::path> allowed_folders;
-    int max_nesting = 256;  ///< of blocks and groups in text formats
+    int max_nesting = 256;  ///< nesting depth of blocks and groups in text formats
     int max_include_depth = 16;
     std::uint64_t max_included_bytes = std::uint64_t{1} << 32;
-    /// Vertices, triangles or primitives in one file. glTF counts what it reads: elements of
-    /// accessors, once for each use (a mesh read for two sets of morph weights counts twice). JSON
-    /// values: a twentieth of this, or a million.
+    /// Limit on vertices, triangles or primitives per file. glTF counts accessor elements once per
+    /// use (a mesh read for two sets of morph weights counts twice). JSON values: the larger
+    /// of a twentieth of this limit and one million.
     std::uint64_t max_elements = 400'000'000;
-    /// Memory for the meshes and parts that a glTF file makes, also of shared data by morph
-    /// weights, skins and instances; none: 64 MiB and 64 times the bytes of the file and its
-    /// buffers, at most 16 GiB.
+    /// Memory limit of the meshes and parts that a glTF file generates, including shared data
+    /// expanded by morph weights, skins and instances. None: 64 MiB plus 64 times the bytes of the
+    /// file and its buffers, at most 16 GiB.
     std::optional<std::uint64_t> max_made_bytes;
-    ImageLimits image_limits;  ///< of each texture
+    ImageLimits image_limits;  ///< per texture
     std::optional<double>
-        time;  ///< seconds: animations of the file are applied at this time; none: as at rest
-    std::string animation;  ///< name or position of the only animation to apply; empty: all
-    std::vector<std::string> objects;   ///< names of what is to be seen; none: all of the file
-    std::filesystem::path view_script;  ///< a file of views beside the scene; empty: none
+        time;               ///< seconds: the time at which animations are sampled; none: rest pose
+    std::string animation;  ///< name or index of the animation to apply; empty: all
+    std::vector<std::string> objects;   ///< names of the objects to import; empty: all
+    std::filesystem::path view_script;  ///< file of views that accompanies the scene; empty: none
 };
 
-/// What an importer is given: the file's bytes (already read) and where they came from.
+/// Input of an importer: the bytes of the file and their origin.
 struct ImportSource {
     std::string_view bytes;
-    std::filesystem::path path;  ///< used in locations and to resolve the names of other files
+    std::filesystem::path path;  ///< for error locations and for resolving file names
     const ImportOptions& options;
 };
 
@@ -48,15 +50,15 @@ class Importer {
     virtual ~Importer() = default;
     [[nodiscard]] virtual const char* name() const = 0;         ///< as in `alhazen list formats`
     [[nodiscard]] virtual const char* description() const = 0;  ///< one line
-    /// How sure the importer is that the bytes are its format: 0 no, 1 by the suffix only, 2 by the
-    /// content.
+    /// Confidence that the bytes are of this format: 0 none, 1 by suffix only, 2 by content.
     [[nodiscard]] virtual int recognise(const ImportSource& source) const = 0;
-    /// Makes only what `ImportOptions::objects` names; of other formats it is chosen afterwards.
+    /// True when the importer creates only the objects of `ImportOptions::objects`; otherwise they
+    /// are selected after import.
     [[nodiscard]] virtual bool chooses_objects() const { return false; }
-    /// Whether `ImportOptions::view_script` is for this format.
+    /// True when the format supports `ImportOptions::view_script`.
     [[nodiscard]] virtual bool reads_view_scripts() const { return false; }
-    /// Reads all that can be read. Findings go to `diagnostics`; the result is only used when none
-    /// is an error. Throws Error only for limits (Resource) and for files that cannot be read.
+    /// Imports all readable content. Findings go to `diagnostics`; the result is valid only without
+    /// errors. Throws Error only for limits (Resource) and unreadable files.
     [[nodiscard]] virtual SceneDescription import(const ImportSource& source,
                                                   Diagnostics& diagnostics) const = 0;
 };

@@ -15,7 +15,7 @@ std::uint64_t seed_of_process() {
         std::random_device device;
         for (int i = 0; i < 2; ++i) seed = mix64(seed ^ device());
     } catch (const std::exception&) {
-        // Without a source of randomness the time has to do.
+        // No random device: the clock alone is the seed.
     }
     return seed;
 }

@@ -1,10 +1,10 @@
 #pragma once
-/// Numbers keys in the order of their first use: a hash table with linear probing whose keys are
-/// kept by the caller, in a list.
+/// Numbers keys in the order of their first use: a hash table with linear probing; the caller
+/// stores the keys in a list.
 ///
-/// Conventions: hashes begin at a number that differs from run to run and from table to table, so
-/// that no file can be made whose keys all fall on one slot. The numbering does not depend on it.
-/// Complexity: O(1) expected a call; two to four slots of 4 bytes a key.
+/// Conventions: hashes are seeded differently per run and per table, so no file can be crafted
+/// whose keys all collide. The numbering does not depend on the seed. Complexity: O(1) expected per
+/// call; two to four slots of 4 bytes per key.
 
 #include <bit>
 #include <cstddef>
@@ -18,24 +18,24 @@ namespace alhazen {
 
 class IndexTable {
   public:
-    /// For about `expected` keys.
+    /// Reserves for about `expected` keys.
     explicit IndexTable(std::size_t expected = 0)
         : slots_(std::bit_ceil(2 * expected + 16), kNone), seed_(new_seed()) {}
 
-    /// The hash of a key of these words.
+    /// Hash of a key that consists of these words.
     [[nodiscard]] std::uint64_t hash(std::initializer_list<std::uint64_t> words) const {
         std::uint64_t hash = seed_;
         for (const std::uint64_t word : words) hash = mix64(hash ^ word);
         return hash;
     }
 
-    /// The number of the key with this hash: the one of the `count` numbers given out so far for
-    /// which `is_key(number)`, else `count`, which the caller must then add to its list.
-    /// `hash_of(number)` are the hashes of those.
+    /// The number of the key with this hash: the existing number below `count` for which
+    /// `is_key(number)` holds, otherwise `count`; the caller then appends the key to its list.
+    /// `hash_of(number)` returns the hashes of existing keys.
     template <class IsKey, class HashOf>
     std::uint32_t find_or_add(std::uint64_t hash, std::size_t count, const IsKey& is_key,
                               const HashOf& hash_of) {
-        // Before the key is added: its hash cannot be asked for yet.
+        // Grows before the new key exists: its hash cannot be queried yet.
         if (2 * (count + 1) > slots_.size()) grow(count, hash_of);
         std::size_t slot = slot_of(hash);
         for (; slots_[slot] != kNone; slot = slot_of(slot + 1)) {
@@ -62,7 +62,7 @@ class IndexTable {
         }
     }
 
-    std::vector<std::uint32_t> slots_;  ///< a power of two of them
+    std::vector<std::uint32_t> slots_;  ///< size: a power of two
     std::uint64_t seed_;
 };
 

@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// A face's vertex number, if it is one.
+/// Reads a vertex index of a face.
 bool read_index(TextNode value, std::string_view what, std::size_t vertices,
                 const ValueReader& values, std::uint32_t& out) {
     if (!value.is(NodeKind::Number)) return values.fail(value, what, "a vertex number");
@@ -24,7 +24,7 @@ bool read_index(TextNode value, std::string_view what, std::size_t vertices,
     return false;
 }
 
-/// All elements are read even after a bad one, so that every finding is reported.
+/// Reads all elements even after an error, to report every finding.
 template <class T>
 bool read_all(TextNode list, std::string_view what, const ValueReader& values,
               std::vector<T>& out) {

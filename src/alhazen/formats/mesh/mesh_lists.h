@@ -1,8 +1,8 @@
 #pragma once
-/// Lists of points, faces, normals and texture coordinates, as both text formats write them.
+/// Lists of points, faces, normals and texture coordinates in both text formats.
 ///
-/// Conventions: each function reports what is wrong with its place and then returns false; arrays
-/// at the vertices must have one entry per position.
+/// Conventions: each function reports errors with their location and returns false; vertex arrays
+/// must have one entry per position.
 
 #include <string_view>
 
@@ -11,20 +11,20 @@
 
 namespace alhazen {
 
-/// `((x, y, z), ...)` into mesh.positions.
+/// Reads `((x, y, z), ...)` into mesh.positions.
 bool read_points(TextNode list, std::string_view what, const ValueReader& values,
                  TriangleMesh& mesh);
-/// `((i, j, k, ...), ...)` into mesh.triangles; faces of more than three vertices become fans from
-/// the first. Needs the positions, to check the indices.
+/// Reads `((i, j, k, ...), ...)` into mesh.triangles; faces of more than three vertices become fans
+/// around the first vertex. Precondition: the positions are read (bounds of the indices).
 bool read_faces(TextNode list, std::string_view what, const ValueReader& values,
                 TriangleMesh& mesh);
-/// `((x, y, z), ...)` into mesh.normals, made unit.
+/// Reads `((x, y, z), ...)` into mesh.normals, normalised.
 bool read_normals(TextNode list, std::string_view what, const ValueReader& values,
                   TriangleMesh& mesh);
-/// `((u, v), ...)` into mesh.uvs.
+/// Reads `((u, v), ...)` into mesh.uvs.
 bool read_uvs(TextNode list, std::string_view what, const ValueReader& values, TriangleMesh& mesh);
 
-/// Reports unless the list has `vertices` entries.
+/// Reports an error unless the list has `vertices` entries.
 bool has_one_per_vertex(TextNode list, std::string_view what, std::size_t vertices,
                         const ValueReader& values);
 

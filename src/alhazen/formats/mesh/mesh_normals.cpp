@@ -4,8 +4,8 @@ namespace alhazen {
 
 namespace {
 
-/// Makes `v` unit; false when it has no direction. Scaled first, so that squares neither vanish nor
-/// overflow.
+/// Normalises `v`; false when it has no direction. Scales first, so that squares neither underflow
+/// nor overflow.
 bool make_unit(Vec3& v) {
     const double scale = max_component(abs(v));
     if (!is_finite(v) || scale == 0.0) return false;

@@ -1,15 +1,14 @@
 #pragma once
-/// Vertex normals as mesh files give them, made into what a TriangleMesh promises.
+/// Converts vertex normals of mesh files to those that a TriangleMesh requires.
 ///
-/// Conventions: normals of any length become unit; one that is zero or not finite is replaced by
-/// the mean normal of the vertex's triangles (weighted by area), or by +z where those have none
-/// either.
+/// Conventions: normals of any length are normalised; a zero or nonfinite normal is replaced by the
+/// area-weighted mean normal of the vertex's triangles, or by +z where that is zero too.
 
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 
 namespace alhazen {
 
-/// Does nothing for a mesh without normals. Precondition: indices are in range.
+/// No effect on a mesh without normals. Precondition: indices are in range.
 void make_normals_unit(TriangleMesh& mesh);
 
 }  // namespace alhazen

@@ -1,9 +1,9 @@
 #pragma once
-/// What the scenes of all mesh formats have in common.
+/// Scene construction common to all mesh formats.
 ///
-/// Conventions: pictures are sRGB, attenuation is not clamped, the air's index is 1 (as in native
-/// scenes); a mesh without a material of its own is matt grey. Such files have neither cameras
-/// nor lights.
+/// Conventions: images are sRGB, attenuation is unclamped, the refractive index of air is 1 (as in
+/// native scenes); a mesh without a material is matte grey. The scenes have neither cameras nor
+/// lights.
 
 #include <string>
 #include <string_view>
@@ -16,20 +16,20 @@ namespace alhazen {
 [[nodiscard]] SceneDescription make_mesh_scene(const ImportSource& source, const char* format,
                                                UpAxis up);
 
-/// Matt grey, 0.7; white below the colours of vertices, which are then what is seen.
+/// Matte grey, 0.7; white for a mesh with vertex colours, which then appear unchanged.
 [[nodiscard]] Material default_mesh_material(bool colored = false);
 
-/// Adds a mesh as a part of the root. `name` is also that of the part.
+/// Adds a mesh as a part of the root; `name` names the mesh and the part.
 void add_mesh(SceneDescription& scene, TriangleMesh mesh, std::string name, MaterialId material,
               const FileLocation& where);
 
-/// The error of a file that has vertices only, or nothing at all.
+/// Reports the error of a file with vertices only, or without any content.
 void report_no_faces(const ImportSource& source, std::size_t points, Diagnostics& diagnostics);
 
-/// Reports text in UTF-16, and files that are empty or hold bytes that no text has. False then.
+/// Reports UTF-16 text, empty files and files with bytes that occur in no text; then false.
 bool is_plain_text(const ImportSource& source, Diagnostics& diagnostics);
 
-/// Whether the file's name ends like this, whatever the capitals; `suffix` with its dot.
+/// True when the file name ends with `suffix` (including its dot), ignoring case.
 [[nodiscard]] bool has_suffix(const std::filesystem::path& path, std::string_view suffix);
 
 }  // namespace alhazen

@@ -1,8 +1,8 @@
 #pragma once
-/// Gives corners of exactly equal position the same vertex.
+/// Merges corners of exactly equal position into one vertex.
 ///
-/// Conventions: -0 equals 0 and is stored as 0; positions must not be NaN.
-/// Complexity: as IndexTable; the keys are the positions of the mesh itself.
+/// Conventions: -0 equals 0 and is stored as 0; positions must not be NaN. Complexity: as
+/// IndexTable; the keys are the mesh positions.
 
 #include <bit>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace alhazen {
 
 class VertexWelder {
   public:
-    /// Vertices are added to `mesh`, which must be empty; about `expected` of them.
+    /// Appends vertices to `mesh`, which must be empty; reserves for about `expected`.
     VertexWelder(TriangleMesh& mesh, std::size_t expected) : mesh_(mesh), table_(expected) {
         mesh_.positions.reserve(expected);
     }

@@ -18,12 +18,12 @@ bool mirrors(const Affine& placement) {
     return determinant(placement.linear) < 0.0;
 }
 
-/// The vertices of a triangle, turned around where the placement mirrors.
+/// The vertices of a triangle, reversed under a mirroring placement.
 std::array<std::uint32_t, 3> placed(const std::array<std::uint32_t, 3>& t, bool mirrored) {
     return mirrored ? std::array{t[0], t[2], t[1]} : t;
 }
 
-/// n of a placed mesh; zero where it has no direction.
+/// Transformed normal of a placed mesh; zero where it has no direction.
 Vec3 placed_normal(const Mat3& mesh_from_file, const Vec3& normal) {
     const Vec3 n = transpose_times(mesh_from_file, normal);
     const double size = length(n);
@@ -65,7 +65,7 @@ void add_mesh(const NamedMesh& from, const Arrays& arrays, TriangleMesh& out) {
         }
         return;
     }
-    // Flat among smooth ones: each triangle gets vertices of its own.
+    // A flat mesh among smooth ones: each triangle gets vertices of its own.
     for (const auto& t : mesh.triangles) {
         const std::uint32_t first = std::uint32_t(out.positions.size());
         const Vec3& p = mesh.positions[t[0]];
@@ -90,7 +90,7 @@ void append_vector(std::string& out, const char* word, const Vec3& v) {
     for (const double c : {v.x, v.y, v.z}) append_number(out, c);
 }
 
-/// How many vertices, texture coordinates and normals were written before.
+/// Indices of the next vertex, texture coordinate and normal, from 1.
 struct ObjOffsets {
     std::uint64_t positions = 1, uvs = 1, normals = 1;
 };

@@ -1,11 +1,11 @@
 #pragma once
-/// Triangle meshes as the bytes of mesh files: PLY for ourselves, PLY, OBJ and STL for others.
+/// Triangle meshes as bytes of mesh files: PLY for the library, PLY, OBJ and STL for export.
 ///
-/// Conventions: binary little-endian PLY, text OBJ, binary STL. Numbers are written with all their
-/// bits where the format has room: PLY uses float for arrays whose values are floats, else double;
-/// OBJ the shortest decimals that read back equal; STL has floats only, so positions are rounded.
-/// Placements are applied to positions, normals and tangents; one that mirrors also turns the
-/// triangles around, so that the outside stays outside. Names of properties:
+/// Conventions: binary little-endian PLY, text OBJ, binary STL. Numbers keep all bits where the
+/// format has the capacity: PLY uses float for arrays whose values are floats, otherwise double;
+/// OBJ uses the shortest decimals that read back equal; STL has floats only, so positions are
+/// rounded. Placements apply to positions, normals and tangents; a mirroring placement also
+/// reverses the triangle orientation, so that the outside stays outside. Property names:
 /// docs/reference/formats/ply.md.
 
 #include <span>
@@ -23,26 +23,26 @@ struct NamedMesh {
     std::string name;
     const TriangleMesh* mesh = nullptr;  ///< never null
     Affine placement;                    ///< file_from_mesh
-    std::string material;                ///< OBJ: its `usemtl`; empty: none
+    std::string material;                ///< OBJ: name for `usemtl`; empty: none
 };
 
-/// One mesh as it is; read_ply gives every array back bit for bit.
+/// One mesh unchanged; read_ply returns every array bit for bit.
 [[nodiscard]] std::string ply_bytes(const TriangleMesh& mesh);
-/// All meshes as one. Arrays that only some have are filled in where they lack: white, face
-/// normals, zero texture coordinates; tangents and vertex materials are left out. Throws Error
+/// All meshes as one. Arrays that only some meshes have are filled with defaults: white, face
+/// normals, zero texture coordinates. Tangents and vertex materials are omitted. Throws Error
 /// (Resource) beyond 2^32 - 1 vertices.
 [[nodiscard]] std::string ply_bytes(std::span<const NamedMesh> meshes);
 
 /// One `o` per mesh. `mtllib` names the material file; empty: none.
 [[nodiscard]] std::string obj_text(std::span<const NamedMesh> meshes,
                                    const std::string& mtllib = {});
-/// A texture beside an MTL file.
+/// A texture that accompanies an MTL file.
 struct MtlTexture {
-    std::string file;  ///< of the picture, relative to the MTL file; empty: the map is left out
+    std::string file;  ///< image file, relative to the MTL file; empty: the map is omitted
     Texture settings;
 };
-/// The MTL file of these materials, by their names; `textures` [texture]. Adds a line to `lost` for
-/// each kind of thing that MTL cannot say.
+/// The MTL file of these materials, by name; `textures` [texture]. Appends a line to `lost` for
+/// each kind of property that MTL cannot express.
 [[nodiscard]] std::string mtl_text(std::span<const Material> materials,
                                    std::span<const MtlTexture> textures,
                                    std::vector<std::string>& lost);

@@ -1,5 +1,4 @@
-// Materials as MTL: what the format can say of them, and a line about each kind of thing that it
-// cannot.
+// Materials as MTL, with a line for each kind of property that MTL cannot express.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// What was lost: each kind once, with how often and where first.
+/// Lost properties: each kind once, with its count and first occurrence.
 class Losses {
   public:
     void add(const std::string& what, const std::string& material) {
@@ -51,10 +50,10 @@ class MtlWriter {
             out_ += "newmtl " + name_ + '\n';
             m.metallic_roughness ? metallic_roughness(m, *m.metallic_roughness) : whitted(m);
             color("Ke", "map_Ke", m.emission);
-            if (m.alpha_mode == AlphaMode::Mask) lose("the threshold of alpha");
+            if (m.alpha_mode == AlphaMode::Mask) lose("the alpha threshold");
             if (m.alpha_mode != AlphaMode::Opaque) scalar("d", "map_d", m.alpha);
-            if (!m.double_sided) lose("that only the front is seen");
-            if (m.index.texture != kNoTexture) lose("the picture of the index of refraction");
+            if (!m.double_sided) lose("single-sided visibility");
+            if (m.index.texture != kNoTexture) lose("the texture of the index of refraction");
             map("norm", m.normal_map.texture, false, bump_option(m.normal_map.scale));
         }
         return std::move(out_);
@@ -68,20 +67,20 @@ class MtlWriter {
         const bool mirror = !is_black(m.reflective);
         color("Ka", "map_Ka", m.ambient);
         color("Kd", "map_Kd", m.diffuse);
-        // One colour stands for the highlight and the reflection.
+        // One colour serves the highlight and the reflection.
         const bool highlight = !is_black(m.specular);
         if (mirror && highlight &&
             (m.specular.color != m.reflective.color ||
              m.specular.texture != m.reflective.texture)) {
-            lose("that highlight and reflection differ in colour");
+            lose("different colours of highlight and reflection");
         }
         color("Ks", "map_Ks", highlight ? m.specular : m.reflective);
-        // An exponent would make a highlight of the colour of the reflection.
+        // An exponent would create a highlight in the colour of the reflection.
         scalar("Ns", "map_Ns", highlight || !mirror ? m.shininess : ScalarInput{});
         number("Ni", m.index.value);
         if (glass) {
             color("Tf", nullptr, m.transmissive);
-            if (!mirror && highlight) lose("that glass with a highlight does not reflect");
+            if (!mirror && highlight) lose("glass with a highlight but without reflection");
         }
         out_ += glass ? "illum 7\n" : mirror ? "illum 3\n" : "illum 2\n";
     }
@@ -96,22 +95,23 @@ class MtlWriter {
         } else {
             out_ += "illum 2\n";
         }
-        if (mr.occlusion.texture != kNoTexture) lose("the picture of occlusion");
+        if (mr.occlusion.texture != kNoTexture) lose("the occlusion texture");
         if (mr.specular.value != 1.0 || mr.specular.texture != kNoTexture ||
             mr.specular_color.color != Rgb{1, 1, 1} || mr.specular_color.texture != kNoTexture) {
             lose("strength and colour of the dielectric reflection");
         }
-        if (mr.unlit) lose("that it is not lit");
-        if (mr.transmission.value > 0.0 && mr.thickness.value == 0.0) lose("that it is thin");
+        if (mr.unlit) lose("unlit shading");
+        if (mr.transmission.value > 0.0 && mr.thickness.value == 0.0)
+            lose("thin-walled transmission");
         if (std::isfinite(mr.attenuation_distance) && mr.attenuation_color != Rgb{1, 1, 1}) {
-            lose("the colour of its inside");
+            lose("the attenuation colour");
         }
     }
 
     static bool is_black(const ColorInput& c) {
         return c.texture == kNoTexture && c.color.is_black();
     }
-    /// `map_word` null: there is no such statement.
+    /// `map_word` null: no such statement exists.
     void color(const char* word, const char* map_word, const ColorInput& input) {
         out_ += word;
         for (const double c : {input.color.r, input.color.g, input.color.b}) {
@@ -119,8 +119,8 @@ class MtlWriter {
         }
         out_ += '\n';
         if (input.texture == kNoTexture) return;
-        if (map_word == nullptr) return lose("a picture beside " + std::string(word));
-        // Black beside a picture is read as white.
+        if (map_word == nullptr) return lose("the texture of " + std::string(word));
+        // Black together with an image would read back as white.
         if (!input.color.is_black()) map(map_word, input.texture, true);
     }
     void scalar(const char* word, const char* map_word, const ScalarInput& input) {
@@ -163,22 +163,22 @@ class MtlWriter {
     }
     void wrap(const Texture& t) {
         if (t.wrap_u == Wrap::Mirror || t.wrap_v == Wrap::Mirror) {
-            lose("the mirrored repeat of a picture");
+            lose("the mirrored repeat of a texture");
         } else if (t.wrap_u != t.wrap_v) {
-            lose("that a picture is repeated along one axis only");
+            lose("the repeat of a texture along one axis only");
         } else if (t.wrap_u == Wrap::Clamp) {
             out_ += " -clamp on";
         }
     }
     void lookup(const Texture& t, bool is_color) {
         if (t.uv_set != 0) lose("the second set of texture coordinates");
-        if (t.filter != TextureFilter::Mipmapped) lose("the filter of a picture");
-        if (t.corner_texels) lose("that texels lie at the corners of a picture");
-        // Colours of 8 and 16 bits are read as sRGB, all else as it is.
+        if (t.filter != TextureFilter::Mipmapped) lose("the filter of a texture");
+        if (t.corner_texels) lose("corner-aligned texels");
+        // 8-bit and 16-bit colours are read as sRGB, all others as linear.
         const bool codes = t.image && !std::holds_alternative<std::vector<float>>(t.image->samples);
         if (t.image && t.decode_srgb != (is_color && codes)) {
-            lose(t.decode_srgb ? "that a picture of numbers is sRGB"
-                               : "that the colours of a picture are linear");
+            lose(t.decode_srgb ? "the sRGB encoding of a data texture"
+                               : "the linear encoding of a colour texture");
         }
     }
     void three_numbers(const char* word, double a, double b, double c) {
@@ -188,7 +188,7 @@ class MtlWriter {
 
     std::span<const MtlTexture> textures_;
     Losses& losses_;
-    std::string name_;  ///< of the material that is being written
+    std::string name_;  ///< of the current material
     std::string out_;
 };
 

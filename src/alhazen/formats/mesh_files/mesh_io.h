@@ -1,5 +1,5 @@
 #pragma once
-/// Mesh files that scenes refer to: PLY, OBJ and STL as one TriangleMesh.
+/// Reads the mesh files that scenes refer to: PLY, OBJ and STL as one TriangleMesh.
 
 #include <filesystem>
 
@@ -7,9 +7,9 @@
 
 namespace alhazen {
 
-/// Reads a PLY (ascii, both binary orders, any property order, polygons of any size), OBJ (geometry
-/// only, materials ignored) or STL file (all solids as one), recognised by content. Findings go to
-/// `diagnostics` with file:line; the mesh is empty when it could not be read. Throws Error (File,
+/// Reads a PLY (ascii, both binary byte orders, any property order, polygons of any size), OBJ
+/// (geometry only, materials ignored) or STL file (all solids as one), recognised by content.
+/// Findings go to `diagnostics` with file:line; the mesh is empty on failure. Throws Error (File,
 /// Resource).
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path,
                                      const ImportOptions& options, Diagnostics& diagnostics);

@@ -11,8 +11,7 @@ namespace alhazen {
 
 namespace {
 
-/// A polygon is a shape of its own only when its vertices lie in a plane, up to the six digits of
-/// the files.
+/// A polygon becomes a shape only when its vertices are coplanar to the six digits of the files.
 bool is_planar(const std::vector<Vec3>& vertices, const Vec3& unit_normal) {
     double reach = 0.0;
     double off = 0.0;
@@ -53,7 +52,7 @@ void NffBuilder::set_fill(const NffFill& fill, const FileLocation& where) {
     material.reflective.color = fill.specular;
     material.transmissive.color = grey(fill.transmission);
     material.shininess.value = fill.shininess;
-    // Opaque materials carry 0 by custom.
+    // Opaque materials have 0 by custom.
     material.index.value = fill.index > 0.0 ? fill.index : 1.0;
     scene_.materials.push_back({std::move(material), where});
 }

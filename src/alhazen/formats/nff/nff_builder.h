@@ -1,10 +1,10 @@
 #pragma once
-/// Collects what an NFF file says into a scene description: equal materials once, triangles in one
-/// mesh per material, lights with their default intensity.
+/// Builds a scene description from NFF statements: equal materials once, triangles in one mesh per
+/// material, lights with their default intensity.
 ///
-/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987.
-/// Differs: all surfaces have two sides.
-/// Conventions: triangles keep the order of the file within their mesh; other polygons are shapes.
+/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987. Differs:
+/// all surfaces are two-sided. Conventions: triangles keep the file order within their mesh; other
+/// polygons are shapes.
 
 #include <array>
 #include <map>
@@ -16,7 +16,7 @@
 
 namespace alhazen {
 
-/// The statement `f`, or `fm`, which gives the colours one by one.
+/// The statement `f`, or `fm`, which gives the colours individually.
 struct NffFill {
     Rgb ambient, diffuse, specular;
     double shininess = 0, transmission = 0, index = 1;
@@ -40,10 +40,10 @@ class NffBuilder {
     void add_sphere(const Vec3& center, double radius, const FileLocation& where);
     void add_cone(const Vec3& base, double base_radius, const Vec3& apex, double apex_radius,
                   const FileLocation& where);
-    /// Normals as many as vertices, or none.
+    /// Precondition: as many normals as vertices, or none.
     void add_polygon(const std::vector<Vec3>& vertices, const std::vector<Vec3>& normals,
                      const FileLocation& where);
-    /// Adds the camera, the lights' intensities and the normals of meshes.
+    /// Adds the camera, the intensities of the lights and the mesh normals.
     void finish(const NffView& view);
 
   private:
@@ -60,8 +60,9 @@ class NffBuilder {
     Diagnostics& diagnostics_;
     std::map<std::array<double, 12>, MaterialId> materials_;
     std::optional<MaterialId> material_;
-    std::map<std::pair<MaterialId, bool>, std::size_t> meshes_;  ///< by material and smoothness
-    std::vector<bool> default_intensity_;                        ///< per light
+    std::map<std::pair<MaterialId, bool>, std::size_t>
+        meshes_;                           ///< [material, smooth] index of the mesh
+    std::vector<bool> default_intensity_;  ///< per light
     std::optional<Rgb> ambient_;
     std::uint64_t elements_ = 0;
     std::uint64_t degenerate_ = 0;

@@ -27,7 +27,7 @@ Conventions nff_conventions() {
     return c;
 }
 
-/// The start of the text has lines that begin with each of the words.
+/// True when the start of the text has lines that begin with each of the words.
 bool has_lines(std::string_view text, std::span<const std::string_view> words) {
     return std::all_of(words.begin(), words.end(), [&](std::string_view word) {
         for (std::size_t at = text.find(word); at != std::string_view::npos;

@@ -13,7 +13,7 @@ struct Refusal {
     std::string_view name;
     const char* what;
 };
-/// Statements of AFF that are known and refused.
+/// AFF statements that are recognised and rejected.
 constexpr std::array<Refusal, 7> kRefused{{
     {"m", "a mesh"},
     {"xs", "a static transform"},
@@ -26,7 +26,7 @@ constexpr std::array<Refusal, 7> kRefused{{
 
 }  // namespace
 
-// NFF first, then what is read of AFF.
+// NFF first, then the supported part of AFF.
 const std::array<NffReader::Statement, 20> NffReader::kStatements{{
     {"v", &NffReader::view},
     {"from", &NffReader::from},
@@ -86,7 +86,7 @@ void NffReader::read_word() {
         refused_block_ = true;
         return;
     }
-    // The braces of a refused block are no news.
+    // Braces of a rejected block are not reported.
     if (recovering_ || (refused_block_ && (word == "{" || word == "}"))) return;
     recovering_ = true;
     error(start.location(file_),
@@ -133,7 +133,7 @@ bool NffReader::light() {
 }
 bool NffReader::animated_light() {
     if (!cursor_.skip_to_word(kComments)) return numbers(nullptr, 0);
-    cursor_.word();  // its name, for key frames
+    cursor_.word();  // name, for key frames
     warn_once("la", "the light is taken where it is defined; its animation is ignored");
     return light();
 }
@@ -189,7 +189,7 @@ bool NffReader::patch() {
 bool NffReader::polygon_of(bool with_normals) {
     double count = 0.0;
     if (!numbers(&count, 1)) return false;
-    // A vertex takes at least six bytes: "0 0 0" and what separates it from the next.
+    // A vertex takes at least six bytes: "0 0 0" and a separator.
     const double most = double(cursor_.bytes_left() / (with_normals ? 12 : 6) + 1);
     if (!(count >= 3.0 && count <= most) || count != std::floor(count)) {
         error(statement_, count < 3.0 || count != std::floor(count)

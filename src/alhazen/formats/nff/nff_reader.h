@@ -1,11 +1,11 @@
 #pragma once
-/// The statements of NFF, and those of its superset AFF that need no animation, given to an
+/// Reads the statements of NFF, and those of its superset AFF that need no animation, into an
 /// NffBuilder.
 ///
 /// Source: Haines, the NFF description of the Standard Procedural Databases; Lext, Assarsson and
 /// Möller, "A Benchmark for Animated Ray Tracing", IEEE CG&A 21(2), 2001 (AFF). Differs: numbers
-/// may be spread over lines; statements may come in any order; # and % start comments. Conventions:
-/// an error ends its statement; reading goes on at the next known word.
+/// may span lines; statements may come in any order; # and % start comments. Conventions: an error
+/// ends its statement; reading continues at the next known word.
 
 #include <array>
 #include <string>
@@ -60,7 +60,7 @@ class NffReader {
     bool numbers(double* values, int count);
     bool at_number();
     void error(const FileLocation& where, const std::string& message);
-    /// Gives a warning the first time that `what` is met.
+    /// Warns at the first occurrence of `what`.
     void warn_once(const std::string& what, const std::string& message);
 
     TextCursor cursor_;
@@ -69,7 +69,7 @@ class NffReader {
     Diagnostics& diagnostics_;
     NffBuilder builder_;
     NffView view_;
-    FileLocation statement_;  ///< of the statement being read
+    FileLocation statement_;  ///< of the current statement
     std::string statement_name_;
     std::vector<std::string> warned_;
     int errors_ = 0;

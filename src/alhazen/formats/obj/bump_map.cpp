@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// Steeper slopes are those of a wall anyway; products of them stay finite.
+/// Clamp on slopes: near vertical; products of clamped slopes stay finite.
 constexpr double kMaxSlope = 1e6;
 
 bool is_direction(const Rgba& texel) {
@@ -20,7 +20,7 @@ bool is_direction(const Rgba& texel) {
     return std::abs(length(v) - 1.0) <= 0.2;
 }
 
-/// `i` may lie one beyond either end.
+/// `i` may exceed either end by one.
 int neighbour(int i, int count, Wrap wrap) {
     if (wrap == Wrap::Clamp) return std::clamp(i, 0, count - 1);
     return (i + count) % count;
@@ -55,7 +55,7 @@ bool looks_like_normal_map(const StoredImage& picture) {
 StoredImage normals_from_heights(const StoredImage& heights, const HeightMap& map) {
     const int width = heights.width, height = heights.height;
     const double side = std::sqrt(double(width) * double(height));
-    // Of a central difference, which spans two texels.
+    // Central difference over two texels.
     const double scale =
         std::clamp(map.strength * (side / kHeightsPerSide) / 2.0, -kMaxSlope, kMaxSlope);
     const auto slope = [&](double from, double to) {

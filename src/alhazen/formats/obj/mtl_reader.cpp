@@ -23,12 +23,12 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// Reads the options in front of a picture's name, and those that some programs write behind it.
+/// Reads the options before an image name, and those that some exporters write after it.
 class MapReader {
   public:
     explicit MapReader(MtlMap& map) : map_(map) {}
 
-    /// False when an option cannot be kept.
+    /// False when an option is unsupported.
     bool read(std::string_view line) {
         TextCursor cursor(line);
         read_options(cursor);
@@ -103,7 +103,7 @@ class MapReader {
         std::array<double, 3> v{};
         if (numbers(cursor, v, 1) == 1) value = v[0];
     }
-    /// Where the first option behind the name begins.
+    /// Position of the first option after the name.
     static std::size_t options_behind(std::string_view name) {
         for (std::size_t at = name.find(" -"); at != std::string_view::npos;
              at = name.find(" -", at + 1)) {
@@ -216,13 +216,13 @@ class MtlReader {
         int count = 0;
         while (count < 3 && cursor_.skip_blanks() && cursor_.number(value[count])) ++count;
         if (count == 0) return bad_number();
-        // One number is grey; two are taken as if the third were the second.
+        // One number is grey; of two, the second also serves as the third.
         for (; count < 3; ++count) value[count] = value[count - 1];
         color = value;
     }
     void read_number(std::optional<double>& number) {
         cursor_.skip_blanks();
-        // "d -halo 0.5": the halo is not for surfaces that are triangles.
+        // "d -halo 0.5": the halo does not apply to triangle surfaces; its factor is read as d.
         if (cursor_.peek() == '-') {
             TextCursor ahead = cursor_;
             if (ahead.word() == "-halo") {

@@ -1,11 +1,11 @@
 #pragma once
-/// Reads a material library (MTL) as it stands.
+/// Reads a material library (MTL) without interpreting it.
 ///
 /// Source: "Material Library File (.mtl)", Alias/Wavefront, 1995; Exocortex, "Extending the
 /// Wavefront MTL format for Physically Based Rendering", 2014 (Pr, Pm, norm and their maps).
-/// Differs: nothing that is known is refused: what has no part in the picture is ignored, what
-/// cannot be read is a warning. Spectral curves and CIE XYZ colours are warned of.
-/// Conventions: names run to the end of their line; of two equal ones the first counts.
+/// Differs: known statements are never errors: those without effect on the image are ignored,
+/// unreadable ones are warnings. Spectral curves and CIE XYZ colours are warnings. Conventions:
+/// names extend to the end of their line; of equal names the first counts.
 
 #include <optional>
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace alhazen {
 
-/// A picture and its options.
+/// An image file and its options.
 struct MtlMap {
     std::string file;  ///< as written, or empty: none
     Vec2 offset{0, 0}, scale{1, 1};
@@ -38,7 +38,7 @@ struct MtlMaterial {
     FileLocation location;
 };
 
-/// More materials than this in one library are left out, with a warning.
+/// Limit on materials per library; further ones are dropped with a warning.
 inline constexpr std::size_t kMaxMtlMaterials = 65536;
 
 /// The materials of a library. All findings are warnings.

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Statements that other formats may begin with too (NFF has `v`, `f`, `s`): numbers must follow.
+/// Statements that other formats may also begin with (NFF has `v`, `f`, `s`): numbers must follow.
 bool begins_with_numbers(std::string_view word, TextCursor cursor) {
     static constexpr std::array<std::string_view, 3> kVectors{"v", "vn", "vt"};
     if (std::find(kVectors.begin(), kVectors.end(), word) == kVectors.end()) return false;
@@ -26,7 +26,7 @@ bool looks_like_obj(std::string_view bytes) {
     static constexpr std::array<std::string_view, 6> kFirst{"mtllib", "usemtl", "o",
                                                             "g",      "s",      "vp"};
     TextCursor cursor(bytes.substr(0, 65536));
-    // Up to the first statement that only OBJ can mean.
+    // Reads up to the first statement that is unique to OBJ.
     while (cursor.skip_to_word("#")) {
         const std::string_view word = cursor.word();
         if (begins_with_numbers(word, cursor)) return true;

@@ -14,7 +14,7 @@ class ObjImporter final : public Importer {
                                           Diagnostics& diagnostics) const override;
 };
 
-/// Whether the first statement of the text is one of OBJ, with what belongs to it.
+/// True when the first statement of the text is an OBJ statement with valid arguments.
 [[nodiscard]] bool looks_like_obj(std::string_view bytes);
 
 }  // namespace alhazen

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Illumination models in which light passes through: glass, refraction.
+/// Illumination models with transmission: glass, refraction.
 bool is_glass(const MtlMaterial& m) {
     return m.illum && (*m.illum == 4 || *m.illum == 6 || *m.illum == 7 || *m.illum == 9);
 }
@@ -21,14 +21,14 @@ Rgb white() {
     return {1, 1, 1};
 }
 
-/// The value of a coefficient beside a picture: exporters often write black, or nothing, where the
-/// picture alone is meant.
+/// The coefficient of a textured property. Exporters often write black, or nothing, where only the
+/// texture is intended: then white.
 Rgb beside(const std::optional<Rgb>& value, const MtlMap& map, const Rgb& missing = {}) {
     if (!map.file.empty() && (!value || value->is_black())) return white();
     return value.value_or(missing);
 }
 
-/// The words of a line; a backslash keeps a blank within a word.
+/// The words of a line; a backslash escapes a blank within a word.
 std::vector<std::string> words_of(const std::string& line) {
     std::vector<std::string> words(1);
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -61,7 +61,7 @@ ObjMaterials::ObjMaterials(const ImportSource& source, SceneDescription& scene,
 void ObjMaterials::load(const std::vector<ObjLibrary>& libraries) {
     for (const ObjLibrary& library : libraries) {
         const FileLocation where{source_.path.string(), int(library.line), 0};
-        // One name with blanks in it, or several.
+        // First as one name with blanks, then as several.
         if (load_library(library.names, where)) continue;
         const std::vector<std::string> names = words_of(library.names);
         std::string missing;
@@ -71,7 +71,7 @@ void ObjMaterials::load(const std::vector<ObjLibrary>& libraries) {
         }
         if (missing.empty()) continue;
         diagnostics_.warning(where, "the material file " + missing.substr(0, 1000) +
-                                        " is not there or lies outside of the scene's folder");
+                                        " does not exist or lies outside the scene's folder");
     }
 }
 
@@ -155,7 +155,7 @@ void ObjMaterials::set_reflection(const MtlMaterial& m, Material& out) {
     if (illum < 2) return;
     const ColorInput ks = color(beside(m.ks, m.map_ks), m.map_ks);
     if (reflects) out.reflective = ks;
-    // An exponent of 0 would light the whole side: exporters that write it mean no highlight.
+    // An exponent of 0 would light the whole facing side; exporters write it for "no highlight".
     const double ns = m.ns.value_or(0.0);
     if (!(ns > 0.0)) return;
     out.specular = ks;
@@ -188,7 +188,7 @@ void ObjMaterials::set_light_through(const MtlMaterial& m, Material& out) {
     out.alpha_mode = AlphaMode::Blend;
     out.alpha = {d * m.map_d.gain, map, Channel::Mean};
     if (map == kNoTexture) return;
-    // Coverage in an alpha channel, else as a grey.
+    // Coverage from the alpha channel, otherwise from the grey value.
     const bool used = !scene_.textures[std::size_t(map)].texture.image->is_opaque();
     out.alpha.channel = m.map_d.channel.value_or(used ? Channel::Alpha : Channel::Mean);
 }
@@ -212,7 +212,7 @@ NormalMap ObjMaterials::normal_map(const MtlMaterial& m) {
     if (map.bump == 0.0) return {};
     const TextureId id = texture(map, false);
     if (id == kNoTexture) return {};
-    // A channel is only chosen where one number is meant.
+    // An explicit channel indicates scalar data.
     if (!map.channel && is_normal_map(scene_.textures[std::size_t(id)].texture.image)) {
         return {id, map.bump};
     }
@@ -239,8 +239,8 @@ TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
     if (!found) found = finder_.find(map.file);
     if (!found) {
         diagnostics_.warning(map.location, "the picture '" + map.file.substr(0, 200) +
-                                               "' is not there or lies outside of the scene's "
-                                               "folder; it is left out");
+                                               "' does not exist or lies outside the scene's "
+                                               "folder; it is omitted");
         return kNoTexture;
     }
     Texture settings;
@@ -252,7 +252,7 @@ TextureId ObjMaterials::texture(const MtlMap& map, bool is_color) {
     const auto id = textures_.load(*found, folder_, settings, map.file, map.location);
     if (picture_findings_.error_count() != errors && !picture_findings_.all().empty()) {
         diagnostics_.warning(map.location,
-                             picture_findings_.all().back().message + "; it is left out");
+                             picture_findings_.all().back().message + "; it is omitted");
     }
     if (!id) return kNoTexture;
     Texture& texture = scene_.textures[std::size_t(*id)].texture;

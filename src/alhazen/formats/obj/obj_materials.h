@@ -1,10 +1,10 @@
 #pragma once
-/// The materials of an OBJ scene: finds its libraries and pictures and makes a Material of each
-/// entry that is used.
+/// Materials of an OBJ scene: locates libraries and images and creates a Material for each used
+/// entry.
 ///
-/// Source: see mtl_reader.h. Differs: docs/reference/formats/obj.md says how each statement and
-/// each illumination model is understood. Conventions: a library or picture that is missing or
-/// cannot be read is a warning; a name that no library has is the grey material, with one warning.
+/// Source: see mtl_reader.h. Interpretation of statements and illumination models:
+/// docs/reference/formats/obj.md. Conventions: a missing or unreadable library or image is a
+/// warning; a name that no library defines gives the grey material, with one warning.
 
 #include <memory>
 #include <string>
@@ -26,11 +26,11 @@ class ObjMaterials {
 
     /// Reads the files of the `mtllib` lines.
     void load(const std::vector<ObjLibrary>& libraries);
-    /// The material of this `usemtl` name, added to the scene at its first use.
+    /// The material of this `usemtl` name; added to the scene at its first use.
     MaterialId use(const std::string& name);
 
   private:
-    /// False when there is no such file.
+    /// False when the file does not exist.
     bool load_library(const std::string& name, const FileLocation& where);
     MaterialId grey();
     MaterialId add(const MtlMaterial& m);
@@ -38,8 +38,8 @@ class ObjMaterials {
     void set_light_through(const MtlMaterial& m, Material& out);
     void set_metallic_roughness(const MtlMaterial& m, Material& out);
     [[nodiscard]] double dissolve_of(const MtlMaterial& m);
-    /// Of a `norm` picture, else of a bump map: one of directions as it is, one of heights as the
-    /// normals made of it.
+    /// From the `norm` map, otherwise from the bump map: images of directions unchanged, height
+    /// images converted to normals.
     NormalMap normal_map(const MtlMaterial& m);
     bool is_normal_map(const std::shared_ptr<const StoredImage>& picture);
     TextureId texture(const MtlMap& map, bool is_color);
@@ -56,8 +56,9 @@ class ObjMaterials {
     TextureTable textures_;
     PictureFinder finder_;
     std::vector<MtlMaterial> entries_;
-    std::vector<std::string> entry_folders_;  ///< [entry] of its library, relative to the scene
-    std::string current_folder_;              ///< of the entry that is being added
+    std::vector<std::string>
+        entry_folders_;           ///< [entry] folder of its library, relative to the scene
+    std::string current_folder_;  ///< of the current entry
     std::unordered_map<std::string, std::size_t> entry_of_;
     std::unordered_map<std::string, MaterialId> used_;
     std::unordered_map<std::string, bool> loaded_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMaxErrors = 50;
 
-/// Which runs make up a part.
+/// The runs of a part.
 struct RunsOfPart {
     std::uint32_t name = 0, material = 0;
     std::vector<std::uint32_t> runs;
@@ -44,7 +44,8 @@ class PartMaker {
     }
 
   private:
-    /// Exporters write indices of normals and texture coordinates that they leave out.
+    /// Drops indices of normals and texture coordinates that the file omits; some exporters write
+    /// them.
     void drop_indices_of_nothing(std::vector<std::int32_t>& indices, std::size_t count,
                                  const char* what) {
         if (count != 0 ||
@@ -52,7 +53,7 @@ class PartMaker {
             return;
         }
         diagnostics_.warning({file_, 0, 0}, std::string("faces name '") + what +
-                                                "' statements, and the file has none: left out");
+                                                "' statements, and the file has none: omitted");
         indices.clear();
     }
     void check_indices() {
@@ -90,7 +91,7 @@ class PartMaker {
                 by_name = false;
                 groups.clear();
                 found.clear();
-                r = std::size_t(-1);  // from the start
+                r = std::size_t(-1);  // restart
                 continue;
             }
             if (fresh) groups.push_back({by_name && !as_one ? run.name : 0, run.material, {}});
@@ -99,7 +100,8 @@ class PartMaker {
         return groups;
     }
 
-    /// A part has normals when one of its corners has; its flat faces then need some too.
+    /// Finds the attributes of each part. A part has normals when any corner has one; its flat
+    /// faces then need normals too.
     void find_attributes(std::vector<RunsOfPart>& groups) {
         std::vector<bool> wanted(in_.runs.size());
         for (RunsOfPart& group : groups) {
@@ -129,7 +131,7 @@ class PartMaker {
         return part;
     }
 
-    /// Afterwards `position` of each corner is its vertex in the mesh.
+    /// Assigns vertex numbers: `position` of each corner becomes its vertex in the mesh.
     void number_vertices(const RunsOfPart& group, bool alone, TriangleMesh& mesh) {
         if (alone && !group.has_uvs && !group.has_normals) {
             mesh.positions = std::move(in_.positions);

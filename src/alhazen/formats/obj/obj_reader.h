@@ -1,17 +1,16 @@
 #pragma once
 /// Reads the geometry of a Wavefront OBJ file into triangle meshes: one per object or group and
-/// material, or all as one.
+/// material, or a single one.
 ///
 /// Source: "Object Files (.obj)", Advanced Visualizer manual, appendix B1, Wavefront, 1992.
-/// Differs: polygons only; lines, points and free-form surfaces are stepped over. Vertices may have
-/// colours. Without any `s` statement faces are flat.
-/// Conventions: a vertex of a mesh is a combination of v, vt and vn that a face uses, in the order
-/// of first use; a single mesh without any of the latter keeps the vertices of the file. w and the
-/// third texture coordinate are ignored. A positive index may point forward, a negative one counts
-/// back from the face. A corner without a normal gets the sum of the area-weighted normals of the
-/// faces of its smoothing group around its position, whatever their part; without a smoothing group
-/// that of its face.
-/// Complexity: linear in time and memory, however many groups and switches of material.
+/// Differs: polygons only; lines, points and free-form surfaces are skipped. Vertices may have
+/// colours. Without any `s` statement faces are flat. Conventions: a mesh vertex is a combination
+/// of v, vt and vn used by a face, in the order of first use; a single mesh without vt and vn keeps
+/// the vertices of the file. w and the third texture coordinate are ignored. Positive indices may
+/// refer forward; negative ones count back from the face. A corner without a normal gets the sum of
+/// the area-weighted normals of the faces of its smoothing group around its position, across parts;
+/// without a smoothing group, the normal of its face. Complexity: linear in time and memory,
+/// independent of the number of groups and material switches.
 
 #include <string>
 #include <string_view>
@@ -22,24 +21,24 @@
 
 namespace alhazen {
 
-/// More parts than this are merged by material alone.
+/// Above this number of parts, parts are merged by material alone.
 inline constexpr std::size_t kMaxObjParts = 100'000;
 
-/// The faces of one object or group that are of one material.
+/// The faces of one object or group that have one material.
 struct ObjPart {
-    std::string name;        ///< of the object, "object/group" or the group; may be empty
-    std::uint32_t material;  ///< in ObjStatements::materials
+    std::string name;        ///< the object, "object/group" or the group; may be empty
+    std::uint32_t material;  ///< index in ObjStatements::materials
     std::uint32_t line;      ///< of its first face
     TriangleMesh mesh;
 };
 
-/// The meshes of a file in the order of their first faces; empty after an error. The geometry in
-/// `statements` is used up. `file` is only used in messages.
+/// The meshes of a file in the order of their first faces; empty after an error. Consumes the
+/// geometry in `statements`. `file` is for messages only.
 [[nodiscard]] std::vector<ObjPart> make_obj_parts(ObjStatements& statements,
                                                   const std::string& file,
                                                   Diagnostics& diagnostics);
 
-/// The mesh of a whole file; empty after an error. `file` is only used in messages.
+/// The mesh of a whole file; empty after an error. `file` is for messages only.
 [[nodiscard]] TriangleMesh read_obj(std::string_view bytes, const std::string& file,
                                     const ImportOptions& options, Diagnostics& diagnostics);
 

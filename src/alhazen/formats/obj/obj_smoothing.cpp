@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMaxNormals = 0x7FFFFFFE;
 
-/// Twice the area of the polygon along its normal.
+/// Normal of the polygon, of twice its area in length.
 Vec3 face_normal(const ObjStatements& in, std::uint32_t begin, std::uint32_t end) {
     const auto position = [&](std::uint32_t corner) {
         return in.positions[std::size_t(in.corners.position[corner])];
@@ -26,7 +26,7 @@ Vec3 face_normal(const ObjStatements& in, std::uint32_t begin, std::uint32_t end
 
 std::int32_t add_normal(ObjStatements& in, const Vec3& normal, const std::string& file) {
     if (in.normals.size() >= kMaxNormals) {
-        throw Error(ErrorKind::Resource, "too many normals to be made", {file, 0, 0});
+        throw Error(ErrorKind::Resource, "too many generated normals", {file, 0, 0});
     }
     in.normals.push_back(normal);
     return std::int32_t(in.normals.size() - 1);
@@ -48,7 +48,7 @@ void smooth_obj_normals(ObjStatements& in, const std::string& file) {
     });
     if (!needed) return;
     in.corners.need_normals();
-    // One normal for each pair of a position and a group, made at its first use.
+    // One normal per pair of position and group, created at its first use.
     ObjVertexTable pairs;
     const std::size_t first = in.normals.size();
     in.for_each_face([&](const ObjRun& run, std::uint32_t begin, std::uint32_t end, std::uint32_t) {

@@ -16,14 +16,14 @@ constexpr int kMaxObjErrors = 50;
 constexpr std::int64_t kMaxIndex = 0x7FFFFFFE;
 constexpr std::size_t kMaxLibraries = 1000;
 
-/// Statements that have no part in the picture.
+/// Statements without effect on the image.
 constexpr std::array<std::string_view, 26> kIgnored{
     "l",    "p",      "mg",     "vp",         "t",        "bevel",     "c_interp",
     "lod",  "usemap", "maplib", "shadow_obj", "d_interp", "trace_obj", "parm",
     "end",  "con",    "cstype", "deg",        "bmat",     "step",      "hole",
     "trim", "scrv",   "sp",     "stech",      "ctech"};
 
-/// Numbers of different strings.
+/// Numbers distinct strings.
 class NameTable {
   public:
     explicit NameTable(std::vector<std::string>& names) : names_(names) {
@@ -61,15 +61,15 @@ class StatementReader {
         }
         if (errors_ == kMaxObjErrors) error("too many errors; the rest of the file is not read");
         if (!known_ && errors_ == 0) {
-            diagnostics_.error({file_, 0, 0}, "no statement of an OBJ file in it");
+            diagnostics_.error({file_, 0, 0}, "the file has no OBJ statement");
         }
         finish_colors();
         return std::move(result_);
     }
 
   private:
-    /// Growing arrays would take twice their room: the lines are counted first. What is reserved is
-    /// bounded by the bytes that the numbers must take.
+    /// Counts the lines and reserves memory: growing arrays would take twice as much. The
+    /// reservation is bounded by the bytes that the numbers require.
     void reserve() {
         std::size_t positions = 0, uvs = 0, normals = 0, faces = 0;
         const char* at = bytes_.data();
@@ -135,7 +135,7 @@ class StatementReader {
         result_.colors.push_back({float(numbers_[3]), float(numbers_[4]), float(numbers_[5]), 1});
         brightest_ = std::max({brightest_, numbers_[3], numbers_[4], numbers_[5]});
     }
-    /// Colours are those of a display, 0..1 or (where any is above 1) 0..255.
+    /// Converts colours from display encoding; range 0..1, or 0..255 if any value is above 1.
     void finish_colors() {
         const double scale = brightest_ > 1.0 ? 1.0 / 255.0 : 1.0;
         for (VertexColor& c : result_.colors) {
@@ -153,8 +153,8 @@ class StatementReader {
         if (count == 0 || !room_in(result_.uvs.size())) return;
         result_.uvs.push_back({numbers_[0], count > 1 ? numbers_[1] : 0.0});
     }
-    /// Reads at least `least` numbers, keeps the first six, and wants nothing but numbers on the
-    /// line. Returns how many there are; 0 after an error.
+    /// Reads at least `least` numbers and keeps the first six; other text on the line is an error.
+    /// Returns the number of numbers; 0 after an error.
     int read_numbers(int least) {
         int count = 0;
         for (; cursor_.skip_blanks() && cursor_.peek() != '#'; ++count) {
@@ -202,7 +202,7 @@ class StatementReader {
         }
         result_.runs.push_back(run_);
     }
-    /// v, v/vt, v//vn or v/vt/vn.
+    /// Reads v, v/vt, v//vn or v/vt/vn.
     bool read_corner(ObjCorner& corner) {
         if (!read_index(corner.position, result_.positions.size())) return false;
         if (cursor_.take('/')) {
@@ -238,7 +238,8 @@ class StatementReader {
         return cursor_.at_end() || TextCursor::is_space(cursor_.peek());
     }
 
-    /// An object ends the group before it; a group within an object is named after both.
+    /// Reads an object or group name. An object ends the previous group; a group within an object
+    /// is named after both.
     void read_name(bool object) {
         std::string name = rest_of_line();
         if (object) object_ = name;
@@ -268,7 +269,8 @@ class StatementReader {
                                                             " mtllib lines; the rest is ignored");
         }
     }
-    /// Without the blanks at both ends; a comment belongs to it (# may be part of a name).
+    /// The rest of the line without surrounding blanks; `#` does not start a comment (it may be
+    /// part of a name).
     std::string rest_of_line() {
         cursor_.skip_blanks();
         std::string_view rest = cursor_.rest_of_line();

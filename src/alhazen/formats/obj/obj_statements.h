@@ -1,10 +1,9 @@
 #pragma once
-/// The statements of an OBJ file as they stand: lists of positions, texture coordinates, normals
-/// and faces, and what was switched on for each face.
+/// The statements of an OBJ file: lists of positions, texture coordinates, normals and faces, and
+/// the state at each face.
 ///
-/// Source: see obj_reader.h. Differs: nothing.
-/// Conventions: indices count from 0; -1 = not given. Texture coordinate and normal indices, and
-/// positions given before their vertex, are only checked when meshes are made.
+/// Source: see obj_reader.h. Conventions: indices count from 0; -1: absent. Texture coordinate and
+/// normal indices, and position indices that refer forward, are checked only when meshes are made.
 
 #include <cstdint>
 #include <string>
@@ -20,7 +19,7 @@ struct ObjCorner {
     friend bool operator==(const ObjCorner&, const ObjCorner&) = default;
 };
 
-/// The corners of all faces, one after the other; an array that no face uses takes no room.
+/// The corners of all faces, concatenated; an array used by no face takes no memory.
 class ObjCorners {
   public:
     [[nodiscard]] std::size_t size() const { return position.size(); }
@@ -29,7 +28,7 @@ class ObjCorners {
     }
     void push_back(const ObjCorner& corner);
     void resize(std::size_t size);
-    /// Makes room for a normal at every corner.
+    /// Allocates a normal index for every corner.
     void need_normals();
 
     std::vector<std::int32_t> position;  ///< [corner]
@@ -38,15 +37,15 @@ class ObjCorners {
 };
 
 struct ObjFace {
-    std::uint32_t end = 0;   ///< one past its last corner; it begins where the face before ends
-    std::uint32_t line = 0;  ///< in the file, from 1
+    std::uint32_t end = 0;  ///< one past its last corner; it begins at the end of the previous face
+    std::uint32_t line = 0;  ///< line in the file, from 1
 };
 
-/// What holds from `first_face` to that of the next run.
+/// The state from `first_face` to the first face of the next run.
 struct ObjRun {
     std::uint32_t first_face = 0;
-    std::uint32_t name = 0;       ///< of the object and group, in `names`
-    std::uint32_t material = 0;   ///< in `materials`
+    std::uint32_t name = 0;       ///< object and group, index in `names`
+    std::uint32_t material = 0;   ///< index in `materials`
     std::uint32_t smoothing = 0;  ///< group; 0: flat
 };
 
@@ -57,12 +56,12 @@ struct ObjLibrary {
 
 struct ObjStatements {
     std::vector<Vec3> positions;
-    std::vector<VertexColor> colors;  ///< [position], linear; empty where no vertex has one
+    std::vector<VertexColor> colors;  ///< [position], linear; empty if no vertex has one
     std::vector<Vec2> uvs;
     std::vector<Vec3> normals;
     ObjCorners corners;
     std::vector<ObjFace> faces;
-    std::vector<ObjRun> runs;            ///< of at least one face each
+    std::vector<ObjRun> runs;            ///< of at least one face
     std::vector<std::string> names;      ///< the first is empty
     std::vector<std::string> materials;  ///< the first is empty
     std::vector<ObjLibrary> libraries;
@@ -91,8 +90,8 @@ struct ObjStatements {
     }
 };
 
-/// Reads all statements. Stops after some errors; text without any statement of OBJ is an error.
-/// Throws Error (Resource) beyond options.max_elements.
+/// Reads all statements. Stops after a limited number of errors; text without any OBJ statement is
+/// an error. Throws Error (Resource) beyond options.max_elements.
 [[nodiscard]] ObjStatements read_obj_statements(std::string_view bytes, const std::string& file,
                                                 const ImportOptions& options,
                                                 Diagnostics& diagnostics);

@@ -1,7 +1,7 @@
 #pragma once
-/// Finds the number of a combination of indices, or gives it the next one.
+/// Numbers combinations of indices in the order of first use.
 ///
-/// Complexity: as IndexTable, and 12 bytes an entry.
+/// Complexity: as IndexTable, plus 12 bytes per entry.
 
 #include <cstdint>
 #include <vector>

@@ -29,7 +29,7 @@ PictureFile picture_file(const StoredImage& image) {
         return codes_file(image, *shorts);
     }
     Image floats = expanded(image);
-    floats.linear = true;  // else the writer would take the sRGB curve out
+    floats.linear = true;  // prevents the writer from removing the sRGB curve
     return {"exr", encode_image("exr", floats, {.full_float = true})};
 }
 

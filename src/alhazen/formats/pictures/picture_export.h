@@ -1,5 +1,5 @@
 #pragma once
-/// Textures as the bytes of picture files that read back to the same samples.
+/// Textures as bytes of image files that read back to the same samples.
 
 #include <cstddef>
 #include <string>
@@ -10,7 +10,7 @@
 namespace alhazen {
 
 struct PictureFile {
-    std::string suffix;  ///< "png" for codes of 8 or 16 bits, "exr" for floats
+    std::string suffix;  ///< "png" for 8-bit and 16-bit codes, "exr" for floats
     std::vector<std::byte> bytes;
 };
 

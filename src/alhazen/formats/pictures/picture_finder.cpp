@@ -38,7 +38,7 @@ std::optional<std::string> PictureFinder::exact(const std::string& name) const {
         std::error_code failed;
         if (std::filesystem::is_regular_file(path, failed)) return name;
     } catch (const Error&) {
-        // Outside of the allowed folders: as if it were not there.
+        // Outside the allowed folders: treated as absent.
     }
     return std::nullopt;
 }

@@ -1,11 +1,11 @@
 #pragma once
-/// Finds files by names that were written on another machine: with backslashes, with other
-/// capitals, in folders that are not here.
+/// Finds files by names written on another machine: with backslashes, different case or absent
+/// folders.
 ///
-/// Conventions: tried are, in this order, the name as it is (backslashes as slashes), the same
-/// whatever its capitals, and its last part beside the scene file, also whatever its capitals.
-/// Nothing outside of `roots` is looked at. After kMaxNames different names no more are looked for,
-/// so that a list of made-up names does not take forever.
+/// Conventions: tries, in this order, the name itself (backslashes as slashes), the name ignoring
+/// case, and its last component next to the scene file, also ignoring case. Nothing outside `roots`
+/// is accessed. After kMaxNames different names the search stops, which bounds the time of crafted
+/// name lists.
 
 #include <filesystem>
 #include <map>
@@ -22,7 +22,7 @@ class PictureFinder {
 
     static constexpr std::size_t kMaxNames = 10'000;
 
-    /// A name relative to the folder under which the file exists, or nothing.
+    /// A name relative to the folder under which the file exists; none if there is no such file.
     [[nodiscard]] std::optional<std::string> find(const std::string& name);
 
   private:
@@ -33,7 +33,7 @@ class PictureFinder {
     std::vector<std::filesystem::path> roots_;
     std::filesystem::path folder_;
     std::map<std::string, std::optional<std::string>> found_;
-    /// Lower-case name -> name of the files in a folder; folders that were looked at.
+    /// Lower-case name -> name of the files in a folder, for the folders visited.
     std::map<std::filesystem::path, std::map<std::string, std::string>> listings_;
 };
 

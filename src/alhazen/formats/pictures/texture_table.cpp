@@ -10,14 +10,13 @@ namespace alhazen {
 
 namespace {
 
-/// The limit of all pictures together: ends the import, where one bad picture does not.
+/// The limit of all images together. Ends the import; an unusable single image does not.
 class TotalExceeded : public Error {
   public:
     TotalExceeded(const ImageLimits& limits, const std::string& name)
-        : Error(ErrorKind::Resource, "the pictures of the scene take more than " +
-                                         std::to_string(limits.max_bytes >> 20) +
-                                         " MiB (--max-image-mib) with '" + name.substr(0, 200) +
-                                         "'") {}
+        : Error(ErrorKind::Resource,
+                "the images of the scene take more than " + std::to_string(limits.max_bytes >> 20) +
+                    " MiB (--max-image-mib) with '" + name.substr(0, 200) + "'") {}
 };
 
 }  // namespace
@@ -45,7 +44,7 @@ std::shared_ptr<const StoredImage> TextureTable::decoded(const Decode& decode) {
     ImageLimits left = limits_;
     left.max_bytes -= taken_bytes_;
     auto picture = std::make_shared<const StoredImage>(decode(left));
-    // It was decoded within what is left, so this cannot be too much.
+    // Decoding was limited to the memory left, so the sum cannot exceed the limit.
     taken_bytes_ += picture->memory_bytes();
     return picture;
 }
@@ -78,7 +77,7 @@ std::optional<TextureId> TextureTable::add(std::string_view encoded, const Textu
     const auto [entry, fresh] = embedded_.try_emplace({encoded.data(), encoded.size()});
     try {
         if (fresh) {
-            // Bytes that several pictures share count for each: looking at them takes its time.
+            // Shared bytes count once per image, which bounds the decoding time.
             count(encoded.size(), name);
             entry->second.image = decoded([&](const ImageLimits& limits) {
                 return decode_stored_image(encoded, name, limits);

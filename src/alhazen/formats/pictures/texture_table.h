@@ -1,13 +1,12 @@
 #pragma once
-/// Reads the pictures that a scene uses as textures, files or embedded ones, each once: textures
-/// with different settings share the picture.
+/// Reads the images that a scene uses as textures, files or embedded, each once: textures with
+/// different settings share the image.
 ///
-/// Conventions: a picture that cannot be used is reported once, at its first use, and yields no
-/// texture at any. Sizes of each picture are held to the limits given, and the memory of all
-/// together to ImageLimits::max_bytes, before it is allocated: the samples as they are stored, the
-/// smaller copies that mipmapped textures will have (MipPyramid; twice when a picture is shown both
-/// as colour and as data), the encoded bytes of embedded pictures, and for the moment the file and
-/// the decoder's buffers of the picture that is being read.
+/// Conventions: an unusable image is reported once, at its first use, and never yields a texture.
+/// The size of each image is bounded by the given limits, and the memory of all together by
+/// ImageLimits::max_bytes, checked before allocation: the stored samples, the mip levels of
+/// mipmapped textures (MipPyramid; twice for an image used both as colour and as data), the encoded
+/// bytes of embedded images, and temporarily the file and the decoder buffers of the current image.
 
 #include <filesystem>
 #include <functional>
@@ -22,7 +21,7 @@
 
 namespace alhazen {
 
-/// The folders whose files a scene may name: its own, and those of options.allowed_folders.
+/// Folders whose files a scene may name: its own and options.allowed_folders.
 [[nodiscard]] std::vector<std::filesystem::path> scene_roots(const ImportOptions& options,
                                                              const std::filesystem::path& own);
 /// The absolute folder of a scene file.
@@ -35,34 +34,34 @@ class TextureTable {
         : scene_(scene), diagnostics_(diagnostics), roots_(std::move(roots)), limits_(limits) {}
 
     /// The texture of `file`, as written in a scene file in `folder`, with the other fields of
-    /// `settings`. Reports an error at `where` and returns nothing when the file cannot be used.
-    /// Throws Error (Resource) when all pictures together take more than the limit.
+    /// `settings`. Reports an error at `where` and returns none when the file is unusable. Throws
+    /// Error (Resource) when all images together exceed the limit.
     std::optional<TextureId> load(const std::string& file, const std::filesystem::path& folder,
                                   const Texture& settings, std::string name,
                                   const FileLocation& where);
 
-    /// The texture of a picture that lies in the scene's own bytes, `encoded` as in a picture file.
-    /// Pictures are told apart by where they lie: the bytes must stay there while the table lives.
-    /// Otherwise as `load`.
+    /// The texture of an image embedded in the scene's bytes, `encoded` as in an image file. Images
+    /// are identified by the address of their bytes, which must stay valid for the lifetime of the
+    /// table. Otherwise as `load`.
     std::optional<TextureId> add(std::string_view encoded, const Texture& settings,
                                  std::string name, const FileLocation& where);
 
-    /// Replaces the picture of texture `id` by what `make` makes of it, three channels of 8-bit
-    /// codes of the same size; made once for each picture and `key`. Counts and throws as `load`.
+    /// Replaces the image of texture `id` by the result of `make`, three channels of 8-bit codes of
+    /// the same size; computed once per image and `key`. Counts memory and throws as `load`.
     void derive(TextureId id, const std::string& key,
                 const std::function<StoredImage(const StoredImage&)>& make);
 
   private:
     struct Picture {
-        std::shared_ptr<const StoredImage> image;  ///< null when it could not be read
-        /// Whether the smaller copies are counted: of the samples as they are, and decoded.
+        std::shared_ptr<const StoredImage> image;  ///< null when unreadable
+        /// True when the mip levels are counted: of the stored samples, and decoded.
         bool counted_pyramid[2] = {false, false};
     };
 
-    /// What `decode` makes of a picture within the limits that it is given; counts it.
+    /// Runs `decode` with the limits left and counts the memory of its result.
     template <class Decode>
     std::shared_ptr<const StoredImage> decoded(const Decode& decode);
-    /// Throws when it is more than what is left.
+    /// Throws when `bytes` exceeds the memory left.
     void count(std::uint64_t bytes, const std::string& name);
 
     std::optional<TextureId> use(Picture& picture, const Texture& settings, std::string name,
@@ -73,10 +72,10 @@ class TextureTable {
     std::vector<std::filesystem::path> roots_;
     ImageLimits limits_;
     std::uint64_t taken_bytes_ = 0;
-    /// By resolved path, or by place.
+    /// By resolved path, or by address.
     std::map<std::filesystem::path, Picture> files_;
     std::map<std::pair<const char*, std::size_t>, Picture> embedded_;
-    /// By what it was made of, and how.
+    /// By source image and key.
     std::map<std::pair<std::shared_ptr<const StoredImage>, std::string>,
              std::shared_ptr<const StoredImage>>
         derived_;

@@ -1,9 +1,9 @@
 #pragma once
-/// The header of a PLY file: which elements follow, and what each is made of.
+/// The header of a PLY file: its elements and their properties.
 ///
-/// Source: Turk, "The PLY Polygon File Format", Stanford, 1994.
-/// Differs: the newer names of the types (float32, uint8, ...) are known too; lines that are no
-/// statement (old exporters write their name without `comment`) are stepped over with a warning.
+/// Source: Turk, "The PLY Polygon File Format", Stanford, 1994. Differs: accepts the newer type
+/// names (float32, uint8, ...); lines that are not statements (old exporters write their name
+/// without `comment`) are skipped with a warning.
 
 #include <cstdint>
 #include <optional>
@@ -15,13 +15,13 @@
 
 namespace alhazen {
 
-/// A comment by which our own files say that their arrays are to be taken as they are.
+/// Comment in PLY files of this library: arrays are read unchanged.
 inline constexpr std::string_view kPlyExact = "alhazen exact";
 
 enum class PlyFormat { Ascii, LittleEndian, BigEndian };
 enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 
-/// Size in a binary file.
+/// Size in bytes in a binary file.
 [[nodiscard]] std::size_t size_of(PlyType type);
 
 struct PlyProperty {
@@ -36,7 +36,7 @@ struct PlyElement {
     std::vector<PlyProperty> properties;
     FileLocation location;
 
-    /// The fewest bytes an item can take; 0 only without properties.
+    /// Minimum bytes per item; 0 only without properties.
     [[nodiscard]] std::size_t min_bytes(PlyFormat format) const;
 };
 
@@ -44,11 +44,11 @@ struct PlyHeader {
     PlyFormat format = PlyFormat::Ascii;
     std::vector<PlyElement> elements;
     bool exact = false;           ///< has the comment kPlyExact
-    std::size_t body_offset = 0;  ///< bytes before the first item
-    std::int64_t body_line = 1;   ///< its line
+    std::size_t body_offset = 0;  ///< offset of the first item in bytes
+    std::int64_t body_line = 1;   ///< line of the first item
 };
 
-/// Reads the header. Empty after an error, which is in `diagnostics`.
+/// Reads the header. Empty after an error, which is reported to `diagnostics`.
 [[nodiscard]] std::optional<PlyHeader> read_ply_header(std::string_view bytes,
                                                        const std::string& file,
                                                        Diagnostics& diagnostics);

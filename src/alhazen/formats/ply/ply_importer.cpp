@@ -29,7 +29,7 @@ SceneDescription PlyImporter::import(const ImportSource& source, Diagnostics& di
         report_no_faces(source, mesh.positions.size(), diagnostics);
         return scene;
     }
-    mesh.vertex_materials.clear();  // of a scene that is not here
+    mesh.vertex_materials.clear();  // indices into a scene that is not available
     scene.materials.push_back({default_mesh_material(!mesh.colors.empty()), {file, 0, 0}});
     add_mesh(scene, std::move(mesh), source.path.stem().string(), MaterialId{0}, {file, 0, 0});
     return scene;

@@ -14,7 +14,7 @@ class PlyImporter final : public Importer {
                                           Diagnostics& diagnostics) const override;
 };
 
-/// Whether the bytes begin as a PLY file does.
+/// True when the bytes begin like a PLY file.
 [[nodiscard]] bool looks_like_ply(std::string_view bytes);
 
 }  // namespace alhazen

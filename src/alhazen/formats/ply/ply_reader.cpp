@@ -28,7 +28,7 @@ class BodyReader {
           diagnostics_(diagnostics) {}
 
     TriangleMesh read() {
-        // Where faces start that come before the vertices.
+        // Starting positions of faces that precede the vertices.
         std::vector<std::pair<const PlyElement*, Values>> early;
         bool has_vertices = false;
         for (const PlyElement& element : header_.elements) {
@@ -55,7 +55,7 @@ class BodyReader {
     }
 
   private:
-    /// The counts of the header are believed only as far as there are bytes.
+    /// Bounds the counts of the header by the bytes left.
     bool fits(const PlyElement& element) {
         const std::size_t least = element.min_bytes(header_.format);
         if (least != 0 && element.count > values_.bytes_left() / least) {
@@ -95,10 +95,10 @@ class BodyReader {
         if (is_finite(layout.position())) return true;
         return fail(element, i, "a position that is not finite", values_);
     }
-    /// Goes on behind a mistake when that can be done, so that more than one is told.
+    /// Recovers after an error where possible, to report more than one.
     bool recover() { return errors_ < kMaxErrors && values_.recover(); }
 
-    /// The place of the list of vertices among the properties of a face or of strips.
+    /// Index of the list of vertices among the properties of a face or strip.
     [[nodiscard]] static std::size_t find_list(const PlyElement& element) {
         std::size_t list = element.properties.size();
         for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -141,7 +141,7 @@ class BodyReader {
         return true;
     }
 
-    /// One list of vertices; -1 ends a strip. Every other triangle of a strip is turned around.
+    /// Reads one list of strips; -1 ends a strip. Every other triangle of a strip is reversed.
     bool read_strips(const PlyElement& element, const PlyProperty& property, std::uint64_t item) {
         std::uint64_t count = 0;
         if (!read_length(element, property, item, count)) return false;
@@ -179,7 +179,7 @@ class BodyReader {
             in_range = in_range && is_vertex(index);
             polygon_.push_back(in_range ? std::uint32_t(index) : 0);
         }
-        // The item is read to its end: the next one can be looked at.
+        // The item is read completely; the next one can be read.
         if (!in_range) {
             bad_index(element, item, start);
             return errors_ < kMaxErrors;
@@ -196,13 +196,13 @@ class BodyReader {
     }
     bool bad_index(const PlyElement& element, std::uint64_t item, const Values& at) {
         return fail(element, item,
-                    "a vertex index that is not below the " +
+                    "a vertex index outside the range of " +
                         std::to_string(mesh_.positions.size()) + " vertices",
                     at);
     }
 
     bool skip(const PlyElement& element) {
-        // Without properties there is nothing to read, however many there are.
+        // Elements without properties occupy no bytes, whatever their count.
         if (element.properties.empty() || values_.skip(element)) return true;
         double unused = 0.0;
         for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -213,7 +213,7 @@ class BodyReader {
         return true;
     }
 
-    /// Reads a value into `value`, or steps over a list.
+    /// Reads a scalar into `value`, or skips a list.
     bool read_property(const PlyElement& element, const PlyProperty& property, std::uint64_t item,
                        double& value) {
         if (!property.count_type) return read_value(element, property.type, item, value);
@@ -231,7 +231,7 @@ class BodyReader {
         const Values start = values_;
         if (!read_value(element, *property.count_type, item, length)) return false;
         if (!(length >= 0.0) || length != std::floor(length)) {
-            return fail(element, item, "a list whose length is no whole number", start);
+            return fail(element, item, "a list length that is not a whole number", start);
         }
         if (length > double(values_.bytes_left() / Values::kListItemBytes)) {
             return fail(element, item, "a list longer than the rest of the file", start);

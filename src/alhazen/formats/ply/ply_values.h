@@ -1,8 +1,8 @@
 #pragma once
-/// The numbers of a PLY file's body, one after the other, ascii or binary.
+/// Sequential reader of the numbers in a PLY body, ascii or binary.
 ///
-/// Conventions: `read` is false at the end of the bytes and for what is no number; every value of
-/// every type is exact as a double.
+/// Conventions: `read` is false at the end of the bytes and for text that is not a number; every
+/// value of every type is exact as a double.
 
 #include <bit>
 #include <cstdint>
@@ -25,13 +25,13 @@ class AsciiValues {
 
     bool read(PlyType, double& value) { return cursor_.skip_to_word() && cursor_.number(value); }
     bool skip(const PlyElement&) { return false; }
-    /// Goes on behind a mistake: with the next line.
+    /// Recovers after an error: continues with the next line.
     bool recover() {
         cursor_.skip_line();
         return cursor_.skip_to_word();
     }
     [[nodiscard]] std::size_t bytes_left() const { return cursor_.bytes_left() + 1; }
-    /// Of the next value.
+    /// Location of the next value.
     [[nodiscard]] FileLocation location(const std::string& file) const {
         TextCursor next = cursor_;
         next.skip_to_word();
@@ -71,7 +71,7 @@ class BinaryValues {
         rest_.remove_prefix(size);
         return true;
     }
-    /// Jumps over all items of an element without lists (there are enough bytes: that was checked).
+    /// Skips all items of an element without lists. Precondition: enough bytes are left.
     bool skip(const PlyElement& element) {
         for (const PlyProperty& property : element.properties) {
             if (property.count_type) return false;
@@ -79,7 +79,7 @@ class BinaryValues {
         rest_.remove_prefix(element.count * element.min_bytes(PlyFormat::LittleEndian));
         return true;
     }
-    /// Where the next item begins cannot be known.
+    /// The start of the next item is unknown.
     static bool recover() { return false; }
     [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
     [[nodiscard]] FileLocation location(const std::string& file) const { return {file, 0, 0}; }

@@ -9,7 +9,7 @@ namespace alhazen {
 
 namespace {
 
-/// `v` between the two, the lower one for NaN.
+/// Clamps `v`; NaN becomes `lowest`.
 double within(double v, double lowest, double highest) {
     return v > lowest ? std::min(v, highest) : lowest;
 }
@@ -77,7 +77,7 @@ std::size_t PlyVertexLayout::slot_of(const PlyProperty& property, bool exact) {
          {"vertex_material", kMaterial}}};
     if (property.count_type) return kUnused;
     for (const auto& [name, slot] : kSlots) {
-        // A number of a material says something only within the scene that the file was made for.
+        // A material index has meaning only within the scene that the file was written for.
         if (property.name == name) return slot == kMaterial && !exact ? kUnused : slot;
     }
     return kUnused;
@@ -105,7 +105,7 @@ float PlyVertexLayout::color(std::size_t slot) const {
         case PlyType::Float64:
             return float(v);
         case PlyType::Uint8:
-            // An ascii file may say more than its type holds.
+            // An ascii value may exceed the range of its type.
             return slot == kAlpha ? float(within(v, 0.0, 255.0) / 255.0)
                                   : linear_of_code(std::uint8_t(within(v, 0.0, 255.0)));
         default:

@@ -1,8 +1,8 @@
 #pragma once
-/// What the properties of a PLY vertex mean, and how they become the arrays of a mesh.
+/// Meaning of PLY vertex properties, and their conversion to mesh arrays.
 ///
-/// Conventions: names as in docs/reference/formats/ply.md. Colours of an integer type are
-/// display-encoded and are made linear (IEC 61966-2-1); of a float type they are linear already.
+/// Conventions: names as in docs/reference/formats/ply.md. Integer colours are display-encoded and
+/// are converted to linear (IEC 61966-2-1); float colours are linear.
 
 #include <array>
 #include <vector>
@@ -12,7 +12,7 @@
 
 namespace alhazen {
 
-/// The linear value of an 8-bit display code.
+/// Linear value of an 8-bit display code.
 [[nodiscard]] float linear_of_code(std::uint8_t code);
 
 class PlyVertexLayout {
@@ -20,16 +20,16 @@ class PlyVertexLayout {
     explicit PlyVertexLayout(const PlyElement& element, bool exact);
 
     [[nodiscard]] bool has_positions() const { return has(kX, 3); }
-    /// Makes room in the arrays that there will be.
+    /// Reserves memory in the arrays in use.
     void reserve(TriangleMesh& mesh, std::uint64_t count) const;
-    /// Where the value of the k-th property goes.
+    /// Storage for the value of the k-th property.
     [[nodiscard]] double& value(std::size_t k) { return values_[slots_[k]]; }
     [[nodiscard]] Vec3 position() const { return {values_[kX], values_[kX + 1], values_[kX + 2]}; }
-    /// Appends the vertex whose values have been set.
+    /// Appends the vertex whose values are set.
     void append(TriangleMesh& mesh) const;
 
   private:
-    /// Places of the values; the last one is for what is not used.
+    /// Slots of the values; the last one collects unused properties.
     static constexpr std::size_t kX = 0, kNormal = 3, kUv = 6, kUv2 = 8, kColor = 10, kAlpha = 13,
                                  kTangent = 14, kMaterial = 18, kUnused = 19;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the parts of the .ray importer share while one file is read.
+/// Shared state of the .ray importer while it reads one file.
 
 #include <filesystem>
 

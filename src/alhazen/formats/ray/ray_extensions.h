@@ -1,6 +1,6 @@
 #pragma once
-/// What students added to the SBT-raytracer format and we know by name but do not read: such a
-/// thing is refused, and the message says what it is.
+/// Student extensions of the SBT-raytracer format that are recognised by name but not supported:
+/// they are rejected with a message that names the extension.
 
 #include <optional>
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace alhazen {
 
-/// "metaballs (HKUST)" for an object or light of an extension; nothing for an unknown name.
+/// "metaballs (HKUST)" for an object or light of an extension; none for an unknown name.
 [[nodiscard]] std::optional<std::string_view> ray_extension(std::string_view name);
-/// The same for a key of a material.
+/// The same for a material key.
 [[nodiscard]] std::optional<std::string_view> ray_material_extension(std::string_view key);
 /// True when only the dictionary family (docs/reference/formats/ray.md) has an object or light of
 /// that name.

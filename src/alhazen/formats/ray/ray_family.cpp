@@ -41,7 +41,7 @@ void look_at(TextNode node, Signs& signs) {
     }
 }
 
-/// Lists of numbers hold no signs: not walking them keeps this fast for meshes.
+/// Number lists contain no indications of the family; skipping them keeps this fast for meshes.
 Signs signs_of(TextNode root) {
     Signs signs;
     std::vector<TextNode> pending{root};
@@ -54,8 +54,8 @@ Signs signs_of(TextNode root) {
             continue;
         }
         for (const TextNode child : node) {
-            // `gennormals;` and `name x;`: only the token parsers know words without a value or an
-            // equals sign.
+            // `gennormals;` and `name x;`: only the token parsers accept words without a value or
+            // an equals sign.
             if (child.is(NodeKind::Word, "gennormals") || child.is(NodeKind::Word, "name") ||
                 child.is(NodeKind::Entry, "name")) {
                 signs.token_spelling = true;

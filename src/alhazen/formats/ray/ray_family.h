@@ -1,8 +1,8 @@
 #pragma once
-/// Tells the two families of the SBT-raytracer format apart and sets the conventions of each.
+/// Distinguishes the two families of the SBT-raytracer format and sets the conventions of each.
 ///
-/// Source: docs/reference/formats/ray.md.
-/// Differs: neither program says which family a file is for; see `detect_ray_family` for the rule.
+/// Source: docs/reference/formats/ray.md. Files do not state their family; for the rule see
+/// `detect_ray_family`.
 
 #include "alhazen/formats/text/text_tree.h"
 #include "alhazen/scene_model/conventions.h"
@@ -10,18 +10,19 @@
 namespace alhazen {
 
 struct RayFamily {
-    /// The dictionary parsers (older UW, HKUST); else the token parsers (UW from 2003, UT Austin).
+    /// True: the dictionary parsers (older UW, HKUST); false: the token parsers (UW from 2003, UT
+    /// Austin).
     bool dictionary = false;
     /// `shininess = 0.2` means an exponent of 0.2 * this.
     double shininess_scale = 1.0;
     Conventions conventions;
 };
 
-/// A file is of the dictionary family when it spells something only that family knows (`material {
-/// name = ...`, `gennormals = true`, `quaternion`, `focaldistance`, an object or a light that its
-/// students added), or when the largest shininess it writes is in (0, 2]: exponents of that size
-/// make no highlight, 0.2 and 2 of the one family are 25.6 and 256 in the other. Sizes decide
-/// nothing in a file that spells what only the token parsers know (`gennormals;`, `name x;`,
+/// A file belongs to the dictionary family when it contains syntax unique to that family (`material
+/// { name = ...`, `gennormals = true`, `quaternion`, `focaldistance`, an object or a light of its
+/// student extensions), or when its largest shininess is in (0, 2]: exponents of that size give no
+/// highlight, while 0.2 and 2 of the dictionary family are exponents of 25.6 and 256. The shininess
+/// is ignored in a file with syntax unique to the token parsers (`gennormals;`, `name x;`,
 /// `quaternian`).
 [[nodiscard]] RayFamily detect_ray_family(TextNode root);
 

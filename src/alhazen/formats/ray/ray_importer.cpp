@@ -12,8 +12,7 @@ constexpr double kLatestVersion = 1.1;
 
 /// The header may follow comments and blanks.
 bool starts_with_header(std::string_view bytes) {
-    // Enough for a long comment on top; the rest of a large file need not be looked at to recognise
-    // it.
+    // Covers a long comment before the header; recognition reads no more of a large file.
     constexpr std::size_t kLook = 65536;
     const SourceText source(bytes.substr(0, kLook), "");
     Diagnostics ignored;
@@ -31,7 +30,7 @@ void check_version(TextNode header, Diagnostics& diagnostics) {
     }
 }
 
-/// The first item is the header; a default material holds for everything after it.
+/// The first item is the header; a default material applies to all items after it.
 void read_items(TextNode root, RayContext& context) {
     RayMaterials materials(context);
     RayObjects objects(context, materials);
@@ -82,8 +81,8 @@ SceneDescription RayImporter::import(const ImportSource& source, Diagnostics& di
     scene.conventions = context.family.conventions;
     read_items(tree.root(), context);
     if (scene.cameras.empty()) {
-        // The programs' own camera: at the origin, looking down -z, a picture one unit high at
-        // distance one.
+        // Default camera of the programs: at the origin, looking along -z, image height 1 at
+        // distance 1.
         scene.cameras.push_back(
             {"default", PerspectiveCamera{}, 1.0, {source.path.string(), 1, 1}});
     }

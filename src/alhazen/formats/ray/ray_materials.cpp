@@ -11,7 +11,7 @@ namespace {
 /// The texture of `shininess = map(...)` holds 0..1 in both families.
 constexpr double kShininessMapScale = 128.0;
 
-/// The courses keep scenes in subfolders of the folder with the pictures.
+/// The courses keep scenes in subfolders of the image folder.
 std::filesystem::path default_root(const std::filesystem::path& scene_folder) {
     return scene_folder.parent_path();
 }
@@ -70,7 +70,7 @@ RayMaterial RayMaterials::read_block(TextNode block, const RayMaterial& enclosin
     read_scalar(reader, "shininess", context_.family.shininess_scale, kShininessMapScale,
                 m.shininess);
     read_scalar(reader, "index", 1.0, 1.0, m.index);
-    // Both families: what shines also mirrors, unless the block says how much.
+    // Both families: specular surfaces also reflect, unless the block sets `reflective`.
     if (reader.has("specular") && !reader.has("reflective")) m.reflective = m.specular;
     m.name = read_name(reader);
     refuse_extensions(reader);
@@ -114,7 +114,7 @@ void RayMaterials::add_name(const std::string& name, RayMaterial& material) {
                                    std::to_string(found->second.location.line));
         return;
     }
-    use(material);  // one entry of the scene's list for all its users
+    use(material);  // one material of the scene for all references
     by_name_.emplace(name, material);
 }
 
@@ -136,7 +136,7 @@ std::optional<TextureId> RayMaterials::read_map(TextNode value, std::string_view
     if (!ValueReader{context_.diagnostics}.read(list.first(), "map", file)) return std::nullopt;
     const auto known = maps_.find(file);
     if (known != maps_.end()) return known->second;
-    // Coordinates are in [0, 1]; clamping keeps opposite edges from bleeding into each other.
+    // Coordinates are in [0, 1]; clamping prevents bleeding between opposite edges.
     Texture settings;
     settings.wrap_u = settings.wrap_v = Wrap::Clamp;
     const auto id = textures_.load(file, folder_, settings, file, list.first().location());

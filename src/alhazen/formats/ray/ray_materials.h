@@ -1,9 +1,8 @@
 #pragma once
-/// Materials of the SBT-raytracer format: defaults that nest, names, texture maps.
+/// Materials of the SBT-raytracer format: nested defaults, names, texture maps.
 ///
-/// Source: docs/reference/formats/ray.md.
-/// Differs: a reference to an undefined name is an error (the course's program silently takes the
-/// default).
+/// Source: docs/reference/formats/ray.md. Differs: a reference to an undefined name is an error
+/// (the course program silently uses the default).
 
 #include <map>
 #include <optional>
@@ -15,7 +14,7 @@
 
 namespace alhazen {
 
-/// A material value and its place in the scene's list, once something uses it.
+/// A material value and, once used, its id in the scene.
 struct RayMaterial {
     Material value;
     std::optional<MaterialId> id;
@@ -26,13 +25,13 @@ class RayMaterials {
   public:
     explicit RayMaterials(RayContext& context);
 
-    /// The material written as `value`: a block (a copy of `enclosing` with changes), or a name.
+    /// The material written as `value`: a block (a modified copy of `enclosing`) or a name.
     RayMaterial read(TextNode value, const RayMaterial& enclosing);
-    /// A `material { name = "n"; ... }` item of the dictionary family: defines a name, changes no
-    /// default.
+    /// Handles a `material { name = "n"; ... }` item of the dictionary family: defines a name,
+    /// changes no default.
     void define(TextNode entry, const RayMaterial& enclosing);
 
-    /// The material's id; adds it to the scene when it is used for the first time.
+    /// The material's id; added to the scene at its first use.
     MaterialId use(RayMaterial& material);
 
   private:

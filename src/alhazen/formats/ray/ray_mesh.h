@@ -7,8 +7,8 @@
 
 namespace alhazen {
 
-/// Reads a mesh block: points, faces (fans from the first vertex), normals and materials at the
-/// vertices, gennormals. Adds it to the scene's meshes; nothing when it cannot be used.
+/// Reads a mesh block: points, faces (fans around the first vertex), vertex normals and materials,
+/// gennormals. Adds it to the scene's meshes; none when the mesh is unusable.
 std::optional<MeshIndex> read_ray_mesh(BlockReader& reader, RayContext& context,
                                        RayMaterials& materials, const RayMaterial& material);
 

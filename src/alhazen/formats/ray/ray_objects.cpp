@@ -11,7 +11,7 @@ namespace alhazen {
 
 namespace {
 
-// The shapes of the format, each in its own frame.
+// The shapes of the format, each in its local frame.
 
 AnyShape read_sphere(BlockReader&) {
     return Sphere{};
@@ -66,7 +66,7 @@ bool read_numbers(const Arguments& arguments, std::string_view what, const Value
     return true;
 }
 
-/// Four rows of a matrix that acts on columns.
+/// Four rows of a matrix that multiplies column vectors.
 std::optional<Affine> read_matrix(const Arguments& rows, const ValueReader& values) {
     double m[4][4];
     for (std::size_t i = 0; i < 4; ++i) {
@@ -82,7 +82,7 @@ std::optional<Affine> read_matrix(const Arguments& rows, const ValueReader& valu
     return Affine{{column(0), column(1), column(2)}, column(3)};
 }
 
-/// The transform that `name` makes of its arguments (those before the object).
+/// The transform `name` with its arguments (those before the object).
 std::optional<Affine> read_affine(std::string_view name, TextNode list, const Arguments& arguments,
                                   const ValueReader& values) {
     const std::size_t count = arguments.size();
@@ -123,7 +123,7 @@ std::string RayObjects::known() {
 void RayObjects::read(TextNode item, const Affine& object_from_part, RayMaterial& material) {
     Affine transform = object_from_part;
     std::optional<TextNode> object = item;
-    // A chain of transforms is walked, not recursed into: only groups cost stack.
+    // Transform chains are iterated, not recursed into: only groups use stack.
     while (object && object->is(NodeKind::Entry) && is_transform(object->text())) {
         object = read_transform(*object, transform);
     }
@@ -162,7 +162,7 @@ void RayObjects::refuse(TextNode entry) {
     }
 }
 
-/// A default that is set inside a group ends with it: `material` is a copy.
+/// A default set inside a group is local to it: `material` is a copy.
 void RayObjects::read_group(TextNode block, const Affine& object_from_part, RayMaterial material) {
     for (const TextNode item : block) read(item, object_from_part, material);
 }
@@ -184,7 +184,7 @@ std::optional<TextNode> RayObjects::read_transform(TextNode entry, Affine& objec
     arguments.pop_back();
     const std::optional<Affine> transform =
         read_affine(entry.text(), list, arguments, {context_.diagnostics});
-    // The object is read even under a bad transform: its own findings count too.
+    // The object is read even under an invalid transform, to report its findings too.
     if (transform) object_from_part = object_from_part * *transform;
     return object;
 }

@@ -1,9 +1,9 @@
 #pragma once
 /// Objects, transforms and groups of the SBT-raytracer format.
 ///
-/// Source: docs/reference/formats/ray.md.
-/// Differs: `material = ...` inside a group works (it is in the grammar, and fails in the course's
-/// program). Conventions: transforms are multiplied out, the scene becomes one flat object.
+/// Source: docs/reference/formats/ray.md. Differs: `material = ...` inside a group works (the
+/// grammar has it; the course program fails on it). Conventions: transforms are multiplied out; the
+/// scene becomes one flat object.
 
 #include "alhazen/formats/ray/ray_context.h"
 #include "alhazen/formats/ray/ray_materials.h"
@@ -16,16 +16,16 @@ class RayObjects {
     RayObjects(RayContext& context, RayMaterials& materials)
         : context_(context), materials_(materials) {}
 
-    /// Reads one item that is neither camera nor light: an object, a transform, a group or a
-    /// material. `material` is the default, which the item may change.
+    /// Reads one item other than a camera or light: an object, a transform, a group or a material.
+    /// `material` is the default, which the item may change.
     void read(TextNode item, const Affine& object_from_part, RayMaterial& material);
 
-    /// Names of everything that may stand where an object may, for messages.
+    /// Names of all items valid in place of an object, for messages.
     [[nodiscard]] static std::string known();
 
   private:
     void read_group(TextNode block, const Affine& object_from_part, RayMaterial material);
-    /// Multiplies the transform in; returns what stands under it.
+    /// Multiplies the transform in; returns its operand.
     std::optional<TextNode> read_transform(TextNode entry, Affine& object_from_part);
     void read_untransformed(TextNode item, const Affine& object_from_part, RayMaterial& material);
     void read_shape(TextNode entry, const Affine& object_from_part, const RayMaterial& material);

@@ -16,7 +16,7 @@ BlockReader reader_of(TextNode entry, RayContext& context) {
             context.diagnostics};
 }
 
-/// False, after an error at the value, for a vector without a direction.
+/// False, after an error at the value, for the zero vector.
 bool has_direction(BlockReader& reader, std::string_view key, const Vec3& v) {
     if (length_squared(v) > 0) return true;
     reader.error(reader.find(key).value_or(reader.block()),
@@ -24,19 +24,20 @@ bool has_direction(BlockReader& reader, std::string_view key, const Vec3& v) {
     return false;
 }
 
-/// The rotation of a unit quaternion with its vector part first.
+/// The rotation of a unit quaternion, vector part first.
 Mat3 rotation(double x, double y, double z, double w) {
     return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
             {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
             {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-/// The camera's axes: unit right, up and backward by default; the old programs keep the lengths and
-/// angles that the file gives them, and so do we.
+/// The camera axes: unit right, up and backward by default. As in the original programs, lengths
+/// and angles given in the file are kept.
 Mat3 read_axes(BlockReader& reader, bool normalise) {
     Mat3 axes;
     double q[4];
-    for (const char* key : {"quaternian", "quaternion"}) {  // the first spelling is the reference's
+    for (const char* key :
+         {"quaternian", "quaternion"}) {  // the first is the spelling of the reference
         const auto value = reader.find(key);
         if (!value || !reader.values().read_numbers(*value, key, 4, q)) continue;
         const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -85,7 +86,7 @@ void read_camera(TextNode entry, RayContext& context) {
         reader.error(reader.block(), "aspectratio must be greater than 0");
         aspect = 1;
     }
-    double height = 1;  // of the picture at distance 1: 53.13 degrees
+    double height = 1;  // of the image at distance 1: 53.13 degrees
     if (reader.read("fov", fov_deg)) {
         if (fov_deg > 0 && fov_deg < 180) {
             height = 2 * std::tan(0.5 * fov_deg * kRadiansPerDegree);
@@ -110,7 +111,7 @@ Rgb read_color(BlockReader& reader) {
 }
 
 Attenuation read_attenuation(BlockReader& reader, bool dictionary) {
-    // The token parsers start from 1 / d^2, the dictionary parsers from no attenuation.
+    // Defaults: 1 / d^2 in the token parsers, no attenuation in the dictionary parsers.
     Attenuation a = dictionary ? Attenuation{1, 0, 0} : Attenuation{0, 0, 1};
     reader.read("constant_attenuation_coeff", a.constant);
     reader.read("linear_attenuation_coeff", a.linear);
@@ -161,7 +162,7 @@ void read_point_light(TextNode entry, RayContext& context) {
     add_light(entry, context, light);
 }
 
-/// A light of radius 0 is a point light; anything else needs soft shadows.
+/// A light of radius 0 is a point light; other radii need soft shadows.
 void read_area_light(TextNode entry, RayContext& context) {
     BlockReader reader = reader_of(entry, context);
     double radius = 1;
@@ -176,7 +177,7 @@ void read_area_light(TextNode entry, RayContext& context) {
     add_light(entry, context, light);
 }
 
-/// The half angles of the cone in degrees, by whichever spelling the file uses.
+/// The half angles of the cone in degrees, in any of the spellings.
 std::pair<double, double> read_cone(BlockReader& reader) {
     double full = 0, blend = 0, penumbra = 0, edge[3];
     if (reader.read("size", full)) {
@@ -195,7 +196,7 @@ std::pair<double, double> read_cone(BlockReader& reader) {
         return {edge[0], edge[0]};
     }
     for (const char* key : {"size", "cone_angle", "edgeplace"}) {
-        if (reader.has(key)) return {0, 45};  // its value has been reported
+        if (reader.has(key)) return {0, 45};  // the value was reported as an error
     }
     reader.error(reader.block(), "one of size, cone_angle, edgeplace is missing");
     return {0, 45};

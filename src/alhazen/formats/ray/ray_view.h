@@ -1,8 +1,8 @@
 #pragma once
 /// Cameras and lights of the SBT-raytracer format.
 ///
-/// Source: docs/reference/formats/ray.md.
-/// Differs: spot lights of three student spellings are read; lights with an extent are refused.
+/// Source: docs/reference/formats/ray.md. Differs: accepts spot lights in three student spellings;
+/// rejects lights with an extent.
 
 #include <string_view>
 
@@ -11,7 +11,7 @@
 
 namespace alhazen {
 
-/// True for `camera` and every light that is read.
+/// True for `camera` and every supported light.
 [[nodiscard]] bool is_ray_camera_or_light(std::string_view name);
 /// Adds the camera or light that `entry` describes. Precondition:
 /// is_ray_camera_or_light(entry.text()).

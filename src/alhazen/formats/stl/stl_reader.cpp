@@ -31,7 +31,7 @@ std::uint32_t u32(const char* bytes) {
     return value;
 }
 
-/// The bytes that a binary file's count asks for.
+/// File size that corresponds to the count of a binary file.
 std::uint64_t binary_size(std::string_view bytes) {
     return kHeaderBytes + kFacetBytes * std::uint64_t{u32(bytes.data() + 80)};
 }
@@ -45,7 +45,7 @@ bool begins_with_solid(std::string_view bytes) {
     return cursor.skip_to_word() && is_word(cursor.word(), "solid");
 }
 
-/// Begins with "solid", and a statement of ascii STL follows.
+/// True for "solid" followed by a statement of ascii STL.
 bool is_ascii(std::string_view bytes) {
     if (!begins_with_solid(bytes)) return false;
     TextCursor cursor(bytes.substr(0, 65536));
@@ -56,8 +56,8 @@ bool is_ascii(std::string_view bytes) {
     return is_word(word, "facet") || is_word(word, "endsolid");
 }
 
-/// Binary files that begin with "solid" have zero bytes soon: at the end of their header or in a
-/// coordinate. Texts have none.
+/// Binary files that begin with "solid" have early zero bytes: at the end of the header or in a
+/// coordinate. Text has none.
 bool has_zero_byte(std::string_view bytes) {
     return bytes.substr(0, 65536).find('\0') != std::string_view::npos;
 }
@@ -118,7 +118,7 @@ class StlReader {
 
     void read_binary(std::uint32_t count) {
         check_count(count);
-        // A closed surface without holes has two vertices more than half its triangles.
+        // Euler: a closed surface of genus 0 has two vertices more than half its triangles.
         begin_solid(header_name(), 0, count / 2 + 2);
         StlSolid& solid = solids_.back();
         solid.mesh.triangles.reserve(count);
@@ -136,7 +136,7 @@ class StlReader {
             }
         }
     }
-    /// The text at the start of a binary file, when it is one.
+    /// The text at the start of a binary file, if it is text.
     [[nodiscard]] std::string header_name() const {
         std::string_view header = bytes_.substr(0, 80);
         header = header.substr(0, header.find('\0'));
@@ -169,14 +169,14 @@ class StlReader {
                 skip_facet(cursor);
             }
         }
-        // A solid without facets is nothing to see.
+        // Solids without facets are invisible.
         std::erase_if(solids_, [](const StlSolid& s) { return s.mesh.triangles.empty(); });
     }
     bool read_facet(TextCursor& cursor) {
         std::array<Vec3, 4> v;
         if (!expect(cursor, "normal")) return false;
         for (int k = 0; k < 3; ++k) {
-            // The normal does not count: those of slivers are often nan.
+            // Normals are ignored: those of slivers are often NaN.
             if (cursor.skip_to_word() && !cursor.number(v[0][k])) cursor.word();
         }
         if (!expect(cursor, "outer") || !expect(cursor, "loop")) return false;
@@ -213,7 +213,7 @@ class StlReader {
 
     void begin_solid(std::string name, int line, std::size_t expected) {
         if (as_one_ && !solids_.empty()) return;
-        // Vertices are found again within a solid only; its table is made at its first facet.
+        // Vertices are merged within a solid only; its table is created at its first facet.
         welder_.reset();
         expected_ = expected;
         if (!solids_.empty() && solids_.back().mesh.triangles.empty()) solids_.pop_back();

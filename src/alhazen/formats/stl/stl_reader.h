@@ -2,12 +2,12 @@
 /// Reads an STL file, ascii or binary, into triangle meshes: one per solid.
 ///
 /// Source: 3D Systems, "Stereolithography Interface Specification", 1989; the file layout as
-/// described in Marshall Burns, "Automated Fabrication", 1993, section 6.5.
-/// Differs: an ascii file may hold several solids; words in any capitals; endsolid may be missing.
-/// A file is binary when its size is that which its count asks for, even if it begins with "solid";
-/// one of another size that begins so is binary when zero bytes follow, and told of as such.
-/// Conventions: corners of exactly equal position (-0 = 0) are one vertex. The winding decides what
-/// is outside, not the normals of the file. Attribute bytes are ignored.
+/// described in Marshall Burns, "Automated Fabrication", 1993, section 6.5. Differs: an ascii file
+/// may hold several solids; case is ignored; endsolid may be missing. A file is binary when its
+/// size matches its count, even if it begins with "solid"; a file of another size that begins so is
+/// binary when it has zero bytes, and is reported as binary. Conventions: corners of exactly equal
+/// position (-0 = 0) are one vertex. The winding determines the outside, not the normals of the
+/// file. Attribute bytes are ignored.
 
 #include <string>
 #include <string_view>
@@ -19,15 +19,16 @@ namespace alhazen {
 
 struct StlSolid {
     std::string name;
-    int line = 0;  ///< of an ascii file
+    int line = 0;  ///< ascii files only
     TriangleMesh mesh;
 };
 
-/// Whether the bytes are surely STL: binary of the right size, or text with a solid and a facet.
+/// True when the bytes are certainly STL: binary of the right size, or text with a solid and a
+/// facet.
 [[nodiscard]] bool looks_like_stl(std::string_view bytes);
 
-/// The solids of a file; empty after an error. With `as_one` there is at most one, of all facets.
-/// `file` is only used in messages. Throws Error (Resource).
+/// The solids of a file; empty after an error. With `as_one`, at most one solid with all facets.
+/// `file` is for messages only. Throws Error (Resource).
 [[nodiscard]] std::vector<StlSolid> read_stl(std::string_view bytes, const std::string& file,
                                              const ImportOptions& options, Diagnostics& diagnostics,
                                              bool as_one = false);

@@ -1,10 +1,9 @@
 #pragma once
-/// Typed access to the parse tree: values converted and checked, keys that nobody asked for
-/// reported.
+/// Typed access to the parse tree: converts and checks values, reports unrecognised keys.
 ///
-/// Conventions: every function reports what is wrong with the value it was given, with its place,
-/// and then returns false and leaves its output alone; values that a syntax error left incomplete
-/// fail silently, for they have been reported.
+/// Conventions: every function reports a bad value with its location, returns false and leaves its
+/// output unchanged. Values left incomplete by a syntax error fail silently: the error has been
+/// reported.
 
 #include <optional>
 #include <string>
@@ -28,42 +27,42 @@ struct ValueReader {
     bool read(TextNode value, std::string_view what, Vec2& out) const;
     bool read(TextNode value, std::string_view what, Vec3& out) const;
     bool read(TextNode value, std::string_view what, Rgb& out) const;
-    /// A word or a string.
+    /// Reads a word or a string.
     bool read(TextNode value, std::string_view what, std::string& out) const;
-    /// Exactly `count` numbers.
+    /// Reads exactly `count` numbers.
     bool read_numbers(TextNode value, std::string_view what, int count, double* out) const;
-    /// A list of any length; `out` is the node itself.
+    /// True for a list of any length.
     bool is_list(TextNode value, std::string_view what) const;
 
-    /// False, after "WHAT: expected EXPECTED, found ..." unless the value is broken.
+    /// Reports "WHAT: expected EXPECTED, found ..." unless the value is broken. Always false.
     bool fail(TextNode value, std::string_view what, std::string_view expected) const;
 };
 
-/// "a, b, c".
+/// Names separated by commas: "a, b, c".
 [[nodiscard]] std::string joined(const std::vector<std::string_view>& names);
 
-/// A word and what it stands for.
+/// A keyword and its value.
 template <class T>
 using Vocabulary = std::vector<std::pair<std::string_view, T>>;
 
-/// The pairs of one block. Ask for every key that is known, then call `finish`.
+/// The pairs of one block. Query every known key, then call `finish`.
 class BlockReader {
   public:
     enum class Strictness {
         Strict,    ///< unknown and repeated keys are errors
-        Tolerant,  ///< they are warnings; the last of a repeated key counts
+        Tolerant,  ///< they are warnings; the last repetition counts
     };
 
     /// `what` names the block in messages: "sphere".
     BlockReader(TextNode block, std::string what, Strictness strictness, Diagnostics& diagnostics)
         : block_(block), what_(std::move(what)), strictness_(strictness), values_{diagnostics} {}
 
-    /// The value of `key`, if it is there and not broken.
+    /// The value of `key`, unless absent or broken.
     [[nodiscard]] std::optional<TextNode> find(std::string_view key);
-    /// The key is written, be its value good or not.
+    /// True when the key is present, with a good value or a bad one.
     [[nodiscard]] bool has(std::string_view key) const;
 
-    /// True when the key is there and its value is good.
+    /// True when the key is present and its value is good.
     template <class T>
     bool read(std::string_view key, T& out) {
         const std::optional<TextNode> value = find(key);
@@ -72,12 +71,12 @@ class BlockReader {
     template <class T>
     bool read_word(std::string_view key, const Vocabulary<T>& words, T& out);
 
-    /// Reports an error unless the key is written.
+    /// Reports an error when the key is absent.
     void require(std::string_view key);
-    /// Makes a key known without reading it.
+    /// Marks a key as known without reading it.
     void ignore(std::string_view key) { (void)find(key); }
 
-    /// Reports pairs that nobody asked for, and items that are no pairs unless `allow_items`.
+    /// Reports pairs that were never queried, and items that are not pairs unless `allow_items`.
     void finish(bool allow_items = false);
 
     [[nodiscard]] TextNode block() const { return block_; }

@@ -33,7 +33,7 @@ bool continues_number(char c) {
 bool ends_string(char c) {
     return c == '"' || c == '\n' || c == '\r';
 }
-/// 0 to 15, or -1.
+/// Value 0 to 15, or -1.
 int hex_digit(char c) {
     if (is_digit(c)) return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -45,8 +45,8 @@ bool starts_token(char c) {
            kPunctuation.find(c) != std::string_view::npos;
 }
 
-/// Decides for a number that does not fit in a double whether it is too large (else it is too
-/// small), by the place of its first digit that is not 0.
+/// Classifies a number outside the range of double by the position of its first nonzero digit: true
+/// for too large, false for too small.
 bool is_overflow(std::string_view digits) {
     const std::size_t e = digits.find_first_of("eE");
     long long power = 0;
@@ -174,7 +174,7 @@ void Lexer::skip_blanks_and_comments() {
     }
 }
 
-/// A run of bytes that begin no token is one finding.
+/// A run of bytes that start no token is one error.
 void Lexer::skip_rubbish() {
     const std::size_t first = at_++;
     while (at_ < text_.size() && !is_blank(text_[at_]) && !starts_token(text_[at_])) ++at_;
@@ -226,7 +226,7 @@ Token Lexer::number() {
     } else if (status == std::errc::result_out_of_range && is_overflow(digits)) {
         error(first, "number " + printable(token.text) + " is too large");
         token.damaged = true;
-    } else if (!std::isfinite(value)) {  // from_chars knows "-inf" and "-nan"
+    } else if (!std::isfinite(value)) {  // from_chars accepts "-inf" and "-nan"
         error(first, "'" + printable(token.text) + "' is not a finite number");
         token.damaged = true;
     } else if (status == std::errc{}) {

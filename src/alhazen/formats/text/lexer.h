@@ -1,11 +1,11 @@
 #pragma once
 /// Splits the text formats into words, strings, numbers and punctuation.
 ///
-/// Source: the token rules shared by the SBT-raytracer format and our own (docs/reference/formats).
-/// Differs: numbers are those of C (the old format knew neither `+` nor `E`), and must be read to
-/// the end: `1-2` is refused, not taken for 1. Conventions: bytes in, views into them out; columns
-/// count bytes from 1. Findings about single tokens go to the diagnostics and lexing goes on, so
-/// that a parser need not report them again.
+/// Source: the token rules common to the SBT-raytracer format and the native format
+/// (docs/reference/formats). Differs: numbers follow C (the old format had neither `+` nor `E`) and
+/// must be read completely: `1-2` is an error, not 1. Conventions: tokens are views into the bytes;
+/// columns count bytes from 1. Errors in single tokens go to the diagnostics and lexing continues;
+/// the parser need not report them again.
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace alhazen {
 
-/// The bytes of one file and the way from an offset to line and column.
+/// The bytes of one file, with the mapping from offsets to lines and columns.
 class SourceText {
   public:
     /// `bytes` must outlive the object. Throws Error (Resource) beyond 4 GiB: offsets are 32 bits.
@@ -30,7 +30,7 @@ class SourceText {
   private:
     std::string_view bytes_;
     std::string file_;
-    mutable std::vector<std::uint32_t> line_starts_;  ///< made by the first question
+    mutable std::vector<std::uint32_t> line_starts_;  ///< built on first use
 };
 
 enum class TokenKind { Word, String, Number, Punctuation, End };
@@ -38,35 +38,35 @@ enum class TokenKind { Word, String, Number, Punctuation, End };
 struct Token {
     TokenKind kind = TokenKind::End;
     std::uint32_t offset = 0;
-    std::string_view text;  ///< of a string, without its quotes; escapes as they are written
+    std::string_view text;  ///< strings: without quotes, escapes unresolved
     double number = 0;      ///< always finite
-    bool damaged = false;   ///< already reported; the value is a stand-in
+    bool damaged = false;   ///< already reported; the value is a placeholder
 
     [[nodiscard]] bool is(char c) const {
         return kind == TokenKind::Punctuation && text.front() == c;
     }
 };
 
-/// As in a message: `'{'`, `number 5`, `"a"`, `end of file`.
+/// A token for messages: `'{'`, `number 5`, `"a"`, `end of file`.
 [[nodiscard]] std::string describe(const Token& token);
-/// `text` with unprintable bytes as \xNN, cut to a length that fits a message.
+/// `text` with unprintable bytes as \xNN, truncated for messages.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// The bytes that a string with escapes means: \" \\ \n \r \t and \xHH, one byte by its two hex
-/// digits. Nothing when there is another escape.
+/// Resolves the escapes of a string: \" \\
+///  \r \t and \xHH (one byte, two hex digits). None for any other escape.
 [[nodiscard]] std::optional<std::string> unescaped(std::string_view text);
 
 class Lexer {
   public:
-    /// With `string_escapes` a backslash in a string takes the next character with it; the old
-    /// formats have none.
+    /// With `string_escapes`, a backslash in a string escapes the next character. The old formats
+    /// have no escapes.
     Lexer(const SourceText& source, Diagnostics& diagnostics, bool string_escapes = false)
         : source_(source),
           text_(source.bytes()),
           diagnostics_(diagnostics),
           string_escapes_(string_escapes) {}
 
-    /// The next token; End for ever after the last one.
+    /// The next token; End after the last one, repeatedly.
     [[nodiscard]] Token next();
 
   private:

@@ -1,10 +1,11 @@
 #pragma once
-/// A place in a text that moves forward word by word and knows its line and column.
+/// Forward cursor over a text, word by word, with line and column.
 ///
-/// Used by the formats whose files are large (NFF, PLY, OBJ): nothing is copied, numbers are read
-/// with std::from_chars, whatever the locale. Conventions: a number may start with `+`; it ends at
-/// white space or at the end of the text. Lines end at \n, \r\n or \r. Lines and columns count
-/// from 1. NaN and infinities are no numbers.
+/// For formats with large files (NFF, PLY, OBJ): copies nothing; reads numbers with
+/// std::from_chars, independent of the locale. Conventions: a number may start with `+` and ends at
+/// white space or at the end of the text. Lines end at
+/// , \r
+///  or \r. Lines and columns count from 1. NaN and infinities are not numbers.
 
 #include <charconv>
 #include <climits>
@@ -30,15 +31,15 @@ class TextCursor {
     [[nodiscard]] char peek() const { return next_ == end_ ? '\0' : *next_; }
     [[nodiscard]] std::size_t bytes_left() const { return std::size_t(end_ - next_); }
 
-    /// Where the next character is.
+    /// Location of the next character.
     [[nodiscard]] FileLocation location(const std::string& file) const {
         const auto clamped = [](std::int64_t n) { return n > INT_MAX ? INT_MAX : int(n); };
         return {file, clamped(line_), clamped(next_ - line_start_ + 1)};
     }
     [[nodiscard]] std::int64_t line() const { return line_; }
 
-    /// Moves to the next character of this line that is not blank; false at the end of the line. A
-    /// backslash before the end of the line joins the next line to it.
+    /// Moves to the next nonblank character of this line; false at the end of the line. A backslash
+    /// before the line end continues the line.
     bool skip_blanks() {
         for (;;) {
             while (next_ != end_ && is_blank(*next_)) ++next_;
@@ -46,19 +47,19 @@ class TextCursor {
             if (*next_ != '\\' || !joins_lines()) return true;
         }
     }
-    /// Moves behind the end of this line.
+    /// Moves past the end of this line.
     void skip_line() {
         while (next_ != end_ && !is_newline(*next_)) ++next_;
         step_over_newline();
     }
-    /// The characters up to the end of this line, which is then before the cursor.
+    /// Returns the characters up to the end of this line; the cursor stops at the line end.
     std::string_view rest_of_line() {
         const char* const begin = next_;
         while (next_ != end_ && !is_newline(*next_)) ++next_;
         return {begin, std::size_t(next_ - begin)};
     }
-    /// Moves to the next word, over lines and over comments, which run from one of `comment_marks`
-    /// to the end of their line; false at the end of the text.
+    /// Moves to the next word, across lines and comments (from one of `comment_marks` to the end of
+    /// the line); false at the end of the text.
     bool skip_to_word(std::string_view comment_marks = {}) {
         while (next_ != end_) {
             if (is_newline(*next_)) {
@@ -74,13 +75,13 @@ class TextCursor {
         return false;
     }
 
-    /// The characters up to the next white space, which are then behind the cursor.
+    /// Reads the characters up to the next white space.
     std::string_view word() {
         const char* const begin = next_;
         while (next_ != end_ && !is_space(*next_)) ++next_;
         return {begin, std::size_t(next_ - begin)};
     }
-    /// The same, but the cursor stays; at most 40 characters, for messages.
+    /// The next word, at most 40 characters, for messages; the cursor does not move.
     [[nodiscard]] std::string shown_word() const {
         TextCursor copy = *this;
         const std::string_view text = copy.word();
@@ -92,13 +93,13 @@ class TextCursor {
         return shown + (text.size() > 40 ? "...'" : "'");
     }
 
-    /// Reads a finite number; on false the cursor has not moved.
+    /// Reads a finite number. On failure the cursor does not move.
     bool number(double& value) {
         const char* const begin = next_ != end_ && *next_ == '+' ? next_ + 1 : next_;
         if (begin != next_ && begin != end_ && *begin == '-') return false;
         const auto [stop, error] = std::from_chars(begin, end_, value);
         if (error == std::errc::result_out_of_range) {
-            // Too small is zero; too large is no number.
+            // Underflow reads as zero; overflow is an error.
             if (!underflows({begin, std::size_t(stop - begin)})) return false;
             value = 0.0;
         } else if (error != std::errc{} || !std::isfinite(value)) {
@@ -108,7 +109,7 @@ class TextCursor {
         next_ = stop;
         return true;
     }
-    /// Reads a whole number that ends at white space; on false the cursor has not moved.
+    /// Reads an integer that ends at white space. On failure the cursor does not move.
     bool integer(std::int64_t& value) {
         const char* const start = next_;
         if (!leading_integer(value)) return false;
@@ -116,7 +117,7 @@ class TextCursor {
         next_ = start;
         return false;
     }
-    /// Reads a whole number, whatever follows it.
+    /// Reads an integer regardless of the character after it.
     bool leading_integer(std::int64_t& value) {
         const char* const begin = next_ != end_ && *next_ == '+' ? next_ + 1 : next_;
         if (begin != next_ && begin != end_ && *begin == '-') return false;
@@ -125,7 +126,7 @@ class TextCursor {
         next_ = stop;
         return true;
     }
-    /// Steps over the next character when it is `c`, which is not the end of a line.
+    /// Skips the next character if it is `c`. Precondition: `c` is not a line end.
     bool take(char c) {
         if (next_ == end_ || *next_ != c) return false;
         ++next_;
@@ -152,7 +153,7 @@ class TextCursor {
         step_over_newline();
         return true;
     }
-    /// Of a number that does not fit a double: true when it is too small.
+    /// Of a number outside the range of double: true when it is too small.
     static bool underflows(std::string_view number) {
         const std::size_t exponent = number.find_first_of("eE");
         if (exponent != std::string_view::npos && exponent + 1 < number.size()) {

@@ -25,7 +25,7 @@ std::uint32_t TextParser::add(NodeKind kind, const Token& token) {
     if (kind == NodeKind::Number) {
         node.number = token.number;
     } else {
-        // Offsets point at the quote of a string, for messages; its text begins one later.
+        // Offsets point at the opening quote of a string, for messages; the text starts one later.
         node.length = static_cast<std::uint32_t>(token.text.size());
     }
     nodes_.push_back(node);
@@ -74,7 +74,7 @@ void TextParser::open_bracket() {
     }
 }
 
-/// The node that contains what was just completed learns of it.
+/// Marks the completed value in the enclosing node.
 void TextParser::value_done() {
     if (stack_.empty()) return;
     stack_.back().has_value = true;
@@ -89,7 +89,7 @@ void TextParser::close() {
     const bool bracket = frame.kind == NodeKind::Block || frame.kind == NodeKind::List;
     if (bracket && frame.closer != 0) --nesting_;
     if (stack_.empty()) return;
-    // A bracket is the last argument of an entry.
+    // A bracketed argument ends the entry.
     if (bracket && stack_.back().kind == NodeKind::Entry) {
         close();
     } else {
@@ -125,7 +125,7 @@ void TextParser::value() {
     if (token_.is('(') || token_.is('[') || token_.is('{')) return open_bracket();
     syntax_error("a value");
     if (stack_.back().kind == NodeKind::List) return recover_in_list();
-    // A pair without its value ends where it is.
+    // A pair without a value ends here.
     close();
     if (token_.is(',') || token_.is('=')) take();
 }
@@ -149,7 +149,7 @@ void TextParser::list_step() {
     recover_in_list();
 }
 
-/// The arguments of an entry: one string or number, then one list or block.
+/// Reads the arguments of an entry: one string or number, then one list or block.
 void TextParser::entry_step() {
     Frame& entry = stack_.back();
     const bool first = !entry.has_value;

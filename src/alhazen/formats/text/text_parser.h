@@ -1,7 +1,6 @@
 #pragma once
-/// The parser that fills a TextTree (text_tree.h): a stack of frames instead of recursion, so that
-/// nesting costs no stack. text_parser.cpp has the grammar, text_parser_errors.cpp what happens
-/// where a text leaves it.
+/// The parser that fills a TextTree (text_tree.h). An explicit stack of frames replaces recursion.
+/// Grammar: text_parser.cpp; error recovery: text_parser_errors.cpp.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,8 +13,8 @@
 
 namespace alhazen {
 
-/// One frame for every node that is still open. A pair closes after one value, an entry after its
-/// arguments, lists and blocks at their bracket.
+/// Keeps one frame per open node. A pair closes after one value, an entry after its arguments,
+/// lists and blocks at their closing bracket.
 class TextParser {
   public:
     TextParser(TextTree& tree, const TextTree::Limits& limits, Diagnostics& diagnostics)
@@ -37,9 +36,9 @@ class TextParser {
     struct Frame {
         std::uint32_t node;
         NodeKind kind;
-        char closer = 0;               ///< of a list or block; 0 for the file itself
-        bool has_value = false;        ///< a value has been read
-        bool wants_separator = false;  ///< of a list
+        char closer = 0;               ///< closing bracket of a list or block; 0 for the file
+        bool has_value = false;        ///< at least one value read
+        bool wants_separator = false;  ///< lists: a comma is due
     };
     static constexpr int kMaxSyntaxErrors = 50;
 

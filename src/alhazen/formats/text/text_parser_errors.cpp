@@ -1,10 +1,10 @@
-/// Syntax errors: what is said, what is marked as broken, and where parsing goes on.
+/// Syntax errors: messages, marking of broken nodes, recovery.
 
 #include "alhazen/formats/text/text_parser.h"
 
 namespace alhazen {
 
-/// What is open up to the nearest block is incomplete.
+/// Marks the open nodes up to the innermost block as broken.
 void TextParser::mark_broken() {
     for (std::size_t i = stack_.size(); i-- > 0 && stack_[i].kind != NodeKind::Block;) {
         nodes_[stack_[i].node].broken = true;
@@ -29,12 +29,12 @@ void TextParser::end_of_file() {
                      std::to_string(opened.line) + ", column " + std::to_string(opened.column));
         break;
     }
-    // Everything that is open is incomplete, not only up to the nearest block.
+    // All open nodes are incomplete, not only those up to the innermost block.
     for (std::size_t i = 1; i < stack_.size(); ++i) nodes_[stack_[i].node].broken = true;
     stopped_ = true;
 }
 
-/// token_ is a closing bracket, and not that of the innermost open one.
+/// Handles a closing bracket in token_ that does not match the innermost open bracket.
 void TextParser::mismatched_closer() {
     std::size_t match = stack_.size();
     while (match-- > 1 && !token_.is(stack_[match].closer)) {
@@ -53,14 +53,14 @@ void TextParser::mismatched_closer() {
     const FileLocation opened = source_.location(nodes_[stack_[inner].node].offset);
     syntax_error(std::string("'") + stack_[inner].closer + "' for the bracket opened in line " +
                  std::to_string(opened.line) + ", column " + std::to_string(opened.column));
-    // The blocks in between are incomplete too: their owners must not be read.
+    // The blocks in between are incomplete too; their owners must not be read.
     for (std::size_t i = match + 1; i < stack_.size(); ++i) nodes_[stack_[i].node].broken = true;
     while (stack_.size() > match + 1) close();
     take();
     close();
 }
 
-/// Skips to the end of the list, or to the end of the item that it is in.
+/// Skips to the end of the list or of the item that contains it.
 void TextParser::recover_in_list() {
     int depth = 0;
     while (!stopped_ && token_.kind != TokenKind::End) {
@@ -80,7 +80,7 @@ void TextParser::recover_in_list() {
     close_to(block + 1);
 }
 
-/// Skips to something that can begin an item.
+/// Skips to the next token that can begin an item.
 void TextParser::recover_in_block() {
     while (token_.kind != TokenKind::End && token_.kind != TokenKind::Word && !token_.is('}') &&
            !token_.is('{') && !token_.is(';')) {

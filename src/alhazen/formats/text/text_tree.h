@@ -1,6 +1,5 @@
 #pragma once
-/// The parse tree that our two text formats share: blocks of named values, lists, and nothing that
-/// knows what the names mean.
+/// Parse tree common to both text formats: blocks of named values and lists, without semantics.
 ///
 ///     file  := { item }
 ///     item  := WORD "=" value [";"] | entry [";"] | WORD [";"] | block | ";"
@@ -9,11 +8,11 @@
 ///     list  := "(" [ value { "," value } ] ")"                          or with brackets [ ]
 ///     block := "{" { item } "}"
 ///
-/// Source: a union of the two grammars of the SBT-raytracer format (docs/reference/formats/ray.md).
-/// Differs: parsed with a stack of its own, so depth costs no recursion; nodes lie in one array in
-/// the order of the text (24 bytes a node), so a subtree is a range. Conventions: syntax errors are
-/// reported and parsing goes on; what they leave incomplete is `broken()` and must not be reported
-/// again.
+/// Source: the union of the two grammars of the SBT-raytracer format
+/// (docs/reference/formats/ray.md). Conventions: parsed with an explicit stack; nesting depth costs
+/// no recursion. Nodes lie in one array in text order (24 bytes per node); a subtree is a range.
+/// Syntax errors are reported and parsing continues; nodes left incomplete are `broken()` and must
+/// not be reported again.
 
 #include <cstdint>
 #include <iterator>
@@ -37,10 +36,10 @@ class TextTree {
         std::uint64_t max_nodes = 400'000'000;
         bool string_escapes = false;  ///< see Lexer
     };
-    /// Readers of the tree recurse; this bounds their stack, sanitizers included.
+    /// Readers of the tree recurse; this limit bounds their stack, also under sanitizers.
     static constexpr int kMaxNesting = 500;
 
-    /// Parses the whole of `source`, which must outlive the tree. Throws Error (Resource) beyond
+    /// Parses all of `source`, which must outlive the tree. Throws Error (Resource) beyond
     /// max_nodes.
     TextTree(const SourceText& source, const Limits& limits, Diagnostics& diagnostics);
 
@@ -54,10 +53,10 @@ class TextTree {
     struct Node {
         union {
             double number;
-            std::uint32_t length;  ///< of the text of a word, string, pair or entry
+            std::uint32_t length;  ///< text length of a word, string, pair or entry
         };
         std::uint32_t offset = 0;
-        std::uint32_t end = 0;  ///< index one past the subtree
+        std::uint32_t end = 0;  ///< one past the last index of the subtree
         NodeKind kind = NodeKind::Block;
         bool broken = false;
     };
@@ -65,11 +64,11 @@ class TextTree {
 
     const SourceText* source_;
     std::vector<Node> nodes_;
-    /// What strings with escapes mean, by their offset.
+    /// Strings with resolved escapes, by offset.
     std::unordered_map<std::uint32_t, std::string> unescaped_;
 };
 
-/// A place in a tree: cheap to copy, valid as long as the tree.
+/// A node of a tree: cheap to copy, valid while the tree exists.
 class TextNode {
   public:
     class Iterator {
@@ -96,27 +95,27 @@ class TextNode {
 
     [[nodiscard]] NodeKind kind() const { return node().kind; }
     [[nodiscard]] bool is(NodeKind k) const { return kind() == k; }
-    /// An entry or a pair of that name.
+    /// True for an entry or a pair of that name.
     [[nodiscard]] bool is(NodeKind k, std::string_view name) const {
         return kind() == k && text() == name;
     }
-    /// The name of a pair or entry, the text of a word or string; else empty.
+    /// The name of a pair or entry, the text of a word or string; otherwise empty.
     [[nodiscard]] std::string_view text() const;
     /// 0 unless the node is a number.
     [[nodiscard]] double number() const { return is(NodeKind::Number) ? node().number : 0.0; }
-    /// A syntax error inside has been reported: use nothing of it.
+    /// True when a syntax error inside was reported; the content must not be used.
     [[nodiscard]] bool broken() const { return node().broken; }
     [[nodiscard]] FileLocation location() const { return tree_->source_->location(node().offset); }
 
     [[nodiscard]] Iterator begin() const { return {tree_, index_ + 1}; }
     [[nodiscard]] Iterator end() const { return {tree_, node().end}; }
     [[nodiscard]] bool empty() const { return index_ + 1 == node().end; }
-    /// Number of children; walks them.
+    /// Number of children, in time linear in it.
     [[nodiscard]] std::size_t size() const;
     /// Precondition: not empty.
     [[nodiscard]] TextNode first() const { return {tree_, index_ + 1}; }
 
-    /// "number", "a list of 3 values", "'translate(...)'": for messages.
+    /// A node for messages: "number", "a list of 3 values", "'translate(...)'".
     [[nodiscard]] std::string describe() const;
 
   private:

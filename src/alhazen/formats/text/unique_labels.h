@@ -1,5 +1,5 @@
 #pragma once
-/// Names made unique, for formats whose things are referred to by name.
+/// Unique labels for formats that refer to objects by name.
 
 #include <string>
 #include <unordered_set>
@@ -7,8 +7,8 @@
 
 namespace alhazen {
 
-/// One label for each name: the name itself where it is the first of its kind, else with a number
-/// that is free; `kind` stands for an empty one. Unique names are never changed.
+/// One label per name: the name itself at its first occurrence, else the name with a free number
+/// appended; `kind` replaces an empty name. Unique names never change.
 [[nodiscard]] inline std::vector<std::string> unique_labels(const std::vector<std::string>& names,
                                                             const std::string& kind) {
     std::unordered_set<std::string> taken;
@@ -19,7 +19,7 @@ namespace alhazen {
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!labels[i].empty()) continue;
         const std::string stem = (names[i].empty() ? kind : names[i]) + "_";
-        // Steps of the number of names: other labels of this loop cannot be in the way.
+        // With a stride of the number of names, labels of this loop cannot collide.
         for (std::size_t number = i; labels[i].empty(); number += names.size()) {
             const std::string label = stem + std::to_string(number);
             if (taken.insert(label).second) labels[i] = label;

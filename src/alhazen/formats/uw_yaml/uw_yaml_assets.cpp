@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// "a, b, c" of the keys, in order, for messages.
+/// The keys in order, for messages: "a, b, c".
 template <class Map>
 std::string names_of(const Map& map) {
     std::vector<std::string> names;
@@ -96,7 +96,7 @@ MaterialId UwAssets::make_material(const std::string& name, const YAML::Node& no
     m.ambient = m.diffuse;
     m.specular = color_input(uniforms, "Specular");
     m.reflective = m.specular;
-    m.transmissive = color_input(uniforms, "Transmittence");  // spelt so
+    m.transmissive = color_input(uniforms, "Transmittence");  // spelling of the format
     m.shininess.value = values_.number(uniforms, "Shininess", 0.0);
     m.index.value = values_.number(uniforms, "IndexOfRefraction", 1.0);
     const MaterialId id{std::uint32_t(scene_.materials.size())};
@@ -113,7 +113,7 @@ ColorInput UwAssets::color_input(const YAML::Node& uniforms, const char* name) {
         if (map.empty()) {
             values_.warning(uniform, std::string("'") + name + "' uses a texture but names none");
         } else if (const std::optional<TextureId> id = texture(map, uniform)) {
-            // The map stands in for the colour, it is not multiplied by it.
+            // The map replaces the colour; it is not multiplied by it.
             return {{1, 1, 1}, *id};
         }
     }

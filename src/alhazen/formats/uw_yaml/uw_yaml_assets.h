@@ -1,10 +1,9 @@
 #pragma once
-/// Materials, textures and meshes of a course scene, read when a component first names them: the
-/// scenes list more than they use, and not all of it comes with them.
+/// Materials, textures and meshes of a course scene, read at their first use by a component: the
+/// scenes list more than they use, and some files are absent.
 ///
-/// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md).
-/// Differs: nothing.
-/// Conventions: paths are relative to the folder that holds the course's `assets`.
+/// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md). Conventions: paths
+/// are relative to the parent folder of the course's `assets`.
 
 #include <filesystem>
 #include <optional>
@@ -17,8 +16,8 @@
 
 namespace alhazen {
 
-/// The nearest folder above `scene_folder` (itself included) with a folder `assets`; `scene_folder`
-/// when there is none.
+/// The nearest ancestor of `scene_folder` (itself included) with a subfolder `assets`; otherwise
+/// `scene_folder`.
 [[nodiscard]] std::filesystem::path find_course_root(const std::filesystem::path& scene_folder);
 
 class UwAssets {
@@ -26,10 +25,9 @@ class UwAssets {
     UwAssets(const YAML::Node& document, const ImportSource& source, SceneDescription& scene,
              Diagnostics& diagnostics);
 
-    /// The material that `component` names; a grey one (reported) when it cannot be had.
+    /// The material that `component` names; a grey one, with a report, when it is unavailable.
     MaterialId material(const YAML::Node& component);
-    /// The mesh of that name, read from its file. Reports and returns nothing when it cannot be
-    /// had.
+    /// The mesh of that name, read from its file. Reports and returns none when it is unavailable.
     std::optional<MeshIndex> mesh(const std::string& name, const YAML::Node& component);
     [[nodiscard]] bool has_mesh(const std::string& name) const { return meshes_.contains(name); }
 

@@ -17,11 +17,11 @@ FileLocation place(const std::string& file, const YAML::Mark& mark) {
                           : FileLocation{file, mark.line + 1, mark.column + 1};
 }
 
-/// Follows the nesting of a text from line to line, before the parser, which recurses, sees it. The
-/// parser has a guard of its own, so a quote or bracket that this misreads does no harm.
+/// Tracks the nesting of a text line by line before the recursive parser runs. A misread quote or
+/// bracket is harmless: the parser has its own guard.
 class NestingScan {
   public:
-    /// The nesting at the deepest place of the line, seen after all lines before.
+    /// The maximum nesting in the line. Precondition: all previous lines were passed.
     std::size_t depth_of(std::string_view line) {
         const std::size_t indent = line.find_first_not_of(" \t\r");
         if (indent == std::string_view::npos || line[indent] == '#') return 0;
@@ -95,7 +95,7 @@ void YamlValues::warning(const YAML::Node& node, const std::string& message) {
 
 YAML::Node YamlValues::find(const YAML::Node& map, const char* key) {
     if (!map.IsDefined() || !map.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
-    // By hand: the operator of yaml-cpp would convert every key.
+    // Explicit search: the operator of yaml-cpp would convert every key.
     for (const auto& entry : map) {
         if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
     }

@@ -1,11 +1,9 @@
 #pragma once
-/// YAML text made safe to read: limits first, then nodes whose values are read as the course's
-/// program wrote them.
+/// Safe reading of YAML text: limits, parsing, and values in the notation of the course program.
 ///
-/// Source: YAML 1.2, through yaml-cpp.
-/// Differs: numbers are read from their text, not by YAML's rules of types (`5e-05` is a number
-/// here); every finding names the line and column. Conventions: a missing value is the given
-/// default, a wrong one is reported and becomes the default.
+/// Source: YAML 1.2, through yaml-cpp. Differs: numbers are parsed from their text, not by the YAML
+/// type rules (`5e-05` is a number here); every finding has line and column. Conventions: an absent
+/// value gives the default; an invalid one is reported and gives the default.
 
 #include <yaml-cpp/yaml.h>
 
@@ -19,15 +17,15 @@
 
 namespace alhazen {
 
-/// The largest text that is parsed: nodes take a few hundred bytes each.
+/// Maximum size of the text: nodes take a few hundred bytes each.
 inline constexpr std::size_t kMaxYamlBytes = std::size_t{1} << 20;
 
-/// The document of `bytes`; nothing after an error. Throws Error: Resource for text that is too
-/// large, Scene for text nested deeper than `max_nesting`.
+/// Parses `bytes`; none after an error. Throws Error: Resource for text that is too large, Scene
+/// for text nested deeper than `max_nesting`.
 [[nodiscard]] std::optional<YAML::Node> parse_yaml(std::string_view bytes, const std::string& file,
                                                    int max_nesting, Diagnostics& diagnostics);
 
-/// Reads values of nodes and reports at their place.
+/// Reads values of nodes; reports errors at their location.
 class YamlValues {
   public:
     YamlValues(std::string file, Diagnostics& diagnostics)
@@ -37,15 +35,15 @@ class YamlValues {
     void error(const YAML::Node& node, const std::string& message);
     void warning(const YAML::Node& node, const std::string& message);
 
-    /// The value of `key`, or an undefined node when `map` is no map or has no such key.
+    /// The value of `key`; an undefined node when `map` is not a map or lacks the key.
     [[nodiscard]] static YAML::Node find(const YAML::Node& map, const char* key);
 
     [[nodiscard]] double number(const YAML::Node& map, const char* key, double missing);
     [[nodiscard]] bool flag(const YAML::Node& map, const char* key, bool missing);
     [[nodiscard]] std::string text(const YAML::Node& map, const char* key);
-    /// {X, Y, Z}; `missing` also stands for each component.
+    /// {X, Y, Z}; `missing` is the default of each component.
     [[nodiscard]] Vec3 vector(const YAML::Node& map, const char* key, double missing);
-    /// {R, G, B, A}, without A; missing channels are 0.
+    /// {R, G, B, A}, without A; the default of each channel is 0.
     [[nodiscard]] Rgb color(const YAML::Node& map, const char* key);
 
   private:

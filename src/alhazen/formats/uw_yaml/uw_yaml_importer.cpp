@@ -24,7 +24,7 @@ Conventions uw_conventions() {
     return c;
 }
 
-/// The text has a line that starts with `key`.
+/// True when the text has a line that starts with `key`.
 bool has_key(std::string_view text, std::string_view key) {
     for (std::size_t at = text.find(key); at != std::string_view::npos;
          at = text.find(key, at + 1)) {

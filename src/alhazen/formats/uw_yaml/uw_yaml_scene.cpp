@@ -8,9 +8,9 @@ namespace alhazen {
 
 namespace {
 
-/// Nodes and components that are read at most: aliases can make a short text very long.
+/// Limit on nodes and components read: aliases can expand a short text enormously.
 constexpr std::size_t kMaxVisits = 200'000;
-/// Half the thickness of the course's plane: two sheets, so that light crosses two surfaces.
+/// Half the thickness of the course's plane: two sheets, so light crosses two surfaces.
 constexpr double kPlaneHalfThickness = 1e-5;
 
 double radians(double degrees) {
@@ -36,7 +36,7 @@ void UwSceneReader::read() {
         return;
     }
     read_node(root, Affine{}, 0);
-    // Everything downstream counts on one material.
+    // Later stages require at least one material.
     if (scene_.materials.empty()) scene_.materials.emplace_back();
 }
 
@@ -87,7 +87,7 @@ void UwSceneReader::read_node(const YAML::Node& node, const Affine& world_from_p
 
 UwSceneReader::ReadComponent UwSceneReader::reader_of(const std::string& component) {
     static const std::array<std::pair<std::string_view, ReadComponent>, 14> kReaders{{
-        {"Transform", &UwSceneReader::nothing},  // read before the others
+        {"Transform", &UwSceneReader::nothing},  // read first
         {"EnvironmentMap", &UwSceneReader::nothing},
         {"Sphere", &UwSceneReader::sphere},
         {"Cylinder", &UwSceneReader::cylinder},
@@ -114,7 +114,7 @@ void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
     const MaterialId material = assets_.material(component);
     const Affine world_from_part = place.world_from_node * node_from_part;
     if (!is_invertible(world_from_part)) {
-        // An object scaled to nothing, as animations do: there is nothing to see.
+        // An object scaled to zero, as animations do, is invisible.
         return values_.warning(component,
                                "'" + place.name + "' is scaled to nothing and not drawn");
     }
@@ -125,7 +125,8 @@ void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
 void UwSceneReader::sphere(const Place& place, const YAML::Node& component) {
     Sphere sphere;
     sphere.radius = 0.5;
-    // Our poles are on z, the course's on y, with u = 0 on +z (as its exported spheres have them).
+    // Poles lie on z in this library, on y in the course, with u = 0 on +z (as in its exported
+    // spheres).
     const Affine poles_on_y{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {}};
     add_part(place, component, sphere, poles_on_y);
 }
@@ -279,7 +280,7 @@ void UwSceneReader::trace_settings(const YAML::Node& trace) {
     }
 }
 
-/// `Shadows` is 0 (none), 1 (every surface is opaque) or 2 (coloured); older files have a switch,
+/// `Shadows` is 0 (none), 1 (all surfaces opaque) or 2 (coloured); older files have the switch
 /// `Enable Shadows`.
 void UwSceneReader::shadow_settings(const YAML::Node& trace) {
     using ShadowTint = ShadingConventions::ShadowTint;

@@ -1,11 +1,11 @@
 #pragma once
-/// The tree of a course scene: nodes with a transform, components and children, made into parts,
-/// lights and cameras.
+/// The node tree of a course scene: nodes with a transform, components and children, converted to
+/// parts, lights and cameras.
 ///
 /// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md). M = T Rx Ry Rz S;
 /// children multiply on the right. Differs: transforms are multiplied out in double; cones and
-/// rings are exact, not meshes. Conventions: what a component cannot say here is a warning that
-/// names it.
+/// rings are exact, not meshes. Conventions: unsupported properties of a component are warnings
+/// that name them.
 
 #include <set>
 #include <string>
@@ -22,7 +22,7 @@ class UwSceneReader {
     void read();
 
   private:
-    /// A node of the tree whose components are being read.
+    /// The node whose components are being read.
     struct Place {
         std::string name;
         Affine world_from_node;

@@ -283,7 +283,7 @@ TEST(MeshExport, WhatMtlCannotSayIsTold) {
 
     Material m;
     m.transmissive = {{1, 1, 1}, TextureId{0}};
-    EXPECT_TRUE(MtlTrip(usual, m).loses("a picture beside Tf"));
+    EXPECT_TRUE(MtlTrip(usual, m).loses("the texture of Tf"));
     m = {};
     m.double_sided = false;
     EXPECT_EQ(MtlTrip(usual, m).lost.size(), 1u);
@@ -300,7 +300,7 @@ TEST(MeshExport, LossesAreToldOnceWithTheirNumber) {
     std::vector<std::string> lost;
     (void)mtl_text(many, {}, lost);
     ASSERT_EQ(lost.size(), 1u);
-    EXPECT_EQ(lost[0], "that only the front is seen (material 'first', 3 times in all)");
+    EXPECT_EQ(lost[0], "single-sided visibility (material 'first', 3 times in all)");
 }
 
 TEST(MeshExport, BlackTimesAPictureStaysBlack) {

@@ -101,7 +101,7 @@ TEST(ObjScene, FilesWithoutFacesAreErrorsThatSaySo) {
                                        6))
                   .find("not text"),
               std::string::npos);
-    EXPECT_NE(finding("dear reader\n").find("no statement of an OBJ file"), std::string::npos);
+    EXPECT_NE(finding("dear reader\n").find("the file has no OBJ statement"), std::string::npos);
     EXPECT_NE(finding(std::string_view("\xFE\xFF\0v", 4)).find("UTF-16"), std::string::npos);
 }
 
@@ -311,7 +311,7 @@ TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {
                  found, folder.path());
     ASSERT_EQ(scene.materials.size(), 3u);
     EXPECT_EQ(scene.materials[1].material.diffuse.color, (Rgb{0, 1, 0}));
-    EXPECT_TRUE(mentions(found, "the material file 'gone.mtl' is not there")) << text_of(found);
+    EXPECT_TRUE(mentions(found, "the material file 'gone.mtl' does not exist")) << text_of(found);
     EXPECT_TRUE(mentions(found, "three.mtl:2:1: warning: texture:")) << text_of(found);
     EXPECT_EQ(found.error_count(), 0u);
 }
@@ -323,7 +323,7 @@ TEST(ObjScene, FilesOutsideOfTheScenesFolderAreNotRead) {
     Diagnostics found;
     const SceneDescription scene = scene_of(
         "mtllib ../secret.mtl\n" + kSquare + "usemtl a\nf 1 2 3\n", found, folder.path() / "scene");
-    EXPECT_TRUE(mentions(found, "outside of the scene's folder")) << text_of(found);
+    EXPECT_TRUE(mentions(found, "outside the scene's folder")) << text_of(found);
     EXPECT_EQ(scene.materials.at(0).material.diffuse.color, (Rgb{.7, .7, .7}));
 }
 

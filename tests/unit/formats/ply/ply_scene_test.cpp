@@ -77,7 +77,7 @@ TEST(PlyScene, StripsOfTrianglesKeepTheirOrientation) {
                          "element tristrips 1\nproperty list int int vertex_indices\n") +
                       "0 0 0\n3 0 7 0\n",
                   "a.ply", bad);
-    EXPECT_TRUE(mentions(bad, "tristrips 0: a vertex index that is not below")) << text_of(bad);
+    EXPECT_TRUE(mentions(bad, "tristrips 0: a vertex index outside the range")) << text_of(bad);
 }
 
 TEST(PlyScene, SeveralMistakesOfAnAsciiFileAreToldAtOnce) {
