@@ -19,7 +19,7 @@ class Parameters {
         for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
             by_name_.try_emplace(words[i].text, words[i + 1]);
         }
-        if (words.size() % 2 != 0) fail(words.back(), "expected a value behind it");
+        if (words.size() % 2 != 0) fail(words.back(), "expected a value after it");
     }
 
     [[noreturn]] void fail(const TclWord& at, const std::string& message) const {
@@ -179,7 +179,8 @@ std::vector<double> tcl_numbers(std::string_view list, std::size_t most) {
             }
             numbers.push_back(value);
         }
-        if (depth < 0 || depth > 8) throw Error(ErrorKind::Scene, "braces that do not fit");
+        if (depth < 0 || depth > 8)
+            throw Error(ErrorKind::Scene, "unbalanced braces, or nested deeper than 8");
     }
 }
 

@@ -29,7 +29,7 @@ void read_rotation(const JsonObject& object, Node& node) {
     for (const double q : node.rotation) squared += q * q;
     const double length = std::sqrt(squared);
     if (length < kTolerance) {
-        object.error("rotation", "a quaternion of length 0 is no rotation");
+        object.error("rotation", "a quaternion of length 0 is not a rotation");
         return;
     }
     if (std::abs(length - 1) > kTolerance) {
