@@ -40,7 +40,7 @@ void BrlcadBuilder::build(std::span<const std::string> names) {
         roots = top_level();
         if (roots.empty() && !database_.objects.empty()) {
             diagnostics_.error({database_.file, 0, 0},
-                               "every object is a part of another one; name one to be shown");
+                               "every object is part of another; name the objects to show");
         }
     }
     ObjectDescription root;

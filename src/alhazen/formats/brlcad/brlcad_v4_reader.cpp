@@ -201,7 +201,7 @@ void BrlcadV4Reader::read_member() {
     if (!name(letter)) return;
     const BrlcadOperator op = member_operator(letter);
     if (op == BrlcadOperator::Leaf) {
-        fail("'" + letter + "' is no operator; expected u, + or -");
+        fail("'" + letter + "' is not an operator; expected u, + or -");
         return;
     }
     std::array<double, 16> matrix{};

@@ -133,7 +133,8 @@ BrlcadMesh bot(const Parameters& p, std::uint64_t max_elements) {
             const double v = faces[i + k];
             if (!(v >= 0.0 && v < vertices) ||
                 v != static_cast<double>(static_cast<std::uint32_t>(v))) {
-                p.fail(p.word("F"), "face " + std::to_string(i / 3) + " has a vertex that is none");
+                p.fail(p.word("F"),
+                       "face " + std::to_string(i / 3) + " has an invalid vertex number");
             }
             triangle[k] = static_cast<std::uint32_t>(v);
         }

@@ -103,7 +103,7 @@ class TreeReader {
         if (op == "n" || op == "+") return open_.push_back({BrlcadOperator::Intersection, {}});
         if (op == "-") return open_.push_back({BrlcadOperator::Difference, {}});
         if (op == "^") return open_.push_back({BrlcadOperator::ExclusiveOr, {}});
-        if (op == "!") fail(token, "the operator ! (not) is not read");
+        if (op == "!") fail(token, "the operator ! (not) is not supported");
         fail(token,
              "expected an operator: l (member), u (union), n (intersection), - "
              "(difference) or ^ (exclusive or)");

@@ -130,7 +130,7 @@ TEST(BrlcadV4, FaultsAreToldWithTheirLineAndReadingGoesOn) {
     has(message("S 19 a 1 0 0 nan"), "expected 24 numbers, found 'nan'");
     has(message("S 19 a 1 0 0 1e999"), "found '1e999'");
     has(message("M u a 1 0"), "without a combination");
-    has(message("C Y c 0 0 1\nM x a" + kOne), "'x' is no operator");
+    has(message("C Y c 0 0 1\nM x a" + kOne), "'x' is not an operator");
     has(message("C Y c 0 0 1\nM u a 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0 0"), "not an affine transform");
     has(message("C Y c 0 0 1\nM u a 1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1 0"), "not an affine transform");
     has(message("C Q c 0 0 1"), "a combination is Y");
@@ -244,8 +244,8 @@ TEST(BrlcadV5, FaultsAreToldAndReadingGoesOnWhereItCan) {
     has(message("exec rm", true), "'exec' is not a command");
     has(message("put a", true), "expected put NAME TYPE");
     has(message("put b bot mode volume V {{0 0 0}} F {{0 0 1}}", true),
-        "has a vertex that is none");
-    has(message("put b bot mode volume V {{0 0 0}} F {{0 0 -1}}", true), "vertex that is none");
+        "has an invalid vertex number");
+    has(message("put b bot mode volume V {{0 0 0}} F {{0 0 -1}}", true), "invalid vertex number");
     has(message("put b ars NC 1e9 PPC 1e9", true), "whole number from");
     has(message("put a comb tree {u {l a}", false),
         "a.asc:1:17: error: this brace is never closed");

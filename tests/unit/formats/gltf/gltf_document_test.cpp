@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "#/nodes/0/scale"},
         Refusal{"NoRotation", "'nodes': [{'rotation': [0, 0, 0, 0]}]", "#/nodes/0/rotation"},
         Refusal{"SkinWithoutMesh", "'nodes': [{'skin': 0}], 'skins': [{'joints': [0]}]",
-                "#/nodes/0/skin: there is no mesh"},
+                "#/nodes/0/skin: not allowed without a mesh"},
         Refusal{"JointsApart", "'nodes': [{}, {}], 'skins': [{'joints': [0, 1]}]",
                 "#/skins/0/joints: the joints have no common root"},
         Refusal{

@@ -65,7 +65,7 @@ Node read_node(const JsonObject& object) {
     });
     node.weights = object.numbers("weights", 0).value_or(std::vector<double>());
     for (const char* key : {"skin", "weights"}) {
-        if (object.has(key) && !object.has("mesh")) object.error(key, "there is no mesh for it");
+        if (object.has(key) && !object.has("mesh")) object.error(key, "not allowed without a mesh");
     }
     read_matrix(object, node);
     object.numbers_into("translation", node.translation);
