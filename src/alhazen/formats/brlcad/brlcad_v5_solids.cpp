@@ -180,8 +180,7 @@ std::vector<double> tcl_numbers(std::string_view list, std::size_t most) {
             }
             numbers.push_back(value);
         }
-        if (depth < 0 || depth > 8)
-            throw Error(ErrorKind::Scene, "unbalanced braces, or nested deeper than 8");
+        if (depth < 0 || depth > 8) throw Error(ErrorKind::Scene, "unbalanced or too deep braces");
     }
 }
 
