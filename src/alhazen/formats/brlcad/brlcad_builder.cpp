@@ -40,7 +40,7 @@ void BrlcadBuilder::build(std::span<const std::string> names) {
         roots = top_level();
         if (roots.empty() && !database_.objects.empty()) {
             diagnostics_.error({database_.file, 0, 0},
-                               "every object is a part of another one; name one to be shown");
+                               "every object is part of another; name the objects to show");
         }
     }
     ObjectDescription root;
@@ -75,7 +75,7 @@ void BrlcadBuilder::check_room(std::size_t parts, const BrlcadPlace& place) {
     if (parts_ <= max_parts_) return;
     throw Error(ErrorKind::Resource,
                 "the combinations make more than " + std::to_string(max_parts_) +
-                    " parts: more memory than is allowed for them",
+                    " parts, which exceeds the memory limit",
                 database_.at(place));
 }
 
@@ -102,10 +102,10 @@ bool BrlcadBuilder::enter(const BrlcadObject& object) {
         return false;
     }
     if (open_.size() > static_cast<std::size_t>(options_.max_nesting)) {
-        throw Error(ErrorKind::Resource,
-                    "combinations within combinations more than " +
-                        std::to_string(options_.max_nesting) + " deep",
-                    database_.at(object.place));
+        throw Error(
+            ErrorKind::Resource,
+            "combinations nested more than " + std::to_string(options_.max_nesting) + " deep",
+            database_.at(object.place));
     }
     return true;
 }

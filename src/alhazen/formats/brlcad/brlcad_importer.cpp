@@ -64,7 +64,7 @@ SceneDescription BrlcadImporter::import(const ImportSource& source,
         BrlcadV4Reader(source, database, diagnostics).read();
     } else if (source.bytes.find('\0') != std::string_view::npos) {
         diagnostics.error({database.file, 0, 0},
-                          "not the text of a database; BRL-CAD's g2asc makes it of a binary one");
+                          "not a text database; convert a binary one with BRL-CAD's g2asc");
     } else {
         BrlcadV5Reader(source, database, diagnostics).read();
     }

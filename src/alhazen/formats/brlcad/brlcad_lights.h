@@ -3,8 +3,8 @@
 ///
 /// Source: BRL-CAD, manual page of `rt` on the shader `light`.
 /// Differs: a light is a point in the centre of its region's box, isotropic and without falloff;
-/// an infinite one is directional.
-/// The lights share 5 / 6 of full light in proportion to their fractions.
+/// an infinite one is directional. The lights share 5 / 6 of full light in proportion to their
+/// fractions.
 /// Conventions: without light regions no lights are added; the scene is shown with a light at the
 /// eye.
 

@@ -122,9 +122,8 @@ Material BrlcadMaterials::make(const std::string& shader, const Rgb& color,
     std::optional<Phong> phong = preset(text.name);
     if (!phong) {
         if (told_.insert(text.name).second) {
-            diagnostics_.warning(database_.at(place),
-                                 "the shader '" + text.name.substr(0, 40) +
-                                     "' is not known; what has it is shown as plastic");
+            diagnostics_.warning(database_.at(place), "the shader '" + text.name.substr(0, 40) +
+                                                          "' is not supported; shown as plastic");
         }
         phong = Phong{};
     }

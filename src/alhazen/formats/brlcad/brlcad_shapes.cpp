@@ -14,7 +14,7 @@ void add(BrlcadPieces& pieces, S shape, const Affine& solid_from_shape = {}) {
     Diagnostics findings;
     shape.validate({}, findings);
     if (findings.error_count() != 0) {
-        pieces.refused = "is no solid: " + findings.all().front().message;
+        pieces.refused = "is not a solid: " + findings.all().front().message;
         return;
     }
     pieces.pieces.push_back({AnyShape(std::move(shape)), solid_from_shape});
@@ -34,7 +34,7 @@ struct Maker {
     BrlcadPieces made;
 
     void operator()(const BrlcadUnsupported& /*solid*/) {
-        made.refused = "is of a type that is not read";
+        made.refused = "has an unsupported type";
     }
     void operator()(const BrlcadArb8& arb) { add(made, hexahedron(arb.corners)); }
     void operator()(const BrlcadEllipsoid& given) {
@@ -112,7 +112,7 @@ struct Maker {
     void operator()(const BrlcadConicDome& given) { add_quadric(brlcad_quadric(given)); }
     void operator()(const BrlcadHyperboloid& given) {
         if (!(given.neck > 0.0 && given.neck < 1.0)) {
-            made.refused = "is no solid: the ratio of its neck must lie between 0 and 1";
+            made.refused = "is not a solid: its neck ratio must be between 0 and 1";
             return;
         }
         add_quadric(brlcad_quadric(given));
@@ -131,7 +131,7 @@ struct Maker {
         if (const std::optional<BrlcadQuartic> quartic = brlcad_quartic(given)) {
             add(made, quartic->shape, quartic->solid_from_shape);
         } else {
-            made.refused = "is no solid: its ellipse has no area or reaches the axis";
+            made.refused = "is not a solid: its ellipse has no area or reaches the axis";
         }
     }
     void operator()(const BrlcadMesh& mesh) {
@@ -146,7 +146,7 @@ struct Maker {
   private:
     void add_quadric(const BrlcadQuadric& quadric) {
         if (!is_invertible(quadric.solid_from_shape)) {
-            made.refused = "is no solid: its axes have no length or lie in a plane";
+            made.refused = "is not a solid: its axes have zero length or are coplanar";
             return;
         }
         add(made, quadric.shape, quadric.solid_from_shape);

@@ -7,10 +7,10 @@ namespace alhazen {
 BrlcadBuilder::Nesting::Nesting(BrlcadBuilder& builder, const BrlcadPlace& place)
     : builder_(builder) {
     if (++builder_.depth_ > builder_.options_.max_nesting) {
-        throw Error(ErrorKind::Resource,
-                    "operators within operators more than " +
-                        std::to_string(builder_.options_.max_nesting) + " deep",
-                    builder_.database_.at(place));
+        throw Error(
+            ErrorKind::Resource,
+            "operators nested more than " + std::to_string(builder_.options_.max_nesting) + " deep",
+            builder_.database_.at(place));
     }
 }
 

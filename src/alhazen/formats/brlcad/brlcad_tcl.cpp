@@ -137,7 +137,7 @@ TclWord TclCommands::word() {
     const TclWord word = c == '{' ? braced_word() : quoted_word();
     if (position_ < text_.size() && !TextCursor::is_space(text_[position_]) &&
         text_[position_] != ';') {
-        refuse("expected a blank behind the closing brace or quotation mark");
+        refuse("expected a blank after the closing brace or quotation mark");
     }
     return word;
 }

@@ -121,7 +121,7 @@ void BrlcadV4Reader::read_record() {
     if (kind == "c") return read_unsupported("cline");
     diagnostics_.error(database_.at(record_),
                        shown +
-                           " is no kind of record; expected I, S, C, M, A, P, t, p, n, s, N, "
+                           " is not a record type; expected I, S, C, M, A, P, t, p, n, s, N, "
                            "w, D, c or m");
 }
 
@@ -193,14 +193,15 @@ void BrlcadV4Reader::finish_combination() {
 
 void BrlcadV4Reader::read_member() {
     if (!in_combination_) {
-        diagnostics_.error(database_.at(record_), "a member (M) that follows no combination (C)");
+        diagnostics_.error(database_.at(record_),
+                           "a member (M) without a combination (C) before it");
         return;
     }
     std::string letter, member;
     if (!name(letter)) return;
     const BrlcadOperator op = member_operator(letter);
     if (op == BrlcadOperator::Leaf) {
-        fail("'" + letter + "' is no operator; expected u, + or -");
+        fail("'" + letter + "' is not an operator; expected u, + or -");
         return;
     }
     std::array<double, 16> matrix{};
@@ -208,7 +209,7 @@ void BrlcadV4Reader::read_member() {
     const std::optional<Affine> transform = brlcad_transform(matrix);
     if (!transform) {
         diagnostics_.error(database_.at(record_),
-                           "the matrix of member '" + member + "' is no affine transform");
+                           "the matrix of member '" + member + "' is not an affine transform");
         return;
     }
     check_room(1);

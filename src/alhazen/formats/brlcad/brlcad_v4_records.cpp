@@ -77,7 +77,7 @@ void BrlcadV4Reader::read_ars() {
         return;
     }
     if (granules != (per_curve + 7) / 8 || total != granules * curves) {
-        fail("the records of ars '" + solid_name + "' do not hold its points: " +
+        fail("the records of ars '" + solid_name + "' do not match its points: " +
              std::to_string(curves) + " curves of " + std::to_string(per_curve) + " points need " +
              std::to_string((per_curve + 7) / 8) + " records each");
         return;
@@ -181,7 +181,7 @@ void BrlcadV4Reader::read_nmg() {
     if (!integer(version, -kMost, kMost) || !name(solid_name) || !integer(granules, 0, kMost)) {
         return;
     }
-    // Per granule: four lines of hexadecimal digits, after one line of counts.
+    // One line of counts, then four lines of hexadecimal digits per granule.
     for (std::int64_t i = 0; i < 1 + 4 * granules; ++i) {
         if (cursor_.bytes_left() == 0) {
             fail("the file ends within '" + solid_name + "'");

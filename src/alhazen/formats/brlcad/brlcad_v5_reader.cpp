@@ -108,7 +108,7 @@ void BrlcadV5Reader::read_command(std::span<const TclWord> words) {
         return;
     }
     diagnostics_.error(location(words[0]), shown(words[0]) +
-                                               " is no command of a database; expected put, "
+                                               " is not a command of a database; expected put, "
                                                "attr, title, units or color");
 }
 

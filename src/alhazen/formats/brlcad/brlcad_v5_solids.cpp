@@ -19,7 +19,7 @@ class Parameters {
         for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
             by_name_.try_emplace(words[i].text, words[i + 1]);
         }
-        if (words.size() % 2 != 0) fail(words.back(), "expected a value behind it");
+        if (words.size() % 2 != 0) fail(words.back(), "expected a value after it");
     }
 
     [[noreturn]] void fail(const TclWord& at, const std::string& message) const {
@@ -133,7 +133,8 @@ BrlcadMesh bot(const Parameters& p, std::uint64_t max_elements) {
             const double v = faces[i + k];
             if (!(v >= 0.0 && v < vertices) ||
                 v != static_cast<double>(static_cast<std::uint32_t>(v))) {
-                p.fail(p.word("F"), "face " + std::to_string(i / 3) + " has a vertex that is none");
+                p.fail(p.word("F"),
+                       "face " + std::to_string(i / 3) + " has an invalid vertex number");
             }
             triangle[k] = static_cast<std::uint32_t>(v);
         }
@@ -179,7 +180,7 @@ std::vector<double> tcl_numbers(std::string_view list, std::size_t most) {
             }
             numbers.push_back(value);
         }
-        if (depth < 0 || depth > 8) throw Error(ErrorKind::Scene, "braces that do not fit");
+        if (depth < 0 || depth > 8) throw Error(ErrorKind::Scene, "unbalanced or too deep braces");
     }
 }
 

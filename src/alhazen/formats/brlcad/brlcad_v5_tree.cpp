@@ -76,7 +76,7 @@ class TreeReader {
         const TclToken close = tokens_.next();
         if (close.kind != TclTokenKind::Close) fail(close, "a matrix has sixteen numbers");
         const std::optional<Affine> transform = brlcad_transform(m);
-        if (!transform) fail(open, "this matrix is no affine transform");
+        if (!transform) fail(open, "this matrix is not an affine transform");
         return *transform;
     }
 
@@ -91,7 +91,7 @@ class TreeReader {
         }
         const bool whole = open_.empty();
         if (token.kind != TclTokenKind::Close && !(whole && token.kind == TclTokenKind::End)) {
-            fail(token, "expected } behind member '" + member + "'");
+            fail(token, "expected } after member '" + member + "'");
         }
         take(tree_.add_leaf(std::move(member), transform, place));
     }
@@ -103,7 +103,7 @@ class TreeReader {
         if (op == "n" || op == "+") return open_.push_back({BrlcadOperator::Intersection, {}});
         if (op == "-") return open_.push_back({BrlcadOperator::Difference, {}});
         if (op == "^") return open_.push_back({BrlcadOperator::ExclusiveOr, {}});
-        if (op == "!") fail(token, "the operator ! (not) is not read");
+        if (op == "!") fail(token, "the operator ! (not) is not supported");
         fail(token,
              "expected an operator: l (member), u (union), n (intersection), - "
              "(difference) or ^ (exclusive or)");

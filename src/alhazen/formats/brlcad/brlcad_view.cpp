@@ -200,13 +200,13 @@ class ViewReader {
         BrlcadFrame frame = frame_;
         const double size = size_.value_or(fit_.size);
         if (!(size > 0.0)) {
-            return diagnostics_.error(where_, "a view without size, and a model without one");
+            return diagnostics_.error(where_, "neither the view nor the model has a size");
         }
         const Vec3 eye = eye_.value_or(fit_.eye(frame.to_eye, size));
         if (look_at_) {
             const Vec3 d = eye - *look_at_;
             if (!(length(d) > 0.0)) {
-                return diagnostics_.error(where_, "lookat_pt is the place of the eye");
+                return diagnostics_.error(where_, "lookat_pt is the position of the eye");
             }
             const double flat = std::hypot(d.x, d.y);
             frame = brlcad_frame(flat > 0.0 ? std::atan2(d.y, d.x) / kRadiansPerDegree : 0.0,

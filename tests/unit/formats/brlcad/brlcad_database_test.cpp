@@ -129,12 +129,12 @@ TEST(BrlcadV4, FaultsAreToldWithTheirLineAndReadingGoesOn) {
     has(message("S 19 a 1 0 0 0"), "a.asc:3:15: error: expected 24 numbers, found the end");
     has(message("S 19 a 1 0 0 nan"), "expected 24 numbers, found 'nan'");
     has(message("S 19 a 1 0 0 1e999"), "found '1e999'");
-    has(message("M u a 1 0"), "follows no combination");
-    has(message("C Y c 0 0 1\nM x a" + kOne), "'x' is no operator");
-    has(message("C Y c 0 0 1\nM u a 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0 0"), "no affine transform");
-    has(message("C Y c 0 0 1\nM u a 1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1 0"), "no affine transform");
+    has(message("M u a 1 0"), "without a combination");
+    has(message("C Y c 0 0 1\nM x a" + kOne), "'x' is not an operator");
+    has(message("C Y c 0 0 1\nM u a 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0 0"), "not an affine transform");
+    has(message("C Y c 0 0 1\nM u a 1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1 0"), "not an affine transform");
     has(message("C Q c 0 0 1"), "a combination is Y");
-    has(message("? what"), "'?' is no kind of record");
+    has(message("? what"), "'?' is not a record type");
     has(message("t b 2 1 0 1 1\n0: 0 0 0\n0: 0 0 7"), "from 0 to 0, found '7'");
     has(message("t b 2 1 0 99999999999 1"), "expected a whole number from 0");
     has(message("A 21 a 3 9 1 3 0 0 0 0 0 0"), "need 2 records each");
@@ -241,11 +241,11 @@ TEST(BrlcadV5, FaultsAreToldAndReadingGoesOnWhereItCan) {
     has(message("put a comb tree {! {l a}}", true), "operator ! (not)");
     has(message("put a comb tree {l a {1 0 0}}", true), "sixteen numbers");
     has(message("put a comb tree {u {l a} {l b}} {l c}", true), "expected a value");
-    has(message("exec rm", true), "'exec' is no command");
+    has(message("exec rm", true), "'exec' is not a command");
     has(message("put a", true), "expected put NAME TYPE");
     has(message("put b bot mode volume V {{0 0 0}} F {{0 0 1}}", true),
-        "has a vertex that is none");
-    has(message("put b bot mode volume V {{0 0 0}} F {{0 0 -1}}", true), "vertex that is none");
+        "has an invalid vertex number");
+    has(message("put b bot mode volume V {{0 0 0}} F {{0 0 -1}}", true), "invalid vertex number");
     has(message("put b ars NC 1e9 PPC 1e9", true), "whole number from");
     has(message("put a comb tree {u {l a}", false),
         "a.asc:1:17: error: this brace is never closed");

@@ -122,7 +122,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NoObject", "{'asset': []}", "#/asset: expected an object, found an array"},
         Refusal{"HugeNumber", "'nodes': [{'scale': [1, 1, 1e999]}]", "JSON: "},
         Refusal{"NoAsset", "{}", "#: \"asset\" is missing"},
-        Refusal{"Version1", "{'asset': {'version': '1.0'}}", "#/asset/version: glTF 2.0 is read"},
+        Refusal{"Version1", "{'asset': {'version': '1.0'}}",
+                "#/asset/version: only glTF 2.0 is supported"},
         Refusal{"MinVersion", "{'asset': {'version': '2.0', 'minVersion': '2.1'}}",
                 "#/asset/minVersion"},
         Refusal{"EmptyArray", "'nodes': []", "#/nodes: the array must not be empty"},
@@ -147,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "#/nodes/0/scale"},
         Refusal{"NoRotation", "'nodes': [{'rotation': [0, 0, 0, 0]}]", "#/nodes/0/rotation"},
         Refusal{"SkinWithoutMesh", "'nodes': [{'skin': 0}], 'skins': [{'joints': [0]}]",
-                "#/nodes/0/skin: there is no mesh"},
+                "#/nodes/0/skin: not allowed without a mesh"},
         Refusal{"JointsApart", "'nodes': [{}, {}], 'skins': [{'joints': [0, 1]}]",
                 "#/skins/0/joints: the joints have no common root"},
         Refusal{
@@ -185,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "#/meshes/0/primitives/0/indices: indices must be SCALAR"},
         Refusal{"WrongFormat",
                 TRIANGLE ", 'meshes': [{'primitives': [{'attributes': {'TEXCOORD_0': 0}}]}]",
-                "an accessor with VEC3 of FLOAT cannot be this"},
+                "an accessor with VEC3 of FLOAT is not allowed here"},
         Refusal{"UnknownAttribute",
                 TRIANGLE ", 'meshes': [{'primitives': [{'attributes': {'TEXCOORD_00': 0}}]}]",
                 "TEXCOORD_00: there is no attribute of this name"},
@@ -215,7 +216,7 @@ TEST(GltfDocument, BytesAsPositionsNeedTheExtensionForThem) {
         "[{'buffer': 0, 'byteLength': 4, 'byteStride': 4}], 'accessors': [{'bufferView': 0, "
         "'componentType': 5120, 'count': 1, 'type': 'VEC3', 'min': [0, 0, 0], 'max': [0, 0, 0]}], "
         "'meshes': [{'primitives': [{'mode': 0, 'attributes': {'POSITION': 0}}]}]";
-    EXPECT_TRUE(read_gltf(gltf_with(json(rest))).says("VEC3 of BYTE cannot be this"));
+    EXPECT_TRUE(read_gltf(gltf_with(json(rest))).says("VEC3 of BYTE is not allowed here"));
     const auto read =
         read_gltf(gltf_with(json("'extensionsUsed': ['KHR_mesh_quantization'], " + rest)));
     EXPECT_TRUE(read.is_good()) << read.findings();
@@ -261,7 +262,7 @@ TEST(GltfDocument, ImagesMustBeWhatTheySay) {
     EXPECT_TRUE(read_gltf(gltf_with(json("'images': [{'uri': 'data:image/jpeg;base64,/9j/4A=='}]")))
                     .says("#/images/0: the JPEG data ends within its header"));
     EXPECT_TRUE(read_gltf(gltf_with(json("'images': [{'uri': 'data:image/png;base64,/9j/4A=='}]")))
-                    .says("#/images/0: the image is image/jpeg, declared is image/png"));
+                    .says("#/images/0: the image is image/jpeg, declared as image/png"));
 }
 
 TEST(GltfDocument, NormalsMustBeUnitButMayBeMissing) {

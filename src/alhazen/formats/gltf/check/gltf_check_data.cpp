@@ -74,7 +74,7 @@ class DataChecker {
         }
         const std::string place = pointer_to("accessors", position);
         if (!extent.is_finite) {
-            loading_.error(place, "there are numbers that are infinite or none (NaN)");
+            loading_.error(place, "there are infinite or NaN numbers");
             return;
         }
         if (!has_data(static_cast<Index>(position))) return;
@@ -93,7 +93,7 @@ class DataChecker {
         for (std::size_t i = 0; i < declared.size(); ++i) {
             if (agrees(declared[i], found[i], type)) continue;
             loading_.error(place + "/" + std::to_string(i),
-                           "declared is " + written(declared[i]) + ", found " + written(found[i]));
+                           "declared " + written(declared[i]) + ", found " + written(found[i]));
         }
     }
 
@@ -151,7 +151,7 @@ class DataChecker {
             }
         });
         if (zeros != 0) {
-            loading_.warning(place, std::to_string(zeros) + " vectors have the length 0");
+            loading_.warning(place, std::to_string(zeros) + " vectors have length 0");
         }
         if (others != 0) {
             loading_.error(place, std::to_string(others) + " vectors are not of unit length");
@@ -180,7 +180,7 @@ class DataChecker {
             if (!node.skin || !node.mesh) continue;
             const std::size_t joints = document_.skins[*node.skin].joints.size();
             if (largest[*node.mesh] < static_cast<double>(joints)) continue;
-            loading_.error(pointer_to("nodes", i), "the mesh names joint " +
+            loading_.error(pointer_to("nodes", i), "the mesh uses joint " +
                                                        written(largest[*node.mesh]) +
                                                        ", the skin has " + std::to_string(joints));
         }
@@ -224,7 +224,7 @@ class DataChecker {
         for (const double time : read_numbers(document_, index)) {
             if (time < 0 || time <= last) {
                 loading_.error(place, "time " + std::to_string(position) + ", " + written(time) +
-                                          ", is negative or not after the one before");
+                                          ", is negative or not greater than the previous one");
                 return;
             }
             last = time;

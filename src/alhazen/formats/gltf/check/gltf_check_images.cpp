@@ -70,7 +70,7 @@ void check_bytes(const Loading& loading, const Image& image, const std::string& 
     }
     if (!image.mime_type.empty() && image.mime_type != type &&
         begins_with(image.mime_type, "image/")) {
-        loading.error(place, "the image is " + type + ", declared is " + image.mime_type);
+        loading.error(place, "the image is " + type + ", declared as " + image.mime_type);
         return;
     }
     const std::string refusal = bytes.size() == kHeadBytes ? ""

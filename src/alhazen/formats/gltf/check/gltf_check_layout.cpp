@@ -155,8 +155,8 @@ class LayoutChecker {
     // zeros.
     static constexpr std::uint64_t kNumbersPerElement = 4, kElementsPerZero = 16;
 
-    static constexpr std::uint64_t kMostElements = std::uint64_t{1}
-                                                   << 60;  // 4 * kMostElements does not overflow
+    // 4 * kMostElements does not overflow.
+    static constexpr std::uint64_t kMostElements = std::uint64_t{1} << 60;
 
     const Loading& loading_;
     const Document& document_;

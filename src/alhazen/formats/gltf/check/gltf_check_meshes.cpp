@@ -43,7 +43,8 @@ class PrimitiveChecker {
         const auto semantic = parse_semantic(name);
         if (!semantic) return loading_.error(place, "there is no attribute of this name");
         if (!suits(*semantic, accessor, is_target, loading_.quantized)) {
-            loading_.error(place, "an accessor with " + description(accessor) + " cannot be this");
+            loading_.error(place,
+                           "an accessor with " + description(accessor) + " is not allowed here");
         }
         if (name == "POSITION" && (accessor.min.empty() || accessor.max.empty())) {
             loading_.error(place, "the accessor must have min and max");
@@ -66,8 +67,8 @@ class PrimitiveChecker {
         }
         for (const auto& [name, numbers] : sets) {
             if (*numbers.rbegin() + std::size_t{1} == numbers.size()) continue;
-            loading_.error(place_ + "/attributes", "the numbers of " + std::string(name) +
-                                                       "_n must begin with 0 and have no gap");
+            loading_.error(place_ + "/attributes", "the set numbers of " + std::string(name) +
+                                                       "_n must start at 0 without gaps");
         }
         if (sets["JOINTS"].size() != sets["WEIGHTS"].size()) {
             loading_.error(place_ + "/attributes", "there must be as many JOINTS_n as WEIGHTS_n");

@@ -10,7 +10,7 @@ namespace alhazen::gltf {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are taken as they lie");
+static_assert(std::endian::native == std::endian::little, "numbers are read in native byte order");
 
 struct ComponentName {
     ComponentType type;
@@ -111,8 +111,8 @@ void read_sparse(const JsonObject& object, Accessor& accessor) {
         sparse.require("values");
         result.count = sparse.integer("count", 1).value_or(0);
         if (result.count > accessor.count) {
-            sparse.error("count", "more elements are replaced (" + std::to_string(result.count) +
-                                      ") than there are (" + std::to_string(accessor.count) + ")");
+            sparse.error("count", "more sparse elements (" + std::to_string(result.count) +
+                                      ") than elements (" + std::to_string(accessor.count) + ")");
         }
         sparse.with_object("indices", [&](const JsonObject& indices) {
             indices.require("bufferView");
@@ -167,7 +167,7 @@ Accessor read_accessor(const JsonObject& object) {
     accessor.view = object.index("bufferView", Collection::BufferViews);
     accessor.offset = object.integer("byteOffset").value_or(0);
     if (object.has("byteOffset") && !object.has("bufferView")) {
-        object.error("byteOffset", "there is no bufferView that it could be in");
+        object.error("byteOffset", "not allowed without a bufferView");
     }
     object.require("count");
     accessor.count = object.integer("count", 1).value_or(0);

@@ -43,7 +43,7 @@ std::vector<std::string> names_in(const JsonObject& root, std::string_view key) 
     const nlohmann::json* list = root.find(key);
     if (list == nullptr) return names;
     if (!list->is_array() || list->empty()) {
-        root.error(key, "expected an array of names that is not empty");
+        root.error(key, "expected a non-empty array of names");
         return names;
     }
     for (const nlohmann::json& name : *list) {
@@ -126,12 +126,12 @@ void read_asset(const JsonObject& root) {
         const auto version = version_in(asset, "version");
         const auto minimum = version_in(asset, "minVersion");
         if (version && (*version)[0] != 2) {
-            asset.error("version", "glTF 2.0 is read, found version " +
+            asset.error("version", "only glTF 2.0 is supported, found version " +
                                        std::to_string((*version)[0]) + "." +
                                        std::to_string((*version)[1]));
         }
         if (minimum && *minimum > std::array<int, 2>{2, 0}) {
-            asset.error("minVersion", "glTF 2.0 is read, a later version is needed");
+            asset.error("minVersion", "only glTF 2.0 is supported, a later version is required");
         }
     });
 }

@@ -70,13 +70,8 @@ struct Image {
     std::string data;           ///< the encoded image of a data: URI
     std::string mime_type;      ///< as declared; empty: undeclared
 };
-enum class Filter {
-    Unset,
-    Nearest,
-    Linear,
-    NearestMipmap,
-    LinearMipmap
-};  ///< Mipmap: any mipmap mode
+/// Mipmap: any mipmap mode.
+enum class Filter { Unset, Nearest, Linear, NearestMipmap, LinearMipmap };
 struct Sampler {
     Filter magnify = Filter::Unset, minify = Filter::Unset;
     Wrap wrap_s = Wrap::Repeat, wrap_t = Wrap::Repeat;
@@ -150,8 +145,7 @@ struct Node {
     std::vector<Index> children;
     std::optional<Index> mesh, skin, camera, light;
     std::vector<double> weights;
-    std::optional<std::array<double, 16>>
-        matrix;  ///< column-major; replaces translation, rotation, scale
+    std::optional<std::array<double, 16>> matrix;  ///< column-major; replaces the next three
     std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
     std::array<double, 4> rotation{0, 0, 0, 1};  ///< quaternion x, y, z, w
     Attributes instances;                        ///< EXT_mesh_gpu_instancing; empty: none

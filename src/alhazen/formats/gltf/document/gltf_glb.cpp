@@ -20,10 +20,10 @@ std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
 std::string split(std::string_view bytes, Container& out) {
     if (bytes.size() < 12) return "the header is cut off";
     const std::uint32_t version = word_at(bytes, 4);
-    if (version != 2) return "version 2 is expected, found " + std::to_string(version);
+    if (version != 2) return "expected version 2, found " + std::to_string(version);
     const std::uint32_t length = word_at(bytes, 8);
     if (length != bytes.size()) {
-        return "the header speaks of " + std::to_string(length) + " bytes, the file has " +
+        return "the header gives a length of " + std::to_string(length) + " bytes, the file has " +
                std::to_string(bytes.size());
     }
     bool has_json = false;

@@ -32,7 +32,7 @@ class BufferLoader {
                 object.warning({}, "the binary chunk is larger than the buffer");
             }
         } else {
-            if (used_[position]) object.error({}, "the buffer has no data, but a buffer view");
+            if (used_[position]) object.error({}, "the buffer is in use but has no data");
             return buffer;
         }
         if (buffer.bytes.size() >= *length) {

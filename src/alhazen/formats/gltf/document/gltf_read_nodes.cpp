@@ -29,7 +29,7 @@ void read_rotation(const JsonObject& object, Node& node) {
     for (const double q : node.rotation) squared += q * q;
     const double length = std::sqrt(squared);
     if (length < kTolerance) {
-        object.error("rotation", "a quaternion of length 0 is no rotation");
+        object.error("rotation", "a quaternion of length 0 is not a rotation");
         return;
     }
     if (std::abs(length - 1) > kTolerance) {
@@ -65,7 +65,7 @@ Node read_node(const JsonObject& object) {
     });
     node.weights = object.numbers("weights", 0).value_or(std::vector<double>());
     for (const char* key : {"skin", "weights"}) {
-        if (object.has(key) && !object.has("mesh")) object.error(key, "there is no mesh for it");
+        if (object.has(key) && !object.has("mesh")) object.error(key, "not allowed without a mesh");
     }
     read_matrix(object, node);
     object.numbers_into("translation", node.translation);

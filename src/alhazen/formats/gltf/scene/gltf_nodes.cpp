@@ -219,7 +219,7 @@ void NodeBuilder::report_left_out() const {
     };
     if (points_ + lines_ > 0) {
         diagnostics_.warning(
-            where, fmt::format("points and lines make no surface; left out: {} of points, {} of "
+            where, fmt::format("points and lines are not supported; left out: {} of points, {} of "
                                "lines",
                                primitives(points_), primitives(lines_)));
     }

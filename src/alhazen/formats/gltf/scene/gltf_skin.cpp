@@ -67,8 +67,8 @@ std::vector<Affine> joint_matrices(const Document& document, const Skin& skin,
 
 void apply_skin(PrimitiveGeometry& geometry, const std::vector<Affine>& world_from_bound) {
     TriangleMesh& mesh = geometry.mesh;
-    std::vector<double> turned(
-        mesh.positions.size());  // [vertex] determinant of the transform; negative: mirrored
+    // [vertex] Determinant of the transform; negative: mirrored.
+    std::vector<double> turned(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Affine m = blend(geometry.joints, i, world_from_bound);
         turned[i] = determinant(m.linear);

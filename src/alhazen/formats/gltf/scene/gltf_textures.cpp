@@ -57,14 +57,14 @@ TextureId Textures::make(const TextureInfo& info, ColorSpace space) {
     const FileLocation where{source_.path.string(), 0, 0};
     const Texture& texture = document_.textures[info.texture];
     if (!texture.source) {
-        diagnostics_.warning(where, fmt::format("#/textures/{}: the texture has no picture that "
-                                                "can be read; it is left out",
+        diagnostics_.warning(where, fmt::format("#/textures/{}: the texture has no image of a "
+                                                "supported format; it is ignored",
                                                 info.texture));
         return kNoTexture;
     }
     if (info.tex_coord > 1) {
         diagnostics_.warning(where, fmt::format("#/textures/{}: a material uses TEXCOORD_{}; only "
-                                                "0 and 1 are read, 0 is taken",
+                                                "0 and 1 are supported, 0 is used",
                                                 info.texture, info.tex_coord));
     }
     const Sampler sampler = texture.sampler ? document_.samplers[*texture.sampler] : Sampler{};
