@@ -16,8 +16,8 @@ namespace alhazen {
 /// At least `triangles` triangles, counted with instances expanded, and a ground plane.
 [[nodiscard]] SceneDescription field(std::uint64_t triangles);
 
-/// The same scene with explicit grids, as in the source: 10 x 10 cells per patch and plot, cubic
-/// cells per tuft, and a grid over the rows.
+/// The same scene with explicit grids, as in the source: 10 x 10 cells per patch and plot, default
+/// grid per tuft, and a grid over the rows.
 [[nodiscard]] SceneDescription field_of_grids(std::uint64_t triangles);
 
 }  // namespace alhazen
