@@ -1,7 +1,8 @@
-/// Building beside Embree: seconds with one thread and with two, bytes and cost of the tree.
+/// Building compared with Embree: seconds with one thread and with several, bytes and cost of the
+/// tree.
 /// Usage: alhazen_build_table SCENE... [--rounds N] [--threads N] [--markdown FILE]
-/// SCENE: see kernel_scenes.h; triangles only. Builders take turns; --threads is the greater of the
-/// two numbers of threads.
+/// SCENE: see kernel_scenes.h; triangles only. Builders take turns; --threads is the larger of the
+/// two thread counts.
 
 #include <fmt/format.h>
 
@@ -24,7 +25,7 @@ namespace {
 using namespace alhazen;
 using namespace alhazen::bench;
 
-// A block of triangles of wide_bvh and its cost, by which all trees are judged.
+// Block of triangles of wide_bvh and its cost, in which all trees are measured.
 constexpr std::size_t kBlockWidth = 8;
 constexpr double kBlockCost = 1.5;
 
@@ -47,7 +48,7 @@ PrimitiveTable table_of(const KernelScene& scene) {
     return table;
 }
 
-/// What has to be built anew for every tree: the boxes of the primitives are part of building.
+/// Everything that a build has to do, including the boxes of the primitives.
 WideBvhLayout build_layout(const PrimitiveTable& table, const BuildOptions& options) {
     const BoundedPrimitives bounded(table);
     return build_wide_bvh(table, bounded, options);
@@ -114,8 +115,8 @@ std::string run(const KernelScene& scene, int rounds, int threads) {
     builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_LOW, true, "Embree low"));
     builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_MEDIUM, true, "Embree medium"));
     builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_HIGH, true, "Embree high"));
-    // With the same bytes and seconds as medium, its robust scenes of quality high have no spatial
-    // splits; these have.
+    // Embree's robust scenes of quality high have no spatial splits, and the same bytes and seconds
+    // as medium; its fast scenes have them.
     builders.push_back(embree_builder(scene, RTC_BUILD_QUALITY_HIGH, false, "Embree high, fast"));
 #endif
     std::vector<std::array<std::vector<double>, 2>> seconds(builders.size());

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kFaultsShown = 10;
 constexpr std::size_t kSamples = 64;
 
-/// What wide_bvh says: t, or for any hit 0, infinite for none; single rays.
+/// Answers of wide_bvh by single rays: t, or 0 for any hit; infinite for a miss.
 std::vector<double> our_answers(const Aggregate& aggregate, const RaySet& set) {
     std::vector<double> t(set.rays.size(), HUGE_VAL);
     for (std::size_t i = 0; i < set.rays.size(); ++i) {
@@ -92,7 +92,7 @@ void decide_all(const Judge& judge, const RaySet& set, const std::vector<double>
     }
 }
 
-/// Puts a wrong answer in place of ours: the judge must see it.
+/// Replaces our answer by a wrong one, which the judge must detect.
 void plant(const Judge& judge, const RaySet& set, std::size_t i, double ours, double wrong,
            CheckResult& result) {
     const Verdict verdict = judge.decide(set.rays[i], set.any_hit, ours, wrong);
@@ -104,18 +104,18 @@ void plant(const Judge& judge, const RaySet& set, std::size_t i, double ours, do
     }
 }
 
-/// Judges our answers to some rays of the set, and wrong ones.
+/// Judges our answers to some rays of the set, and planted wrong ones.
 void judge_samples(const Judge& judge, const RaySet& set, const std::vector<double>& ours,
                    CheckResult& result) {
     const std::size_t step = std::max<std::size_t>(1, set.rays.size() / kSamples);
     for (std::size_t i = 0; i < set.rays.size(); i += step) {
         const bool hit = std::isfinite(ours[i]);
-        // A miss where there is a hit, a hit where there is none.
+        // A miss in place of a hit, or a hit in place of a miss.
         plant(judge, set, i, ours[i], hit ? HUGE_VAL : 0.5 * (length(set.rays[i].origin) + 1),
               result);
         ++result.samples;
         if (!hit || set.any_hit) continue;
-        // Farther by more than the noise, which near the origin is more than a hundredth of t.
+        // Farther by more than the rounding error, which near the origin exceeds a hundredth of t.
         const double farther =
             std::max(1.01 * ours[i], ours[i] + 2 * judge.float_noise(set.rays[i], ours[i]));
         plant(judge, set, i, ours[i], farther, result);

@@ -1,5 +1,5 @@
 #pragma once
-/// The few options of a benchmark program: `--name value` and the rest.
+/// Options of a benchmark program: `--name value`, flags and positional arguments.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace alhazen::bench {
 
 class CommandLine {
   public:
-    /// `options` are the names that take a value, `flags` those that do not. Throws Error (Usage).
+    /// `options` are the names with a value, `flags` those without. Throws Error (Usage).
     CommandLine(int argc, char** argv, const std::vector<std::string>& options,
                 const std::vector<std::string>& flags = {}) {
         const auto has = [](const std::vector<std::string>& list, const std::string& name) {
@@ -47,7 +47,7 @@ class CommandLine {
         const auto place = values_.find(name);
         return place == values_.end() ? otherwise : place->second;
     }
-    /// A number of at least 1; 1e6 may be written. Throws Error (Usage).
+    /// A number of at least 1; 1e6 is accepted. Throws Error (Usage).
     [[nodiscard]] std::size_t count(const std::string& name, std::size_t otherwise) const {
         const auto place = values_.find(name);
         if (place == values_.end()) return otherwise;

@@ -9,7 +9,7 @@ namespace {
 
 #if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 Extended;
-constexpr double kZero = 0x1p-88;  ///< below this share of its terms a sum may be noise
+constexpr double kZero = 0x1p-88;  ///< a sum below this share of its terms may be rounding error
 #else
 using Extended = long double;
 constexpr double kZero = 0x1p-44;
@@ -43,7 +43,7 @@ double as_double(Extended x) {
     return static_cast<double>(x);
 }
 
-/// Square root by Newton from that in double: the error is squared twice.
+/// Square root by two Newton steps from the root in double; each squares the error.
 Extended root(Extended x) {
     if (!(x > 0)) return 0;
     Extended r = std::sqrt(as_double(x));
@@ -51,25 +51,25 @@ Extended root(Extended x) {
     return r;
 }
 
-/// A possible answer for a ray.
+/// A possible answer to a ray.
 struct Crossing {
     Extended t;
     bool sure;  ///< else touched
 };
 
-/// -1, 0, 1; 0 also where x is noise beside `scale`.
+/// -1, 0, 1; 0 also where x is rounding error relative to `scale`.
 int sign_of(Extended x, Extended scale, double noise = kZero) {
     if (magnitude(x) <= Extended(noise) * scale) return 0;
     return x > 0 ? 1 : -1;
 }
 
-/// The largest component.
+/// Largest absolute component.
 Extended reach(const Vec& a) {
     const Extended x = magnitude(a.x), y = magnitude(a.y), z = magnitude(a.z);
     return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }
 
-/// The same test in double: false only where the ray passes far outside an edge.
+/// Conservative test in double: false only where the ray passes far outside an edge.
 bool may_hit(const Ray& ray, const std::array<Vec3, 3>& corner) {
     const Vec3 a = corner[0] - ray.origin, b = corner[1] - ray.origin, c = corner[2] - ray.origin;
     const Vec3& d = ray.direction;
@@ -92,12 +92,12 @@ void cross_triangle(const Ray& ray, const std::array<Vec3, 3>& corner,
     if ((su < 0 || sv < 0 || sw < 0) && (su > 0 || sv > 0 || sw > 0)) return;
     const Vec n = cross(b - a, c - a);
     const Extended along = dot(n, d);
-    // Seen exactly edge on it is never hit.
+    // A triangle seen exactly edge-on is never hit.
     if (sign_of(along, reach(n) * reach(d)) == 0) return;
     crossings.push_back({dot(n, a) / along, su != 0 && sv != 0 && sw != 0});
 }
 
-/// Both ends of an interval of t; `noise` is how well double knows them.
+/// Adds both ends of an interval of t; `noise` is their error in double.
 void add_interval(Extended lo, Extended hi, Extended noise, bool touched,
                   std::vector<Crossing>& crossings) {
     if (hi < lo - noise) return;
@@ -121,16 +121,16 @@ void cross_cylinder(const Ray& ray, const Cylinder& cylinder, std::vector<Crossi
     const Vec base = extended(cylinder.base), axis = extended(cylinder.top) - base;
     const Vec o = extended(ray.origin) - base, d = extended(ray.direction);
     const Extended length2 = dot(axis, axis), r2 = Extended(cylinder.radius) * cylinder.radius;
-    // Everything times length2: no unit axis is needed.
+    // All terms are multiplied by length2, which avoids normalizing the axis.
     const Extended oz = dot(o, axis), dz = dot(d, axis);
     const Extended a = dot(d, d) * length2 - dz * dz;
     const Extended b = dot(o, d) * length2 - oz * dz;
     const Extended moment = dot(axis, cross(o, d));
     const Extended discriminant = a * r2 - moment * moment;
     const int sign = sign_of(discriminant, length2 * dot(d, d) * (r2 + dot(o, o)), kGrazing);
-    // A line along the side is outside.
+    // A line parallel to the side is outside.
     if (sign < 0 || sign_of(a, length2 * dot(d, d)) == 0) return;
-    // The roots of a t^2 + 2 b t + c, whose discriminant is length2 times that above.
+    // Roots of a t^2 + 2 b t + c; its discriminant is length2 times that above.
     const Extended s = root(discriminant * length2);
     Extended lo = (-b - s) / a, hi = (-b + s) / a;
     if (dz != 0) {
@@ -156,7 +156,7 @@ std::vector<Crossing> all_crossings(const KernelScene& scene, const Ray& ray) {
     return crossings;
 }
 
-/// Whether an answer is one of the right ones, its t known to `tolerance`.
+/// Returns whether an answer is one of the right ones, with t known to `tolerance`.
 bool is_right(const std::vector<Crossing>& crossings, const Ray& ray, bool any_hit, double answer,
               double tolerance) {
     const auto may_count = [&](const Crossing& c) {

@@ -1,12 +1,11 @@
 #pragma once
-/// Judges two tracers that disagree about a ray: brute force over the whole scene in extended
-/// precision (113 bits where the compiler has them, else long double).
-///
-/// Differs from the tracers: edge functions are triple products without a shear; a test in double
-/// with a wide margin is the only culling. A triangle whose edge function is zero, or too near to
-/// zero even for extended precision, is *touched*: the ray passes through an edge or a vertex, and
-/// a hit and a miss are both right. Spheres and capped cylinders are tested by their intervals; one
-/// grazed within the rounding of double is touched too.
+/// Resolves disagreements of two tracers about a ray by brute force over the whole scene in
+/// extended precision (113 bits where the compiler has them, else long double).
+/// Method: edge functions are triple products without a shear; the only culling is a test in double
+/// with a wide margin. A triangle whose edge function is zero, or indistinguishable from zero in
+/// extended precision, is *touched*: the ray passes through an edge or a vertex, and both a hit and
+/// a miss are right. Spheres and capped cylinders are tested by their intervals; one that the ray
+/// grazes within the rounding of double is touched too.
 /// Conventions: t is compared up to a tolerance relative to the distances involved.
 
 #include <vector>
@@ -18,28 +17,28 @@ namespace alhazen::bench {
 /// Which tracers are wrong about a ray.
 struct Verdict {
     bool ours_wrong = false, peer_wrong = false;
-    double true_t = 0;  ///< nearest certain crossing; infinite: none
+    double true_t = 0;  ///< nearest certain crossing; infinite for none
 };
 
 class Judge {
   public:
-    /// Refers to the scene.
+    /// Keeps a reference to the scene.
     explicit Judge(const KernelScene& scene);
 
     /// `ours` and `peer` are the t that each tracer reports, infinite for a miss; with `any_hit`
     /// any finite number stands for a hit. O(size of the scene).
     [[nodiscard]] Verdict decide(const Ray& ray, bool any_hit, double ours, double peer) const;
-    /// True when two answers differ by more than the noise of float.
+    /// True when two answers differ by more than the rounding of float.
     [[nodiscard]] bool disagree(const Ray& ray, bool any_hit, double ours, double peer) const;
     /// Error bound of a float answer near t.
     [[nodiscard]] double float_noise(const Ray& ray, double t) const;
 
   private:
-    /// The distances involved on the way to t, in units of t: the base of tolerances.
+    /// Base of tolerances: the distances involved on the way to t, in units of t.
     [[nodiscard]] double noise_unit(const Ray& ray, double t) const;
 
     const KernelScene& scene_;
-    double reach_;  ///< of the scene from the origin
+    double reach_;  ///< largest distance of the scene from the origin
 };
 
 }  // namespace alhazen::bench

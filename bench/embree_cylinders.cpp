@@ -9,13 +9,13 @@ namespace {
 
 using Entry = EmbreeCylinders::Entry;
 
-/// The crossing in [tnear, tfar] that is nearest, or one beyond tfar.
+/// Nearest crossing in [tnear, tfar], or one beyond tfar.
 struct Crossing {
     float t;
-    float normal[3];  ///< not unit
+    float normal[3];  ///< not normalized
 };
 
-/// The ray, lane `i` of a packet of `n`.
+/// Ray in lane `i` of a packet of `n`.
 struct LaneRay {
     float o[3], d[3];
     float tnear, tfar;
@@ -68,7 +68,7 @@ void report_bounds(const RTCBoundsFunctionArguments* args) {
     float reach[3];
     for (int k = 0; k < 3; ++k) {
         const float across = std::sqrt(std::max(0.0f, 1.0f - c.axis[k] * c.axis[k]));
-        // A little more for the rounding of this and of the test.
+        // Margin for the rounding of this bound and of the test.
         reach[k] = 1.00001f * (c.half_height * std::abs(c.axis[k]) + c.radius * across);
     }
     RTCBounds& box = *args->bounds_o;

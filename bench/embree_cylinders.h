@@ -1,9 +1,8 @@
 #pragma once
 /// Circular cylinders with caps as Embree user geometry in float.
-///
-/// Source: the intersection of an interval of the infinite cylinder with one of the slab between
-/// the caps (Kay and Kajiya, SIGGRAPH 1986); the discriminant by Lagrange's identity.
-/// Differs: in float, with the accepting branch only; constants of a cylinder are precomputed.
+/// Method: intersection of the interval of the infinite cylinder with that of the slab between the
+/// caps (Kay and Kajiya, SIGGRAPH 1986); discriminant by Lagrange's identity; constants of each
+/// cylinder are precomputed.
 /// Conventions: both the entry and the exit are crossings; the nearest in [tnear, tfar] is
 /// reported.
 
@@ -20,7 +19,7 @@ class EmbreeCylinders {
     EmbreeCylinders() = default;
     explicit EmbreeCylinders(const std::vector<Cylinder>& cylinders);
 
-    /// Not committed. Refers to this object, which must keep its address.
+    /// Returns an uncommitted geometry that refers to this object, which must keep its address.
     [[nodiscard]] RTCGeometry make_geometry(RTCDevice device);
 
     struct Entry {

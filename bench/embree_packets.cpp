@@ -9,7 +9,7 @@ namespace alhazen::bench {
 
 namespace {
 
-/// Sets flush to zero and denormals are zero for the life of the object.
+/// Sets flush-to-zero and denormals-are-zero for the lifetime of the object.
 class FlushDenormals {
   public:
 #if defined(__SSE__)
@@ -153,7 +153,7 @@ class Packets final : public EmbreePackets {
     }
 
   private:
-    // Both forms lie in memory as Embree's accessors for any width expect them.
+    // Both structures have the memory layout that Embree's accessors for any width expect.
     static RTCRayN* rays(Packet& packet) { return reinterpret_cast<RTCRayN*>(&packet); }
     static RTCHitN* hits(Packet& packet) {
         return RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&packet), kWidth);

@@ -1,8 +1,7 @@
 #pragma once
-/// A ray set in the form that rtcIntersect1/4/8/16 and rtcOccluded1/4/8/16 take, made before the
-/// clock starts.
-///
-/// Conventions: rays fill packets in their order; free lanes of the last packet are not valid.
+/// A ray set in the form that rtcIntersect1/4/8/16 and rtcOccluded1/4/8/16 take, made before timing
+/// starts.
+/// Conventions: rays fill packets in their order; free lanes of the last packet are invalid.
 /// Denormal numbers are flushed to zero while Embree traces, as its manual recommends.
 
 #include <embree3/rtcore.h>
@@ -22,9 +21,9 @@ class EmbreePackets {
     virtual ~EmbreePackets() = default;
     /// Restores the rays to their state before tracing.
     virtual void reset() = 0;
-    /// Traces all; `coherent` sets the context's flag.
+    /// Traces all rays; `coherent` sets the context's flag.
     virtual void trace(RTCScene scene, bool coherent) = 0;
-    /// After a trace: whether ray i hit, and where; t is infinite for none and 0 for any hit.
+    /// Results of the last trace for ray i: t is infinite for a miss and 0 for any hit.
     static constexpr float kMiss = std::numeric_limits<float>::infinity();
     [[nodiscard]] virtual float t(std::size_t i) const = 0;
     [[nodiscard]] virtual std::size_t count_hits() const = 0;

@@ -1,9 +1,8 @@
 #pragma once
-/// The peer: the same triangles, spheres and cylinders in Embree 3.
-///
-/// Triangles are its triangle meshes and spheres its sphere points. It has no cylinder with caps:
-/// cylinders are either its linear cone curves or user geometry with callbacks in float
-/// (embree_cylinders.h); both are measured.
+/// The same triangles, spheres and cylinders in Embree 3.
+/// Triangles are triangle meshes and spheres sphere points. Embree has no capped cylinders: they
+/// are either linear cone curves or user geometry with callbacks in float (embree_cylinders.h);
+/// both are measured.
 /// Threads: tracing from many threads is allowed.
 
 #include <embree3/rtcore.h>
@@ -23,17 +22,17 @@ struct EmbreeOptions {
 
 class EmbreeScene {
   public:
-    /// Copies what it needs of `scene`. Throws Error (Resource) when Embree reports an error.
+    /// Copies the data it needs from `scene`. Throws Error (Resource) when Embree reports an error.
     EmbreeScene(const KernelScene& scene, const EmbreeOptions& options);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     [[nodiscard]] RTCScene handle() const;
-    /// Of rtcCommitScene alone: the buffers are filled before.
+    /// Time of rtcCommitScene alone; buffers are filled before.
     [[nodiscard]] double build_seconds() const;
-    /// What Embree has allocated for the scene, by its own memory monitor. Vertices and indices are
-    /// shared buffers of ours and not in it.
+    /// Bytes that Embree has allocated for the scene, by its memory monitor. Excludes vertices and
+    /// indices, which are shared buffers.
     [[nodiscard]] std::size_t memory_bytes() const;
 
   private:

@@ -10,7 +10,7 @@ namespace {
 constexpr unsigned kWidth = 8;
 
 struct Node {
-    std::size_t primitives = 0;  ///< of a leaf; 0: an inner node
+    std::size_t primitives = 0;  ///< in a leaf; 0: an inner node
     unsigned children = 0;
     RTCBounds bounds[kWidth];
     Node* child[kWidth];
@@ -71,7 +71,7 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive*, s
     return node;
 }
 
-/// The boxes of the parts of a triangle on both sides of a plane.
+/// Computes the boxes of the parts of a triangle on both sides of a plane.
 void split(const RTCBuildPrimitive* primitive, unsigned axis, float position, RTCBounds* left,
            RTCBounds* right, void* user) {
     const auto& mesh = *static_cast<const TriangleMesh*>(user);
@@ -121,7 +121,7 @@ double embree_tree_cost(const TriangleMesh& mesh, RTCBuildQuality quality, std::
                          box.upper_x, box.upper_y, box.upper_z, static_cast<unsigned>(i)};
     }
     const std::size_t count = primitives.size();
-    primitives.resize(2 * count);  // room for what spatial splits add
+    primitives.resize(2 * count);  // capacity for spatial splits
     RTCDevice device = rtcNewDevice(nullptr);
     RTCBVH bvh = rtcNewBVH(device);
     RTCBuildArguments args = rtcDefaultBuildArguments();

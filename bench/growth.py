@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the table of alhazen_growth_bench as an SVG picture: time per ray against triangles, both logarithmic.
+"""Draws the table of alhazen_growth_bench as an SVG file: time per ray against triangles on logarithmic axes.
 
 Usage: bench/growth.py TABLE.csv PICTURE.svg
 """
@@ -23,7 +23,7 @@ def read(path):
 
 
 def slope(points):
-    """Of the line that fits the logarithms best; None for a single size."""
+    """Slope of the least-squares line of the logarithms; None for a single size."""
     x = [math.log(p[0]) for p in points]
     y = [math.log(p[1]) for p in points]
     mx, my = sum(x) / len(x), sum(y) / len(y)
@@ -36,7 +36,7 @@ def decimal(n):
 
 
 class Axes:
-    """Places numbers of one panel on the picture."""
+    """Maps the numbers of one panel to positions in the drawing."""
 
     def __init__(self, left, panel):
         numbers = [p for points in panel.values() for p in points]

@@ -1,7 +1,7 @@
-/// How the time per ray grows with the number of triangles: one shape, tessellated ever finer.
+/// Growth of the time per ray with the number of triangles: one shape at increasing tessellation.
 /// Usage: alhazen_growth_bench [--from N] [--to N] [--side N] [--rounds N] [--csv FILE]
-/// Writes a line per size, ray set and tracer; growth.py draws it. States the slopes on logarithmic
-/// axes.
+/// Writes a line per size, ray set and tracer, which growth.py plots, and prints the slopes on
+/// logarithmic axes.
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ struct Point {
 
 Point point_of(const RaySet& set, double triangles, const Measured& m) {
     const Spread s = m.spread();
-    // The upper quartile of the rate is the lower one of the time.
+    // The upper quartile of the rate is the lower quartile of the time.
     return {set.name,       m.group + " " + m.name, triangles,
             1e3 / s.median, 1e3 / s.upper,          1e3 / s.lower};
 }
@@ -75,7 +75,7 @@ std::vector<Point> measure_size(double wanted, const Settings& settings) {
     return points;
 }
 
-/// Slope of the straight line that fits log time against log size best.
+/// Slope of the least-squares line of log time against log size.
 double slope_of(const std::vector<Point>& points, const Point& like) {
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (const Point& p : points) {
@@ -119,7 +119,7 @@ int main(int argc, char** argv) try {
     settings.rounds = static_cast<int>(line.count("--rounds", 5));
     const std::string file = line.text("--csv", "");
     std::vector<Point> points;
-    // Half a decade at a time; the last size is reached in spite of rounding.
+    // Steps of half a decade; the factor 1.01 includes the last size in spite of rounding.
     for (double n = settings.from; n < 1.01 * settings.to; n *= std::sqrt(10.0)) {
         for (Point& p : measure_size(n, settings)) points.push_back(std::move(p));
         if (!file.empty()) write_file_atomically(file, as_csv(points));

@@ -1,9 +1,9 @@
-/// Rays per second of wide_bvh beside Embree: same scene, same rays, one thread, in turn, medians.
+/// Rays per second of wide_bvh and Embree: same scene, same rays, one thread, in turn, medians.
 /// Usage: alhazen_kernel_bench SCENE... [--side N] [--rounds N] [--only RAYS] [--json FILE]
 ///            [--markdown FILE] [--build fast|default|high] [--width 4|8|16] [--compact] [--masks]
 ///        alhazen_kernel_bench SCENE... --check [--side N] [--only RAYS] [--markdown FILE]
-/// SCENE: see kernel_scenes.h. --check does not measure: it counts the rays that the tracers
-/// disagree about and decides each by brute force in extended precision.
+/// SCENE: see kernel_scenes.h. --check measures no times: it counts the rays on which the tracers
+/// disagree and resolves each by brute force in extended precision.
 
 #include <fmt/format.h>
 
@@ -27,10 +27,10 @@ struct Settings {
     int rounds = 5;
     std::string only;  ///< name of a ray set; empty: all
     BuildOptions build{BuildQuality::High};
-    bool masks = false;  ///< also through masks
+    bool masks = false;  ///< also measures with masks
 };
 
-/// Both trees of Embree, and where there are cylinders both ways to have them.
+/// Both trees of Embree and, if there are cylinders, both representations of them.
 class Peers {
   public:
     explicit Peers([[maybe_unused]] const KernelScene& scene) {
@@ -74,7 +74,7 @@ void add_masked(const Aggregate& masked, const RaySet& set, std::vector<Contende
 }
 
 #ifdef ALHAZEN_HAVE_EMBREE
-/// All ways to trace the set in Embree; packets share the rays in their form.
+/// Adds all ways to trace the set in Embree; tracers of one packet width share the packed rays.
 void add_peers(const Peers& peers, const RaySet& set,
                std::vector<std::unique_ptr<EmbreePackets>>& packets,
                std::vector<Contender>& tracers) {
@@ -92,7 +92,7 @@ void add_peers(const Peers& peers, const RaySet& set,
                                [rays] { return rays->count_hits(); }});
         };
         for (const PeerScene& peer : peers.list) {
-            // The flag chooses between kernels for packets; for single rays both are tried.
+            // The flag selects between packet kernels; single rays are measured with both values.
             add(peer, set.coherent && width > 1, "");
             if (width == 1 && set.coherent) add(peer, true, " coherent");
         }
@@ -127,7 +127,7 @@ SceneResult run(const KernelScene& scene, const Settings& settings) {
     return result;
 }
 
-/// The number of rays that wide_bvh is wrong about, and of planted errors that were not seen.
+/// Returns the number of rays that wide_bvh gets wrong plus that of undetected planted errors.
 std::size_t run_checks([[maybe_unused]] const CommandLine& line,
                        [[maybe_unused]] const Settings& settings) {
 #ifdef ALHAZEN_HAVE_EMBREE
@@ -187,7 +187,7 @@ int run_program(int argc, char** argv) {
     std::vector<SceneResult> scenes;
     for (const std::string& spec : line.rest) {
         scenes.push_back(run(make_scene(spec), settings));
-        // After every scene, so that a long run that is stopped leaves what it has.
+        // Written after every scene, so that an interrupted run keeps its results.
         const std::string json = line.text("--json", ""), markdown = line.text("--markdown", "");
         if (!json.empty()) write_file_atomically(json, as_json(facts, scenes).dump(2) + "\n");
         if (!markdown.empty()) write_file_atomically(markdown, as_markdown(facts, scenes));

@@ -13,7 +13,7 @@ namespace alhazen::bench {
 
 namespace {
 
-/// A sphere of the flake and the one it sits on.
+/// A sphere of the sphereflake and its parent.
 struct Ball {
     Vec3 center;
     double radius;
@@ -23,8 +23,8 @@ struct Ball {
 
 /// Visits a sphere and, around it, nine of a third of its radius: six around the equator, three
 /// above, `gap` times their radius away. Source: Haines, "A Proposal for Standard Graphics
-/// Environments", IEEE CG&A 7(11), 1987. Differs: the children's directions are our own; what
-/// matters here is the clustering.
+/// Environments", IEEE CG&A 7(11), 1987; the children's directions are different ones, the
+/// clustering is the same.
 void flake(const Ball& ball, const Vec3& axis, double gap, int depth,
            const std::function<void(const Ball&)>& visit) {
     visit(ball);
@@ -45,7 +45,7 @@ void flake(const Ball& ball, const Vec3& axis, double gap, int depth,
 
 const Ball kRoot{{0, 0, 0}, 0.5, {0, 0, 0}, true};
 
-/// A floor under the balls, and a view of them.
+/// A floor for the balls to stand on, and a view of them.
 KernelScene scene_of_balls(const std::string& name) {
     KernelScene scene;
     scene.name = name;
@@ -91,7 +91,7 @@ KernelScene mixed(const std::string& name, int depth) {
             scene.spheres.push_back(float_sphere(ball));
         }
         if (ball.is_root) return;
-        // From the parent's surface to the child's, a little into both.
+        // From the parent's surface to the child's, extended slightly into both.
         const Vec3 d = normalize(ball.center - ball.parent_center);
         Cylinder cylinder;
         cylinder.base = to_float(ball.parent_center + 2.9 * ball.radius * d);
@@ -131,7 +131,7 @@ KernelScene read_scene(const std::filesystem::path& file, int splits, bool inter
     return scene;
 }
 
-/// The number after the last `mark`, which is cut off with it.
+/// Returns the number after the last `mark` and removes both from `text`.
 int cut_number(std::string& text, char mark, const std::string& spec) {
     const std::size_t at = text.rfind(mark);
     const std::string digits = at == std::string::npos ? "" : text.substr(at + 1);
@@ -200,7 +200,7 @@ KernelScene growing_balls(std::size_t triangles) {
     const double rings = std::sqrt(static_cast<double>(triangles) / kBalls / 4.0);
     const auto n = static_cast<std::uint32_t>(std::max(2.0, std::round(rings)));
     KernelScene scene = tessellated_balls("growing", kDepth, latitude_ball(n, 2 * n, 0.0));
-    // Without the floor, which most of the random lines would meet alone.
+    // Removes the floor, which most random lines would intersect first.
     scene.mesh.triangles.erase(scene.mesh.triangles.begin(), scene.mesh.triangles.begin() + 2);
     scene.mesh.positions.erase(scene.mesh.positions.begin(), scene.mesh.positions.begin() + 4);
     for (auto& triangle : scene.mesh.triangles) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Scenes for the kernel benchmarks: triangles, spheres and cylinders with all numbers rounded to
-/// float, so that a kernel in float has the same things.
+/// Scenes of the kernel benchmarks: triangles, spheres and cylinders with all numbers rounded to
+/// float, so that a kernel in float has the same primitives.
 
 #include <filesystem>
 #include <string>
@@ -18,20 +18,20 @@ struct KernelScene {
     std::vector<Sphere> spheres;
     std::vector<Cylinder> cylinders;  ///< with caps
     Vec3 eye, look_at, light;
-    double ray_start = 0;  ///< distance of secondary rays from the surface that they leave
+    double ray_start = 0;  ///< distance from the surface at which secondary rays start
 
     [[nodiscard]] Box3 box() const;
     [[nodiscard]] std::size_t size() const {
         return mesh.triangles.size() + spheres.size() + cylinders.size();
     }
-    /// As "69 451 triangles, 820 spheres".
+    /// Returns, for example, "69 451 triangles, 820 spheres".
     [[nodiscard]] std::string contents() const;
 };
 
-/// What the command line calls a scene:
+/// Scene names of the command line:
 ///   FILE                a mesh file seen from the front
 ///   FILE@N              the same, every triangle split into four N times
-///   interior:FILE       seen from within, along its longest side, the light inside too
+///   interior:FILE       seen from inside, along its longest side, with the light inside
 ///   balls:DEPTH:SPLITS  spheres around spheres (below) tessellated, 20 4^SPLITS triangles each
 ///   spheres:DEPTH       the same as exact spheres (and the floor, two triangles)
 ///   mixed:DEPTH         triangles, exact spheres and cylinders: every other ball is tessellated,
@@ -42,10 +42,11 @@ struct KernelScene {
 inline constexpr const char* kSceneSpecs =
     "FILE, FILE@N, interior:FILE, balls:DEPTH:SPLITS, spheres:DEPTH, mixed:DEPTH";
 
-/// A mesh file seen from the front.
+/// Mesh file seen from the front.
 [[nodiscard]] KernelScene mesh_scene(const std::string& name, const std::filesystem::path& file);
 
-/// 820 spheres around spheres, each of about triangles / 820 triangles: one shape, ever finer.
+/// 820 spheres around spheres of about triangles / 820 triangles each: one shape at any
+/// tessellation.
 [[nodiscard]] KernelScene growing_balls(std::size_t triangles);
 
 }  // namespace alhazen::bench

@@ -1,8 +1,8 @@
-/// How many rays get out of closed meshes through their vertices and edges: wide_bvh beside Embree.
+/// Rays that leave closed meshes through vertices and edges: wide_bvh and Embree.
 /// Usage: alhazen_leak_bench MESH... [--rays N] [--embree-rays N] [--markdown FILE]
-/// MESH: a closed mesh file, or sphere:SPLITS. --rays counts over all meshes (1e9 may be written);
-/// --embree-rays limits those that Embree traces too (default: all). All cores are used.
-/// --first-block N begins with other rays: a long run can be made of short ones.
+/// MESH: a closed mesh file, or sphere:SPLITS. --rays is the total over all meshes (1e9 is
+/// accepted); --embree-rays limits the rays that Embree traces too (default: all). Uses all cores.
+/// --first-block N starts with other rays: a long run can be split into short ones.
 
 #include <fmt/format.h>
 
@@ -30,11 +30,11 @@ namespace {
 using namespace alhazen;
 using namespace alhazen::bench;
 
-/// Rays of one kind that a task makes and every tracer traces.
+/// Rays of one kind that a task generates and every tracer traces.
 constexpr std::size_t kBlock = 4096;
 constexpr std::size_t kShown = 5;
 
-/// Counts the rays of the list that hit nothing.
+/// Counts the rays of a list that hit nothing.
 struct LeakContender {
     std::string name;
     std::function<std::size_t(RaySet&)> count_misses;
@@ -84,7 +84,7 @@ void show_leaks(const Aggregate& aggregate, const RaySet& set) {
     }
 }
 
-/// One block of rays through all tracers; `peers_too`: else ours alone.
+/// Traces one block of rays by all tracers, or without `peers_too` by ours alone.
 void run_block(const LeakMesh& mesh, const Aggregate& aggregate, std::uint64_t block,
                bool peers_too, const std::vector<LeakContender>& tracers,
                std::vector<std::unique_ptr<LeakRow>>& rows) {
@@ -124,7 +124,7 @@ std::string cells(const LeakRow& row) {
     return text + "\n";
 }
 
-/// Rays per second of one thread's processor time; Embree's packets are made in that time too.
+/// Rays per second of processor time of one thread; includes the making of Embree's packets.
 std::string rates(const std::vector<LeakContender>& tracers,
                   const std::vector<std::unique_ptr<LeakRow>>& rows) {
     std::string text;

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kCandidates = 2000;
 constexpr std::size_t kBalls = 32;
 
-/// How often the mesh goes around the point.
+/// Winding number of the mesh around the point.
 double winding_number(const TriangleMesh& mesh, const Vec3& p) {
     double angle = 0;
     for (const auto& [i, j, k] : mesh.triangles) {
@@ -30,7 +30,7 @@ double winding_number(const TriangleMesh& mesh, const Vec3& p) {
     return angle / (4.0 * std::numbers::pi);
 }
 
-/// A bound from below of the distance to the nearest triangle: to the nearest triangle's box.
+/// Lower bound of the distance to the nearest triangle: the distance to the nearest triangle's box.
 double clearance(const TriangleMesh& mesh, const Vec3& p) {
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -48,7 +48,7 @@ double snapped(double x, double step) {
     return std::nearbyint(x / step) * step;
 }
 
-/// Exact: all are multiples of the grid, and less than 2^24 of them.
+/// Exact: all coordinates are multiples of the grid step, fewer than 2^24 of them.
 Ray aimed(const Vec3& origin, const Vec3& aim) {
     const Ray ray{to_float(origin), to_float(aim - origin)};
     if (ray.origin != origin || ray.direction != aim - origin) {
@@ -82,7 +82,7 @@ void LeakMesh::snap_to_grid() {
     for (Vec3& p : mesh_.positions) {
         for (int k = 0; k < 3; ++k) p[k] = snapped(p[k] - box.center()[k], 8 * grid_);
     }
-    // What has shrunk to a line leaves its two neighbours at each other.
+    // A triangle that rounding has collapsed to a line leaves its two neighbours adjacent.
     std::erase_if(mesh_.triangles, [&](const std::array<std::uint32_t, 3>& t) {
         const Vec3 &a = mesh_.positions[t[0]], &b = mesh_.positions[t[1]],
                    &c = mesh_.positions[t[2]];
@@ -137,7 +137,7 @@ Ray LeakMesh::axis_ray(const Ball& ball, RandomStream& random) const {
     const std::vector<std::uint32_t>& lines = ball.lines[axis];
     Vec3 origin = point_in(ball, random);
     if (!lines.empty()) {
-        // Half of the rays pass through a vertex, half through coordinates of two.
+        // Half of the rays pass through a vertex, half through coordinates of two vertices.
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const std::uint32_t i = lines[random.below(lines.size())];
         const std::uint32_t j = random.below(2) == 0 ? i : lines[random.below(lines.size())];

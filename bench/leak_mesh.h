@@ -1,16 +1,15 @@
 #pragma once
-/// A closed mesh and rays from inside it that are aimed exactly at its weak points: none may get
-/// out.
-///
+/// A closed mesh and rays from inside it, aimed exactly at its vertices and edges: every ray must
+/// hit.
 /// The mesh is moved to the origin and its vertices are rounded to a grid of 2^21 steps per axis,
 /// so that the eighths of its edges, the origins of the rays and the differences of both are exact
-/// in float: a ray aimed at a vertex passes through that vertex exactly, in every tracer.
-/// Insides are found without tracing: a point's winding number is a sum of solid angles.
+/// in float: a ray aimed at a vertex passes through that vertex exactly, in every tracer. Inside
+/// points are found without tracing: a point's winding number is a sum of solid angles.
+/// Limits: a leak is not detected if other parts of the mesh lie behind it, and a ray that touches
+/// a silhouette edge from inside need not hit there. Hence rays are infinite.
+/// Threads: rays may be made from many threads.
 /// Source: Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed.
 /// Eng. 30(2), 1983.
-/// Conventions: a ray that leaks where other parts of the mesh lie behind is not seen; nor need one
-/// that touches an edge of a silhouette from inside hit there. Hence rays are endless.
-/// Threads: rays may be made from many threads.
 
 #include <string>
 
@@ -30,7 +29,7 @@ inline constexpr int kLeakKinds = 3;
 
 class LeakMesh {
   public:
-    /// Throws Error (Usage) when the mesh is not closed or nothing inside was found.
+    /// Throws Error (Usage) when the mesh is not closed or no inside point is found.
     LeakMesh(std::string name, TriangleMesh mesh);
 
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -38,7 +37,7 @@ class LeakMesh {
     [[nodiscard]] Ray ray(LeakKind kind, RandomStream& random) const;
 
   private:
-    /// All of it is inside; no triangle reaches into it.
+    /// A ball inside the mesh that no triangle intersects.
     struct Ball {
         Vec3 center;
         double radius;
@@ -48,7 +47,7 @@ class LeakMesh {
 
     void snap_to_grid();
     void find_balls();
-    /// A grid point in the ball, at most half the radius from the center along each axis.
+    /// Returns a grid point in the ball, at most half the radius from the center along each axis.
     [[nodiscard]] Vec3 point_in(const Ball& ball, RandomStream& random) const;
     [[nodiscard]] Ray axis_ray(const Ball& ball, RandomStream& random) const;
 

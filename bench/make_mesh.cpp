@@ -1,4 +1,5 @@
-// Makes a closed bumpy ball of about N triangles as PLY, STL and OBJ, to measure how meshes load.
+// Writes a closed bumpy ball of about N triangles as PLY, STL and OBJ, to measure the loading of
+// meshes.
 //
 // Usage: alhazen_make_mesh N OUT   ->   OUT.ply OUT.stl OUT.obj
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Times of tracers that take turns, and what is said about them.
+/// Times of tracers measured in turn, and their statistics.
 
 #include <functional>
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace alhazen::bench {
 
-/// Seconds that this thread has computed: what other programs take of the processor does not count.
+/// Processor time of this thread in seconds; excludes time taken by other programs.
 [[nodiscard]] double processor_seconds();
 
-/// Least, quartiles and greatest of some numbers.
+/// Minimum, quartiles and maximum.
 struct Spread {
     double min = 0, lower = 0, median = 0, upper = 0, max = 0;
 };
@@ -18,11 +18,12 @@ struct Spread {
 [[nodiscard]] Spread spread_of(std::vector<double> values);
 
 struct Contender {
-    std::string group;              ///< who: "alhazen", "robust", "fast"
-    std::string name;               ///< which way within the group
+    std::string group;              ///< tracer family: "alhazen", "robust", "fast"
+    std::string name;               ///< variant within the group
     std::function<void()> prepare;  ///< before each round, not timed; may be empty
     std::function<std::size_t()> trace;
-    /// After the last round, not timed: how many rays hit. Empty: what `trace` gave.
+    /// Called after the last round, not timed: number of hits. If empty, the result of `trace`
+    /// counts.
     std::function<std::size_t()> count_hits;
 };
 
@@ -34,18 +35,18 @@ struct Measured {
     [[nodiscard]] Spread spread() const { return spread_of(rates); }
 };
 
-/// Tracers in turn, round after round, so that a drift of the machine's speed meets them all alike.
-/// The first round warms the caches and is not counted.
+/// Runs the tracers in turn, round after round, so that a drift of the machine's speed affects all
+/// alike. The first round warms the caches and is not counted.
 [[nodiscard]] std::vector<Measured> measure(const std::vector<Contender>& tracers, std::size_t rays,
                                             int rounds);
 
-/// The one of a group with the best median; null when there is none. One whose number of hits is
-/// more than 0.5 % off that of the first of the list does not count: it traces something else.
+/// Returns the tracer of a group with the best median; null if there is none. Ignores tracers whose
+/// number of hits is more than 0.5 % off that of the first in the list: they trace something else.
 [[nodiscard]] const Measured* best_of(const std::vector<Measured>& list, const std::string& group);
 [[nodiscard]] const Measured* find(const std::vector<Measured>& list, const std::string& group,
                                    const std::string& name);
 
-/// Ratios a / b round by round: noise that lasts longer than a round falls out.
+/// Ratios a / b round by round; cancels noise that lasts longer than a round.
 [[nodiscard]] Spread ratio_by_round(const Measured& a, const Measured& b);
 
 }  // namespace alhazen::bench

@@ -1,5 +1,5 @@
 #pragma once
-/// Meshes made by rule, for benchmarks: spheres of any fineness and finer copies of a mesh.
+/// Procedural meshes for benchmarks: spheres of any tessellation and subdivided copies of a mesh.
 
 #include <cstdint>
 
@@ -11,17 +11,17 @@ namespace alhazen::bench {
 [[nodiscard]] TriangleMesh icosphere(int splits);
 
 /// Unit sphere of `rings` circles of `sectors` vertices between two poles, 2 rings sectors
-/// triangles, with bumps of the height `bump`. Closed; `rings` >= 1, `sectors` >= 3.
+/// triangles, with bumps of height `bump`. Closed; `rings` >= 1, `sectors` >= 3.
 [[nodiscard]] TriangleMesh latitude_ball(std::uint32_t rings, std::uint32_t sectors, double bump);
 
-/// Every triangle split into four at the middles of its edges, which neighbours share: what was
-/// closed stays closed.
+/// Splits every triangle into four at the midpoints of its edges, which neighbours share: a closed
+/// mesh stays closed.
 void split_triangles(TriangleMesh& mesh);
 
-/// Appends `part` scaled and moved.
+/// Appends a scaled and translated copy of `part`.
 void append(TriangleMesh& mesh, const TriangleMesh& part, const Vec3& center, double radius);
 
-/// Coordinates as a kernel in float has them.
+/// Rounds to float.
 [[nodiscard]] double to_float(double x);
 [[nodiscard]] Vec3 to_float(const Vec3& v);
 void round_to_float(TriangleMesh& mesh);

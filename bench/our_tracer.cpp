@@ -10,7 +10,7 @@ namespace alhazen::bench {
 
 namespace {
 
-/// Set in no ray of the benchmark.
+/// Mask bit of no ray of the benchmark.
 constexpr RayMask kUnseen = 2;
 
 template <class S>

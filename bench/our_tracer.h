@@ -1,5 +1,5 @@
 #pragma once
-/// wide_bvh over a scene of the benchmarks, and its rays one by one and in batches.
+/// wide_bvh over a benchmark scene; traces rays one by one and in batches.
 
 #include <memory>
 
@@ -9,27 +9,27 @@
 
 namespace alhazen::bench {
 
-/// Rays of one call of the batch: as many as a renderer's tile has.
+/// Rays per batch call: those of a renderer's tile.
 inline constexpr std::size_t kBatch = 1024;
 
-/// With the quality High, as Embree's trees are made here.
+/// Builds with quality High, as Embree's trees are built here.
 [[nodiscard]] std::shared_ptr<const Aggregate> build_ours(const KernelScene& scene,
                                                           const BuildOptions& options = {
                                                               BuildQuality::High});
-/// The same seen by rays of `kSeeing` only, and besides one small triangle in a corner that they do
-/// not see: every test asks for masks, and the hits are the same.
+/// The same scene, visible to rays of `kSeeing` only, with one small invisible triangle in a
+/// corner: every test checks masks, and the hits are the same.
 [[nodiscard]] std::shared_ptr<const Aggregate> build_masked(const KernelScene& scene,
                                                             const BuildOptions& options);
 inline constexpr RayMask kSeeing = 1;
 
-/// Traces all rays of the set, `closest` or `occluded`; the number that hit.
+/// Traces all rays of the set by `closest` or `occluded`; returns the number of hits.
 [[nodiscard]] std::size_t trace_single(const Aggregate& aggregate, const RaySet& set,
                                        RayMask mask = kAllRays);
-/// The same by `closest_batch` or `occluded_batch`, kBatch rays a call.
+/// The same by `closest_batch` or `occluded_batch`, kBatch rays per call.
 [[nodiscard]] std::size_t trace_batches(const Aggregate& aggregate, const RaySet& set,
                                         RayMask mask = kAllRays);
 
-/// What a ray of the set costs on average, counted.
+/// Mean counted work per ray of the set.
 struct WorkPerRay {
     double node_visits = 0, primitive_tests = 0, primitive_hits = 0;
 };

@@ -1,4 +1,4 @@
-"""One scene in the languages of Alhazen's peers: spheres, triangles and polygons, point lights, mirrors.
+"""Converts a scene to the languages of Alhazen's peers: spheres, triangles and polygons, point lights, mirrors.
 
 Reads NFF (v b l f s p) and OBJ (v f); writes POV-Ray, Tachyon and Alhazen's native text.
 """
@@ -85,7 +85,7 @@ def read_obj(path):
 
 
 def light_level(scene):
-    """Haines' default intensity of a light whose colour is not given."""
+    """Haines' default intensity of a light without a colour."""
     n = len(scene.lights)
     return math.sqrt(n) / (2 * n)
 
@@ -131,7 +131,7 @@ def write_tachyon(scene, path, side, depth=5):
     up = cross(unit(cross(forward, scene.up)), forward)
     zoom = 1 / (2 * math.tan(math.radians(scene.angle) / 2))
     level = light_level(scene)
-    # Tachyon is left-handed: mirrored in z it shows the same picture.
+    # Tachyon is left-handed: mirroring in z gives the same image.
     flip = lambda v: (v[0], v[1], -v[2])
     with open(path, "w", encoding="ascii") as out:
         out.write(f"BEGIN_SCENE\nRESOLUTION {side} {side}\nCAMERA\nZOOM {zoom:.9g}\nASPECTRATIO 1.0\nANTIALIASING 0\n"

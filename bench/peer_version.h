@@ -1,5 +1,5 @@
 #pragma once
-/// Which Embree the program was linked with.
+/// Version of the linked Embree.
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Whole pictures beside POV-Ray and Tachyon: same scene, 1024x1024, depth 5, one thread, in turn, medians.
+"""Whole pictures compared with POV-Ray and Tachyon: same scene, 1024x1024, depth 5, one thread, in turn, medians.
 
 Usage: bench/pictures.py ALHAZEN DATA_FOLDER [--json FILE] [--rounds N] [--side N] [--keep FOLDER]
-Peers that are not installed are left out (scripts/setup --peers installs them).
+Peers that are not installed are skipped (scripts/setup --peers installs them).
 """
 
 import argparse

@@ -1,5 +1,5 @@
 #pragma once
-/// The results of the kernel benchmark as text, JSON and tables of Markdown.
+/// Results of the kernel benchmark as text, JSON and Markdown tables.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -27,7 +27,7 @@ struct SceneResult {
     std::vector<SetResult> sets;
 };
 
-/// What was run, for the head of a table.
+/// Settings of a run, for the head of a table.
 struct RunFacts {
     std::string command;
     std::string machine;  ///< processor, cores, versions
@@ -39,8 +39,8 @@ struct RunFacts {
 [[nodiscard]] std::string as_text(const SetResult& set);
 [[nodiscard]] nlohmann::ordered_json as_json(const RunFacts& facts,
                                              const std::vector<SceneResult>& scenes);
-/// Tables: medians and ratios, their spread, what masks cost where that was measured, and the
-/// numbers of hits where they differ.
+/// Tables: medians and ratios, their spread, the cost of masks where measured, and the numbers of
+/// hits where they differ.
 [[nodiscard]] std::string as_markdown(const RunFacts& facts,
                                       const std::vector<SceneResult>& scenes);
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Solids made of others beside POV-Ray: same scene, same eye rays, flat colours, one thread, in turn, medians.
+"""CSG solids and curved surfaces compared with POV-Ray: same scene, same eye rays, flat colours, one thread, in turn, medians.
 
 Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--json FILE] [--markdown FILE] [--keep FOLDER]
 A scene is KIND[=SIZE][@SIDE], of plate, menger, spheres (so many leaves) and torus, quartic, sextic, blob (one surface).
-With --lit the colours are shaded by a point light that casts no shadows, in both, so that normals are needed too.
-Seconds are those of processor time that each program says it traced (without reading the scene); pixels are compared by colour.
+--lit shades the colours by a point light without shadows in both programs, so that normals are computed too.
+Seconds are the processor time of tracing that each program reports (without reading the scene); pixels are compared by colour.
 """
 
 import argparse
@@ -20,7 +20,7 @@ import tempfile
 GENERATORS = {"plate": "perforated_plate", "menger": "menger_sponge", "spheres": "drilled_spheres"}
 ALL = "spheres=1000,plate=1000,plate=100000@16,menger=1000,menger=100000@16,torus,quartic,sextic,blob"
 COLORS = {"skin": (1, 0, 0), "cut": (0, 1, 0)}  # the background is blue
-GLOW = 0.2  # of a lit surface, so that its colour can be told where the light grazes it
+GLOW = 0.2  # of a lit surface, so that its colour is recognizable at grazing light
 NUMBER = r"[-+0-9.e]+"
 
 
@@ -29,7 +29,7 @@ def vector(v, scale=1.0):
 
 
 def light_of(eye):
-    """Beside the eye, away from the origin."""
+    """A position beside the eye, away from the origin."""
     return tuple(1.5 * x + y for x, y in zip(eye, (1.0, -0.5, 2.0)))
 
 
@@ -45,7 +45,7 @@ def native_head(eye, lit, colors):
 
 
 def generate(alhazen, kind, size, path, lit):
-    """The generated scene as native text with other looks; returns that text."""
+    """Writes the generated scene as native text with other materials; returns that text."""
     subprocess.run([alhazen, "generate", GENERATORS[kind], "--size", str(size), "-o", path, "-q"], check=True)
     with open(path, encoding="ascii") as file:
         text = file.read()
@@ -59,7 +59,7 @@ def generate(alhazen, kind, size, path, lit):
     return text
 
 
-# One surface before a flat background: a polynomial of x, y and z, a torus, or a blob.
+# One surface before a plain background: a polynomial of x, y and z, a torus, or a blob.
 CAMERA = {"eye": (1.0, -6.0, 3.0), "look": (-1.0, 6.0, -3.0), "right": (3.6, 0.6, 0.0), "up": (-0.27, 1.62, 3.33)}
 POLYNOMIALS = {
     "quartic": ("x^4 + y^4 + z^4 - 1.5*(x^2 + y^2 + z^2) + 0.3*x*y*z + 0.9", 1.5),
@@ -70,7 +70,7 @@ POLYNOMIALS = {
 
 
 def blob_parts():
-    """Thirty spheres in the same places for both."""
+    """Thirty spheres, the same for both programs."""
     value, parts = 12345, []
     for _ in range(30):
         numbers = []
@@ -82,7 +82,7 @@ def blob_parts():
 
 
 class Polynomial(dict):
-    """{(i, j, k): c} for c x^i y^j z^k; knows what Python's eval of an expression needs."""
+    """{(i, j, k): c} for c x^i y^j z^k; has the operators that Python's eval of an expression needs."""
 
     def __add__(self, other):
         other = other if isinstance(other, Polynomial) else Polynomial({(0, 0, 0): other})
@@ -186,11 +186,11 @@ def pov_head(camera, lit):
 
 
 def write_povray(text, path, lit):
-    """The subset of the native format that the generators write."""
+    """Converts the subset of the native format that the generators write."""
     camera = vectors(re.search(r"sheared_camera[^{]*\{(.*?)\}", text, re.S)[1])
     with open(path, "w", encoding="ascii") as out:
         out.write(pov_head(camera, lit))
-        # Long blocks are written over several lines.
+        # Joins long blocks, which are written over several lines.
         joined = lambda block: "; ".join(line.strip() for line in block[0].splitlines()).replace("{;", "{").replace("; }", " }")
         text = re.sub(r"(?ms)^    (?:box|sphere|cylinder) \{\n.*?^    \}", joined, text)
         for body in re.findall(r"(?ms)^object [^{]*\{\n(.*?)^\}", text):
@@ -213,7 +213,7 @@ def povray_seconds(command):
 
 
 def pixels(path):
-    """Colours from the top left on: of a PPM (POV-Ray) or a PFM (Alhazen), both binary."""
+    """Colours of a binary PPM (POV-Ray) or PFM (Alhazen), from the top left on."""
     with open(path, "rb") as file:
         kind, size = file.readline().strip(), file.readline()
         while size.startswith(b"#"):

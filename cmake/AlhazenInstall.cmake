@@ -1,9 +1,9 @@
-# `cmake --install`: the command line, the library with its headers, and the package that makes
-# find_package(alhazen) and alhazen::tracer work elsewhere (docs/guide/library.md).
+# `cmake --install`: the command line, the library with its headers, and the package for find_package(alhazen) and
+# alhazen::tracer (docs/guide/library.md).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-# What alhazen_tracer is made of, in the order of who may include whom.
+# Rooms that alhazen_tracer consists of, lowest first.
 set(alhazen_installed base math sampling simd parallel geometry imaging shading cameras shapes accel scene_model primitives
     csg aggregates scene solids tracer)
 
@@ -17,8 +17,8 @@ foreach(folder ${alhazen_installed})
             FILES_MATCHING PATTERN "*.h")
 endforeach()
 
-# Inline functions of the headers must compute in other programs what they compute in the library:
-# the linker keeps one copy of each, whoever compiled it.
+# Inline functions of the headers must compute the same in other programs: the linker keeps one copy of each, whoever
+# compiled it.
 target_compile_options(alhazen_base INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
 target_compile_features(alhazen_base INTERFACE $<INSTALL_INTERFACE:cxx_std_20>)
 

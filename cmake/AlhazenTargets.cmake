@@ -1,4 +1,4 @@
-# One place for the flags that carry the guarantees, and the two functions every folder uses.
+# Flags that carry the guarantees, and the functions that define libraries and tests.
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
     set(CMAKE_BUILD_TYPE Release)
@@ -25,17 +25,17 @@ set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")
 add_library(alhazen_flags INTERFACE)
 target_include_directories(alhazen_flags INTERFACE "${CMAKE_SOURCE_DIR}/src")
 target_compile_options(alhazen_flags INTERFACE
-    # Contraction would give the two owners of an edge different signs: it is off everywhere.
+    # No contraction: it would give the two owners of an edge different signs.
     -ffp-contract=off -fno-math-errno -fstack-protector-strong
-    # GCC 12 turns double(float(x)) into x where two such conversions stand side by side (seen at -O2):
-    # boxes that are rounded outward through float would not be.
+    # GCC 12 turns double(float(x)) into x where two of these conversions are adjacent (seen at -O2): boxes would not
+    # be rounded outward through float.
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Wimplicit-fallthrough -Wundef
-    # Designated initialisers leave the other fields to their defaults on purpose.
+    # Designated initialisers leave the other fields at their defaults.
     -Wno-missing-field-initializers
     $<$<BOOL:${ALHAZEN_WERROR}>:-Werror>
-    # GCC says of wide vectors that it passed them otherwise in 2010.
+    # Silences GCC's note that the calling convention of wide vectors changed in 2010.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 target_compile_definitions(alhazen_flags INTERFACE
     ALHAZEN_VERSION="${PROJECT_VERSION}"
@@ -49,14 +49,14 @@ if(ALHAZEN_SANITIZE)
     target_link_options(alhazen_flags INTERFACE -fsanitize=${ALHAZEN_SANITIZE})
 endif()
 
-# The options of kernels: files compiled once per instruction set (src/alhazen/simd/lanes-inl.h).
+# Options of kernels: files compiled once per instruction set (src/alhazen/simd/lanes-inl.h).
 set(ALHAZEN_KERNEL_OPTIONS)
-# No 512-bit registers for copies either: see LaneTag in simd/lanes-inl.h.
+# No 512-bit registers for copies: see LaneTag in simd/lanes-inl.h.
 check_cxx_compiler_flag(-mmove-max=256 ALHAZEN_HAS_MOVE_MAX)
 if(ALHAZEN_HAS_MOVE_MAX)
     list(APPEND ALHAZEN_KERNEL_OPTIONS -mmove-max=256 -mstore-max=256)
 endif()
-# Queries are copied as a whole: by the library's memcpy, not by rep movs (docs/design/build.md).
+# Queries are copied whole by the library's memcpy, not by rep movs (docs/design/build.md).
 check_cxx_compiler_flag(-mmemcpy-strategy=libcall:-1:noalign ALHAZEN_HAS_MEMCPY_STRATEGY)
 if(ALHAZEN_HAS_MEMCPY_STRATEGY)
     list(APPEND ALHAZEN_KERNEL_OPTIONS -mmemcpy-strategy=libcall:-1:noalign)
@@ -64,7 +64,7 @@ endif()
 # ALHAZEN_KERNEL_TARGETS: definitions that choose the instruction sets.
 set(ALHAZEN_KERNEL_TARGETS)
 if(ALHAZEN_FUZZ)
-    # The fuzzers trace no ray: one instruction set, without sanitizers in it, is enough.
+    # The fuzzers trace no rays: one instruction set without sanitizers suffices.
     set(ALHAZEN_KERNEL_TARGETS HWY_COMPILE_ONLY_STATIC)
     list(APPEND ALHAZEN_KERNEL_OPTIONS -fno-sanitize=all)
 elseif(ALHAZEN_KERNELS STREQUAL "native")
@@ -73,9 +73,9 @@ elseif(ALHAZEN_KERNELS STREQUAL "native")
 endif()
 
 # alhazen_library(NAME SOURCES file... KERNELS file... DEPENDS room... LIBRARIES target... PRIVATE_LIBRARIES target...)
-# makes the target alhazen_NAME of one room of src/alhazen. Without sources it is header-only. Our flags stay
-# inside of this build: who uses an installed library has the few of AlhazenInstall.cmake.
-# Sources are compiled several to a unit (unity build), kernels one by one.
+# defines the target alhazen_NAME of one room of src/alhazen; without sources it is header-only. Sources are compiled
+# several to a unit (unity build), kernels one by one. The compile flags are private to this build: an installed
+# library has only those of AlhazenInstall.cmake.
 function(alhazen_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;KERNELS;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)
@@ -94,11 +94,12 @@ function(alhazen_library name)
     endif()
 endfunction()
 
-# Tests are compiled quickly: their own speed hardly counts. -fpch-preprocess lets ccache see through the precompiled header.
+# Tests are built for compile time; their own speed hardly matters. -fpch-preprocess lets ccache see through the
+# precompiled header.
 set(ALHAZEN_TEST_OPTIONS -O1 $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-shadow>)
 
-# alhazen_test(NAME [LABEL label] SOURCES file... DEPENDS folder...) makes the GoogleTest program
-# alhazen_NAME_test. Tests labelled "heavy" do not belong to the everyday run.
+# alhazen_test(NAME [LABEL label] SOURCES file... DEPENDS folder...) defines the GoogleTest program alhazen_NAME_test.
+# Tests labelled "heavy" are not part of the everyday run.
 function(alhazen_test name)
     cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;DEPENDS;LIBRARIES" ${ARGN})
     list(TRANSFORM ARG_DEPENDS PREPEND alhazen_)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when the documentation points at nothing or cannot be read as text.
+"""Fails when a reference of the documentation leads nowhere or its text breaks a rule.
 
 Checks of the repository:
   - each link of a .md file to a file or folder of the repository leads to one, and each anchor to a heading;
@@ -18,9 +18,9 @@ import urllib.parse
 
 COLUMNS = 120
 
-# Where documents are; the root itself without its other folders.
+# Folders with documents; of the root only its own files.
 DOCUMENTS = ("docs", "examples", "scenes", "bench", "tests", "src", "apps", "tools", "scripts")
-# Folders with files that name documents by their path from the root.
+# Folders whose files name documents by their path from the root.
 NAMING = ("src", "apps", "tests", "bench", "tools", "scripts", "cmake", "scenes", "examples")
 NAMING_SUFFIXES = {".h", ".cpp", ".py", ".txt", ".cmake", ".alhazen", ""}
 
@@ -88,7 +88,7 @@ def check_document(root, path):
             continue
         if len(line) > COLUMNS and not line.startswith("|"):
             yield f"{path}:{number}: {len(line)} columns, at most {COLUMNS}"
-    # Links may go over the end of a line; those in code are none.
+    # Links may continue on the next line; code contains none.
     prose = "\n".join("" if code else re.sub(r"`[^`]*`", lambda m: "`" * len(m.group()), line)
                       for _, line, code in lines_of(text))
     for match in LINK.finditer(prose):
@@ -138,7 +138,7 @@ GOOD = {
     "src/alhazen/base/a.h": "/// Formats: docs/page.md.\n/// Source: Author, \"Title\", 1999.\n",
 }
 
-# What is changed in GOOD, and a part of the message it must cause.
+# Changes to GOOD, each with a part of the message it must cause.
 BAD = [
     ({"README.md": "[page](docs/none.md)\n"}, "leads to nothing"),
     ({"README.md": "text\n[a long\nname](docs/none.md)\n"}, "README.md:2: the link"),

@@ -19,7 +19,7 @@ import re
 import sys
 import tempfile
 
-# Room -> the rooms it may include directly; what those may include, it may too.
+# Room -> rooms that it may include directly; what those may include, it may include too.
 ROOMS = {
     "base": [],
     "math": ["base"],
@@ -47,8 +47,8 @@ ROOMS = {
     "apps": ["laboratory"],
 }
 
-# Room -> its folders, each with those of the room that it may include directly. "" stands for the files of the room
-# itself: where it is not named they may include every folder, and no folder includes them.
+# Room -> its folders, each with the folders of the room that it may include directly. "" stands for the files of the
+# room itself: without an entry they may include every folder, and no folder includes them.
 INSIDE = {
     "accel": {
         "core": [],
@@ -121,7 +121,7 @@ INSIDE = {
     },
 }
 
-# Start of an include -> the rooms that may include it. Unlisted ones (standard, POSIX, fmt) are free.
+# Start of an include -> rooms that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
     "hwy/": {"simd", "shapes", "cameras", "accel", "csg", "aggregates"},
     "tbb/": {"parallel"},
@@ -137,7 +137,7 @@ LIBRARIES = {
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
-# Texts compiled once per instruction set are included again and again on purpose.
+# Files compiled once per instruction set are included repeatedly.
 REPEATED = "-inl.h"
 
 
@@ -300,7 +300,7 @@ GOOD = {
     "apps/cli/c.cpp": '#include "c.h"\n\n#include "alhazen/scene/s.h"\n',
 }
 
-# What is changed in GOOD, and a part of the message it must cause.
+# Changes to GOOD, each with a part of the message it must cause.
 BAD = [
     ({"src/alhazen/base/b.h": '#pragma once\n#include "alhazen/math/m.h"\n'},
      "b.h:2: base may not include math"),
@@ -341,7 +341,7 @@ def self_test():
         findings = check_tree({**GOOD, **change})
         if len(findings) != 1 or expected not in findings[0]:
             failures.append(f"expected one finding with {expected!r}, got {findings}")
-    # The tables themselves: a room and a folder that are not in them, and entries without a folder.
+    # The tables themselves: a room and a folder without entries, and entries without a folder.
     strange = {**GOOD, "src/alhazen/common/c.h": "#pragma once\n", "src/alhazen/shapes/odd/o.h": "#pragma once\n"}
     findings = check_tree(strange, tables=True)
     for expected in ("common: the room is not in ROOMS", "shapes/odd: the folder is not in INSIDE",

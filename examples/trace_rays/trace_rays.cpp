@@ -1,5 +1,5 @@
-// Traces a ball that floats above a square of two triangles, and prints what an eye in front of
-// them sees: O the ball in light, o in its own shade, - the floor, # the shadow on it.
+// Traces a ball above a square of two triangles and prints the view of an eye in front of them: O
+// lit ball, o shaded ball, - floor, # shadow on the floor.
 #include <cstdint>
 #include <cstdio>
 #include <exception>

@@ -15,7 +15,7 @@
 namespace alhazen {
 namespace {
 
-/// Havran and Sixta, Ray Tracing News 12(1), 1999: tests of primitives and cells for each ray.
+/// Havran and Sixta, Ray Tracing News 12(1), 1999: primitive tests and cells per ray.
 struct PublishedGrid {
     SpdScene scene;
     double tests_1, tests_10, tests_20, cells_1;
@@ -70,7 +70,8 @@ void claim_b5(ClaimRun& run) {
     for (const SpdScene& scene : kSpdScenes) {
         SceneTrial& trial = run.spd(scene);
         run.step(scene.name);
-        // The same rays: what samples differ by is more than mailboxes save in some scenes.
+        // Use the same rays in both runs: sampling noise exceeds the saving by mailboxes in some
+        // scenes.
         const ReplayOptions all{.seconds = 1e3, .repetitions = 0, .in_batches = false};
         const ReplayFigures with = trial.ask("uniform_grid", all);
         const ReplayFigures without = trial.ask("uniform_grid:mailbox=off", all);

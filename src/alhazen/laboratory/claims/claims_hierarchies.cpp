@@ -15,7 +15,7 @@
 namespace alhazen {
 namespace {
 
-/// Of the rays that ask for the closest hit: those whose order matters.
+/// Mean per closest-hit ray: only these depend on traversal order.
 double each_closest(const ReplayFigures& f, std::uint64_t TraversalStats::*count) {
     KindFigures sum;
     for (const RayKind kind : {RayKind::Eye, RayKind::Reflection, RayKind::Refraction}) {
@@ -24,9 +24,9 @@ double each_closest(const ReplayFigures& f, std::uint64_t TraversalStats::*count
     return sum.each(sum.tests.*count);
 }
 
-/// Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and his
-/// program's counts: tests of boxes by all rays of the picture, in millions, in the order of
-/// kSpdScenes.
+/// Published box tests of all rays of the image, in millions, in the order of kSpdScenes. Source:
+/// Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and the counts
+/// printed by his program.
 constexpr std::array<double, kSpdScenes.size()> kPublishedBoxTests{51.726, 107.105, 31.106, 91.591,
                                                                    57.05,  7.637,   22.002};
 
@@ -35,7 +35,7 @@ struct NamedShape {
     ClaimShape shape;
 };
 
-/// Adds up the time that questions take.
+/// Accumulates the time spent in queries.
 class TimedAggregate final : public Aggregate {
   public:
     explicit TimedAggregate(const Aggregate& asked) : asked_(asked) {}
@@ -87,7 +87,7 @@ class TimedAggregate final : public Aggregate {
     mutable double seconds_ = 0;
 };
 
-/// The share of the time of a picture that its rays take.
+/// Share of the rendering time that is spent in ray queries.
 double share_of_intersection(ClaimRun& run, const NamedShape& shape, std::uint64_t count) {
     run.step(fmt::format("{} {}", count, shape.name));
     const SceneTrial trial(claim_scene(shape.shape, count), {.width = 128, .height = 128});

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kKindTitles[] = {"eye", "shadow", "reflected", "refracted"};
 
-/// A logarithmic scale around positive numbers, from one tick to another.
+/// Logarithmic scale over positive numbers, bounded by ticks on both sides.
 class LogScale {
   public:
     void include(double x) {
@@ -24,7 +24,7 @@ class LogScale {
         most_ = std::max(most_, x);
     }
     [[nodiscard]] bool empty() const { return least_ > most_; }
-    /// 1, 2 and 5 times the powers of ten, or the powers alone where those would be too many.
+    /// 1, 2 and 5 times powers of ten; powers of ten alone if there would be too many ticks.
     void make_ticks() {
         const bool fine = most_ < 300 * least_;
         for (double decade = std::pow(10, std::floor(std::log10(least_))); ticks_.size() < 99;
@@ -32,14 +32,14 @@ class LogScale {
             for (const double step : {1.0, 2.0, 5.0}) {
                 if (!fine && step > 1) continue;
                 const double tick = step * decade;
-                if (tick <= least_) ticks_.clear();  // the last one before the numbers begins
+                if (tick <= least_) ticks_.clear();  // keeps only the last tick below the data
                 ticks_.push_back(tick);
                 if (tick >= most_ && ticks_.size() > 1) return;
             }
         }
     }
     [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
-    /// Percent of the way.
+    /// Position on the scale, in percent.
     [[nodiscard]] double place(double x) const {
         if (!(x > 0)) return 0;
         return 100.0 * std::log(x / ticks_.front()) / std::log(ticks_.back() / ticks_.front());
@@ -74,7 +74,7 @@ std::vector<Row> sorted_rows(const Comparison& c,
     return rows;
 }
 
-/// Lines behind the rows, as backgrounds of the tracks.
+/// Vertical grid lines, drawn as backgrounds of the tracks.
 std::string grid_of(const LogScale& scale) {
     std::string grid;
     for (const double tick : scale.ticks()) {
@@ -90,7 +90,7 @@ std::string axis_of(const LogScale& scale) {
     double last = -100;
     for (const double tick : scale.ticks()) {
         const double place = scale.place(tick);
-        // The first one stands to the right of its line, the others in the middle of theirs.
+        // The first label stands right of its line, the others are centred on theirs.
         if (place - last < (last == 0 ? 20 : 14)) continue;
         last = place;
         axis += fmt::format("<span style=\"left:{:.2f}%\">{}</span>", place, short_number(tick));
@@ -148,7 +148,7 @@ std::string kind_key(const Comparison& c) {
     return key + "</p>";
 }
 
-/// A dot for each kind of ray.
+/// One dot per kind of ray.
 std::string dots(const Comparison& c, const std::string& title, const std::string& what,
                  const std::function<double(const Measurement&, const KindFigures&)>& value,
                  const std::function<double(const Measurement&)>& mean) {

@@ -20,7 +20,7 @@ const char* variant_name(Measurement::Variant variant) {
     return "given";
 }
 
-/// Totals over the rays that were counted.
+/// Totals over the counted rays.
 json counts(const KindFigures& figures) {
     const TraversalStats& t = figures.tests;
     return {{"rays_counted", figures.counted},

@@ -14,7 +14,7 @@
 namespace alhazen {
 namespace {
 
-/// The cost of a pixel as a place on the scale that all accelerators of a scene share.
+/// Colour scale of the cost per pixel, shared by all accelerators of a scene.
 struct CostScale {
     double low = 0, high = 1;  ///< log10
 
@@ -40,7 +40,7 @@ std::uint16_t code(double x) {
     return static_cast<std::uint16_t>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
 }
 
-/// Pixels that were not rendered are grey.
+/// Draws pixels that were not rendered in grey.
 EncodedImage heat_image(const Comparison& c, const Measurement& m, const CostScale& scale) {
     EncodedImage image{c.width, c.height};
     image.samples.reserve(3 * m.cost.size());

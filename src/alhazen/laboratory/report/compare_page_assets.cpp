@@ -2,8 +2,8 @@
 
 namespace alhazen {
 
-// Colours: two sets, chosen by the reader's system or by the button; all text has a contrast of at
-// least 4.5 to its ground in both.
+// Two colour sets, chosen by the system setting or by the button. All text has a contrast of at
+// least 4.5 to its background in both.
 const char* const kComparePageStyle = R"css(
 :root{--bg:#fbfaf7;--card:#fff;--ink:#1d2330;--soft:#5a6374;--line:#dcdad2;--accent:#0b63a8;
 --good:#17703a;--bad:#b3261e;--bar:#4a7fb5;--tuned:#c77d1c;--given:#7a63b8;
@@ -86,7 +86,7 @@ footer{padding-bottom:3rem;color:var(--soft);font-size:.88rem}
 @media print{.viewer input,.ends,#theme{display:none}}
 )css";
 
-// Hand-written, no library: the theme button, the viewer of each scene, sorting.
+// Theme button, viewer of each scene, sorting. Uses no library.
 const char* const kComparePageScript = R"js(
 "use strict";
 (() => {

@@ -9,11 +9,11 @@ namespace {
 
 constexpr int kNameWidth = 34;
 
-/// Three digits that tell, and no more width than six.
+/// Three significant digits in at most six characters.
 std::string figure(double x) {
     if (x == 0) return "-";
     if (x >= 999999.5) {
-        // 1.23e6: the sign and the leading zero of the exponent have no room.
+        // 1.23e6: drop the sign and the leading zero of the exponent.
         const std::string text = fmt::format("{:.2e}", x);
         const std::size_t digits = text.find_first_not_of("+0", text.find('e') + 1);
         return text.substr(0, text.find('e') + 1) + text.substr(digits);
@@ -29,7 +29,7 @@ std::string name_of(const Measurement& m) {
     return name;
 }
 
-/// Long names have a line of their own.
+/// Puts a long name on a line of its own.
 std::string named_line(const std::string& name) {
     if (name.size() <= kNameWidth) return fmt::format("{:<{}}", name, kNameWidth);
     return fmt::format("{}\n{:<{}}", name, "", kNameWidth);

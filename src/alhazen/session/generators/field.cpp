@@ -18,7 +18,7 @@ constexpr std::uint64_t kTuftTriangles = kBlades * kTrianglesOfBlade;
 constexpr double kTuftWidth = 0.3;
 constexpr std::uint64_t kSide = 10;  ///< of a patch in tufts, of a plot in patches, ...
 constexpr std::size_t kVariants = 4;
-/// The largest units are laid out by hand up to this many.
+/// Maximum number of top-level units laid out in rows.
 constexpr std::uint64_t kMaxRows = 4096;
 
 using Variants = std::array<ObjectIndex, kVariants>;
@@ -27,7 +27,7 @@ VertexColor color(double r, double g, double b) {
     return {static_cast<float>(r), static_cast<float>(g), static_cast<float>(b), 1};
 }
 
-/// Four quadrangles that bend over, the last one narrow at its tip.
+/// Four quadrilaterals along a bent blade, the last one narrow at the tip.
 void add_blade(RandomStream& random, const Vec3& root, TriangleMesh& mesh) {
     const double heading = random.uniform(0, 2 * kPi), height = random.uniform(0.14, 0.34);
     const double lean = random.uniform(0.02, 0.16), width = random.uniform(0.004, 0.009);
@@ -52,7 +52,7 @@ void add_blade(RandomStream& random, const Vec3& root, TriangleMesh& mesh) {
     }
 }
 
-/// A stem of two triangles and six petals.
+/// Stem of two triangles and six petals.
 void add_flower(RandomStream& random, const Vec3& root, TriangleMesh& mesh) {
     const double height = random.uniform(0.26, 0.40), radius = random.uniform(0.012, 0.02);
     const double turn = random.uniform(0, 2 * kPi);
@@ -97,14 +97,14 @@ TriangleMesh tuft_mesh(RandomStream& random, int flowers) {
 /// Columns and rows of units, from y = 0 on and to both sides of x = 0.
 struct Rows {
     std::uint64_t columns, rows;
-    double unit;  ///< side of one
+    double unit;  ///< side of a unit
     [[nodiscard]] Vec3 middle(std::uint64_t c, std::uint64_t r) const {
         return {unit * (static_cast<double>(c) + 0.5 - 0.5 * static_cast<double>(columns)),
                 unit * (static_cast<double>(r) + 0.5), 0};
     }
 };
 
-/// Tufts stand anyhow, larger units in one of the four ways that keep the rows.
+/// Rotates tufts by any angle, larger units by one of the four quarter turns that keep the rows.
 Part placed(const Variants& units, const Vec3& at, bool tufts, RandomStream& random) {
     const ObjectIndex unit = units[random.below(kVariants)];
     Affine place = Affine::translate(at);
@@ -134,7 +134,7 @@ void lay_out(SceneDescription& scene, ObjectIndex object, const Rows& rows, cons
     }
 }
 
-/// The rows stand in an object of their own beside the ground, so that they can have a grid.
+/// Puts the rows into an object of their own beside the ground, so that they can have a grid.
 Rows make_field(std::uint64_t triangles, SceneDescription& scene) {
     scene = generated_scene({{0.3, -1.0, 1.1}, {0, 5, 0.25}, 40});
     scene.picture.background = Rgb{0.55, 0.7, 0.9};

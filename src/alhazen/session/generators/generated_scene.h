@@ -7,13 +7,13 @@ namespace alhazen {
 
 struct GeneratedView {
     Vec3 eye, target;
-    double fov_deg = 40;  ///< of both sides of the square picture
+    double fov_deg = 40;  ///< both directions; the image is square
 };
 
-/// A scene without materials, whose root is an object without parts. z is up; 512 x 512 pixels.
+/// Scene without materials; its root is an object without parts. z is up; 512 x 512 pixels.
 [[nodiscard]] SceneDescription generated_scene(const GeneratedView& view);
 
-/// Adds a matt material and returns its id.
+/// Adds a diffuse material and returns its id.
 MaterialId add_material(SceneDescription& scene, const char* name, const Rgb& color);
 
 /// Adds an object without parts; its index stays valid.

@@ -6,7 +6,7 @@
 
 namespace alhazen {
 
-/// With a blank before each.
+/// Writes a blank before each number.
 void NffText::numbers(std::initializer_list<double> values) {
     for (const double value : values) {
         fmt::format_to(std::back_inserter(text_), " {:.{}g}", value, digits_);

@@ -1,10 +1,9 @@
 #pragma once
 /// Writes an NFF file statement by statement, for the generators of the Standard Procedural
 /// Databases.
-///
-/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987.
 /// Conventions: numbers have at most `digits` significant digits, as by "%g" of C; the published
-/// files have six. Angles in degrees, as in the file.
+/// files have six. Angles are in degrees, as in the file.
+/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987.
 
 #include <cstdint>
 #include <span>
@@ -15,15 +14,15 @@
 
 namespace alhazen {
 
-/// The lines of statement `v`.
+/// Viewpoint statement `v`.
 struct NffTextView {
     Vec3 from, at, up;
     double angle_deg = 45;
     double hither = 1;
-    int resolution = 512;  ///< pixels, both sides
+    int resolution = 512;  ///< pixels per side
 };
 
-/// The numbers of statement `f`.
+/// Material statement `f`.
 struct NffTextFill {
     Rgb color;
     double diffuse = 0, specular = 0, shininess = 0, transmission = 0, index = 0;
@@ -31,7 +30,7 @@ struct NffTextFill {
 
 class NffText {
   public:
-    /// The published files have six digits.
+    /// Significant digits of the published files.
     static constexpr int kPublishedDigits = 6;
 
     explicit NffText(int digits = kPublishedDigits) : digits_(digits) {}
@@ -41,10 +40,10 @@ class NffText {
     void light(const Vec3& position);
     void fill(const NffTextFill& fill);
     void sphere(const Vec3& center, double radius);
-    /// A cone or cylinder without caps.
+    /// Cone or cylinder without caps.
     void cone(const Vec3& base, double base_radius, const Vec3& apex, double apex_radius);
     void polygon(std::span<const Vec3> vertices);
-    /// Vertices and as many normals.
+    /// Polygon with one normal per vertex.
     void patch(std::span<const Vec3> vertices, std::span<const Vec3> normals);
 
     [[nodiscard]] std::string take() { return std::move(text_); }

@@ -1,26 +1,22 @@
 #pragma once
-/// The Standard Procedural Databases: one function each, which writes the NFF file of a size
-/// factor.
-///
-/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and what
-/// the files that the original generators (version 3.14) wrote say.
-/// Differs: written anew. balls, gears, tetra and teapot give the published files number for
-/// number, and rings, sombrero and tree those of small sizes that are known; where such a file
-/// holds nothing but rounding error (below 1e-12), so do ours. Of the others the number of
-/// primitives is the published one and the rest a reconstruction:
-/// - jacks: one jack is as published, how smaller ones nest in it is ours;
-/// - mount: view, light and the glass spheres are as published; the heights of the original came
-///   from random numbers that are not known, ours come from others;
-/// - lattice, shells: nothing but the kind and number of primitives is known to us;
-/// - gears beyond size 4: the colours go on by the rule found in the files of sizes 1 and 4, and
-/// the
-///   gears get thinner where they would touch;
-/// - balls beyond size 4: where a ball points straight down, the original left to rounding which
-/// way
-///   its own are turned; ours turn about y, but for the one place where the published file does
-///   not.
+/// Standard Procedural Databases: each function writes the NFF file of a size factor.
 /// Conventions: the size factor is at least 1 and at most the largest that `generators()` names;
-/// the number of primitives is stated with each.
+/// the number of primitives is stated with each function.
+/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and the
+/// files written by the original generators (version 3.14). Written anew.
+/// Agreement with the published files: balls, gears, tetra and teapot give them number for number;
+/// rings, sombrero and tree give the known ones of small sizes. Where a published number is only
+/// rounding error (below 1e-12), so is the number here. The other databases have the published
+/// number of primitives and are otherwise reconstructions:
+/// - jacks: one jack is as published; the nesting of smaller ones is reconstructed;
+/// - mount: view, light and the glass spheres are as published; the original's random heights are
+///   unknown and replaced by others;
+/// - lattice, shells: only the kind and number of primitives are known;
+/// - gears beyond size 4: colours follow the rule found in the files of sizes 1 and 4; gears get
+///   thinner where they would touch;
+/// - balls beyond size 4: where a ball points straight down, the original leaves the rotation of
+///   its children to rounding; here they turn about y, except at the one place where the published
+///   file does not.
 
 #include <cstdint>
 
@@ -53,9 +49,9 @@ void write_tetra(std::uint64_t n, NffText& out);
 /// 2^(n+1) - 1 cones and as many spheres, and 1 polygon; published 11: 4095 + 4095.
 void write_tree(std::uint64_t n, NffText& out);
 
-/// The background of most databases.
+/// Background of most databases.
 inline constexpr Rgb kSky{0.078, 0.361, 0.753};
-/// The shininess of a material without a highlight.
+/// Shininess of a material without a highlight.
 inline constexpr double kDull = 100000;
 
 }  // namespace alhazen

@@ -1,4 +1,4 @@
-// The databases that are made by recursion: balls, jacks, mount, tetra, tree.
+// Databases built by recursion: balls, jacks, mount, tetra, tree.
 
 #include <algorithm>
 #include <array>
@@ -20,9 +20,9 @@ Affine rotation(const Vec3& axis, double degrees) {
 
 // balls
 
-/// Where the nine balls around one lie that itself lies along +z of its own parent: three sets a
-/// third of a turn apart, each of one that leans out by the angle of the octahedron's edges and two
-/// in the equator.
+/// Directions of the nine children of a ball whose own direction from its parent is +z: three
+/// groups a third of a turn apart, each of one child that leans out by the angle of the
+/// octahedron's edges and two in the equator.
 std::array<Vec3, 9> ball_directions() {
     std::array<Vec3, 9> directions;
     for (std::size_t set = 0; set < 3; ++set) {
@@ -41,14 +41,14 @@ struct Ball {
     Vec3 center;
     Vec3 direction;  ///< from the parent, unit
     double radius;
-    int place;  ///< among its siblings, 0 to 8
+    int place;  ///< index among its siblings, 0 to 8
 };
 
 class BallWriter {
   public:
     explicit BallWriter(NffText& out) : out_(out) {}
 
-    /// `parent_place`: of the ball that this one sits on, -1 for the first.
+    /// `parent_place`: index of the parent among its siblings, -1 for the first ball.
     void write(const Ball& ball, int parent_place, std::uint64_t levels) {
         out_.sphere(ball.center, ball.radius);
         if (levels == 0) return;
@@ -56,16 +56,16 @@ class BallWriter {
         for (int place = 0; place < 9; ++place) {
             const Vec3& w = directions_[static_cast<std::size_t>(place)];
             Vec3 direction;
-            if (h > 1e-9) {  // the shortest way from +z
+            if (h > 1e-9) {  // shortest rotation from +z
                 const Vec3 axis{-ball.direction.y / h, ball.direction.x / h, 0};
                 const double c = ball.direction.z;
                 direction = c * w + h * cross(axis, w) + (dot(axis, w) * (1 - c)) * axis;
             } else if (ball.direction.z > 0) {
                 direction = w;
             } else {
-                // All half turns are equally short: about y. Where the sixth of the first nine has
-                // such a ball, the published file has mirrored them through the centre (the axis
-                // of the original's rotation came out as zero there).
+                // All half turns are equally short; turn about y. Exception: where the sixth of the
+                // first nine has such a ball, the published file mirrors its children through the
+                // centre (the original's rotation axis evaluated to zero there).
                 const bool mirrored = depth_ == 2 && parent_place == 5;
                 direction = mirrored ? -w : Vec3{-w.x, w.y, -w.z};
             }
@@ -109,7 +109,7 @@ void write_jack(const Affine& world_from_jack, double size, std::uint64_t levels
 
 // mount
 
-/// Heights on a lattice of (2^n + 1)^2 points by displacing midpoints.
+/// Heights on a lattice of (2^n + 1)^2 points by midpoint displacement.
 class Mountain {
   public:
     explicit Mountain(std::uint64_t n) : cells_(std::int64_t{1} << n) {
@@ -130,7 +130,7 @@ class Mountain {
 
   private:
     static constexpr double kFirstReach = 0.55;
-    static constexpr double kShrink = 0.54;  ///< 2^-H with H = 0.89: dimension 2.11
+    static constexpr double kShrink = 0.54;  ///< 2^-H with H = 0.89: fractal dimension 2.11
 
     [[nodiscard]] double at(std::int64_t x, std::int64_t y) const {
         return heights_[static_cast<std::size_t>(y * (cells_ + 1) + x)];
@@ -141,7 +141,7 @@ class Mountain {
                              1.0;
         heights_[static_cast<std::size_t>(y * (cells_ + 1) + x)] = mean + reach * noise;
     }
-    /// Gives the midpoints of edges, then of squares, of side `step` their heights.
+    /// Sets the heights at the midpoints of edges, then of squares, of side `step`.
     void divide(std::int64_t step, double reach) {
         const std::int64_t half = step / 2;
         for (std::int64_t y = 0; y <= cells_; y += step) {
@@ -167,7 +167,7 @@ class Mountain {
     std::vector<double> heights_;
 };
 
-/// The square from (x, y) by quarters, as in the published file.
+/// Writes the square from (x, y) by quarters, in the order of the published file.
 void write_square(const Mountain& m, std::int64_t x, std::int64_t y, std::int64_t side,
                   NffText& out) {
     if (side > 1) {
@@ -207,7 +207,7 @@ void write_tetrahedron(const Vec3& center, double size, std::uint64_t levels, Nf
 
 struct Branching {
     Affine parent_from_branch;
-    double length;  ///< of that of the parent
+    double length;  ///< relative to the parent's
 };
 
 void write_branch(const Vec3& base, const Affine& frame, double length, double radius,
@@ -267,7 +267,7 @@ void write_mount(std::uint64_t n, NffText& out) {
               .shininess = 101.148,
               .transmission = 0.9,
               .index = 1.5});
-    // Four that touch, around (-0.8, 0.8, 1).
+    // Four touching spheres around (-0.8, 0.8, 1).
     constexpr double kRadius = 0.17, kEdge = 2 * kRadius;
     const double above = kEdge * std::sqrt(6.0) / 4, below = above / 3;
     const Vec3 middle{-0.8, 0.8, 1};

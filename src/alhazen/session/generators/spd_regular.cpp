@@ -1,4 +1,4 @@
-// The databases that are made by rows: gears, lattice, rings, shells, sombrero, teapot.
+// Databases built in rows: gears, lattice, rings, shells, sombrero, teapot.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kTeeth = 36;
 
-/// The outline of a gear of the outer radius `size`; `turned` by half a tooth so that it meshes.
+/// Outline of a gear of outer radius `size`; `turned` rotates it by half a tooth, so that gears
+/// mesh.
 std::vector<Vec3> gear_outline(const Vec3& center, double size, bool turned) {
     struct Corner {
         double radius, degrees;
@@ -48,7 +49,7 @@ void write_gear(const std::vector<Vec3>& outline, double thickness, NffText& out
     out.polygon(bottom);
 }
 
-/// Colours and glass by remainders of the place, as in the files of sizes 1 and 4.
+/// Colours and glass by remainders of the position, as in the files of sizes 1 and 4.
 NffTextFill gear_fill(std::uint64_t i, std::uint64_t j, std::uint64_t k) {
     std::array<double, 3> c{static_cast<double>((5 + i + 3 * j + 5 * k) % 7),
                             static_cast<double>((3 + 3 * i + 2 * j + 6 * k) % 7),
@@ -67,11 +68,11 @@ NffTextFill gear_fill(std::uint64_t i, std::uint64_t j, std::uint64_t k) {
 
 // rings
 
-/// Five tubes with balls at their ends: the corners of a pentagon that `a` leads to, in the plane
-/// of `a` and `b`.
+/// Five tubes with balls at their ends: edges of a pentagon in the plane of `a` and `b`, with a
+/// corner in direction `a`.
 void write_ring(const Vec3& center, const Vec3& a, const Vec3& b, NffText& out) {
     constexpr double kTube = 0.07412;
-    constexpr double kRadius = 1 / (1 + kTube);  // the balls reach to 1, where the next knot begins
+    constexpr double kRadius = 1 / (1 + kTube);  // balls reach to 1, where the next knot begins
     std::array<Vec3, 5> corners;
     for (std::size_t i = 0; i < 5; ++i) {
         const double angle = 2 * kPi / 5 * static_cast<double>(i);
@@ -83,7 +84,7 @@ void write_ring(const Vec3& center, const Vec3& a, const Vec3& b, NffText& out) 
     }
 }
 
-/// Six linked rings, in the planes across the axes of an icosahedron.
+/// Six linked rings, in the planes perpendicular to the axes of an icosahedron.
 void write_knot(const Vec3& center, NffText& out) {
     static constexpr Rgb kColors[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1},
                                       {0, 1, 1}, {1, 0, 1}, {1, 1, 0}};
@@ -193,7 +194,7 @@ void write_rings(std::uint64_t n, NffText& out) {
         out.light(light);
     }
     const double wall = spacing * static_cast<double>(n + 1);
-    const double half = 1.01 * (wall - eye.y) * std::tan(kPi / 8);  // fills the picture
+    const double half = 1.01 * (wall - eye.y) * std::tan(kPi / 8);  // fills the image
     out.fill({.color = {1, 1, 1}, .diffuse = 1, .shininess = kDull});
     out.polygon(std::array<Vec3, 4>{{{eye.x + half, wall, eye.z + half},
                                      {eye.x - half, wall, eye.z + half},
@@ -216,8 +217,8 @@ void write_shells(std::uint64_t n, NffText& out) {
     out.view({.from = {0.6, -4.6, 1.6}, .at = {0.1, 0, -0.75}, .up = {0, 0, 1}, .hither = 0.01});
     out.light({5, -8, 9});
     out.fill({.color = {0.9, 0.75, 0.55}, .diffuse = 0.8, .specular = 0.2, .shininess = 20});
-    // A logarithmic spiral on a cone; every ball overlaps its neighbours and the turn before, which
-    // is what makes this scene hard for bounding volumes.
+    // Logarithmic spiral on a cone. Every ball overlaps its neighbours and the previous turn, which
+    // makes this scene hard for bounding volumes.
     const std::uint64_t balls = 90 * n + 1;
     constexpr double kTurns = 6, kGrowthOfTurn = 1.55;
     for (std::uint64_t i = 0; i < balls; ++i) {
@@ -236,7 +237,7 @@ void write_sombrero(std::uint64_t n, NffText& out) {
     out.fill({.color = {1, 0.1, 0.1}, .diffuse = 0.8, .shininess = 2.60078, .index = 1});
     const std::uint64_t side = std::uint64_t{16} << n;
     const auto point = [&](std::uint64_t i, std::uint64_t j) {
-        // The function is looked up on a lattice that ends one step before that of the points.
+        // The function is sampled on a lattice that ends one step before that of the points.
         const double places = static_cast<double>(side - 1), steps = static_cast<double>(side);
         const double x = -4 + 8 * static_cast<double>(i) / steps;
         const double z = -4 + 8 * static_cast<double>(j) / steps;

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Two triangles for each cell of a lattice of (columns + 1) x (rows + 1) vertices, all there.
+/// Adds two triangles per cell of a lattice of (columns + 1) x (rows + 1) existing vertices.
 void add_lattice_triangles(TriangleMesh& mesh, std::uint32_t first, std::uint32_t columns,
                            std::uint32_t rows) {
     for (std::uint32_t r = 0; r < rows; ++r) {
@@ -24,7 +24,7 @@ void add_lattice_triangles(TriangleMesh& mesh, std::uint32_t first, std::uint32_
     }
 }
 
-/// At least that many triangles, 3.15 high, standing on z = 0.
+/// At least `triangles` triangles, 3.15 high, standing on z = 0.
 TriangleMesh teapot_mesh(std::uint64_t triangles) {
     const std::uint64_t cells = static_cast<std::uint64_t>(
         std::ceil(std::sqrt(static_cast<double>(triangles) / 64.0 + 1.0)) + 1.0);
@@ -40,10 +40,10 @@ TriangleMesh teapot_mesh(std::uint64_t triangles) {
     return mesh;
 }
 
-/// Terraces around an oval pitch, 70 x 50 inside, 30 high: at least that many triangles.
+/// Terraces around an oval pitch, 70 x 50 inside, 30 high, of at least `triangles` triangles.
 TriangleMesh stands_mesh(std::uint64_t triangles) {
     const double cells = std::ceil(static_cast<double>(triangles) / 2.0);
-    // Twelve columns to a row; rows in pairs, a riser and a tread.
+    // Twelve columns per row; rows come in pairs, a riser and a tread.
     const double pairs = std::max(1.0, std::ceil(std::sqrt(cells / 12.0) / 2.0));
     const double columns = std::max(3.0, std::ceil(cells / (2.0 * pairs)));
     const auto rows = static_cast<std::uint32_t>(2.0 * pairs);

@@ -4,8 +4,8 @@ namespace alhazen {
 
 namespace {
 
-/// A point of a profile: its distance from the axis, that of the inner control points of a quarter
-/// turn from the nearer coordinate plane, and its height.
+/// Point of a profile: distance from the axis; distance of the inner control points of a quarter
+/// turn from the nearer coordinate plane; height.
 struct ProfilePoint {
     double radius, inner, z;
 };
@@ -23,8 +23,8 @@ constexpr TeapotProfile kLid{
 constexpr TeapotProfile kBottom{
     {{0, 0, 0}, {1.425, 0.798, 0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}}};
 
-/// A row of handle or spout: two points of the outline in the plane y = 0, and how far the surface
-/// reaches from that plane.
+/// Row of handle or spout: two points of the outline in the plane y = 0, and the extent of the
+/// surface perpendicular to that plane.
 struct HalfRow {
     double x0, z0, x1, z1, width;
 };
@@ -47,7 +47,7 @@ constexpr Half kUpperSpout{{{2.7, 2.4, 3.3, 2.4, 0.25},
                             {2.9, 2.475, 3.45, 2.5125, 0.15},
                             {2.8, 2.4, 3.2, 2.4, 0.15}}};
 
-/// Four quarters, the first from +x: towards -y (`sense` -1) or +y.
+/// Adds four quarters, the first from +x towards -y (`sense` -1) or +y (`sense` 1).
 void add_turned(const TeapotProfile& profile, double sense, std::vector<BezierPatch>& patches) {
     for (int quarter = 0; quarter < 4; ++quarter) {
         BezierPatch patch;
@@ -65,7 +65,7 @@ void add_turned(const TeapotProfile& profile, double sense, std::vector<BezierPa
     }
 }
 
-/// The half at negative y, then its mirror image, run through the other way.
+/// Adds the half at negative y, then its mirror image, traversed in the opposite direction.
 void add_halves(const Half& half, std::vector<BezierPatch>& patches) {
     BezierPatch near_half, far_half;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -82,7 +82,7 @@ void add_halves(const Half& half, std::vector<BezierPatch>& patches) {
 using Weights = std::array<double, 4>;
 using Square = std::array<Weights, 4>;
 
-/// From control points to coefficients of t^3, t^2, t, 1.
+/// Converts Bezier control points to coefficients of t^3, t^2, t, 1.
 constexpr Square kPowerFromBezier{{{-1, 3, -3, 1}, {3, -6, 3, 0}, {-3, 3, 0, 0}, {1, 0, 0, 0}}};
 
 Square times(const Square& a, const Square& b) {
@@ -95,16 +95,16 @@ Square times(const Square& a, const Square& b) {
     return c;
 }
 
-/// The coefficients of one coordinate.
+/// Power-basis coefficients of one coordinate.
 Square coefficients(const BezierPatch& patch, int axis) {
     Square points;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j < 4; ++j) points[i][j] = patch[i][j][axis];
     }
-    return times(times(kPowerFromBezier, points), kPowerFromBezier);  // a symmetric matrix
+    return times(times(kPowerFromBezier, points), kPowerFromBezier);  // symmetric
 }
 
-/// In this order of sums: the published files have coordinates half way between two decimals.
+/// The order of summation matters: published coordinates lie half way between two decimals.
 double bilinear(const Weights& u, const Square& c, const Weights& v) {
     double sum = 0;
     for (std::size_t j = 0; j < 4; ++j) {
@@ -150,7 +150,7 @@ PatchGrid evaluate(const BezierPatch& patch, int cells) {
             Vec3 normal = cross(at(powers(u), derivatives(v)), at(derivatives(u), powers(v)));
             const double size = length(normal);
             constexpr double kNone = 1e-9;
-            // The knob's top and the middle of the bottom.
+            // Degenerate points: the top of the knob and the centre of the bottom.
             normal = size > kNone ? normal / size : Vec3{0, 0, point.z > 1 ? 1.0 : -1.0};
             grid.points.push_back(point);
             grid.normals.push_back(normal);

@@ -1,13 +1,11 @@
 #pragma once
-/// The control points of Newell's teapot, as 32 bicubic Bezier patches.
-///
+/// Control points of Newell's teapot, as 32 bicubic Bezier patches. Stored as profiles of the
+/// surfaces of revolution, and halves of handle and spout, whose other halves are mirror images.
+/// Conventions: z is up, the bottom lies in z = 0, the rim at 2.4, the spout towards +x. Rows of a
+/// patch of a surface of revolution go down its profile. Seen from outside, u x v points inward.
 /// Source: Newell, "The Utilization of Procedure Models in Digital Image Synthesis", 1975; the
 /// points as printed by Crow, "The Origins of the Teapot", IEEE CG&A 7(1), 1987, with the bottom
 /// that was added later.
-/// Differs: stored as the profiles of what is turned about the axis, and the halves of handle and
-/// spout, whose other halves are their mirror images.
-/// Conventions: z is up, the bottom lies in z = 0, the rim at 2.4, the spout towards +x. Along rows
-/// a patch of a turned part goes down its profile. Seen from outside, u x v points inward.
 
 #include <array>
 #include <vector>
@@ -24,7 +22,7 @@ using BezierPatch = std::array<std::array<Vec3, 4>, 4>;
 
 /// Points and normals of a patch on a lattice of parameters.
 struct PatchGrid {
-    int side = 0;                       ///< cells a side
+    int side = 0;                       ///< cells per side
     std::vector<Vec3> points, normals;  ///< [u * (side + 1) + v]
     [[nodiscard]] std::size_t at(int u, int v) const {
         return static_cast<std::size_t>(u) * static_cast<std::size_t>(side + 1) +
@@ -32,7 +30,8 @@ struct PatchGrid {
     }
 };
 
-/// Unit normals, out of the pot; up or down where the patch has none (its rows meet in a point).
+/// Unit normals point out of the pot; up or down where the patch is degenerate (its rows meet in a
+/// point).
 [[nodiscard]] PatchGrid evaluate(const BezierPatch& patch, int cells);
 
 }  // namespace alhazen
