@@ -1,9 +1,9 @@
 /// Boxes along the axes and balls around the eight shapes of a block, in float.
 ///
-/// Source: none. Differs: nothing. Of slabs |d_k . (p - c)| <= h_k whose directions are of length 1
-/// and lean by at most e = |d_i . d_j|, p - c is the sum of (d_k . (p - c)) d_k but for terms of e
-/// times the widths: along an axis a it reaches sum h_k |d_k a| + 1.8 e (h_0 + h_1 + h_2), of which
-/// 4 e are taken.
+/// Of slabs |d_k . (p - c)| <= h_k whose directions are of length 1 and lean by at most e =
+/// |d_i . d_j|, p - c is the sum of (d_k . (p - c)) d_k but for terms of e times the widths:
+/// along an axis a it reaches sum h_k |d_k a| + 1.8 e (h_0 + h_1 + h_2), of which 4 e are
+/// taken.
 /// Conventions: in the frame of the tree, with room for the rounding of all that makes them:
 /// coordinates are at most about 1 there. Included once per target (see simd/lanes-inl.h).
 

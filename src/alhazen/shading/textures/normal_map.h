@@ -3,7 +3,7 @@
 ///
 /// Source: Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978; Cohen, Olano and Manocha,
 /// "Appearance-Preserving Simplification", SIGGRAPH 1998 (maps in tangent space); Khronos,
-/// "glTF 2.0 Specification", 2021, sections 3.7.2.1 and 3.9.3. Differs: nothing.
+/// "glTF 2.0 Specification", 2021, sections 3.7.2.1 and 3.9.3.
 
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"

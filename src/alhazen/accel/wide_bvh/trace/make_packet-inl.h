@@ -1,8 +1,8 @@
 /// How a packet is made of rays: those that go one way in its groups, the point near which they all
 /// pass, and the planes around them.
 ///
-/// Source: packet-inl.h, which says what a packet is. Differs: nothing. Conventions: included once
-/// per target (see simd/lanes-inl.h).
+/// Source: packet-inl.h, which says what a packet is.
+/// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_MAKE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_MAKE_PACKET_INL_H_

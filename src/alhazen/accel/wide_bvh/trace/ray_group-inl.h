@@ -1,7 +1,7 @@
 /// Eight rays side by side in lanes: a part of a packet.
 ///
-/// Source: packet-inl.h. Differs: nothing. Conventions: included once per target (see
-/// simd/lanes-inl.h).
+/// Source: packet-inl.h.
+/// Conventions: included once per target (see simd/lanes-inl.h).
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_RAY_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_RAY_GROUP_INL_H_
