@@ -52,8 +52,8 @@ struct Token {
 /// `text` with unprintable bytes as \xNN, truncated for messages.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Resolves the escapes of a string: \" \\
-///  \r \t and \xHH (one byte, two hex digits). None for any other escape.
+/// Resolves the escapes of a string: \" \\ \n \r \t and \xHH (one byte, two hex digits). None for
+/// any other escape.
 [[nodiscard]] std::optional<std::string> unescaped(std::string_view text);
 
 class Lexer {
