@@ -6,9 +6,9 @@
 /// (geometry/ray_scale.h). An invalid ray (`is_valid`) hits nothing. A query sees geometry whose
 /// `visible_to` shares a bit with its `mask`; the same holds for each enclosing instance. All
 /// accelerators give the same hits, bit for bit. At equal t the lower primitive wins: analytic
-/// shapes before triangles before instances, each kind in the order of addition. Complexity and
-/// threads: parallel build, about O(n log n). Const functions are thread-safe; a batch runs on its
-/// calling thread. Copies share the acceleration structure.
+/// shapes before triangles before instances, each kind in the order of addition.
+/// Complexity and threads: parallel build, about O(n log n). Const functions are thread-safe; a
+/// batch runs on its calling thread. Copies share the acceleration structure.
 
 #include <filesystem>
 #include <memory>

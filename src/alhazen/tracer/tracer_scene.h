@@ -3,8 +3,9 @@
 ///
 /// Conventions: any one unit of length, coordinates in double; triangles are counter-clockwise from
 /// outside. Geometry is checked when it is added: Error (Scene) lists the findings, and the scene
-/// is unchanged. Complexity and threads: O(size of the geometry added); one thread at a time.
-/// Copies share meshes.
+/// is unchanged.
+/// Complexity and threads: O(size of the geometry added); one thread at a time. Copies share
+/// meshes.
 
 #include <array>
 #include <cstdint>

@@ -31,9 +31,9 @@ struct ImportOptions {
     /// file and its buffers, at most 16 GiB.
     std::optional<std::uint64_t> max_made_bytes;
     ImageLimits image_limits;  ///< per texture
-    std::optional<double>
-        time;               ///< seconds: the time at which animations are sampled; none: rest pose
-    std::string animation;  ///< name or index of the animation to apply; empty: all
+    /// Time at which animations are sampled, in seconds; none: rest pose.
+    std::optional<double> time;
+    std::string animation;              ///< name or index of the animation to apply; empty: all
     std::vector<std::string> objects;   ///< names of the objects to import; empty: all
     std::filesystem::path view_script;  ///< file of views that accompanies the scene; empty: none
 };

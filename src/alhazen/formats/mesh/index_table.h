@@ -3,8 +3,8 @@
 /// stores the keys in a list.
 ///
 /// Conventions: hashes are seeded differently per run and per table, so no file can be crafted
-/// whose keys all collide. The numbering does not depend on the seed. Complexity: O(1) expected per
-/// call; two to four slots of 4 bytes per key.
+/// whose keys all collide. The numbering does not depend on the seed.
+/// Complexity: O(1) expected per call; two to four slots of 4 bytes per key.
 
 #include <bit>
 #include <cstddef>

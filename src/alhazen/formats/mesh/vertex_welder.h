@@ -1,8 +1,8 @@
 #pragma once
 /// Merges corners of exactly equal position into one vertex.
 ///
-/// Conventions: -0 equals 0 and is stored as 0; positions must not be NaN. Complexity: as
-/// IndexTable; the keys are the mesh positions.
+/// Conventions: -0 equals 0 and is stored as 0; positions must not be NaN.
+/// Complexity: as IndexTable; the keys are the mesh positions.
 
 #include <bit>
 #include <cstdint>

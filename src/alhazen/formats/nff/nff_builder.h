@@ -2,9 +2,9 @@
 /// Builds a scene description from NFF statements: equal materials once, triangles in one mesh per
 /// material, lights with their default intensity.
 ///
-/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987. Differs:
-/// all surfaces are two-sided. Conventions: triangles keep the file order within their mesh; other
-/// polygons are shapes.
+/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987.
+/// Differs: all surfaces are two-sided.
+/// Conventions: triangles keep the file order within their mesh; other polygons are shapes.
 
 #include <array>
 #include <map>
@@ -60,9 +60,8 @@ class NffBuilder {
     Diagnostics& diagnostics_;
     std::map<std::array<double, 12>, MaterialId> materials_;
     std::optional<MaterialId> material_;
-    std::map<std::pair<MaterialId, bool>, std::size_t>
-        meshes_;                           ///< [material, smooth] index of the mesh
-    std::vector<bool> default_intensity_;  ///< per light
+    std::map<std::pair<MaterialId, bool>, std::size_t> meshes_;  ///< by material and smoothness
+    std::vector<bool> default_intensity_;                        ///< per light
     std::optional<Rgb> ambient_;
     std::uint64_t elements_ = 0;
     std::uint64_t degenerate_ = 0;

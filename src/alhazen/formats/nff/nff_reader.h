@@ -3,9 +3,9 @@
 /// NffBuilder.
 ///
 /// Source: Haines, the NFF description of the Standard Procedural Databases; Lext, Assarsson and
-/// Möller, "A Benchmark for Animated Ray Tracing", IEEE CG&A 21(2), 2001 (AFF). Differs: numbers
-/// may span lines; statements may come in any order; # and % start comments. Conventions: an error
-/// ends its statement; reading continues at the next known word.
+/// Möller, "A Benchmark for Animated Ray Tracing", IEEE CG&A 21(2), 2001 (AFF).
+/// Differs: numbers may span lines; statements may come in any order; # and % start comments.
+/// Conventions: an error ends its statement; reading continues at the next known word.
 
 #include <array>
 #include <string>

@@ -2,11 +2,12 @@
 /// Converts height images (bump maps) to normal maps.
 ///
 /// Source: Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978 (normals from the slopes of
-/// heights). Differs: slopes are differences of neighbouring texels, computed once per image, not
-/// per surface point; heights are relative to the image, not in scene units. Conventions: white at
-/// strength 1 lies 1 / kHeightsPerSide of the image side above black; the side is the geometric
-/// mean of width and height, and texels are assumed square on the surface. The slopes are therefore
-/// independent of the image resolution and of the model size.
+/// heights).
+/// Differs: slopes are differences of neighbouring texels, computed once per image, not per surface
+/// point; heights are relative to the image, not in scene units.
+/// Conventions: white at strength 1 lies 1 / kHeightsPerSide of the image side above black; the
+/// side is the geometric mean of width and height, and texels are assumed square on the surface.
+/// The slopes are therefore independent of the image resolution and of the model size.
 
 #include "alhazen/imaging/codecs/stored_image.h"
 #include "alhazen/shading/materials/material.h"

@@ -4,8 +4,8 @@
 /// Source: "Material Library File (.mtl)", Alias/Wavefront, 1995; Exocortex, "Extending the
 /// Wavefront MTL format for Physically Based Rendering", 2014 (Pr, Pm, norm and their maps).
 /// Differs: known statements are never errors: those without effect on the image are ignored,
-/// unreadable ones are warnings. Spectral curves and CIE XYZ colours are warnings. Conventions:
-/// names extend to the end of their line; of equal names the first counts.
+/// unreadable ones are warnings. Spectral curves and CIE XYZ colours are warnings.
+/// Conventions: names extend to the end of their line; of equal names the first counts.
 
 #include <optional>
 #include <string>

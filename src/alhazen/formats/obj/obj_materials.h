@@ -3,8 +3,9 @@
 /// entry.
 ///
 /// Source: see mtl_reader.h. Interpretation of statements and illumination models:
-/// docs/reference/formats/obj.md. Conventions: a missing or unreadable library or image is a
-/// warning; a name that no library defines gives the grey material, with one warning.
+/// docs/reference/formats/obj.md.
+/// Conventions: a missing or unreadable library or image is a warning; a name that no library
+/// defines gives the grey material, with one warning.
 
 #include <memory>
 #include <string>
@@ -56,9 +57,8 @@ class ObjMaterials {
     TextureTable textures_;
     PictureFinder finder_;
     std::vector<MtlMaterial> entries_;
-    std::vector<std::string>
-        entry_folders_;           ///< [entry] folder of its library, relative to the scene
-    std::string current_folder_;  ///< of the current entry
+    std::vector<std::string> entry_folders_;  ///< [entry] library folder, relative to the scene
+    std::string current_folder_;              ///< of the current entry
     std::unordered_map<std::string, std::size_t> entry_of_;
     std::unordered_map<std::string, MaterialId> used_;
     std::unordered_map<std::string, bool> loaded_;

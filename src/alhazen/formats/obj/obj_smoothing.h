@@ -1,8 +1,8 @@
 #pragma once
 /// Normals for OBJ corners without normals.
 ///
-/// Source: "Object Files (.obj)", Wavefront, 1992: smoothing groups (`s`). Differs: the manual
-/// specifies no weights; faces are weighted by area.
+/// Source: "Object Files (.obj)", Wavefront, 1992: smoothing groups (`s`).
+/// Differs: the manual specifies no weights; faces are weighted by area.
 
 #include <string>
 #include <vector>

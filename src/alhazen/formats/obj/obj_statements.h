@@ -2,8 +2,9 @@
 /// The statements of an OBJ file: lists of positions, texture coordinates, normals and faces, and
 /// the state at each face.
 ///
-/// Source: see obj_reader.h. Conventions: indices count from 0; -1: absent. Texture coordinate and
-/// normal indices, and position indices that refer forward, are checked only when meshes are made.
+/// Source: see obj_reader.h.
+/// Conventions: indices count from 0; -1: absent. Texture coordinate and normal indices, and
+/// position indices that refer forward, are checked only when meshes are made.
 
 #include <cstdint>
 #include <string>

@@ -144,8 +144,7 @@ class HeaderReader {
         return cursor_.word();
     }
     /// Ends the line with the line end of the file's first line: in a binary file, an apparent
-    /// second half of \r
-    ///  may be data.
+    /// second half of \r\n may be data.
     void end_line() {
         const std::size_t before = bytes_.size() - cursor_.bytes_left();
         const std::size_t at = bytes_.find_first_of("\r\n", before);

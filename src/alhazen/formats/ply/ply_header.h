@@ -1,9 +1,9 @@
 #pragma once
 /// The header of a PLY file: its elements and their properties.
 ///
-/// Source: Turk, "The PLY Polygon File Format", Stanford, 1994. Differs: accepts the newer type
-/// names (float32, uint8, ...); lines that are not statements (old exporters write their name
-/// without `comment`) are skipped with a warning.
+/// Source: Turk, "The PLY Polygon File Format", Stanford, 1994.
+/// Differs: accepts the newer type names (float32, uint8, ...); lines that are not statements (old
+/// exporters write their name without `comment`) are skipped with a warning.
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,9 @@
 #pragma once
 /// Materials of the SBT-raytracer format: nested defaults, names, texture maps.
 ///
-/// Source: docs/reference/formats/ray.md. Differs: a reference to an undefined name is an error
-/// (the course program silently uses the default).
+/// Source: docs/reference/formats/ray.md.
+/// Differs: a reference to an undefined name is an error (the course program silently uses the
+/// default).
 
 #include <map>
 #include <optional>

@@ -1,9 +1,10 @@
 #pragma once
 /// Objects, transforms and groups of the SBT-raytracer format.
 ///
-/// Source: docs/reference/formats/ray.md. Differs: `material = ...` inside a group works (the
-/// grammar has it; the course program fails on it). Conventions: transforms are multiplied out; the
-/// scene becomes one flat object.
+/// Source: docs/reference/formats/ray.md.
+/// Differs: `material = ...` inside a group works (the grammar has it; the course program fails on
+/// it).
+/// Conventions: transforms are multiplied out; the scene becomes one flat object.
 
 #include "alhazen/formats/ray/ray_context.h"
 #include "alhazen/formats/ray/ray_materials.h"

@@ -1,8 +1,8 @@
 #pragma once
 /// Cameras and lights of the SBT-raytracer format.
 ///
-/// Source: docs/reference/formats/ray.md. Differs: accepts spot lights in three student spellings;
-/// rejects lights with an extent.
+/// Source: docs/reference/formats/ray.md.
+/// Differs: accepts spot lights in three student spellings; rejects lights with an extent.
 
 #include <string_view>
 

@@ -2,12 +2,12 @@
 /// Reads an STL file, ascii or binary, into triangle meshes: one per solid.
 ///
 /// Source: 3D Systems, "Stereolithography Interface Specification", 1989; the file layout as
-/// described in Marshall Burns, "Automated Fabrication", 1993, section 6.5. Differs: an ascii file
-/// may hold several solids; case is ignored; endsolid may be missing. A file is binary when its
-/// size matches its count, even if it begins with "solid"; a file of another size that begins so is
-/// binary when it has zero bytes, and is reported as binary. Conventions: corners of exactly equal
-/// position (-0 = 0) are one vertex. The winding determines the outside, not the normals of the
-/// file. Attribute bytes are ignored.
+/// described in Marshall Burns, "Automated Fabrication", 1993, section 6.5.
+/// Differs: an ascii file may hold several solids; case is ignored; endsolid may be missing. A file
+/// is binary when its size matches its count, even if it begins with "solid"; a file of another
+/// size that begins so is binary when it has zero bytes, and is reported as binary.
+/// Conventions: corners of exactly equal position (-0 = 0) are one vertex. The winding determines
+/// the outside, not the normals of the file. Attribute bytes are ignored.
 
 #include <string>
 #include <string_view>

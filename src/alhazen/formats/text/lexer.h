@@ -2,10 +2,11 @@
 /// Splits the text formats into words, strings, numbers and punctuation.
 ///
 /// Source: the token rules common to the SBT-raytracer format and the native format
-/// (docs/reference/formats). Differs: numbers follow C (the old format had neither `+` nor `E`) and
-/// must be read completely: `1-2` is an error, not 1. Conventions: tokens are views into the bytes;
-/// columns count bytes from 1. Errors in single tokens go to the diagnostics and lexing continues;
-/// the parser need not report them again.
+/// (docs/reference/formats).
+/// Differs: numbers follow C (the old format had neither `+` nor `E`) and must be read completely:
+/// `1-2` is an error, not 1.
+/// Conventions: tokens are views into the bytes; columns count bytes from 1. Errors in single
+/// tokens go to the diagnostics and lexing continues; the parser need not report them again.
 
 #include <cstdint>
 #include <optional>
@@ -52,8 +53,8 @@ struct Token {
 /// `text` with unprintable bytes as \xNN, truncated for messages.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Resolves the escapes of a string: \" \\
-///  \r \t and \xHH (one byte, two hex digits). None for any other escape.
+/// Resolves the escapes of a string: \" \\ \n \r \t and \xHH (one byte, two hex digits). None for
+/// any other escape.
 [[nodiscard]] std::optional<std::string> unescaped(std::string_view text);
 
 class Lexer {

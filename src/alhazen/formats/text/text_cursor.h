@@ -2,10 +2,9 @@
 /// Forward cursor over a text, word by word, with line and column.
 ///
 /// For formats with large files (NFF, PLY, OBJ): copies nothing; reads numbers with
-/// std::from_chars, independent of the locale. Conventions: a number may start with `+` and ends at
-/// white space or at the end of the text. Lines end at
-/// , \r
-///  or \r. Lines and columns count from 1. NaN and infinities are not numbers.
+/// std::from_chars, independent of the locale.
+/// Conventions: a number may start with `+` and ends at white space or at the end of the text.
+/// Lines end at \n, \r\n or \r. Lines and columns count from 1. NaN and infinities are not numbers.
 
 #include <charconv>
 #include <climits>

@@ -9,10 +9,10 @@
 ///     block := "{" { item } "}"
 ///
 /// Source: the union of the two grammars of the SBT-raytracer format
-/// (docs/reference/formats/ray.md). Conventions: parsed with an explicit stack; nesting depth costs
-/// no recursion. Nodes lie in one array in text order (24 bytes per node); a subtree is a range.
-/// Syntax errors are reported and parsing continues; nodes left incomplete are `broken()` and must
-/// not be reported again.
+/// (docs/reference/formats/ray.md).
+/// Conventions: parsed with an explicit stack; nesting depth costs no recursion. Nodes lie in one
+/// array in text order (24 bytes per node); a subtree is a range. Syntax errors are reported and
+/// parsing continues; nodes left incomplete are `broken()` and must not be reported again.
 
 #include <cstdint>
 #include <iterator>

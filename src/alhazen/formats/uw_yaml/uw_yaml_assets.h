@@ -2,8 +2,8 @@
 /// Materials, textures and meshes of a course scene, read at their first use by a component: the
 /// scenes list more than they use, and some files are absent.
 ///
-/// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md). Conventions: paths
-/// are relative to the parent folder of the course's `assets`.
+/// Source: the scenes of UW CSE 457, 2020 (docs/reference/formats/uw_yaml.md).
+/// Conventions: paths are relative to the parent folder of the course's `assets`.
 
 #include <filesystem>
 #include <optional>

@@ -1,9 +1,11 @@
 #pragma once
 /// Safe reading of YAML text: limits, parsing, and values in the notation of the course program.
 ///
-/// Source: YAML 1.2, through yaml-cpp. Differs: numbers are parsed from their text, not by the YAML
-/// type rules (`5e-05` is a number here); every finding has line and column. Conventions: an absent
-/// value gives the default; an invalid one is reported and gives the default.
+/// Source: YAML 1.2, through yaml-cpp.
+/// Differs: numbers are parsed from their text, not by the YAML type rules (`5e-05` is a number
+/// here); every finding has line and column.
+/// Conventions: an absent value gives the default; an invalid one is reported and gives the
+/// default.
 
 #include <yaml-cpp/yaml.h>
 
