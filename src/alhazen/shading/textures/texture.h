@@ -1,5 +1,17 @@
 #pragma once
-/// Image textures.
+/// Textures: images looked up by texture coordinates.
+///
+/// ADD A TEXTURE HERE: there is one kind, the image. A second kind turns Texture::image into a
+/// variant; the compiler then names the uses of `image`:
+///   - shading/textures/texture.cpp: evaluate;
+///   - scene/compile_materials.cpp: pyramids and bytes;
+///   - scene_model/validate_materials.cpp: check of the values;
+///   - formats/pictures/texture_table.cpp, formats/obj/obj_materials.cpp;
+///   - formats/native/read/native_materials.cpp and write/native_write_materials.cpp: its block;
+///   - formats/mesh_files/mesh_export_mtl.cpp; session/info.cpp, session/convert.cpp;
+///   - tests/support/same_description.h: same.
+/// A new Wrap or TextureFilter needs its case in texture.cpp and a word in
+/// formats/native/native_words.h; session/info.cpp names the filters.
 
 #include <cstdint>
 #include <memory>
@@ -14,11 +26,11 @@ namespace alhazen {
 enum class TextureId : std::uint32_t {};
 inline constexpr TextureId kNoTexture{0xFFFFFFFFu};
 
-/// How coordinates outside [0, 1] are read.
+/// Reading of coordinates outside [0, 1].
 enum class Wrap { Repeat, Clamp, Mirror };
 
-/// How a texel is found: the nearest one; between the four nearest; or from smaller copies of the
-/// picture, chosen by how much of it the ray sees.
+/// Nearest texel; interpolation of the four nearest; or smaller copies of the image, chosen by the
+/// footprint of the ray.
 enum class TextureFilter { Nearest, Bilinear, Mipmapped };
 
 /// Applied to texture coordinates before a lookup: (u', v') = (uu u + uv v + offset.x, vu u + vv v
@@ -37,9 +49,9 @@ struct UvTransform {
     friend bool operator==(const UvTransform&, const UvTransform&) = default;
 };
 
-/// What a ray sees of a texture: the ellipse that its cone cuts out of the surface, as two of its
-/// diameters in texture coordinates that are conjugate (an affine image of perpendicular ones).
-/// Both zero: a point.
+/// Footprint of a ray in a texture: the ellipse that its cone cuts out of the surface, as two
+/// conjugate diameters (an affine image of perpendicular ones) in texture coordinates. Both zero: a
+/// point.
 struct UvFootprint {
     Vec2 a{0, 0}, b{0, 0};
 };
@@ -60,14 +72,14 @@ struct Texture {
     std::shared_ptr<const MipPyramid> pyramid;
 };
 
-/// The texture's linear colour and alpha at `uv`, which uv_transform has been applied to; the mean
+/// The texture's linear colour and alpha at `uv`, to which uv_transform has been applied; the mean
 /// over the footprint when mipmapped.
 ///
 /// Source: Heckbert, "Survey of Texture Mapping", IEEE CG&A 6(11), 1986 (the footprint as an
 /// ellipse); McCormack, Perry, Farkas and Jouppi, "Feline: Fast Elliptical Lines for Anisotropic
 /// Texture Mapping", SIGGRAPH 1999 (probes along its long axis).
-/// Differs: probes weigh the same, as the pixel they stand for is a box; at most 16 of them, beyond
-/// which the short axis is taken longer.
+/// Differs: probes have equal weights (the pixel is a box); at most 16 of them, beyond which the
+/// short axis is lengthened.
 [[nodiscard]] Rgba evaluate(const Texture& texture, const Vec2& uv,
                             const UvFootprint& footprint = {});
 
