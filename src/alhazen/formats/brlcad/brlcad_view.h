@@ -6,7 +6,7 @@
 /// Differs: animation of the model is not supported.
 /// Conventions: a view has the eye at the origin, x to the right, y up, z towards the viewer; it is
 /// `size` mm wide. Parallel rays start in the plane of the eye. Rays pass through the lower left
-/// corners of the pixels (ShadingConventions::PixelSample).
+/// corners of the pixels (SamplingConventions::PixelSample).
 
 #include <optional>
 #include <string>

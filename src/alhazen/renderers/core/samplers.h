@@ -28,7 +28,7 @@ concept PixelSampler = requires(const S& sampler, const RenderJob& job, int n) {
 /// One sample per pixel: the point that the scene's conventions name.
 class PointSampler {
   public:
-    using PixelSample = ShadingConventions::PixelSample;
+    using PixelSample = SamplingConventions::PixelSample;
     static constexpr bool kSeparable = true;
 
     PointSampler(const RenderJob& job, int width, int height)
