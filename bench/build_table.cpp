@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/base/file.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/bounded_primitives.h"

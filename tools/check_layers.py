@@ -60,7 +60,8 @@ INSIDE = {
         "wide_bvh/trace": ["wide_bvh/build"],
     },
     "aggregates": {
-        "wide_bvh": [],
+        "wide_bvh/leaves": [],
+        "wide_bvh": ["wide_bvh/leaves"],
     },
     "formats": {
         "core": [],

@@ -78,7 +78,8 @@ Ray SceneTrial::eye_ray_of(int x, int y) const {
                     fmt::format("pixel {},{} is not in a picture of {}x{}", x, y, width, height));
     }
     const CameraDescription& camera = find_camera(reference_.scene, render_options_.camera);
-    const Vec2 p = PointSampler(reference_.scene.conventions.sampling.pixel_sample, width, height).at(x, y);
+    const Vec2 p =
+        PointSampler(reference_.scene.conventions.sampling.pixel_sample, width, height).at(x, y);
     return eye_ray(with_aspect(camera.camera, camera.aspect, static_cast<double>(width) / height),
                    p.x, p.y);
 }

@@ -4,8 +4,8 @@
 ///
 /// ADD A CONVENTION HERE: a field in the struct of its reader. The native format reads and writes
 /// it (formats/native/read/native_settings.cpp, formats/native/write/native_write_view.cpp;
-/// docs/reference/formats/native.md), and tests/support/same_description.h compares it (it does not compile
-/// until it does).
+/// docs/reference/formats/native.md), and tests/support/same_description.h compares it (it does not
+/// compile until it does).
 
 #include "alhazen/imaging/film/film_conventions.h"
 #include "alhazen/sampling/sampling_conventions.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "alhazen/aggregates/accelerator_table.h"
-#include "alhazen/aggregates/wide_bvh/triangle_splitter.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_splitter.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/parallel/parallel.h"
 #include "unit/aggregates/compare_aggregates.h"

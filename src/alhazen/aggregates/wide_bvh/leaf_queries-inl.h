@@ -14,9 +14,9 @@
 #include <bit>
 #include <type_traits>
 
-#include "alhazen/aggregates/wide_bvh/shape_filters-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/sphere_resolution-inl.h"
-#include "alhazen/aggregates/wide_bvh/triangle_filter-inl.h"
 #include "alhazen/aggregates/wide_bvh/triangle_resolution-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/primitives/unused_shear.h"

@@ -28,9 +28,9 @@
 #include <new>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaf_queries-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/block_boxes-inl.h"
 #include "alhazen/aggregates/wide_bvh/packet_resolution-inl.h"
 #include "alhazen/primitives/primitive_lanes.h"
 

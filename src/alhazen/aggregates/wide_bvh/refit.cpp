@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "alhazen/aggregates/wide_bvh/leaf_fill.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_fill.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/primitive_table.h"

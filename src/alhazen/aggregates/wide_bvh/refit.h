@@ -7,7 +7,7 @@
 /// Complexity and threads: O(n), leaves in parallel; the result is the same for every number of
 /// threads.
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/primitives/bounded_primitives.h"
 
 namespace alhazen {

@@ -14,7 +14,7 @@
 
 #include <cmath>
 
-#include "alhazen/aggregates/wide_bvh/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/triangle_resolution-inl.h"
 #include "alhazen/geometry/hit.h"
 #include "alhazen/geometry/ray.h"

@@ -1,6 +1,6 @@
 #include "alhazen/aggregates/wide_bvh/table_fingerprint.h"
 
-#include "alhazen/aggregates/wide_bvh/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/base/checksum.h"
 
 namespace alhazen {

@@ -4,7 +4,7 @@
 ///
 /// Source: see the headers of accel/wide_bvh/.
 /// Differs: boxes and the triangle filter are float but conservative with respect to tests in
-/// double (aggregates/wide_bvh/triangle_filter.h), so the hits are
+/// double (aggregates/wide_bvh/leaves/triangle_filter.h), so the hits are
 /// those of brute force, bit for bit.
 /// Conventions: those of `Aggregate`. Primitives without a finite box are tested first, outside
 /// the tree.
@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/aggregates/wide_bvh/refit.h"
 #include "alhazen/aggregates/wide_bvh/schedule.h"
 #include "alhazen/aggregates/wide_bvh/treeless_packets.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "alhazen/aggregates/wide_bvh/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 
 namespace alhazen {
 namespace {

@@ -6,7 +6,7 @@
 /// gives wrong hits.
 /// Complexity: O(nodes + blocks).
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 
 namespace alhazen {
 

@@ -14,7 +14,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/geometry/box.h"
 
 namespace alhazen {

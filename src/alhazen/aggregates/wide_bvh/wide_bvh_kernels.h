@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {

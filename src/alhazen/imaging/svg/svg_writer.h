@@ -2,9 +2,10 @@
 /// Writes SVG: nested elements with attributes, escaped text, paths and points.
 ///
 /// Source: W3C, "Scalable Vector Graphics (SVG) 1.1", 2nd ed., 2011.
-/// Conventions: y points down in the output; callers turn it. Text is ASCII: other characters become
-/// '?', so that names from any file give well-formed XML. Coordinates are written with a fixed number
-/// of decimals (`decimals`) or with ten significant digits (`digits`).
+/// Conventions: y points down in the output; callers turn it. Text is ASCII: other characters
+/// become
+/// '?', so that names from any file give well-formed XML. Coordinates are written with a fixed
+/// number of decimals (`decimals`) or with ten significant digits (`digits`).
 
 #include <initializer_list>
 #include <span>

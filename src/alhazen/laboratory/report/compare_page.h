@@ -1,5 +1,6 @@
 #pragma once
-/// A comparison as one HTML file: pictures, cost heat maps, charts, a table (docs/reference/compare.md).
+/// A comparison as one HTML file: pictures, cost heat maps, charts, a table
+/// (docs/reference/compare.md).
 ///
 /// Conventions: the file is self-contained: pictures are data URIs, style and script are inline,
 /// and its content security policy forbids every request. Without scripts everything is shown, but

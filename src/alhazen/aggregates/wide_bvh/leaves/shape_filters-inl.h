@@ -3,18 +3,18 @@
 /// Conventions: included once per target (see simd/lanes-inl.h). They are calls: one copy per
 /// target costs nothing that could be measured, and compiles in a fraction of the time.
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_SHAPE_FILTERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_SHAPE_FILTERS_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_SHAPE_FILTERS_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_SHAPE_FILTERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_SHAPE_FILTERS_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_SHAPE_FILTERS_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_SHAPE_FILTERS_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_SHAPE_FILTERS_INL_H_
 #endif
 
 #include <limits>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
-#include "alhazen/aggregates/wide_bvh/shape_filters.h"
-#include "alhazen/aggregates/wide_bvh/triangle_filter.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/shape_filters.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

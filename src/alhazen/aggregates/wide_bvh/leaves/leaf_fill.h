@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 
 namespace alhazen {
 

@@ -1,4 +1,4 @@
-#include "alhazen/aggregates/wide_bvh/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 
 #include <algorithm>
 #include <cmath>

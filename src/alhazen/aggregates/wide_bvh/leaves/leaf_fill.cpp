@@ -1,11 +1,11 @@
-#include "alhazen/aggregates/wide_bvh/leaf_fill.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_fill.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <tuple>
 
-#include "alhazen/aggregates/wide_bvh/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {

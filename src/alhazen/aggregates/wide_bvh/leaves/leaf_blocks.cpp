@@ -1,4 +1,4 @@
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 
 #include <algorithm>
 
@@ -6,9 +6,9 @@
 #include "alhazen/accel/wide_bvh/build/clustering.h"
 #include "alhazen/accel/wide_bvh/build/reinsertion.h"
 #include "alhazen/accel/wide_bvh/build/sah_cost.h"
-#include "alhazen/aggregates/wide_bvh/leaf_bounds.h"
-#include "alhazen/aggregates/wide_bvh/leaf_fill.h"
-#include "alhazen/aggregates/wide_bvh/triangle_splitter.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_fill.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_splitter.h"
 #include "alhazen/base/error.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/bounded_primitives.h"

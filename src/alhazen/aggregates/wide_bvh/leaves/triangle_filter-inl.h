@@ -3,19 +3,19 @@
 /// Conventions: included once per target (see simd/lanes-inl.h). A NaN passes the filter and is
 /// never sure.
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_TRIANGLE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_TRIANGLE_FILTER_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_TRIANGLE_FILTER_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_FILTER_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_TRIANGLE_FILTER_INL_H_
 #endif
 
 #include <cstddef>
 #include <cstring>
 
 #include "alhazen/accel/wide_bvh/trace/slab_ray-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
-#include "alhazen/aggregates/wide_bvh/triangle_filter.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,9 +1,9 @@
-#include "alhazen/aggregates/wide_bvh/triangle_splitter.h"
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_splitter.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {

@@ -7,14 +7,14 @@
 /// Conventions: in the frame of the tree, with room for the rounding of all that makes them:
 /// coordinates are at most about 1 there. Included once per target (see simd/lanes-inl.h).
 
-#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_
-#undef ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_BLOCK_BOXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_BLOCK_BOXES_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_BLOCK_BOXES_INL_H_
 #else
-#define ALHAZEN_AGGREGATES_WIDE_BVH_BLOCK_BOXES_INL_H_
+#define ALHAZEN_AGGREGATES_WIDE_BVH_LEAVES_BLOCK_BOXES_INL_H_
 #endif
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,7 +9,7 @@
 
 #include <type_traits>
 
-#include "alhazen/aggregates/wide_bvh/leaf_blocks.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_blocks.h"
 #include "alhazen/primitives/primitive_table.h"
 
 namespace alhazen {
