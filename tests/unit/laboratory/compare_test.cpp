@@ -145,7 +145,7 @@ TEST(Compare, TheSearchAddsALineOnlyWhereItFoundSomething) {
         EXPECT_GT(m.tried, 0);
         EXPECT_TRUE(tuned.insert(m.name()).second) << m.name() << " has two tuned lines";
     }
-    // With default settings: list, wide_bvh and octree.
+    // Untuned: list, wide_bvh and octree.
     EXPECT_EQ(c.measurements.size(), 3 + tuned.size());
     EXPECT_TRUE(c.holds());
 }
