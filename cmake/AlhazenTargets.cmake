@@ -30,8 +30,12 @@ target_compile_options(alhazen_flags INTERFACE
     # GCC 12 turns double(float(x)) into x where two of these conversions are adjacent (seen at -O2): boxes would not
     # be rounded outward through float.
     $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Woverloaded-virtual -Wimplicit-fallthrough -Wundef
+    # In a unity build names of one source are seen in the next: GCC is asked about local shadows only, and not about
+    # types of anonymous namespaces outside of the main file.
+    $<IF:$<CXX_COMPILER_ID:GNU>,-Wshadow=local,-Wshadow>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>
     # Designated initialisers leave the other fields at their defaults.
     -Wno-missing-field-initializers
     $<$<BOOL:${ALHAZEN_WERROR}>:-Werror>

@@ -1,4 +1,4 @@
-"""What the tests of the command line share: its program, a small scene, a folder for what it writes."""
+"""Common parts of the command line tests: the program, a small scene, a folder for output."""
 
 import os
 import subprocess
@@ -19,7 +19,7 @@ plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
 
 
 def run(*arguments, **options):
-    # A terminal's colours and progress must not matter: everything is piped.
+    # Everything is piped, so that colours and progress of a terminal have no effect.
     return subprocess.run([ALHAZEN, *arguments], capture_output=True, text=True, timeout=120, **options)
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the command line as a user would: usage, messages, reports, questions.
+"""Runs the command line as a user would: usage, messages, reports, queries.
 
 Usage: command_line_test.py ALHAZEN SOURCE_FOLDER
 """
@@ -45,7 +45,7 @@ class CommandLine(CommandLineCase):
             time.sleep(0.01)
         process.terminate()
         process.communicate(timeout=60)
-        self.assertIn(process.returncode, (75, 0))  # 0: it was done already
+        self.assertIn(process.returncode, (75, 0))  # 0: finished before the signal
         with open(report, encoding="utf-8") as file:
             self.assertIn(len(json.load(file)["scenes"]), (1, 2))
         claims = subprocess.Popen([ALHAZEN, "compare", "--claim", "A3", "-q"], stdout=subprocess.PIPE,
@@ -76,7 +76,7 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--time", "inf"],
                           ["render", self.scene, "-o", picture, "--max-image-pixels", "0"],
                           ["render", self.scene, "-o", picture, "--max-image-mib", "0"],
-                          # Options that would change nothing.
+                          # Options without effect.
                           ["render", self.scene, "-o", picture, "--animation", "0"],
                           ["info", self.scene, "--animation", "0"],
                           ["render", self.scene, "-o", picture, "--aov-png"],
@@ -165,9 +165,9 @@ class CommandLine(CommandLineCase):
             result = run("info", scene, *allowed)
             self.assertEqual(result.returncode, status, allowed)
             self.assertEqual("--allow-path" in result.stderr, status == 3)
-        # What stands after the option's folder is the scene.
+        # The argument after the option's folder is the scene.
         self.assertEqual(run("info", *one, *two, scene).returncode, 0)
-        # A link in an allowed folder does not lead out of all of them.
+        # A link in an allowed folder must not lead outside the allowed folders.
         os.symlink("../two/part.alhazen", self.path("one/link.alhazen"))
         scene = self.write("own/link.alhazen", 'alhazen 1\ninclude "../one/link.alhazen"\n')
         self.assertEqual(run("info", scene, *one).returncode, 3)
@@ -175,7 +175,7 @@ class CommandLine(CommandLineCase):
 
     def test_control_characters_of_names_do_not_reach_the_terminal(self):
         bad = 'x\x1b[31m\a\x7f\x9b\0y'
-        name = bad.replace("\0", "")  # with a NUL it would be no text
+        name = bad.replace("\0", "")  # a NUL would make it binary
         self.write("m.mtl", f"newmtl {name}\nKd 1 0 0\nmap_Kd {name}.png\n")
         mesh = self.write("m.obj", f"mtllib m.mtl\nmtllib {name}\no {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl {name}\n"
                                    f"f 1 2 3\nusemtl not{name}\nf 1 2 3\n")

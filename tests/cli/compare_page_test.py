@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of `alhazen compare --html`: what it holds, and what a real browser makes of it.
+"""The page of `alhazen compare --html`: its contents and its behaviour in a browser.
 
 Usage: compare_page_test.py ALHAZEN [SCREENSHOT_FOLDER]
 
@@ -32,7 +32,7 @@ box { lo = (-2, 0, 0); hi = (-1.2, 0.8, 0.8); material = "mirror" }
 plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
 """
 
-# Put into a copy of the page: uses it as a reader would, and leaves what it saw in the document.
+# Inserted into a copy of the page: uses it as a reader would, and records the results in the document.
 BEFORE = """<script>window.seen = {errors: []};
 addEventListener("error", e => seen.errors.push(String(e.message)));
 addEventListener("securitypolicyviolation", e => seen.errors.push("policy: " + e.blockedURI));</script>"""
@@ -79,7 +79,7 @@ def browser():
 
 
 class Elements(html.parser.HTMLParser):
-    """Notes what is open at the end, ids, and the attributes of all elements."""
+    """Records unclosed elements, ids, and the attributes of all elements."""
 
     EMPTY = {"meta", "link", "img", "input", "br"}
 
@@ -146,7 +146,7 @@ class ComparePage(unittest.TestCase):
         self.assertIn("default-src 'none'", self.text)
 
     def in_browser(self, window, *options, change=lambda text: text):
-        """Uses the page; what it saw, what the console said, and the page's requests to the network."""
+        """Uses the page; returns its results, the console output and its network requests."""
         program = browser()
         if program is None:
             self.skipTest("no chromium here: scripts/setup --browser installs it")
@@ -164,7 +164,7 @@ class ComparePage(unittest.TestCase):
         console = [line for line in result.stderr.splitlines() if "CONSOLE" in line]
         match = re.search(r'<pre id="seen">(.*?)</pre>', result.stdout, re.DOTALL)
         self.assertIsNotNone(match, "the script did not run to its end")
-        # Requests of the browser's own have no page behind them.
+        # The browser's own requests have no page of origin.
         requests = []
         for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
             initiator = re.search(r'"initiator":"([^"]*)"', line)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Converts from the command line: what is kept, what is refused, what is left behind.
+"""Converts from the command line: preserved data, rejected input, remaining files.
 
 Usage: conversions_test.py ALHAZEN SOURCE_FOLDER
 """
@@ -65,7 +65,7 @@ class Conversions(CommandLineCase):
 
     def test_a_failed_conversion_leaves_nothing_behind(self):
         self.render(output="dot.png", size="1x1")
-        # The picture has less than the limit of 600 bytes, the scene more.
+        # The image is below the limit of 600 bytes, the scene above.
         scene = self.write("s.alhazen", SPHERES + 'texture "t" { file = "dot.png" }\n')
         before = sorted(os.listdir(self.folder.name))
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))

@@ -35,7 +35,7 @@ class Outcome:
         with tempfile.TemporaryFile() as errors:
             begin = time.monotonic()
             process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors)
-            # A file that hangs it is killed by its processor time, or here by the clock.
+            # A file that causes a hang ends the process by its limit of processor time, or here by the clock.
             resource.prlimit(process.pid, resource.RLIMIT_CPU, (2 * MAX_SECONDS, 2 * MAX_SECONDS))
             signal.signal(signal.SIGALRM, lambda *_: process.kill())
             signal.alarm(6 * MAX_SECONDS)
@@ -60,7 +60,7 @@ class Outcome:
 
 
 def attempts(alhazen, path, folder):
-    """Name, arguments, statuses that are right, picture that must exist after status 0."""
+    """Name, arguments, accepted statuses, image that must exist after status 0."""
     out = os.path.join(folder, "out.png")
     yield "scene", [alhazen, "render", "-q", str(path), "-o", out, "--size", "32x32"], {0, 3, 5}, out
     if path.suffix.lower() not in PICTURES and not path.suffix.lower().endswith("exr"):

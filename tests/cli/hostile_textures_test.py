@@ -20,7 +20,7 @@ RGB, RGBA = 2, 6
 
 
 def png(path, width, height, color, bits=8):
-    """All zeros: a thousandth of what it decodes to."""
+    """All zeros: a thousandth of the decoded size."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -33,7 +33,7 @@ def png(path, width, height, color, bits=8):
 
 
 def exr(path, width, height, channels=("B", "G", "R"), tile=None):
-    """Floats, each row packed by runs (compression 1): zeros are 128 after the predictor, but for the first."""
+    """Floats with rows packed by runs (compression 1): after the predictor all zeros but the first are 128."""
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(value)) + value
 
@@ -81,7 +81,7 @@ def sparse(path, start, size):
 
 
 def bmp(path, width, height):
-    """16 bits by masks: decoded by way of floats."""
+    """16 bits with masks: decoded through floats."""
     sparse(path, b"BM" + struct.pack("<IHHI", 0, 0, 0, 66) +
            struct.pack("<IiiHHIIiiII", 40, width, height, 1, 16, 3, 0, 0, 0, 0, 0) +
            struct.pack("<III", 0xf800, 0x7e0, 0x1f), 66 + width * height * 2)
@@ -101,7 +101,7 @@ def native(folder, make, *arguments):
 
 
 def gltf(folder, pictures, materials):
-    """A triangle for each material. Both are lists of glTF's objects; every picture is a texture."""
+    """A triangle for each material. Both arguments are lists of glTF objects; every image is a texture."""
     corners = struct.pack("<15f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1)
     with open(os.path.join(folder, "corners.bin"), "wb") as file:
         file.write(corners)
@@ -140,10 +140,10 @@ def color_and_normal(folder, width, height):
 
 
 MEMORY, SIDE, PIXELS = "--max-image-mib", "--max-image-side", "--max-image-pixels"
-# What is rendered, and None or the option that its message must name.
+# Scene, and None or the option that its message must name.
 CASES = {
     "20 PNGs of 8192 x 4096 in one glTF": (many_pictures, MEMORY),
-    # 128 MiB and twice 85; of twice the height 597 MiB, which fit as well but take their time.
+    # 128 MiB and twice 85. Twice the height would need 597 MiB, which is within the limit but slow.
     "a PNG of 8192 x 4096 as colour and as normals": (lambda f: color_and_normal(f, 8192, 4096), None),
     "a PNG of 8192 x 8192 x 16 bits": (lambda f: native(f, png, 8192, 8192, RGBA, 16), MEMORY),
     "a PNG of 2048 x 2048 x 16 bits": (lambda f: native(f, png, 2048, 2048, RGBA, 16), None),

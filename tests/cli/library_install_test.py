@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Installs the library, builds the example against what was installed, and runs it.
+"""Installs the library, builds the example against it, and runs the example.
 
 Usage: library_install_test.py BUILD_FOLDER SOURCE_FOLDER TRACE_RAYS CONFIG PREFIXES [CMAKE_OPTION...]
 
@@ -15,7 +15,7 @@ import tempfile
 
 
 def run(*command):
-    """What a command prints; ends the test when it fails."""
+    """Returns the output of a command; ends the test if it fails."""
     command = [str(word) for word in command]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0:
@@ -27,7 +27,7 @@ def check_picture(picture, expected):
     rows = picture.splitlines()
     assert len(rows) == 20 and all(len(row) == 64 for row in rows), picture
     assert set(picture) == set(" -#oO\n"), picture
-    # The eye stands on the ball's plane of symmetry, and the light to the right of it.
+    # The eye lies in the ball's plane of symmetry, the light to the right of it.
     assert rows[8][31] in "oO" and rows[8][32] in "oO", picture
     assert sum(row[:32].count("#") for row in rows) > sum(row[32:].count("#") for row in rows), picture
     assert picture == expected, f"{picture}differs from that of the build:\n{expected}"
@@ -38,7 +38,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="alhazen_install_") as folder:
         folder = pathlib.Path(folder)
         run("cmake", "--install", build, "--prefix", folder / "first", "--config", config)
-        # What is installed must not know where it was installed to.
+        # The installed package must not contain its installation path.
         (folder / "first").rename(folder / "moved")
         example = folder / "example"
         run("cmake", "-S", pathlib.Path(source) / "examples" / "trace_rays", "-B", example,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders from the command line: the same bits however, layers, views, what stops it.
+"""Renders from the command line: identical bits for all settings, layers, views, interruption.
 
 Usage: pictures_test.py ALHAZEN SOURCE_FOLDER
 """
@@ -113,14 +113,14 @@ class Pictures(CommandLineCase):
                                     "--spp", "400", "--tile-size", "4"], stderr=subprocess.PIPE, text=True)
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
-        process.send_signal(signal.SIGINT)  # the same wish twice, as timeout(1) tells it
+        process.send_signal(signal.SIGINT)  # a second signal, as timeout(1) may send
         _, messages = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 75)
         self.assertIn("stopped", messages)
         self.assertTrue(self.read("out.png").startswith(b"\x89PNG"))
 
     def test_rendering_stops_within_one_pixel(self):
-        # Each surface splits a ray in two: an eye ray has up to 2^200 others behind it.
+        # Each surface splits a ray in two: an eye ray spawns up to 2^200 others.
         glass = "material = { diffuse = 0; reflective = 1; transmissive = 1; index = 1.5 }"
         scene = self.write("slow.alhazen", "alhazen 1\nconventions { max_depth = 200 }\n"
                            "perspective_camera { eye = (0, 0, 3); look_at = (0, 0, 0) }\n"
@@ -140,7 +140,8 @@ class Pictures(CommandLineCase):
         with open(big, "w", encoding="ascii") as file:
             file.write("v 0.123456 1.2345678 -9.87654321\n" * 3_000_000)
         ends = []
-        for seconds in 0.1, 0.2, 0.4, 0.8:  # before the first line of the program on a busy machine: then again
+        # Repeats with a longer delay if the signal comes before the first line of the program on a busy machine.
+        for seconds in 0.1, 0.2, 0.4, 0.8:
             process = subprocess.Popen([ALHAZEN, "render", big, "-o", self.path("big.png")],
                                        stderr=subprocess.PIPE, text=True)
             time.sleep(seconds)

@@ -1,4 +1,4 @@
-/// BRL-CAD's own models, and its reference pictures of them.
+/// BRL-CAD's own models against its reference images.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 const std::string kModels = "csg/brlcad/db";
 const std::string kReference = "csg/brlcad/bench/ref/moss.png";
 
-/// The pixels in which the picture and our silhouette of moss.asc differ.
+/// Pixels in which the reference image and the rendered silhouette of moss.asc differ.
 std::vector<std::string> wrong_pixels(const LoadOptions& options, std::size_t& background) {
     const LoadedScene moss = load(testing::test_data() / kModels / "moss.asc", options);
     EXPECT_EQ(moss.diagnostics.all().size(), 0u);

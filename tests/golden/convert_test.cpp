@@ -1,6 +1,6 @@
-/// Converting and rendering gives the same bits: every kind of scene there is, written in the
-/// native format and read back, is the same description, compiles to the same scene and renders to
-/// the same picture and the same layers beside it, counts of work included.
+/// Conversion keeps all bits: a scene of every format, written in the native format and read back,
+/// is the same description, compiles to the same scene, and renders to the same image and layers,
+/// counts of work included.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct Rendered {
     RenderResult result;
 };
 
-/// As the command line renders it, small.
+/// Renders as the command line does, at a small size.
 Rendered rendered(const fs::path& path) {
     LoadedScene loaded = load(path);
     SceneDescription as_read = loaded.description;
@@ -73,7 +73,7 @@ void expect_converts(const fs::path& path) {
     EXPECT_EQ(before.result.counters.total_cast(), after.result.counters.total_cast());
 }
 
-/// All that can be read; the rest is the business of other tests.
+/// Checks all readable files; unreadable ones are covered by other tests.
 void expect_all_convert(const std::vector<fs::path>& files, std::size_t at_least) {
     std::size_t converted = 0;
     for (const fs::path& file : files) {
@@ -126,7 +126,7 @@ TEST(Convert, MeshFilesToTheSameBits) {
     }
     ASSERT_GE(small.size(), 4U);
     expect_all_convert(small, small.size());
-    // The same meshes as PLY and STL, made by converting.
+    // The same meshes as PLY and STL, written by the converter.
     const ScratchFolder folder;
     for (const char* suffix : {".ply", ".stl", ".obj"}) {
         Diagnostics ignored;

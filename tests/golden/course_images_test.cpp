@@ -1,4 +1,4 @@
-/// The course's scenes come out as the course's own images.
+/// Renders of the course's scenes match the course's own images.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 const std::string kTrace = "ray/uw2020_yaml/assets/trace";
 
-/// "box_3" -> box.yaml, wherever it lies below the trace folder.
+/// "box_3" -> box.yaml, anywhere below the trace folder.
 std::filesystem::path scene_of(const std::filesystem::path& solution) {
     const std::string stem = solution.stem().string();
     const std::string name = stem.substr(0, stem.rfind('_')) + ".yaml";
@@ -24,7 +24,7 @@ std::filesystem::path scene_of(const std::filesystem::path& solution) {
     return {};
 }
 
-/// Renders and compares through a PNG, as a user would.
+/// Compares through a PNG file, as a user would.
 ImageDifference against_solution(const std::filesystem::path& solution,
                                  const std::string& accelerator) {
     LoadOptions options;

@@ -14,7 +14,7 @@ namespace {
 
 using Corners = std::array<double, 9>;
 
-/// All triangles of a scene of objects that are nested once, in the world, in their order.
+/// All triangles in world space, in order, of a scene whose objects are nested once.
 std::vector<Corners> triangles_of(const SceneDescription& scene) {
     std::vector<Corners> triangles;
     for (const Part& outer : scene.objects.at(0).parts) {
@@ -54,7 +54,7 @@ SceneDescription read(const std::filesystem::path& file, const ImportOptions& op
     return import_scene(file, options, diagnostics);
 }
 
-/// The largest difference between two coordinates; infinite when the counts differ.
+/// Largest difference of two coordinates; infinite if the counts differ.
 double difference(const std::vector<Corners>& a, const std::vector<Corners>& b) {
     if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
     double largest = 0.0;
@@ -66,7 +66,7 @@ double difference(const std::vector<Corners>& a, const std::vector<Corners>& b) 
     return largest;
 }
 
-/// The variants of a model write its matrices with 16 or 17 digits, so the bits may differ.
+/// Variants of a model write matrices with 16 or 17 digits, so bits may differ.
 TEST(GltfModels, AllVariantsOfAModelHaveTheSameTriangles) {
     ALHAZEN_NEEDS_DATA("gltf/dev");
     std::size_t compared = 0;
@@ -93,7 +93,7 @@ TEST(GltfModels, AllVariantsOfAModelHaveTheSameTriangles) {
     EXPECT_GE(compared, 20u);
 }
 
-/// Counts from the files' own accessors, times the nodes that show them.
+/// Expected counts: those of the files' accessors, times the nodes that use them.
 TEST(GltfModels, CountsAreThoseOfTheirFiles) {
     ALHAZEN_NEEDS_DATA("gltf/dev");
     const std::map<std::string, std::size_t> counts{{"Box", 12},
@@ -110,7 +110,7 @@ TEST(GltfModels, CountsAreThoseOfTheirFiles) {
     }
 }
 
-/// The animation runs from 0 to 3.708 seconds; beyond its ends nothing moves.
+/// The animation runs from 0 to 3.708 seconds and is constant beyond its ends.
 TEST(GltfModels, AnimationsMoveTheirNodes) {
     ALHAZEN_NEEDS_DATA("gltf/dev/BoxAnimated/glTF/BoxAnimated.gltf");
     const std::filesystem::path file = test_data() / "gltf/dev/BoxAnimated/glTF/BoxAnimated.gltf";
@@ -121,11 +121,12 @@ TEST(GltfModels, AnimationsMoveTheirNodes) {
     };
     EXPECT_TRUE(at(0.0) == at(-1.0));
     EXPECT_TRUE(at(1000.0) == at(2000.0));
-    // The corners of the inner box, half its size apart from its centre: at rest about the origin.
+    // Half the side of the inner box, which is centred on the origin at rest.
     constexpr double kSide = 0.33504000306129456, kTop = 2.5199999809265137;
     const auto inner = [&](double time) {
         std::vector<Corners> triangles = at(time);
-        // The outer box is first in the scene; 186 numbers make the 62 triangles of the inner one.
+        // The outer box comes first in the scene; the 186 indices of the inner one make 62
+        // triangles.
         triangles.erase(triangles.begin(), triangles.end() - 62);
         Box3 box;
         for (const Corners& c : triangles) {
@@ -137,11 +138,11 @@ TEST(GltfModels, AnimationsMoveTheirNodes) {
         EXPECT_LT(length(box.lo - lo) + length(box.hi - hi), 1e-6);
     };
     expect_box(inner(0.0), {-kSide, -0.5, -kSide}, {kSide, 0.5, kSide});
-    // Half of the way up, before it turns.
+    // Half way up, before the turn.
     expect_box(inner(0.625), {-kSide, kTop / 2 - 0.5, -kSide}, {kSide, kTop / 2 + 0.5, kSide});
-    // Up, and half of the half turn about x: what pointed along y points along z.
+    // At the top, half of the half turn about x done: y points along z.
     expect_box(inner(1.875), {-kSide, kTop - kSide, -0.5}, {kSide, kTop + kSide, 0.5});
-    // On the way down, three quarters done: 2.5 + 0.75 * 1.208329916 seconds.
+    // Three quarters of the way down: 2.5 + 0.75 * 1.208329916 seconds.
     expect_box(inner(3.406247437), {-kSide, kTop / 4 - 0.5, -kSide},
                {kSide, kTop / 4 + 0.5, kSide});
 }

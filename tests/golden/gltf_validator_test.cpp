@@ -1,4 +1,4 @@
-// Which glTF files are refused: as Khronos' validator judges its own test files.
+// Rejected glTF files: compares with the verdicts of Khronos' validator on its own test files.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kFolder = "hostile/gltf-validator/test";
 
-/// Where our verdict is another one; docs/reference/formats/gltf_validator.md has the reasons.
+/// Files with a different verdict; docs/reference/formats/gltf_validator.md gives the reasons.
 const std::set<std::string> kKnownDifferences = {
     "ext/KHR_materials_anisotropy/data/material/no_tangent_space.gltf",
     "ext/KHR_materials_clearcoat/data/material/no_tangent_space.gltf",
@@ -25,7 +25,7 @@ const std::set<std::string> kKnownDifferences = {
     "ext/KHR_materials_variants/data/variant/invalid_name.gltf",
 };
 
-/// Whether the validator found an error: a message of severity 0.
+/// Returns whether the validator reported an error: a message of severity 0.
 bool is_invalid(const std::filesystem::path& report) {
     const nlohmann::json tree = nlohmann::json::parse(read_file(report));
     const nlohmann::json& messages = tree.at("issues").at("messages");
@@ -34,7 +34,7 @@ bool is_invalid(const std::filesystem::path& report) {
     });
 }
 
-/// Why the import refuses the file; empty: it does not.
+/// Returns the reason why the import fails; empty if it succeeds.
 std::string refusal(const std::filesystem::path& file) {
     try {
         Diagnostics diagnostics;
@@ -65,7 +65,7 @@ TEST(GltfValidator, EveryVerdictIsTheSameButTheKnownOnes) {
             << name << (invalid ? " is invalid, but was read" : " is valid, but: " + why);
     }
     EXPECT_EQ(cases, 112);
-    // A difference that is gone must leave the list and the table.
+    // A difference that no longer exists must be removed from the list and the table.
     EXPECT_EQ(differences, kKnownDifferences);
 }
 

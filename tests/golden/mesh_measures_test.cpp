@@ -1,4 +1,4 @@
-/// Area and volume of real meshes, measured by integrating along rays, against their exact values.
+/// Area and volume of real meshes, integrated along rays, against their exact values.
 
 #include <gtest/gtest.h>
 
@@ -24,10 +24,10 @@ struct Measures {
     double volume_error, area_error;  ///< standard errors
 };
 
-/// Parallel rays on a jittered grid over the box, along each axis in turn: the signed length inside
-/// gives the volume (Cavalieri); each crossing of a ray along axis k stands for an area of 1 /
-/// |n_k| of its cell. Uniform random lines give the area by Crossing counts instead: area = 2 pi
-/// R^2 E[crossings] (Crofton).
+/// Traces parallel rays on a jittered grid over the box, along each axis in turn: the signed length
+/// inside gives the volume (Cavalieri); each crossing of a ray along axis k stands for an area of 1
+/// / |n_k| of its cell. Independently, uniform random lines give the area by counting crossings:
+/// area = 2 pi R^2 E[crossings] (Crofton).
 Measures measure(const Aggregate& aggregate, int side) {
     const Box3 box = aggregate.box();
     const Vec3 size = box.size();
@@ -121,7 +121,7 @@ TEST(MeshMeasures, EveryFormatGivesTheExactSums) {
         };
         expect(read_ply(ply_bytes(meshes), "a.ply", {}, found), 2e-8);
         expect(read_obj(obj_text(meshes), "a.obj", {}, found), 2e-8);
-        // Positions as floats.
+        // STL stores positions as floats.
         expect(read_stl(stl_bytes(meshes), "a.stl", {}, found).at(0).mesh, 2e-6);
         EXPECT_EQ(found.error_count(), 0u);
     }
@@ -133,7 +133,7 @@ TEST(MeshMeasures, AreaAndVolumeByRaysAreTheExactOnes) {
         const char* file;
         double area, volume;
     };
-    // Exact sums over the triangles.
+    // Known values: exact sums over the triangles.
     for (const Known& known :
          {Known{"cow", 108.845364, 53.5674458}, Known{"fandisk", 60.6691092, 20.2433749},
           Known{"spot", 5.70951879, 0.718258788}, Known{"cheburashka", 1.21240317, 0.0543816195}}) {

@@ -1,5 +1,5 @@
-/// Meshes and glTF scenes as other libraries read them: equal sets of triangles on every model that
-/// both accept. What differs for a reason is listed here and in docs/reference/formats/meshes.md.
+/// Meshes and glTF scenes against other libraries: equal sets of triangles on every model that both
+/// accept. Known differences are listed here and in docs/reference/formats/meshes.md.
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -20,7 +20,7 @@ namespace {
 
 using testing::PolygonSoup;
 
-/// All files below `folder` whose suffix, in small letters, is this.
+/// All files below `folder` with this suffix, compared in lower case.
 std::vector<std::filesystem::path> files(const std::string& folder, const std::string& suffix) {
     std::string capitals = suffix;
     for (char& c : capitals) c = char(std::toupper(static_cast<unsigned char>(c)));
@@ -30,7 +30,7 @@ std::vector<std::filesystem::path> files(const std::string& folder, const std::s
     return found;
 }
 
-/// The file as we read it; no triangles when we do not accept it.
+/// Reads a file with Alhazen; returns no triangles if it is rejected.
 TriangleMesh read_here(const std::filesystem::path& path) {
     TriangleMesh soup;
     try {
@@ -100,7 +100,8 @@ PolygonSoup read_by_tinyobj(const std::filesystem::path& path) {
     return soup;
 }
 
-/// Compares all files; those in `known` (by file name) may differ. Returns how many were equal.
+/// Compares all files; those in `known` (by file name) may differ. Returns the number of equal
+/// ones.
 template <class ReadThere>
 int compare(const std::vector<std::filesystem::path>& paths, const ReadThere& read_there,
             const std::set<std::string>& known) {
@@ -121,7 +122,7 @@ int compare(const std::vector<std::filesystem::path>& paths, const ReadThere& re
     return equal;
 }
 
-/// Refused here: 3.1+e2 is no number.
+/// Rejected here: 3.1+e2 is not a number.
 const std::set<std::string> kNoNumbers{"number_formats.obj"};
 
 TEST(MeshOracle, ObjFilesHaveTheTrianglesThatTinyObjLoaderReads) {
@@ -135,7 +136,7 @@ TEST(MeshOracle, ObjFilesHaveTheTrianglesThatAssimpReads) {
     ALHAZEN_NEEDS_DATA("meshes/alecjacobson");
     EXPECT_EQ(compare(files("meshes", ".obj"), read_by_assimp, {}), 7);
     EXPECT_EQ(compare(files("hostile/assimp/OBJ", ".obj"), read_by_assimp, kNoNumbers), 10);
-    // Divides positions by the fourth number, which is a weight of curves and surfaces only.
+    // assimp divides positions by the fourth number, which is a weight of curves and surfaces only.
     EXPECT_EQ(compare(files("hostile/tinyobj/models", ".obj"), read_by_assimp,
                       {"cube-vertex-w-component.obj"}),
               16);
@@ -155,11 +156,11 @@ TEST(MeshOracle, StlFilesHaveTheTrianglesThatAssimpReads) {
 TEST(MeshOracle, GltfScenesHaveTheTrianglesThatAssimpReads) {
     ALHAZEN_NEEDS_DATA("gltf/dev");
     const std::set<std::string> known{
-        // The weights of morph targets, skins and instances of EXT_mesh_gpu_instancing are not
-        // applied there.
+        // assimp does not apply weights of morph targets, skins and instances of
+        // EXT_mesh_gpu_instancing.
         "MorphPrimitivesTest.gltf", "MorphPrimitivesTest.glb", "SimpleMorph.gltf",
         "RiggedSimple.gltf", "RiggedSimple.glb", "SimpleInstancing.gltf", "SimpleInstancing.glb",
-        // A rotation of four numbers whose length is 0.9998: not made unit there.
+        // A rotation quaternion of length 0.9998, which assimp does not normalize.
         "TextureEncodingTest.gltf", "TextureEncodingTest.glb"};
     EXPECT_EQ(compare(files("gltf/dev", ".gltf"), read_by_assimp, known), 34);
     EXPECT_EQ(compare(files("gltf/dev", ".glb"), read_by_assimp, known), 21);

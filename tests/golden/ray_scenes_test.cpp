@@ -1,4 +1,4 @@
-/// Every .ray file of the collections renders, or is refused with a message that names what it
+/// Every .ray file of the collections renders, or is rejected with a message that names what it
 /// needs.
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace alhazen {
 namespace {
 
-/// The files that need an extension of the format, and its word in them.
+/// Files that need an extension of the format, with its keyword.
 const std::map<std::string, std::string> kExtensions{{"csg", "csg"},
                                                      {"hyperbolic", "hyperbolic"},
                                                      {"metaball", "metaball"},

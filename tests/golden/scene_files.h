@@ -1,5 +1,5 @@
 #pragma once
-/// The scene files of the test data, by what is known about them.
+/// Scene files of the test data, by expected result.
 
 #include <algorithm>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace alhazen::testing {
 
-/// All files below `folder` (of the test data) with this suffix, in the order of their names.
+/// All files below `folder` (of the test data) with this suffix, sorted by name.
 inline std::vector<std::filesystem::path> files_below(const std::string& folder,
                                                       const std::string& suffix) {
     std::vector<std::filesystem::path> files;

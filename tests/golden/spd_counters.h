@@ -1,5 +1,5 @@
 #pragma once
-/// Rays by kind of a generated database, for tests that they do not depend on the accelerator.
+/// Rays by kind of a generated database, for tests of their independence of the accelerator.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 namespace alhazen::testing {
 
-/// Of a square picture of `side` pixels; 0: as the databases' protocol says.
+/// `side`: pixels per side of the square image; 0: as in the databases' protocol.
 inline RayCounters spd_counters(const SceneDescription& description, const std::string& accelerator,
                                 int side) {
     RenderOptions options;

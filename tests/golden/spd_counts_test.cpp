@@ -1,4 +1,4 @@
-/// The ray counts of the Standard Procedural Databases, as published and re-derived.
+/// Ray counts of the Standard Procedural Databases, as published and re-derived.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace alhazen {
 namespace {
 
-/// Re-derived by an independent double-precision counter of the same protocol.
+/// Counts re-derived by an independent double-precision counter of the same protocol.
 struct Expected {
     const char* file;
     std::uint64_t eye_hit, reflect, refract, total_internal, secondary_hit, shadow, shadow_hit;

@@ -1,5 +1,5 @@
-/// The generators of the Standard Procedural Databases against the files that the original ones
-/// wrote, number for number.
+/// Generators of the Standard Procedural Databases against the files written by the original ones,
+/// number for number.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,7 @@
 namespace alhazen {
 namespace {
 
-/// Equal words; or numbers that are both nothing but rounding error, which a file of six digits
-/// shows too.
+/// Equal words, or two numbers that are only rounding error, even in a file of six digits.
 bool equal_words(const std::string& a, const std::string& b) {
     if (a == b) return true;
     constexpr double kRoundingError = 1e-12;
@@ -58,7 +57,7 @@ TEST(SpdFiles, OfSmallSizesAreGeneratedNumberForNumber) {
     }
 }
 
-/// All but the heights, which come from random numbers that are not known.
+/// Compares everything except the heights, whose random numbers are unknown.
 TEST(SpdFiles, TheMountainStandsWhereThePublishedOneDoes) {
     ALHAZEN_NEEDS_DATA("nff/spd_small");
     std::ifstream file(testing::test_data() / "nff/spd_small/mount_s3.nff");
@@ -69,7 +68,7 @@ TEST(SpdFiles, TheMountainStandsWhereThePublishedOneDoes) {
         ASSERT_TRUE(std::getline(ours, b));
         std::istringstream words(a);
         double x = 0, y = 0, z = 0;
-        if (words >> x >> y >> z) {  // a vertex: the same place, and on the edge of the sea level
+        if (words >> x >> y >> z) {  // a vertex: same x and y, and sea level on the border
             ++ground;
             a.erase(a.rfind(' '));
             b.erase(b.rfind(' '));

@@ -1,5 +1,5 @@
-/// What rays do in the Standard Procedural Databases of the published sizes does not depend on the
-/// accelerator.
+/// Ray statistics of the Standard Procedural Databases of the published sizes are independent of
+/// the accelerator.
 
 #include "spd_counters.h"
 
@@ -17,7 +17,8 @@ TEST(SpdInvariants, HoldForEveryAcceleratorAtThePublishedSizes) {
     }
 }
 
-/// All rays of the protocol, as Havran and Sixta ask; those that test everything would take hours.
+/// All rays of the protocol, as in Havran and Sixta; accelerators that test everything would take
+/// hours.
 TEST(SpdInvariants, HoldForAllRaysOfTheProtocol) {
     for (const char* name : {"balls", "gears", "teapot", "tetra"}) {
         const SceneDescription description = generate(name);

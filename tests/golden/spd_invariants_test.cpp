@@ -1,4 +1,4 @@
-/// What rays do in the Standard Procedural Databases does not depend on the accelerator: small
+/// Ray statistics of the Standard Procedural Databases are independent of the accelerator: small
 /// sizes, every accelerator of the table (`spd_invariants_heavy_test.cpp`: the published sizes).
 
 #include "spd_counters.h"
@@ -10,7 +10,7 @@ constexpr int kSide = 24;
 
 TEST(SpdInvariants, HoldForEveryAcceleratorAtSmallSizes) {
     for (const std::string& name : testing::databases()) {
-        if (name == "sombrero") continue;  // its smallest has 1922 triangles: the heavy test
+        if (name == "sombrero") continue;  // at least 1922 triangles: in the heavy test
         const bool one = name == "gears" || name == "rings" || name == "shells";
         const SceneDescription description = generate(name, name == "tree" ? 4 : one ? 1 : 2);
         const RayCounters expected = testing::spd_counters(description, "list", kSide);

@@ -1,5 +1,5 @@
-/// The wide BVH agrees with brute force on every scene there is, and closed surfaces are crossed
-/// evenly.
+/// The wide BVH agrees with brute force on every scene of the test data, and rays cross closed
+/// surfaces an even number of times.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace alhazen {
 namespace {
 
-/// Null for scenes that are refused (their messages have a test of their own).
+/// Returns null for rejected scenes, whose messages another test checks.
 std::optional<SceneDescription> readable(const std::filesystem::path& file) {
     try {
         Diagnostics diagnostics;

@@ -17,7 +17,7 @@ TEST(ConvexCell, ACubeCutAcrossItsDiagonalHasAHexagon) {
     const ConvexCell cube(Box3{{0, 0, 0}, {1, 1, 1}});
     EXPECT_DOUBLE_EQ(cube.area(), 6);
     EXPECT_DOUBLE_EQ(cube.volume(), 1);
-    const double hexagon = 3 * std::sqrt(3.0) / 4;  // of edges sqrt(1/2)
+    const double hexagon = 3 * std::sqrt(3.0) / 4;  // with edges sqrt(1/2)
     const ConvexCell::Areas areas = cube.areas_of_parts({1, 1, 1}, 1.5);
     EXPECT_NEAR(areas.lower, 3 + hexagon, 1e-14);
     EXPECT_NEAR(areas.upper, 3 + hexagon, 1e-14);
@@ -48,7 +48,7 @@ TEST(ConvexCell, AreasAreThoseOfThePartsAndVolumesSum) {
     }
 }
 
-/// Long thin triangles in any direction.
+/// Long thin triangles in random directions.
 class Sticks final : public BoundsSource {
   public:
     explicit Sticks(int count) {
@@ -132,7 +132,7 @@ TEST(Bsp, ThePlanesLeadEveryPointOfAPrimitiveToALeafThatHasIt) {
 }
 
 TEST(Bsp, SlantedThingsAreParedByPlanesOfTheirOwn) {
-    // Triangles in parallel diagonal planes: none of the axes parts them.
+    // Triangles in parallel diagonal planes, which no axis-aligned plane separates.
     class Slices final : public BoundsSource {
       public:
         [[nodiscard]] std::size_t size() const override { return 64; }

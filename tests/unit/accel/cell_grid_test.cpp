@@ -9,7 +9,7 @@
 namespace alhazen {
 namespace {
 
-/// Where a line is inside a box shrunk by `margin`; empty when nowhere.
+/// Interval of a line inside a box shrunk by `margin`; may be empty.
 Interval inside(const Box3& box, const Ray& ray, double margin) {
     Interval t{ray.t_min, ray.t_max};
     for (int k = 0; k < 3; ++k) {

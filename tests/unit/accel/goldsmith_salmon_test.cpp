@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;
 
-/// A box of a given half of its surface.
+/// A box whose half surface area is `area`.
 BoxBound bound_of_half_area(double area) {
     return {{{{0, (area - 1) / 2}, {0, 1}, {0, 1}}}};
 }
@@ -40,7 +40,7 @@ TEST(GoldsmithSalmon, TheIncreaseOfEveryInsertionIsThatOfTheWholeCost) {
     }
 }
 
-/// Every primitive is in one leaf, and every bound holds those below.
+/// Checks that every primitive is in one leaf and every bound encloses its children.
 void check(const BoundTree<BoxBound>& tree, const Boxes& boxes) {
     std::vector<int> seen(boxes.size(), 0);
     for (const auto& node : tree.nodes) {

@@ -23,7 +23,7 @@ TEST(KdTree, BothBuildersMakeTheSameTreeBitForBit) {
 }
 
 TEST(KdTree, ASplitPaysOnlyWhereItIsCheaper) {
-    // Two clusters far apart: the tree divides them, and its cost is far below that of one leaf.
+    // Two clusters far apart: the tree separates them at a cost far below that of one leaf.
     std::vector<Box3> boxes;
     for (int i = 0; i < 100; ++i) {
         const double x = i % 2 == 0 ? 0.0 : 100.0;

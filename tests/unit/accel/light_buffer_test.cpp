@@ -26,8 +26,8 @@ class LitTriangles final : public BoundsSource {
     [[nodiscard]] std::span<const RayEnd> ray_ends() const override { return ends; }
 };
 
-/// A hundred small triangles below z = 0, and above them a large one that the light above stands
-/// behind.
+/// A hundred small triangles below z = 0; `with_screen` adds a large one between them and the
+/// light.
 LitTriangles scene(bool with_screen) {
     LitTriangles made;
     RandomStream random(1);
@@ -40,7 +40,7 @@ LitTriangles scene(bool with_screen) {
     return made;
 }
 
-/// Says that nothing is hit, or all.
+/// Counts visits and reports no hits, or only hits.
 struct CountingVisitor {
     static constexpr AsksFor kAsksFor = AsksFor::AnyHit;
     bool blocks = false;
@@ -58,11 +58,11 @@ TEST(LightBuffer, AListEndsAtTheTriangleThatFillsItsCell) {
     CountingVisitor below{true, 0};
     made.traverse({{0, 0, -1.5}, {0, 0, 4.5}, 0, 1}, below, NoStats{});
     EXPECT_EQ(below.visits, 1);
-    // From above the screen nothing is in the way.
+    // From above the screen nothing is visited.
     CountingVisitor above;
     made.traverse({{0, 0, 2}, {0, 0, 1}, 0, 1}, above, NoStats{});
     EXPECT_EQ(above.visits, 0);
-    // Where the ray ends before the screen, what is behind that counts.
+    // When the ray ends before the screen, the triangles behind it are visited.
     const LightBuffer open = LightBuffer::build(scene(true), {.full_cells = false});
     std::size_t shorter = 0;
     for (std::size_t c = 0; c < made.cells().size(); ++c) {
@@ -153,9 +153,9 @@ TEST(LightBuffer, OnlyRaysToTheLightAreLookedUp) {
     };
     const Vec3 from{0.3, 0.2, -3};
     EXPECT_LT(visits({from, Vec3{0, 0, 3} - from, 0, 1}), 20);
-    EXPECT_EQ(visits({from, Vec3{0, 0.001, 3} - from, 0, 1}), 100);  // beside it
-    EXPECT_EQ(visits({from, Vec3{0, 0, 3} - from, 0, 1.001}), 100);  // and behind it
-    EXPECT_EQ(visits({from, from - Vec3{0, 0, 3}, 0, 1}), 100);      // away from it
+    EXPECT_EQ(visits({from, Vec3{0, 0.001, 3} - from, 0, 1}), 100);  // past the screen's edge
+    EXPECT_EQ(visits({from, Vec3{0, 0, 3} - from, 0, 1.001}), 100);  // behind the light
+    EXPECT_EQ(visits({from, from - Vec3{0, 0, 3}, 0, 1}), 100);      // away from the light
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing;
 
-/// The leaves that the walks go through, without those that a ray only touches.
+/// Leaves that the traversals pass through, without those that a ray only touches.
 struct Walked {
     std::vector<std::uint32_t> leaves;
     double last;
@@ -67,7 +67,7 @@ TEST(Octree, AHeapOfSlantedPlatesIsCutOutButNotDividedOverAndOver) {
     EXPECT_GT(heap.nodes().size(), 9u);
     EXPECT_LT(heap.nodes().size(), 1000u);
     EXPECT_LT(heap.entries().size(), 2000u * 512u);
-    // Few in a place are divided as before.
+    // A few primitives in one place are still divided.
     EXPECT_GT(OctreeCells(SlantedHeap(8), 6, 1).nodes().size(), 1000u);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Boxes to build over.
+/// Boxes for tests of builders.
 
 #include <vector>
 
@@ -18,7 +18,7 @@ class Boxes final : public BoundsSource {
     std::vector<Box3> boxes_;
 };
 
-/// The same slanted plate in the unit cube, many times: where x + y / 10 is 0.7.
+/// Many copies of one slanted plate in the unit cube: where x + y / 10 is 0.7.
 class SlantedHeap final : public BoundsSource {
   public:
     explicit SlantedHeap(std::size_t count) : count_(count) {}
@@ -46,7 +46,7 @@ inline Boxes random_boxes(std::size_t count, double size, std::uint64_t seed) {
     return Boxes(boxes);
 }
 
-/// With corners on whole numbers: many coincide, touch or are flat.
+/// Boxes with integer corners: many coincide, touch or are flat.
 inline Boxes lattice_boxes(std::size_t count, std::uint64_t reach, std::uint64_t seed) {
     RandomStream random(seed);
     std::vector<Box3> boxes;

@@ -96,14 +96,14 @@ TEST(RayHypercubes, ARayLikeTheLastOneIsInItsClass) {
     EXPECT_FALSE(classes.find({ray, 0}).cached);
     ray.direction.y += 1e-9;
     EXPECT_TRUE(classes.find({ray, 0}).cached);
-    // Rays from outside begin in a face of the space.
+    // Rays from outside start in a face of the space.
     int cached = 0;
     for (int i = 0; i < 1000; ++i) {
         const Ray eye{{0, -4, 0.3}, {0.0001 * i, 3.5, 0.2}};
         cached += classes.find({eye, RaySpan(classes.space().box, eye, 1e9).begin}).cached;
     }
     EXPECT_GT(cached, 900);
-    // One of another scene is not taken for it.
+    // A hypercube of another scene is not reused.
     const RayHypercubes other(random_boxes(300, 0.1, 3), {});
     EXPECT_FALSE(other.find({ray, 0}).cached);
 }

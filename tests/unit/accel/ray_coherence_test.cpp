@@ -26,7 +26,7 @@ Vec3 point(RandomStream& random, double reach) {
     return {x, y, random.uniform(-reach, reach)};
 }
 
-/// As dense for any count.
+/// Balls of the same density for any count.
 Balls balls(int count) {
     RandomStream random(1);
     Balls made;

@@ -1,5 +1,5 @@
-// The node test never misses a box that the exact line meets, on any instruction set; and it is not
-// so generous as to be useless.
+// The node test never misses a box that the exact line intersects, on any instruction set, and has
+// few false positives.
 
 #include "alhazen/accel/wide_bvh/trace/slab_ray.h"
 
@@ -14,7 +14,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "unit/accel/slab_ray_test.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
-// After foreach_target.h.
+// Must follow foreach_target.h.
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,7 +47,7 @@ double uniform(Random& random, double lo, double hi) {
     return lo + (hi - lo) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
-/// Whether the ray meets the box, in arithmetic with 113 bits.
+/// Returns whether the ray intersects the box, in arithmetic with 113 bits.
 bool meets(const Box3& box, const Ray& ray) {
     Quad lo = ray.t_min, hi = ray.t_max;
     for (int k = 0; k < 3; ++k) {
@@ -64,7 +64,7 @@ bool meets(const Box3& box, const Ray& ray) {
     return lo <= hi;
 }
 
-/// A box with `p` on its surface: a face, an edge, a corner, or all of it when flat.
+/// A box with `p` on its surface: on a face, an edge or a corner, or anywhere if flat.
 Box3 box_around(const Vec3& p, Random& random) {
     Box3 box{p, p};
     for (int k = 0; k < 3; ++k) {
@@ -98,7 +98,7 @@ Vec3 any_direction(Random& random) {
     return std::ldexp(1.0, static_cast<int>(random() % 60) - 30) * d;
 }
 
-/// A ray through (nearly) `p`, from up to `distance` away, its range often ending about there.
+/// A ray through (nearly) `p`, from up to `distance` away; its range often ends near there.
 Ray ray_through(const Vec3& p, double distance, Random& random) {
     Ray ray;
     ray.direction = any_direction(random);
@@ -127,7 +127,7 @@ const Box3 kUnit{{-1, -1, -1}, {1, 1, 1}};
 struct Case {
     Ray ray;
     WideNode node;
-    std::uint32_t exact = 0;  ///< bits of the boxes that are met
+    std::uint32_t exact = 0;  ///< bits of the boxes that are hit
 };
 
 Case grazing_case(const LocalFrame& frame, Random& random) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr LeafKinds kKinds{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{0, 2.0f}};
 
-/// Remembers leaves in place of packing them.
+/// Records leaves instead of packing them.
 class Leaves final : public LeafSink {
   public:
     struct Leaf {
@@ -51,7 +51,7 @@ bool contains(const FloatBox& outer, const FloatBox& inner) {
     return true;
 }
 
-/// Divides the box of a reference of kind 0.
+/// Splits the box of a reference of kind 0.
 class BoxSplitter final : public ReferenceSplitter {
   public:
     [[nodiscard]] bool can_split(std::uint32_t kind) const override { return kind == 0; }
@@ -70,8 +70,8 @@ BinaryBvh build_as(BuildQuality quality, std::vector<BuildReference>& references
     return linearize(draft, references);
 }
 
-/// Builds, checks that the tree holds every primitive once (or, where they may be divided, at least
-/// once) within its boxes, and returns it.
+/// Builds a tree, checks that it holds every primitive once (at least once with spatial splits)
+/// within its boxes, and returns it.
 WideBvh build_and_check(BuildQuality quality, std::vector<BuildReference> references,
                         std::string name) {
     name += std::string(", ") + name_of(quality);
@@ -116,7 +116,7 @@ WideBvh build_and_check(BuildQuality quality, std::vector<BuildReference> refere
     return tree;
 }
 
-/// The deepest of the trees of all qualities.
+/// Returns the greatest depth over all qualities.
 int build_and_check(const std::vector<BuildReference>& references, const std::string& name) {
     int depth = 0;
     for (const BuildQualityEntry& entry : build_quality_table()) {
@@ -217,7 +217,7 @@ TEST(WideBvhBuild, TheExpectedCostIsFarBelowThatOfHalving) {
     std::mt19937_64 random(2);
     std::vector<BuildReference> references;
     for (std::size_t i = 0; i < 20000; ++i) {
-        // Clusters of very different size, where halving does badly.
+        // Clusters of very different size, a bad case for halving.
         const float scale = i % 4 == 0 ? 1.0f : 0.01f;
         const float x = scale * uniform(random), y = scale * uniform(random);
         references.push_back(reference(i, x, y, scale * uniform(random), 0.003f * scale));
@@ -229,7 +229,7 @@ TEST(WideBvhBuild, TheExpectedCostIsFarBelowThatOfHalving) {
     }
     FloatBox all;
     for (const BuildReference& r : references) all.include(r.box());
-    // Measured: 21 when this was written.
+    // Measured: 21.
     EXPECT_LT(cost / all.weight(), 30.0f);
 }
 

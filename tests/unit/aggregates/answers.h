@@ -1,5 +1,5 @@
 #pragma once
-/// Asks two aggregates the same and says where they differ.
+/// Sends the same queries to two aggregates and reports differences.
 
 #include <algorithm>
 #include <cstring>
@@ -36,7 +36,7 @@ inline bool same(const Hit& a, const Hit& b) {
            same_bits(a.v, b.v) && a.part == b.part && a.path == b.path;
 }
 
-/// What an aggregate says about a ray.
+/// All query results of an aggregate for a ray.
 struct Answer {
     Hit closest;
     bool found = false, occluded = false, shadowed = false;
@@ -50,11 +50,11 @@ inline Answer ask(const Aggregate& aggregate, const Ray& ray, RayMask mask = kAl
     answer.occluded = aggregate.occluded(ray, query);
     aggregate.all_hits(ray, answer.all, query);
     answer.shadowed = aggregate.shadowed(ray, answer.crossings, query);
-    if (answer.shadowed) answer.crossings.clear();  // meaningless then
+    if (answer.shadowed) answer.crossings.clear();  // crossings are meaningless then
     return answer;
 }
 
-/// What went differently; empty when nothing did.
+/// Describes the first difference; empty if there is none.
 inline std::string difference(const Answer& list, const Answer& tested) {
     const auto same_all = [](const std::vector<Hit>& a, const std::vector<Hit>& b) {
         return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);

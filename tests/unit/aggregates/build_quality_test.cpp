@@ -1,4 +1,4 @@
-// The hits do not depend on how much work went into the tree.
+// Hits do not depend on the build quality.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ void compare(const std::string& name, const PrimitiveTable& table, const MakeRay
     EXPECT_GT(hits, 0) << name;
 }
 
-/// Long and thin in all directions: what spatial splits are for.
+/// Long thin triangles in random directions, the case for spatial splits.
 PrimitiveTable needles(int count, double length, std::uint64_t seed) {
     Random random(seed);
     TableBuilder builder;
@@ -67,7 +67,7 @@ TEST(BuildQuality, AllGiveTheHitsOfTheListAmongLongThinTriangles) {
 }
 
 TEST(BuildQuality, AllGiveTheHitsOfTheListOnPlanesOfALattice) {
-    // Where the planes of the splits go through vertices, edges and whole triangles.
+    // Split planes pass through vertices, edges and whole triangles.
     Random random(45);
     TableBuilder builder;
     for (int i = 0; i < 800; ++i) {
@@ -101,7 +101,7 @@ TEST(BuildQuality, AllGiveTheHitsOfTheListAtAnySize) {
 }
 
 TEST(BuildQuality, HighDividesLongTrianglesAndCostsLess) {
-    // Beams across a room, as in a building, and small things among them.
+    // Beams across a hall, as in a building, with small objects among them.
     Random random(47);
     TableBuilder builder;
     for (int i = 0; i < 300; ++i) {
@@ -177,7 +177,7 @@ TEST(BuildQuality, SlicesOfATriangleHoldItsPointsAndAreNoLargerThanByRepeatedSpl
     for (std::uint32_t id = 0; id < table.size(); ++id) {
         std::array<Vec3, 3> t = table.triangle_vertices(id);
         for (Vec3& p : t) p = frame.local(p);
-        // Of every other triangle a part only.
+        // Only a part of every other triangle.
         FloatBox box = frame.local(table.box(id)), rest;
         const int axis = uniform_int(random, 0, 2);
         BuildReference r(box, id, 0);

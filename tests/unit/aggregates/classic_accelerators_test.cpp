@@ -1,6 +1,6 @@
-/// Every accelerator of the table, with every kind of setting that changes how it works, says what
-/// brute force says. A new accelerator is compared by its line in the table; its settings are added
-/// here.
+/// Every accelerator of the table, with every kind of setting that changes how it works, has the
+/// results of brute force. A new accelerator is tested by its line in the table; its settings are
+/// added here.
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ class EveryAccelerator : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Table, EveryAccelerator, ::testing::ValuesIn(accelerators_to_compare()),
                          test_name);
 
-/// A scene with rays and what brute force says about them.
+/// A scene with rays and the results of brute force.
 struct Expected {
     ConformanceScene scene;
     std::vector<Ray> rays;
@@ -109,7 +109,7 @@ TEST_P(EveryAccelerator, FindsTheHitsOfBruteForce) {
     }
 }
 
-/// Instances of one accelerator inside another one.
+/// Instances of one accelerator inside another.
 std::shared_ptr<const Aggregate> nest(const std::string& outer, const std::string& inner) {
     const std::shared_ptr<const Aggregate> placed =
         make_aggregate(inner, random_mixture(40, 1, 0.3, 22));
@@ -141,7 +141,7 @@ TEST_P(EveryAccelerator, WorksInsideAndOutsideOfInstancesOfEveryOther) {
 }
 
 TEST(UniformGrid, WithoutTheRuleThatAHitLiesInItsCellTheWrongOneIsFound) {
-    // A long triangle is in the first cells of the ray, which meets it far behind the small one.
+    // A long triangle lies in the first cells of the ray but is hit far behind the small one.
     TableBuilder builder;
     builder.add_triangle({-1, -1, 0}, {-1, 1, 0}, {20, 0, 8});
     builder.add_triangle({3, -0.5, 1.5}, {3, 0.5, 1.5}, {3, 0, 4});

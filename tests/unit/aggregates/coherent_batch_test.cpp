@@ -1,4 +1,4 @@
-// The hint that rays are coherent changes no hit, whatever the rays are.
+// The coherence hint changes no hit, whatever the rays are.
 
 #include <gtest/gtest.h>
 
@@ -125,7 +125,7 @@ TEST(CoherentBatch, RangesOfRaysHold) {
             ray.t_max = ray.t_min + (random() % 2 == 0 ? 0.2 : 1e-6);
         }
         compare("short rays at " + name, table, rays);
-        // Ranges that end exactly at the hit, or begin there, or just miss it.
+        // Ranges that end exactly at the hit, begin there, or just miss it.
         const auto list = make_aggregate("list", table);
         for (Ray& ray : rays) {
             ray.t_min = 0;
@@ -147,7 +147,7 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
     TableBuilder builder;
     std::vector<Vec3> targets;
     for (int i = 0; i < 400; ++i) {
-        // A lattice: shared vertices and edges, triangles in common planes and twice the same.
+        // A lattice: shared vertices and edges, coplanar and duplicate triangles.
         const Vec3 a = 0.25 * lattice_point(random, 4);
         const Vec3 b = a + 0.25 * lattice_point(random, 1), c = a + 0.25 * lattice_point(random, 1);
         builder.add_triangle(a, b, c, random() % 2 == 0);
@@ -163,7 +163,7 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
         for (Ray& ray : rays) ray.t_max = 1;
         compare("rays to vertices and edges", table, rays);
     }
-    // Side by side along an axis: no point in common but a direction, zeros of both signs.
+    // Parallel along an axis: a common direction instead of a common point, zeros of both signs.
     Rays rays;
     for (int i = 0; i < 400; ++i) {
         rays.push_back({{0.125 * (i % 20 - 10), 0.125 * (i / 20 - 10), 2}, {0.0, -0.0, -1}});
@@ -174,7 +174,7 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
 }
 
 TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
-    // Corners behind the eye, beside it and at its very depth, whose slopes say nothing.
+    // Corners behind the eye, beside it and at its depth, whose slopes are meaningless.
     Random random(18);
     TableBuilder builder;
     for (int i = 0; i < 300; ++i) {
@@ -201,7 +201,7 @@ TEST(CoherentBatch, FarRaysAndOddScalesHitWhatTheListHits) {
             Rays rays = eye_rays({0.1 * size, 0.2 * size, 3 * size}, {0, 0, -1}, 0.7, 12);
             compare(name.str() + ", " + kind, table, rays);
             for (Ray& ray : rays) ray.direction = size * ray.direction;
-            // Squares of 1e100 times 1e100 leave the range of double: spheres are missed by all.
+            // Products of 1e100 and 1e100, squared, overflow double: all spheres are missed.
             compare(name.str() + " with directions, " + kind, table, rays, size < 1e99);
         }
     }

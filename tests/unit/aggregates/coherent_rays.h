@@ -1,5 +1,5 @@
 #pragma once
-/// Rays that go nearly the same way, and what batches of such are held to: the hits of the list.
+/// Coherent rays, and the comparison of their batches with the hits of the list.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace alhazen::testing {
 
 using Rays = std::vector<Ray>;
 
-/// The packets themselves, also where the aggregate would not choose them.
+/// Compares packets directly, even if the aggregate would not choose them.
 inline void compare_packets(const WideBvhAggregate& tested, const Rays& rays,
                             const std::vector<Hit>& expected, const std::string& name) {
     const WideBvhScene scene(tested.primitives(), tested.layout());
@@ -46,7 +46,7 @@ inline void compare_with(const Aggregate& list, const Aggregate& tested, const R
         ASSERT_TRUE(same(counted[i], hits[i])) << name << ", ray " << i;
     }
     const auto* tree = dynamic_cast<const WideBvhAggregate*>(&tested);
-    // What has no bounds is not in the tree.
+    // Unbounded primitives are not in the tree.
     if (tree != nullptr && std::isfinite(tree->box().size().x) && !tree->layout().tree.empty) {
         compare_packets(*tree, rays, hits, name);
     }
@@ -61,7 +61,7 @@ inline void compare(const std::string& name, const PrimitiveTable& table, const 
         Hit hit;
         found += list->closest(ray, hit, nullptr);
     }
-    // A comparison of misses only would say little.
+    // Guards against comparing only misses.
     EXPECT_TRUE(!some_hit || found > 0) << name;
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride use(target);
@@ -69,7 +69,7 @@ inline void compare(const std::string& name, const PrimitiveTable& table, const 
     }
 }
 
-/// Eye rays through a square of side x side points, `width` wide at distance 1, along `look`.
+/// Eye rays through side x side points of a square, `width` wide at distance 1, along `look`.
 inline Rays eye_rays(const Vec3& eye, const Vec3& look, double width, int side) {
     const Vec3 u = perpendicular(normalize(look));
     const Vec3 v = normalize(cross(look, u));

@@ -1,4 +1,5 @@
-// Packets of coherent rays meet shapes and small solids eight rays at a time: as the list does.
+// Packets of coherent rays test shapes and small solids eight rays at a time, with the hits of the
+// list.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-/// Many small solids made of others, where they are made or placed by transforms, and other shapes.
+/// Many small CSG solids, some placed by transforms, and other shapes.
 PrimitiveTable small_solids(std::uint64_t seed, bool with_boxes) {
     RandomStream random(seed);
     SceneMaker maker;
@@ -41,7 +42,7 @@ PrimitiveTable small_solids(std::uint64_t seed, bool with_boxes) {
     for (int i = 0; i < 10; ++i) {
         maker.add(Sphere{point(), 0.1});
         maker.add(Torus{.center = point(), .major_radius = 0.1, .minor_radius = 0.03});
-        if (!with_boxes) continue;  // which are tested one by one, so that packets do not pay
+        if (!with_boxes) continue;  // tested one by one, so that packets do not pay
         maker.add(BoxShape{{0, 0, 0}, {0.1, 0.1, 0.1}}, MaterialId{0}, Affine::translate(point()));
     }
     return maker.compile().aggregate->primitives();
@@ -51,7 +52,7 @@ TEST(CoherentShapes, SmallSolidsAreHitAsByTheList) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const PrimitiveTable table = small_solids(seed, seed % 2 == 0);
         const std::string name = "small solids " + std::to_string(seed);
-        // No whole number of packets, nor of groups of eight.
+        // The count is no multiple of packets or of groups of eight.
         compare(name, table, eye_rays({0.1, 0.2, 4}, {0, 0, -1}, 0.6, 45));
         compare(name + " from inside", table, eye_rays({0.1, 0.2, 0.3}, {-1, 0.2, 0.3}, 0.4, 24));
         compare(name + " in shadow", table,
@@ -61,8 +62,8 @@ TEST(CoherentShapes, SmallSolidsAreHitAsByTheList) {
 }
 
 TEST(CoherentShapes, RaysThatTouchBallsHitWhatTheListHits) {
-    // Packets around one solid each, whose groups of eight rays go as narrow as can be past the
-    // very limb of the ball around it.
+    // Packets around one solid each, whose groups of eight rays get as narrow as possible near the
+    // silhouette of the bounding sphere.
     const PrimitiveTable table = small_solids(5, false);
     RandomStream random(6);
     for (const double off : {1e-2, 1e-5, 1e-7, 1e-9, 1e-14}) {
@@ -89,19 +90,19 @@ TEST(CoherentShapes, RaysThatTouchBallsHitWhatTheListHits) {
 }
 
 TEST(CoherentShapes, RaysOfSeveralWaysInOnePacketHitWhatTheListHits) {
-    // Those that are longest along x, along y and along z side by side.
+    // Solids longest along x, along y and along z next to each other.
     for (std::uint64_t seed = 7; seed < 10; ++seed) {
         const PrimitiveTable table = small_solids(seed, seed % 2 == 0);
         const std::string name = "ways " + std::to_string(seed);
         compare(name, table, eye_rays({-2, -2, -2}, {1, 1, 1}, 0.7, 40));
         compare(name + " of two", table, eye_rays({-2, -2, 0}, {1, 1, 0.1}, 0.5, 40));
-        // Few of one way, far from the first of their packet.
+        // Few rays of one direction, far from the first of their packet.
         compare(name + " of a corner", table, eye_rays({2, 2, 2}, {-1, -1.02, -1.05}, 0.1, 40));
     }
 }
 
 TEST(CoherentShapes, RaysInThePlanesOfCoordinatesAreThoseOfTheList) {
-    // Zeros of either sign, where a solid stands that no transform moves.
+    // Zeros of either sign at a solid without a transform.
     SceneMaker maker;
     maker.material({});
     const ObjectIndex object = maker.object("ball with a hole");
@@ -122,8 +123,8 @@ TEST(CoherentShapes, RaysInThePlanesOfCoordinatesAreThoseOfTheList) {
     compare("rays in a plane", maker.compile().aggregate->primitives(), rays);
 }
 
-/// Bodies as flat as paper, one over the other, that lean a little: by slabs that are nearly, but
-/// not quite, across each other.
+/// Stacked bodies as thin as paper, slightly tilted: their slabs are nearly, but not quite,
+/// perpendicular.
 PrimitiveTable sheets(double lean) {
     SceneMaker maker;
     maker.material({});
@@ -151,7 +152,7 @@ TEST(CoherentShapes, FlatBodiesThatLeanAreHitAsByTheList) {
 }
 
 TEST(CoherentShapes, GroupsWithoutAUsableRayMeetNothing) {
-    // Sheared, so that packets have only boxes around balls for them.
+    // Sheared, so that packets have only bounding boxes of balls.
     SceneMaker maker;
     maker.material({});
     RandomStream random(4);

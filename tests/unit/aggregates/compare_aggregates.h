@@ -1,5 +1,5 @@
 #pragma once
-/// The tables and rays that most comparisons of aggregates use.
+/// Tables and rays of most comparisons of aggregates.
 
 #include <functional>
 #include <limits>

@@ -1,5 +1,5 @@
 #pragma once
-/// The scenes and rays on which every accelerator must say what brute force says: random, on a
+/// Scenes and rays on which every accelerator must have the results of brute force: random, on a
 /// lattice, empty, of one primitive, coincident, flat, huge, tiny, nested; rays inside, on faces,
 /// axis-parallel, with -0.0, from far away, to lights.
 
@@ -29,7 +29,7 @@ inline MakeRay lattice_rays(int reach) {
     };
 }
 
-/// Towards the unit cube from `distance`, some exactly along an axis.
+/// Rays towards the unit cube from `distance`, some exactly along an axis.
 inline MakeRay rays_from(double distance) {
     return [distance](Random& random) {
         Ray ray{distance * uniform_point(random, 1), {}, 0, 1e300};
@@ -113,7 +113,7 @@ inline PrimitiveTable far_table(const Vec3& there) {
     return builder.finish();
 }
 
-/// Lights that the table names, some close behind large triangles.
+/// Lights registered in the table, some close behind large triangles.
 inline PrimitiveTable lit_table() {
     Random random(19);
     TableBuilder builder;
@@ -131,8 +131,8 @@ inline PrimitiveTable lit_table() {
     return builder.finish();
 }
 
-/// Shadow rays: to each of the lights, from anywhere, some a little beside it, some not all the way
-/// or beyond.
+/// Shadow rays to each of the lights from anywhere; some miss the light slightly, end before it or
+/// beyond it.
 inline MakeRay rays_to(std::vector<RayEnd> ends) {
     return [ends = std::move(ends)](Random& random) {
         const RayEnd& end = ends[random() % ends.size()];

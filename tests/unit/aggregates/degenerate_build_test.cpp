@@ -1,4 +1,4 @@
-// Inputs on which builders are known to become slow or their trees deep, for every quality.
+// Inputs known to make builders slow or trees deep, at every quality.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ struct Built {
 };
 
 Built build(const PrimitiveTable& table, BuildQuality quality) {
-    // Of this process: what else the machine does is not counted.
+    // Processor time of this process; excludes other load of the machine.
     const std::clock_t begin = std::clock();
     auto tree = std::make_shared<const WideBvhAggregate>(table, BuildOptions{quality});
     const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -39,7 +39,7 @@ PrimitiveTable table_of(const Place& place) {
     return builder.finish();
 }
 
-/// The same over as many triangles that lie about.
+/// The same for as many randomly placed triangles.
 const Built& usual_build(BuildQuality quality) {
     static const std::vector<Built> builds = [] {
         const PrimitiveTable table = random_triangles(kCount, 1, 0.01, 62);
@@ -52,8 +52,8 @@ const Built& usual_build(BuildQuality quality) {
     return builds[static_cast<std::size_t>(quality)];
 }
 
-/// Not so many times slower, not much larger or deeper than over triangles that lie about; and a
-/// ray or two.
+/// Checks that the build is not many times slower, larger or deeper than for randomly placed
+/// triangles, and traces some rays.
 template <class Place>
 void check(const std::string& name, const Place& place, int most_depth, double reach = 1) {
     const PrimitiveTable table = table_of(place);
@@ -114,7 +114,7 @@ TEST(DegenerateBuild, AllCentersEqual) {
             const Vec3 a = uniform_point(random, 1), b = uniform_point(random, 1);
             builder.add_triangle(a, b, -a);
         },
-        // Everything overlaps everything: no split brings much.
+        // Everything overlaps everything: splits gain little.
         40);
 }
 

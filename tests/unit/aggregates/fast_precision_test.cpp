@@ -1,5 +1,5 @@
-// Precision::Fast: almost the hits of the list, with the rounding of float; alone and in batches
-// the same bits.
+// Precision::Fast: the hits of the list up to the rounding of float; the same bits alone and in
+// batches.
 
 #include <gtest/gtest.h>
 
@@ -97,7 +97,8 @@ TEST(FastPrecision, RaysThatDoNotFitIntoFloatHaveTheHitsOfTheList) {
         const auto fast = fast_tree(table);
         std::size_t found = 0;
         for (int i = 0; i < 1000; ++i) {
-            // In an ordinary scene: from too far away, aimed at it or not, or in too small steps.
+            // In an ordinary scene: from too far away, aimed at it or not, or with too small
+            // directions.
             const double away = scale == 1.0 && i % 3 != 0 ? 0x1p42 : 2 * scale;
             const double step = scale == 1.0 && i % 3 == 0 ? 0x1p-210 : 1;
             Ray ray{uniform_point(random, away), {}};

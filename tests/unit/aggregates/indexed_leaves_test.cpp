@@ -1,5 +1,5 @@
 // Leaves::Indices: the hits of the list on every instruction set, alone and in batches; a fourth of
-// the memory; refitted and stored like the others.
+// the memory; refit and storage as for the others.
 
 #include <gtest/gtest.h>
 

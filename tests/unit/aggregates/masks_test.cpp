@@ -21,7 +21,7 @@ RayMask random_mask(Random& random) {
     return kVisible[random() % 8];
 }
 
-/// Gives every mesh, shape and instance a mask; meshes are cut into small ones first.
+/// Gives every mesh, shape and instance a mask; splits meshes into small ones first.
 void mask_all(PrimitiveTable& table, Random& random) {
     std::vector<PlacedMesh> pieces;
     for (const PlacedMesh& placed : table.meshes) {
@@ -47,7 +47,7 @@ void mask_all(PrimitiveTable& table, Random& random) {
     table.finish();
 }
 
-/// What the columns say, found without the table's own way of finding it.
+/// Mask of a primitive, read from the columns independently of the table's own lookup.
 RayMask mask_in_columns(const PrimitiveTable& table, PrimitiveId id) {
     const std::uint32_t kind = table.kind(id), i = table.index(id);
     if (kind == kInstanceKind) return table.instances[i].visible_to;
@@ -78,7 +78,7 @@ bool is_seen(const Aggregate& aggregate, const Hit& hit, RayMask mask) {
     return (mask_in_columns(*table, hit.primitive) & mask) != 0;
 }
 
-/// The answers, from all that is hit where the same primitives have no masks.
+/// Expected results, derived from all hits of the same primitives without masks.
 Answer expected(const std::vector<Hit>& unmasked, const Aggregate& masked, RayMask mask) {
     Answer answer;
     for (const Hit& hit : unmasked) {
@@ -92,7 +92,7 @@ Answer expected(const std::vector<Hit>& unmasked, const Aggregate& masked, RayMa
     return answer;
 }
 
-/// All batches, also by packets where the aggregate would not choose them.
+/// Compares all batch queries, and packets even if the aggregate would not choose them.
 void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
                      const std::vector<Answer>& answers, RayMask mask, const std::string& name) {
     const std::size_t n = rays.size();
@@ -120,7 +120,7 @@ void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
     check("packets");
 }
 
-/// `unmasked`: a list of the same primitives, all of them visible.
+/// `unmasked`: a list of the same primitives, all visible.
 void compare(const Aggregate& tested, const Aggregate& unmasked, const std::vector<Ray>& rays,
              const std::string& name) {
     std::vector<std::vector<Hit>> hits(rays.size());
@@ -139,7 +139,7 @@ void compare(const Aggregate& tested, const Aggregate& unmasked, const std::vect
     }
 }
 
-/// Half of them from one point, side by side, as packets like them.
+/// Half of the rays start at one point with neighbouring directions, as packets need.
 std::vector<Ray> rays_at(double reach, std::uint64_t seed) {
     Random random(seed);
     const MakeRay make = random_rays(reach);
@@ -159,7 +159,7 @@ std::vector<std::pair<std::string, PrimitiveTable>> tables() {
             {"mixture with planes", random_mixture(100, 1, 0.4, 3)}};
 }
 
-/// Only the wide BVH has a kernel for each target: the others are compared on the first one.
+/// Only the wide BVH has a kernel per target: others are compared on the first one.
 bool differs_by_target(const AcceleratorEntry& entry, const std::string& target) {
     return entry.name == std::string("wide_bvh") || target == simd_targets().front();
 }
@@ -195,7 +195,7 @@ TEST(Masks, TreesOfEveryBuildObeyThem) {
     }
 }
 
-/// Three levels: `leaf` in instances in instances, beside some of its own kind on every level.
+/// Three levels: `leaf` in instances in instances, with primitives on every level.
 std::shared_ptr<const Aggregate> nest(const char* accelerator, bool masks) {
     Random random(9);
     std::shared_ptr<const Aggregate> inner;
@@ -265,7 +265,7 @@ TEST(Masks, ASureHitThatIsNotSeenHidesNothingBehindIt) {
 }
 
 TEST(Masks, FastModeGivesTheHitsOfATableWithoutWhatIsHidden) {
-    // What is hidden comes last and lies within what is seen: ids and the frame stay as they are.
+    // Hidden primitives come last and lie within the visible ones: ids and frame stay the same.
     const PrimitiveTable seen = random_triangles(200, 1, 0.5, 13);
     PrimitiveTable both = seen;
     auto hidden = std::make_shared<TriangleMesh>();

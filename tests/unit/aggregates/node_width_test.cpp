@@ -21,7 +21,7 @@ std::vector<Ray> rays_of(const MakeRay& make_ray, int count) {
     return rays;
 }
 
-/// What the list says, and what a tree says one by one and in batches.
+/// Compares the list with a tree by single rays and in batches.
 void compare(const std::string& name, const PrimitiveTable& table, const WideBvhAggregate& tested,
              const std::vector<Ray>& rays) {
     const auto list = make_aggregate("list", table);
@@ -103,7 +103,7 @@ TEST(NodeWidths, OthersAreRefused) {
 }
 
 TEST(AnyHitOrder, PutsWhatBlocksMostFirst) {
-    // A wall that hardly any ray gets past, and a few grains in boxes as large.
+    // A wall that hardly any ray passes, and a few grains in equally large boxes.
     TableBuilder builder;
     for (int i = 0; i < 8; ++i) {
         const double x = 10.0 * i;

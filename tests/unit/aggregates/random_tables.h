@@ -31,7 +31,7 @@ inline Vec3 lattice_point(Random& random, int reach) {
     return Vec3{double(x), double(y), double(uniform_int(random, -reach, reach))};
 }
 
-/// A table in the making. Material 0 is opaque, 1 is not.
+/// Builds a table. Material 0 is opaque, 1 is not.
 struct TableBuilder {
     PrimitiveTable table;
     std::shared_ptr<TriangleMesh> mesh = std::make_shared<TriangleMesh>();

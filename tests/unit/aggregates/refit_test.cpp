@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;
 
-/// Primitives that stand elsewhere for every moment, the same ones; `seed` is that of the places.
+/// The same primitives at positions that depend on `seed`, as at different times of an animation.
 PrimitiveTable moving(double reach, double wander, std::uint64_t seed, bool collapse_one = false) {
     Random still(51), random(seed);
     TableBuilder builder;
@@ -67,7 +67,7 @@ TEST(Refit, ATriangleWhoseVerticesMeetIsNotHitUntilTheyPart) {
     compare(tree, met, 1);
     (void)tree.refit(moving(1, 0, 1));
     compare(tree, moving(1, 0, 1), 1);
-    // Built without it, the tree cannot take it in.
+    // A tree built without a primitive cannot include it by refitting.
     WideBvhAggregate without(met);
     EXPECT_THROW((void)without.refit(moving(1, 0, 1)), Error);
     compare(without, met, 1);

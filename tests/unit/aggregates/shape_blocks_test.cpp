@@ -23,7 +23,7 @@ void add(PrimitiveTable& table, const S& shape, bool opaque, std::uint32_t place
     column.materials.push_back(MaterialId{opaque ? 0u : 1u});
 }
 
-/// A turned, sheared and moved frame.
+/// A rotated, sheared and translated frame.
 Placement some_placement(Random& random) {
     Placement placement;
     Affine& outer = placement.outer_from_inner;
@@ -62,7 +62,7 @@ Ray random_ray(Random& random, bool lattice) {
     return ray;
 }
 
-/// A ray that just so meets a primitive: between one that does and one that does not.
+/// A ray at the limit of hitting a primitive: between one that hits and one that misses.
 Ray grazing_ray(Random& random, const PrimitiveTable& table) {
     const auto id =
         PrimitiveId{static_cast<std::uint32_t>(random.below(static_cast<int>(table.size())))};
@@ -72,7 +72,7 @@ Ray grazing_ray(Random& random, const PrimitiveTable& table) {
     const Box3 box = table.box(static_cast<std::uint32_t>(id));
     const Vec3 middle = box.bounded() ? box.center() : Vec3{};
     const double size = box.bounded() ? length(box.size()) : 10.0;
-    // Some from so far away that float knows the place of the shape only coarsely.
+    // Some from so far away that float has the position of the shape only coarsely.
     const double away = random.log_uniform(1, random.below(4) == 0 ? 1e5 : 30);
     Ray hit{middle + away * size * random.unit_vector(), {}, 0, kInf}, miss = hit;
     for (int i = 0; i < 100; ++i) {
@@ -148,7 +148,7 @@ TYPED_TEST(ShapeBlocks, LoseNoHitOfARayThatJustSoMeetsAShape) {
     }
 }
 
-/// One of everything, in one tree.
+/// One shape of each kind in one tree.
 struct Mixture {
     PrimitiveTable table;
     Random& random;
@@ -222,7 +222,7 @@ TEST(ShapeBlocksMixture, OfTurnedInstancesGivesTheHitsOfNestedLists) {
 }
 
 TEST(ShapeBlocksMixture, OfThinShapesIsPassedByRaysThatMissThem) {
-    // The filters leave little to the tests in double: or they would be of no use.
+    // The filters must reject most candidates before the tests in double.
     Random random(106);
     PrimitiveTable table;
     for (int i = 0; i < 400; ++i) {

@@ -36,7 +36,7 @@ Placement some_placement(Random& random) {
     return placement;
 }
 
-/// `count` shapes that treeless packets may test, at times a plane below them.
+/// `count` shapes supported by treeless packets, sometimes with a plane below them.
 PrimitiveTable few_shapes(Random& random, int count) {
     PrimitiveTable table;
     table.placements.push_back(some_placement(random));

@@ -24,10 +24,10 @@ using testing::TableBuilder;
 using testing::uniform;
 using testing::uniform_point;
 
-// The places of the format that the tests forge.
+// Offsets of the format that the tests modify.
 constexpr std::size_t kHeader = 512, kCounts = 32, kElementBytes = 160, kArrays = 16;
 
-/// As many boxes as discs.
+/// A table with as many boxes as discs.
 PrimitiveTable table_of(int triangles, int spheres, int discs, int planes, std::uint64_t seed = 1) {
     Random random(seed);
     TableBuilder builder;
@@ -64,7 +64,7 @@ std::vector<Ray> rays_through(std::uint64_t seed, int count) {
     return rays;
 }
 
-/// Why a file is not loaded; empty when it is.
+/// Returns the reason why a file is not loaded; empty if it is.
 std::string refusal(const PrimitiveTable& table, const std::filesystem::path& path) {
     try {
         (void)load_wide_bvh(path, table);
@@ -75,7 +75,7 @@ std::string refusal(const PrimitiveTable& table, const std::filesystem::path& pa
     return {};
 }
 
-/// Sets the checksum right again.
+/// Recomputes the checksum.
 void reseal(std::string& bytes) {
     Checksum sum;
     const std::span all(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
@@ -88,7 +88,7 @@ void reseal(std::string& bytes) {
         std::memcpy(&element, &bytes[kElementBytes + 4 * i], 4);
         const std::size_t size = count * element;
         if (count > bytes.size() || at + size > bytes.size())
-            return;  // refused before the sum is looked at
+            return;  // rejected before the checksum is examined
         sum.add(all.subspan(at, size));
         at += (size + 255) / 256 * 256;
     }
@@ -215,7 +215,7 @@ TEST(WideBvhFile, OtherGeometryIsRefused) {
 }
 
 TEST(WideBvhFile, SolidsThatOtherSpheresHoldAreRefused) {
-    // In the same box: of one the leaves know a smaller ball.
+    // Solids with equal boxes; for one the leaves store a smaller ball.
     const auto solids = [](Combine combine) {
         testing::SceneMaker maker;
         maker.material({});
@@ -239,7 +239,7 @@ TEST(WideBvhFile, SolidsThatOtherSpheresHoldAreRefused) {
     EXPECT_NE(refusal(hollow, path).find("other geometry"), std::string::npos);
 }
 
-/// A tree that someone forges: saved as it is, so that its checksum is right.
+/// Saves a modified tree with a valid checksum.
 std::string forged(const std::function<void(StoredWideBvh&)>& forge,
                    const BuildOptions& options = {}) {
     const ScratchFolder folder;
@@ -252,7 +252,7 @@ std::string forged(const std::function<void(StoredWideBvh&)>& forge,
     return refusal(table, path);
 }
 
-/// Of a block that has others in use.
+/// Frees the first lane of a block with at least two used lanes.
 template <class Blocks>
 void free_first_lane(Blocks& blocks) {
     for (auto& block : blocks) {
@@ -363,7 +363,7 @@ TEST(WideBvhFile, WhatPassesCanBeTraced) {
             forged[i] = char(random());
         }
         reseal(forged);
-        // In place: to cut a file and write it anew costs a wait for the disk.
+        // Written in place: truncating and rewriting a file would wait for the disk.
         std::fstream(path, std::ios::binary | std::ios::in | std::ios::out) << forged;
         if (!refusal(table, path).empty()) continue;
         ++passed;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing;
 
-/// The batches say what the single queries said.
+/// Batches have the results of single queries.
 void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
                      const std::vector<Answer>& answers, const std::string& name) {
     std::vector<Hit> hits(rays.size());
@@ -47,7 +47,7 @@ void compare(const std::string& name, const PrimitiveTable& table, const MakeRay
         answers.push_back(ask(*list, rays.back()));
         hits += answers.back().found;
     }
-    // A comparison of misses only would say little.
+    // Guards against comparing only misses.
     EXPECT_TRUE(table.size() == 0 || hits > 0) << name;
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride use(target);
@@ -193,7 +193,7 @@ TEST(WideBvh, TheTriangleThatFillsFreeLanesOccludesNothing) {
     builder.add_triangle({-0.9, -0.9, -0.9}, {0.9, 0.9, 0.9}, {-0.9, 0.9, -0.9});
     const PrimitiveTable table = builder.finish();
     const auto rays = [](Random& random) {
-        // Half of them towards it, from the scene and from outside.
+        // Half of them aimed at it, from the scene and from outside.
         Ray ray{uniform_point(random, random() % 2 == 0 ? 1 : 40),
                 {},
                 0,
@@ -241,7 +241,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
         const auto rays = [distance](Random& random) {
             Ray ray{distance * uniform_point(random, 1), {}, 0, 1e300};
             if (random() % 3 == 0) {
-                // Along an axis towards a point of the scene: no rounding in the tests.
+                // Along an axis towards a point of the scene: the tests are free of rounding.
                 const int axis = uniform_int(random, 0, 2);
                 ray.origin = uniform_point(random, 1);
                 ray.origin[axis] = distance;
@@ -274,7 +274,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
 
 TEST(WideBvh, FindsTheHitsOfBruteForceOnTrianglesSeenEdgeOn) {
     // Triangles and rays in a few common planes through the x axis, up to rounding: the edge
-    // functions are rounding errors, and a hit that is computed from them could lie anywhere in its
+    // functions are rounding errors, and a hit computed from them could lie anywhere in its
     // triangle's plane.
     Random random(19);
     const auto across = [](Random& generator) {

@@ -98,7 +98,7 @@ TEST_F(File, FilesThatReportNoSizeAreReadWhole) {
 
 TEST_F(File, AFailedWriteLeavesTheOldFileAndNothingElse) {
     put("a", "old");
-    // A limit on the size of files stands for the full disk.
+    // A limit on the size of files simulates a full disk.
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
     rlimit small = before;

@@ -31,7 +31,7 @@ TEST(InlineVector, GrowsToItsCapacityAndShrinks) {
 
 TEST(InlineVector, CopiesAndCompareByTheValuesInUse) {
     Numbers a = numbers({1, 2, 3});
-    a.pop_back();  // what is left in the unused place does not count
+    a.pop_back();  // the unused element does not count
     EXPECT_EQ(a, numbers({1, 2}));
     EXPECT_NE(a, numbers({1, 3}));
     EXPECT_NE(a, numbers({1}));

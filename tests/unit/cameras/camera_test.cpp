@@ -81,7 +81,7 @@ TEST(Camera, RaysSideBySideHaveTheBitsOfEachAlone) {
                     sums.push_back(eye.column(0.025 * static_cast<double>(i)) +
                                    eye.row(0.4 + 0.01 * static_cast<double>(count)));
                 }
-                // One more that must be left alone.
+                // The last element must stay unchanged.
                 std::vector<Ray> rays(count + 1, Ray{{7, 7, 7}, {7, 7, 7}, 7, 7});
                 eye.rays(sums, rays.data());
                 for (std::size_t i = 0; i < count; ++i) {

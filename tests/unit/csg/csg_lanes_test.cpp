@@ -1,4 +1,4 @@
-// Eight rays in lanes find what each finds alone in a solid of a few leaves, bit for bit.
+// Eight rays in lanes have the results of single rays in CSG solids of a few leaves, bit for bit.
 
 #include "alhazen/csg/csg_lanes.h"
 
@@ -24,9 +24,9 @@ using testing::SceneMaker;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// ---- one leaf: where a line enters and leaves a shape
+// ---- one leaf: entry and exit of a line
 
-/// How many of the rays the kernel was sure of.
+/// Returns the number of rays that the kernel resolved.
 template <class S>
 int check_spans(const S& shape, CsgLanesSolid::Kind kind, const void* kernels_shape,
                 Random& random) {
@@ -75,7 +75,7 @@ void check_spans_of(CsgLanesSolid::Kind kind, KernelsShape&& kernels_shape) {
                 sure += check_spans(shape, kind, kernels_shape(shape), random);
             }
         }
-        // Without fused operations cylinders and cones are all left to the scalar text.
+        // Without fused operations all cylinders and cones are left to the scalar code.
         const bool known = kind != CsgLanesSolid::Kind::Frustum || csg_lanes_kernel().knows_frusta;
         EXPECT_EQ(sure > 15000, known) << target << " " << sure;
         EXPECT_EQ(sure > 0, known) << target;
@@ -98,14 +98,14 @@ TEST(CsgLanes, LinesEnterAndLeaveConesWhereEachDoesAlone) {
 
 // ---- solids
 
-/// The CSG object that the scene is one instance of.
+/// The CSG object of which the scene is one instance.
 const CsgAggregate* solid_of(const Scene& scene) {
     const auto& instances = scene.aggregate->primitives().instances;
     if (instances.size() != 1) return nullptr;
     return dynamic_cast<const CsgAggregate*>(instances.front().aggregate.get());
 }
 
-/// How many of `wanted` rays hit.
+/// Returns the number of `wanted` rays that hit.
 int compare(const CsgAggregate& solid, const RayLanes& rays, std::uint32_t wanted,
             const std::string& at) {
     LaneHits hits;
@@ -155,14 +155,14 @@ TEST(CsgLanes, RaysFindInASmallSolidWhatEachFindsAlone) {
                     target + " seed " + std::to_string(seed) + " block " + std::to_string(block));
             }
         }
-        // Else only those of spheres and boxes.
+        // Without frusta only spheres and boxes.
         const bool most = csg_lanes_kernel().knows_frusta;
         EXPECT_GT(small, most ? 40 : 4) << target;
         EXPECT_GT(hit_count, most ? 2000 : 200) << target;
     }
 }
 
-/// A solid of shapes: a sphere around the origin, and what is taken away from it.
+/// A sphere around the origin minus other shapes.
 std::unique_ptr<CsgAggregate> sphere_without(std::size_t others, auto&& add_others) {
     PrimitiveTable table;
     const auto add = [&](auto shape) {
@@ -184,17 +184,17 @@ std::unique_ptr<CsgAggregate> sphere_without(std::size_t others, auto&& add_othe
     return std::make_unique<CsgAggregate>(std::move(table), std::move(expression), "event_heap");
 }
 
-// Where a ray enters the sphere is all that matters unless a surface of the others is near there.
-// All lanes hold one ray, for they are settled together or not at all.
+// Only the entry into the sphere matters unless a surface of the other shapes is near. All lanes
+// hold the same ray, because lanes are resolved together or not at all.
 TEST(CsgLanes, RaysThatEnterNearTheRimOfAHoleFindWhatEachFindsAlone) {
     for (const std::string& target : simd_targets()) {
-        // Solids choose their kernels where they are made.
+        // Solids choose their kernels when they are built.
         const SimdTargetOverride forced(target);
         std::vector<std::unique_ptr<CsgAggregate>> solids;
         solids.push_back(sphere_without(1, [](auto&& add) {
             add(Cylinder{.base = {0, 0, -2}, .top = {0, 0, 2}, .radius = 0.6});
         }));
-        // The sphere touches one box from inside, and another box's corner is on it.
+        // The sphere touches one box from inside and passes through a corner of another.
         solids.push_back(sphere_without(2, [](auto&& add) {
             add(BoxShape{{-2, -2, 1}, {2, 2, 2}});
             add(BoxShape{{0.6, 0, 0.8}, {2, 2, 2}});
@@ -227,8 +227,8 @@ TEST(CsgLanes, RaysThatEnterNearTheRimOfAHoleFindWhatEachFindsAlone) {
     }
 }
 
-// The larger a leaf, the more the place where it is crossed is rounded: by more than crossings lie
-// apart.
+// The larger a leaf, the larger the rounding of its crossings: here more than the distance between
+// crossings.
 TEST(CsgLanes, RaysFindBesideHugeLeavesWhatEachFindsAlone) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
@@ -236,7 +236,7 @@ TEST(CsgLanes, RaysFindBesideHugeLeavesWhatEachFindsAlone) {
             const auto solid = sphere_without(1, [&](auto&& add) {
                 add(Sphere{{0, 0, 0.5 + radius}, radius});
             });
-            // The circle in which the spheres meet.
+            // Radius of the circle in which the spheres intersect.
             const double rim = (1.25 + radius) / (1 + 2 * radius);
             Random random(12);
             for (int i = 0; i < 20000 && !::testing::Test::HasFailure(); ++i) {

@@ -32,8 +32,8 @@ Walls walls(const Scene& scene, const Ray& ray) {
     return found;
 }
 
-/// Glass from 0 to 2, a liquid from 1 to 3 on the x axis, glass named first; behind them an opaque
-/// core from 2.5 to 4.
+/// Glass from 0 to 2 and a liquid from 1 to 3 on the x axis, glass listed first; behind them an
+/// opaque core from 2.5 to 4.
 SceneMaker tank() {
     SceneMaker maker;
     const MaterialId glass = maker.material(clear("glass"));
@@ -53,7 +53,7 @@ TEST(CsgMedia, WallsBetweenMediaAreSurfacesWithBothSidesKnown) {
         SceneMaker maker = tank();
         const Scene scene = compiled(maker, evaluator);
         const Walls w = walls(scene, {{-1, 0.1, 0.2}, {1, 0, 0}});
-        // What is named first fills where two overlap; walls count twice, out of one into another.
+        // The first listed solid fills an overlap; interfaces count twice, as exit and entry.
         EXPECT_EQ(w.t, (std::vector<double>{1, 3, 3, 3.5, 3.5, 5}));
         const std::optional<MaterialId> none, glass{MaterialId{0}}, liquid{MaterialId{1}},
             core{MaterialId{2}};
@@ -82,7 +82,7 @@ TEST(CsgMedia, CoincidentWallsAreOneHoweverTheyRound) {
     for (const char* evaluator : kEvaluators) {
         RandomStream random(11);
         for (int i = 0; i < 100; ++i) {
-            // A glass: a cylinder without its hollow; the liquid fills the hollow exactly.
+            // A drinking glass: a cylinder minus its hollow; the liquid fills the hollow exactly.
             const Affine turned =
                 Affine::rotate({random.uniform(-1, 1), 1, 0.5}, random.uniform(0, 6));
             const double r = random.uniform(0.5, 0.9);
@@ -105,7 +105,8 @@ TEST(CsgMedia, CoincidentWallsAreOneHoweverTheyRound) {
             const Vec3 origin =
                 turned.point({-3, random.uniform(-0.4, 0.4), random.uniform(-0.8, 0.4)});
             const Walls w = walls(scene, {origin, turned.vector({1, 0, 0})});
-            ASSERT_EQ(w.t.size(), 6u) << i;  // in, glass to water and back twice each, out
+            ASSERT_EQ(w.t.size(), 6u)
+                << i;  // entry, glass to water and back with two crossings each, exit
             EXPECT_EQ(w.media[1].before, glass);
             EXPECT_EQ(w.media[1].after, water);
             EXPECT_EQ(w.media[3].before, water);

@@ -1,6 +1,6 @@
 #pragma once
-/// What random solids are held to: both evaluators find the same transitions, and those that the
-/// classification of points tells.
+/// Checks of random solids: both evaluators find the same transitions, and these agree with the
+/// classification of points.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ inline void expect_same_hits(const std::vector<Hit>& a, const std::vector<Hit>& 
     }
 }
 
-/// Between transitions every point is on the side that their number says.
+/// Between transitions every point is on the side given by their number.
 inline void expect_true_spans(const SceneDescription& d, ObjectIndex object, const Ray& ray,
                               const std::vector<Hit>& hits, RandomStream& random,
                               const std::string& at) {
@@ -73,7 +73,7 @@ inline void expect_rays_limited_to_the_same_hits(const Scene& scene, const Ray& 
     if (!expected.empty()) expect_same_hits({first}, {expected.front()}, at + " closest");
 }
 
-/// Normals point out of the solid: against the ray where it enters.
+/// Normals point out of the solid: against the ray at entries.
 inline void expect_outward_normals(const Scene& scene, const Ray& ray, const std::vector<Hit>& hits,
                                    const std::string& at) {
     for (std::size_t i = 0; i < hits.size(); ++i) {

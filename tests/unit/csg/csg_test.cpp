@@ -161,14 +161,15 @@ TEST(Csg, TheLawsOfSetsHoldToTheBit) {
                 const std::vector<double> a = ts(pairs[p].first, ray);
                 const std::vector<double> b = ts(pairs[p].second, ray);
                 ASSERT_EQ(a.size(), b.size()) << "seed " << seed << " ray " << i << " law " << p;
-                // Where surfaces coincide another one is seen: the same place to its rounding.
+                // Where surfaces coincide another one may be reported, at the same t up to
+                // rounding.
                 for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-11);
             }
         }
     }
 }
 
-/// Unit cubes on the integer lattice: the truth is a set of voxels.
+/// Unit cubes on the integer lattice; the reference result is a set of voxels.
 class Voxels {
   public:
     static constexpr int kSide = 4;
@@ -190,7 +191,7 @@ struct VoxelTree {
             lo[k] = below(Voxels::kSide);
             hi[k] = lo[k] + 1 + below(Voxels::kSide - lo[k]);
         }
-        // Some are written as a unit cube in another place and size.
+        // Some cubes are transformed unit cubes.
         if (below(2) == 0) {
             maker.add(BoxShape{{double(lo[0]), double(lo[1]), double(lo[2])},
                                {double(hi[0]), double(hi[1]), double(hi[2])}},
@@ -279,7 +280,7 @@ TEST(Csg, ClosedMeshesAndSharedObjectsAreOperands) {
             SceneMaker maker;
             TriangleMesh inward = testing::tetrahedron();
             for (auto& t : inward.triangles) std::swap(t[1], t[2]);
-            const ObjectIndex shared = maker.object("shared");  // a group: its union
+            const ObjectIndex shared = maker.object("shared");  // a group: the union of its parts
             maker.add(maker.mesh(testing::tetrahedron()), MaterialId{0}, {}, shared);
             maker.add(Sphere{{0, 0, 0}, 0.8}, MaterialId{0}, {}, shared);
             const ObjectIndex d = solid(maker, Combine::Difference);
@@ -302,7 +303,8 @@ TEST(Csg, ClosedMeshesAndSharedObjectsAreOperands) {
                 testing::expect_outward_normals(scene, ray, hits, std::to_string(i));
             }
             EXPECT_GT(with_hits, 50);
-            // There the tetrahedra span 0.8 along x; two of them meet at x = 1 and leave no wall.
+            // Here the tetrahedra span 0.8 along x; two of them touch at x = 1 without an internal
+            // wall.
             const std::vector<double> x = ts(scene, {{-10, 0.6, 0.6}, {1, 0, 0}});
             const double expected[] = {7, 8.2, 9, 10.2, 11.8, 13};
             ASSERT_EQ(x.size(), std::size(expected));
@@ -324,7 +326,7 @@ TEST(Csg, NestingThatIsNotInstancedHasNoLimitOfItsOwn) {
     }
     maker.add(Sphere{{0, 0, 0}, 50}, MaterialId{0}, {}, outer);
     for (const char* evaluator : kEvaluators) {
-        // Spheres in spheres: 300 in, 299 out, ...
+        // Nested spheres: in at 300, out at 299, ...
         const std::vector<double> t = ts(compiled(maker, evaluator), {{-400, 0, 0}, {1, 0, 0}});
         ASSERT_EQ(t.size(), 2u * 201u);
         for (std::size_t i = 0; i < 200; ++i) EXPECT_EQ(t[i], 100.0 + static_cast<double>(i));
@@ -343,7 +345,7 @@ TEST(Csg, ShadowsKnowWhatIsOpaque) {
         maker.add(d);
         const Scene scene = compiled(maker, evaluator);
         std::vector<Hit> crossings;
-        // Sideways through glass only; downward through the opaque cut.
+        // Sideways only through glass; downward through the opaque cut.
         EXPECT_FALSE(scene.aggregate->shadowed({{-5, 0, -1}, {1, 0, 0}}, crossings, nullptr));
         EXPECT_EQ(crossings.size(), 2u);
         EXPECT_TRUE(scene.aggregate->shadowed({{0, 0, 5}, {0, 0, -1}}, crossings, nullptr));

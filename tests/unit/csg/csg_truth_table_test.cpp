@@ -1,4 +1,4 @@
-// Small solids have an evaluator of their own: it finds what the event heap finds, bit for bit.
+// The truth-table evaluator of small solids has the results of the event heap, bit for bit.
 
 #include "alhazen/csg/csg_truth_table.h"
 
@@ -15,7 +15,7 @@ using testing::RandomSolids;
 
 using testing::SceneMaker;
 
-/// The CSG object that the scene is one instance of.
+/// The CSG object of which the scene is one instance.
 const CsgAggregate* solid_of(const Scene& scene) {
     const auto& instances = scene.aggregate->primitives().instances;
     if (instances.size() != 1) return nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-/// Imports a scene or mesh from text written in a test.
+/// Imports a scene or mesh from the text of a test.
 
 #include <filesystem>
 #include <fstream>
@@ -13,7 +13,7 @@
 
 namespace alhazen::testing {
 
-/// Runs the importer that recognises `bytes` under the name `path`, without validation.
+/// Runs the importer that recognizes `bytes` under the name `path`, without validation.
 inline SceneDescription import_text(std::string_view bytes, const std::filesystem::path& path,
                                     Diagnostics& diagnostics) {
     const ImportOptions options;
@@ -21,19 +21,19 @@ inline SceneDescription import_text(std::string_view bytes, const std::filesyste
     return find_importer(source).import(source, diagnostics);
 }
 
-/// All findings, one a line.
+/// All findings, one per line.
 inline std::string text_of(const Diagnostics& diagnostics) {
     std::string text;
     for (const Diagnostic& diagnostic : diagnostics.all()) text += to_string(diagnostic) + '\n';
     return text;
 }
 
-/// Whether any finding contains `part`.
+/// Returns whether a finding contains `part`.
 inline bool mentions(const Diagnostics& diagnostics, std::string_view part) {
     return text_of(diagnostics).find(part) != std::string::npos;
 }
 
-/// A folder for files of one test, removed with it.
+/// A temporary folder, removed by the destructor.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

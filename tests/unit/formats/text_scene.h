@@ -1,5 +1,5 @@
 #pragma once
-/// Imports scenes that tests write as text, and finds messages.
+/// Imports scenes written as text in tests, and finds messages.
 
 #include <filesystem>
 #include <string>

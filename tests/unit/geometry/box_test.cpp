@@ -49,7 +49,7 @@ TEST(Box3, TransformedHoldsTheExactImage) {
         Box3 box;
         box.include(random.in_cube(100));
         box.include(random.in_cube(100));
-        // Rotation about a far point: large terms that nearly cancel.
+        // Rotation about a distant point: large terms that nearly cancel.
         const Vec3 pivot = random.in_cube(1e6);
         const Affine move = Affine::translate(pivot) *
                             Affine::rotate(random.unit_vector(), random.uniform(0, 6)) *

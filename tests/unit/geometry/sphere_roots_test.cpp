@@ -39,7 +39,7 @@ TEST(SphereRoots, TangentGivesOneValueTwice) {
 }
 
 TEST(SphereRoots, TheRootNearASurfaceOriginIsRelativelyAccurate) {
-    // A ray that starts just off the sphere: the near root must not be lost in the far one.
+    // A ray that starts just off the sphere: the near root must not cancel against the far one.
     Random random(94);
     for (int i = 0; i < 20000; ++i) {
         const Vec3 n = random.unit_vector();
@@ -60,7 +60,7 @@ TEST(SphereRoots, TheRootNearASurfaceOriginIsRelativelyAccurate) {
 }
 
 TEST(SphereRoots, OfALineThatGrazesFromTheSurfaceAreBothNearItsOrigin) {
-    // How far a line that is off by some roundings can run inside: sqrt(2 r off) on either side.
+    // Longest chord of a line displaced by a few roundings: sqrt(2 r off) on either side.
     Random random(96);
     int crossed = 0;
     for (int i = 0; i < 100000; ++i) {

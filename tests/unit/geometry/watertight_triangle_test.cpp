@@ -26,7 +26,7 @@ int crossings(const SphereMesh& mesh, const Ray& ray) {
     return count;
 }
 
-/// A vertex, or the middle of an edge, or a point somewhere on an edge.
+/// A vertex, the midpoint of an edge, or any point on an edge.
 Vec3 random_target(const SphereMesh& mesh, Random& random) {
     const auto& triangle = mesh.triangles[random.below(static_cast<int>(mesh.triangles.size()))];
     const Vec3& a = mesh.positions[triangle[0]];
@@ -56,7 +56,7 @@ TEST(WatertightTriangle, LinesThroughVerticesAndEdgesCrossAnEvenNumberOfTimes) {
     const SphereMesh mesh(2);
     Random random(102);
     for (int i = 0; i < 100000; ++i) {
-        // From up to 1e4 radii away, or through two such points, which grazes or follows edges.
+        // From up to 1e4 radii away, or through two of these points, which grazes or follows edges.
         const Vec3 target = random_target(mesh, random);
         Vec3 origin = target + random.log_uniform(0.01, 1e4) * random.unit_vector();
         if (i % 3 == 0) origin = random_target(mesh, random);
@@ -67,7 +67,7 @@ TEST(WatertightTriangle, LinesThroughVerticesAndEdgesCrossAnEvenNumberOfTimes) {
 }
 
 TEST(WatertightTriangle, LatticeRaysOnALatticeMeshCrossAnEvenNumberOfTimes) {
-    // Vertices at multiples of 1/4, so that rays meet vertices, edges and faces exactly.
+    // Vertices at multiples of 1/4, so that rays intersect vertices, edges and faces exactly.
     const SphereMesh mesh(2, false);
     Random random(103);
     int crossed = 0;
@@ -76,7 +76,7 @@ TEST(WatertightTriangle, LatticeRaysOnALatticeMeshCrossAnEvenNumberOfTimes) {
         const int count = crossings(mesh, ray);
         ASSERT_EQ(count % 2, 0) << "seed 103, case " << i;
         crossed += count > 0;
-        // From a point strictly inside, each way out is met an odd number of times.
+        // A ray from a point strictly inside crosses the surface an odd number of times.
         const Vec3 o = random.on_lattice(0.25, 0.125);
         ASSERT_EQ(crossings(mesh, {o, ray.direction}) % 2, 1) << "seed 103, case " << i;
     }
@@ -121,7 +121,7 @@ TEST(WatertightTriangle, DegenerateAndEdgeOnTrianglesAreNeverHit) {
         ASSERT_FALSE(intersect_triangle(ray, RayShear(d), a, a, b, hit)) << i;
         ASSERT_FALSE(intersect_triangle(ray, RayShear(d), a, b, b, hit)) << i;
         ASSERT_FALSE(intersect_triangle(ray, RayShear(d), a, a, a, hit)) << i;
-        // Seen edge on: the direction lies in its plane.
+        // Edge-on: the direction lies in the triangle's plane.
         ASSERT_FALSE(intersect_triangle(ray, RayShear(d), a, b, a + d, hit)) << i;
     }
 }
@@ -140,8 +140,8 @@ TEST(WatertightTriangle, TheRangeOfTIsRespected) {
 }
 
 TEST(WatertightTriangle, TheProductsOfTinyWeightsDoNotUnderflow) {
-    // A small triangle whose plane the ray leaves by 2^-980 of its way only, met in the middle of
-    // an edge: the weights are products of three small numbers.
+    // A small triangle whose plane the ray leaves by only 2^-980 of its length, hit at the midpoint
+    // of an edge: the weights are products of three small numbers.
     const double size = 0x1p-36;
     const Vec3 a = size * Vec3{0.5, -0.25, 0}, b = size * Vec3{-0.25, 0, 0.25},
                c = size * Vec3{0.25, 0.5, -0.25};

@@ -17,7 +17,7 @@ struct Bitmap {
     std::int32_t width = 2, height = 2;
     int bits = 24;
     std::uint32_t compression = 0;
-    std::string palette = {};  // and masks
+    std::string palette = {};  // includes masks
     std::string pixels = {};
     std::uint32_t palette_entries = 0;
 };
@@ -50,7 +50,7 @@ std::vector<int> codes(const Image& image) {
     return result;
 }
 
-// Two rows of two pixels, blue green red, padded to 8 bytes.
+// Two rows of two pixels in the order blue, green, red, padded to 8 bytes.
 const std::string kRows24("\x01\x02\x03\x04\x05\x06\0\0\x07\x08\x09\x0a\x0b\x0c\0\0", 16);
 
 TEST(Bmp, RowsGoUpAndNegativeHeightsGoDown) {
@@ -104,7 +104,7 @@ TEST(Bmp, MasksOf16And32BitsAreScaledToTheirMaximum) {
                             .palette = masks,
                             .pixels = green_blue})),
               (std::vector<int>{0, 255, 0, 0, 0, 255}));
-    const std::string pixel32("\x01\x02\x03\x00", 4);  // the fourth byte means nothing
+    const std::string pixel32("\x01\x02\x03\x00", 4);  // the fourth byte is unused
     const Image plain = decode({.width = 1, .height = 1, .bits = 32, .pixels = pixel32});
     EXPECT_EQ(plain.channels, 3);
     EXPECT_EQ(codes(plain), (std::vector<int>{3, 2, 1}));

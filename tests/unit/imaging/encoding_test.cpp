@@ -13,8 +13,8 @@ namespace {
 using testing::error_of;
 
 TEST(Encoding, TruncationUsesTheDoubleNotItsFloat) {
-    // 0.3 in double is just below 76.5 / 255; take the value just below a step, which float rounds
-    // up to it.
+    // 0.3 in double is just below 76.5 / 255; use the value just below a step, which float rounds
+    // up to the step.
     const double just_below = std::nextafter(1.0 / 3.0, 0.0);
     EXPECT_EQ(encode_channel(just_below, Encoding::LinearTruncated, 8), 84u);
     EXPECT_EQ(encode_channel(double(float(just_below)), Encoding::LinearTruncated, 8), 85u);

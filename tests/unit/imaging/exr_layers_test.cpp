@@ -17,7 +17,7 @@
 namespace alhazen {
 namespace {
 
-/// Gives the OpenEXR library bytes to read; nothing of ours is in between.
+/// Input stream for the OpenEXR library over bytes in memory.
 class Bytes final : public Imf::IStream {
   public:
     explicit Bytes(const std::vector<std::byte>& bytes) : Imf::IStream("test"), bytes_(bytes) {}

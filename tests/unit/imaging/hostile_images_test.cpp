@@ -1,5 +1,4 @@
-/// Damaged and hostile pictures: an error that names the file, never a crash, a hang or a flood of
-/// memory.
+/// Damaged and hostile images: an error that names the file, no crash, no hang, bounded memory.
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +22,7 @@ struct Sample {
     std::string name, bytes;
 };
 
-/// A file of every kind that can be written, with long runs and noise.
+/// A file of every format that can be written, with long runs and noise.
 std::vector<Sample> samples() {
     Image image = testing::random_image(41, 19, 3, 0, 1, 1);
     std::fill_n(image.samples.begin(), 1000, 0.5f);
@@ -45,7 +44,7 @@ std::vector<Sample> samples() {
 #define ALHAZEN_MEMORY_IS_WATCHED 0
 #endif
 
-/// The sanitizers touch memory of their own for what is only reserved.
+/// Sanitizers touch memory that is only reserved.
 constexpr bool kMemoryIsWatched = ALHAZEN_MEMORY_IS_WATCHED != 0;
 
 bool is_bad_data(std::optional<ErrorKind> kind) {
@@ -57,7 +56,7 @@ TEST(HostileImages, EveryTruncationIsAnErrorThatNamesTheFile) {
         for (std::size_t size = 0; size < sample.bytes.size(); size += size < 200 ? 1 : 17) {
             try {
                 (void)decode_image(std::string_view(sample.bytes).substr(0, size), sample.name);
-                // all.
+                // Reached only if a truncated file decodes.
                 ADD_FAILURE() << sample.name << " cut to " << size << " of " << sample.bytes.size();
             } catch (const Error& error) {
                 ASSERT_EQ(error.kind(), ErrorKind::Scene) << error.what();
@@ -109,7 +108,7 @@ TEST(HostileImages, MemoryBeyondTheLimitIsRefusedBeforeItIsTaken) {
             }
         };
         EXPECT_EQ(kind_at(image.memory_bytes() - 1), ErrorKind::Resource) << sample.name;
-        // What decoders need beside the samples is little for a picture so small.
+        // Decoders need little memory beside the samples of a small image.
         EXPECT_EQ(kind_at(image.memory_bytes() + (1 << 16)), std::nullopt) << sample.name;
     }
 }
@@ -121,7 +120,7 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
         return usage.ru_maxrss;
     };
     const long before = peak_kib();
-    // The sizes pass, the data end.
+    // The sizes are accepted, then the data end.
     const ImageLimits limits{.max_pixels = std::uint64_t{1} << 28,
                              .max_bytes = std::uint64_t{1} << 34};
     const std::string size = "-Y 16384 +X 16384\n";
@@ -130,8 +129,8 @@ TEST(HostileImages, HeadersThatLieAboutTheSizeCostNoMemory) {
     EXPECT_EQ(error_of([&] { (void)decode_image(hdr, "lie.hdr", limits); }), ErrorKind::Scene);
     EXPECT_EQ(error_of([&] { (void)decode_image(pfm, "lie.pfm", limits); }), ErrorKind::Scene);
     for (Sample sample : samples()) {
-        // Sides of 41 and 19, or the corners 40 and 18 of a window, become 16384 (0x4000) or a
-        // little less.
+        // Replaces sides of 41 and 19, or the corners 40 and 18 of a window, by 16384 (0x4000) or
+        // slightly less.
         const auto change = [&](const std::string& from, const std::string& to) {
             const std::size_t at = sample.bytes.find(from);
             ASSERT_NE(at, std::string::npos) << sample.name;
@@ -178,7 +177,7 @@ struct Counts {
     int read = 0, refused = 0;
 };
 
-/// Decodes all files below `folder`; none may take long.
+/// Decodes all files below `folder`, each within a time limit.
 Counts decode_all(const fs::path& folder) {
     Counts counts;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -235,7 +234,7 @@ TEST(HostileImages, ThePngFilesOfTheSuiteShowWhatTheirReferencesShow) {
         const StoredImage reference = read_stored_image(suite / "primary_check" / name);
         ASSERT_EQ(read.width, reference.width) << name;
         ASSERT_EQ(read.height, reference.height) << name;
-        // Compared as colours: a reference need not be of the same colour type.
+        // Compared as colours: a reference may have another colour type.
         const std::size_t pixels = std::size_t(read.width) * std::size_t(read.height);
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < pixels; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures and calls that the tests of imaging share.
+/// Images and calls shared by the tests of imaging.
 
 #include <optional>
 #include <random>
@@ -22,7 +22,7 @@ inline Image random_image(int width, int height, int channels, float low, float 
     return image;
 }
 
-/// Smooth, as a photograph is: what JPEG is good at.
+/// Smooth, like a photograph, for JPEG.
 inline Image smooth_image(int width, int height, int channels) {
     Image image(width, height, channels);
     for (int y = 0; y < height; ++y) {
@@ -50,7 +50,7 @@ inline std::string as_string(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The kind of the error that `call` throws; nothing when it returns.
+/// Kind of the error that `call` throws; empty if it returns.
 template <class Call>
 std::optional<ErrorKind> error_of(Call call) {
     try {

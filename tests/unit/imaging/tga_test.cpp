@@ -134,7 +134,7 @@ TEST(Tga, WrongHeadersAndSizesAreRefused) {
     EXPECT_EQ(kind_of(header(2, 0, 2, 24, 0) + pixels), ErrorKind::Scene);
     EXPECT_EQ(kind_of(header(2, 65500, 65500, 24, 0) + pixels), ErrorKind::Resource);
     EXPECT_EQ(kind_of(header(3, 8, 8, 8, 0) + pixels, {.max_side = 7}), ErrorKind::Resource);
-    // A run holds at most 128 pixels: a longer claim cannot be met.
+    // A run holds at most 128 pixels: the data cannot fill the declared size.
     EXPECT_EQ(kind_of(header(11, 8000, 8000, 8, 0) + pixels), ErrorKind::Scene);
 }
 

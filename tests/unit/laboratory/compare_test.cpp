@@ -54,7 +54,8 @@ TEST(Compare, TheCostOfThePixelsIsAllThatIsVisitedAndTested) {
         compare(small_scene(), "small",
                 options_with({"bounding_volumes", "kay_kajiya", "uniform_grid", "octree", "bsp"}));
     for (const Measurement& m : c.measurements) {
-        if (m.name() == kDefaultAccelerator) continue;  // measured in batches, rendered without
+        if (m.name() == kDefaultAccelerator)
+            continue;  // measured in batches, rendered by single rays
         ASSERT_TRUE(m.figures.all_counted && m.picture.complete) << m.accelerator;
         double cost = 0;
         for (const float pixel : m.cost) cost += double{pixel};
@@ -144,7 +145,7 @@ TEST(Compare, TheSearchAddsALineOnlyWhereItFoundSomething) {
         EXPECT_GT(m.tried, 0);
         EXPECT_TRUE(tuned.insert(m.name()).second) << m.name() << " has two tuned lines";
     }
-    // As they come: list, wide_bvh and octree.
+    // Untuned: list, wide_bvh and octree.
     EXPECT_EQ(c.measurements.size(), 3 + tuned.size());
     EXPECT_TRUE(c.holds());
 }

@@ -72,7 +72,7 @@ TEST(Replay, AsksASampleOfAllKindsWhereTimeIsShort) {
     EXPECT_FALSE(figures.all_timed);
     EXPECT_LT(figures.total().counted, trial.stream().rays.size());
     for (const KindFigures& kind : figures.kinds) EXPECT_GT(kind.counted, 0u);
-    // A closest hit asks all of them, whatever the sample.
+    // A closest-hit query tests all of them, whatever the sample.
     const KindFigures& eye = figures.kinds[static_cast<std::size_t>(RayKind::Eye)];
     EXPECT_EQ(eye.tests.primitive_tests, 403 * eye.counted);
 }

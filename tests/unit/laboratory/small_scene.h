@@ -1,5 +1,5 @@
 #pragma once
-/// A scene with rays of all four kinds: mirrors and glass over a floor, in a light.
+/// A scene with rays of all four kinds: mirrors and glass above a floor, with a light.
 
 #include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
@@ -24,7 +24,7 @@ inline SceneDescription small_scene(int spheres = 40) {
                           random.uniform(-2, 1)};
         scene.add(Sphere{center, random.uniform(0.1, 0.35)}, materials[i % 3]);
     }
-    // Long things in many cells: a ray may find them long before it comes to where it hits them.
+    // Long primitives in many cells: a ray may test them long before it reaches the hit.
     scene.add(Sphere{{0, 0, -2.5}, 1.6}, materials[0]);
     scene.add(Cylinder{.base = {-1.8, -1.5, -2}, .top = {1.8, 1.5, 1}, .radius = 0.3},
               materials[1]);

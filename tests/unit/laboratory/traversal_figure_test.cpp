@@ -85,7 +85,7 @@ TEST(TraversalFigure, DrawsEveryStep) {
             ++cells;
         }
         EXPECT_EQ(cells, count(trace, Kind::Cell)) << view;
-        // Behind the style, whose "dominant" has these letters too.
+        // Search behind the style, whose "dominant" contains the letters.
         EXPECT_EQ(svg.find("nan", svg.find("</style>")), std::string::npos) << view;
         EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
     }

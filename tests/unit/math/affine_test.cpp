@@ -66,7 +66,7 @@ TEST(Affine, InverseUndoes) {
         ASSERT_TRUE(is_invertible(a));
         ASSERT_LT(distance(inverse(a).point(a.point(p)), p), 1e-12) << "seed 85, case " << i;
         ASSERT_LT(distance(a.point(inverse(a).point(p)), p), 1e-12) << "seed 85, case " << i;
-        // Normals, by the inverse transpose, stay perpendicular to tangents.
+        // Normals, transformed by the inverse transpose, stay perpendicular to tangents.
         const Vec3 u = random.unit_vector(), n = perpendicular(u);
         const Vec3 moved = transpose_times(inverse(a).linear, n);
         ASSERT_NEAR(dot(moved, a.vector(u)), 0.0, 1e-13) << "seed 85, case " << i;

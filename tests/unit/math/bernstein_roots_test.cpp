@@ -32,7 +32,8 @@ BernsteinPolynomial<DoubleDouble, kMost> with_roots(const std::vector<double>& r
     p.error = 1e-30;
     double binomial = 1.0;
     for (int i = 0; i <= p.degree; ++i) {
-        // The binomials divide badly: one Newton step for a quotient in double-double.
+        // Division by the binomials is inexact: one Newton step gives the quotient in
+        // double-double.
         const double q = scaled[i].high / binomial;
         const DoubleDouble rest = scaled[i] - DoubleDouble(q) * DoubleDouble(binomial);
         p.b[i] = DoubleDouble(q) + DoubleDouble(rest.high / binomial);
@@ -54,7 +55,7 @@ BernsteinPolynomial<double, N> rounded(const BernsteinPolynomial<DoubleDouble, N
     return r;
 }
 
-/// Both searches by their common front.
+/// Both searches through their common interface.
 template <int N>
 SignChanges<N> sign_changes(const BernsteinPolynomial<DoubleDouble, N>& p) {
     SignChanges<N> out;
@@ -88,7 +89,8 @@ TEST(BernsteinRoots, OfRandomProductsAreAllFound) {
             ASSERT_LE(found.u[k], found.hi[k]);
             ASSERT_LE(found.lo[k], inside[k] + 0x1p-50);
             ASSERT_GE(found.hi[k], inside[k] - 0x1p-50);
-            // The error of a coefficient over the slope: the product of distances to other roots.
+            // Error of the root: error of a coefficient over the slope, the product of distances to
+            // other roots.
             double slope = 1.0;
             for (const double r : roots) {
                 if (r != inside[k]) slope *= std::abs(inside[k] - r);
@@ -158,7 +160,7 @@ TEST(BernsteinRoots, OfWhatIsZeroOrNoNumberAreNone) {
 }
 
 TEST(BernsteinRoots, CountAgreesWithTheSignsAtTheEnds) {
-    // Coefficients of few bits make many zeros and multiple roots.
+    // Coefficients of few bits give many zeros and multiple roots.
     Random random(2);
     for (int i = 0; i < 20000; ++i) {
         BernsteinPolynomial<DoubleDouble, kMost> p;
@@ -166,7 +168,7 @@ TEST(BernsteinRoots, CountAgreesWithTheSignsAtTheEnds) {
         p.error = 1e-30;
         for (int k = 0; k <= p.degree; ++k) p.b[k] = DoubleDouble(random.below(5) - 2.0);
         const auto found = sign_changes(p);
-        // Beside an end where p is 0 it has the sign of the first coefficient that has one.
+        // Near an end with p = 0, p has the sign of the first nonzero coefficient.
         double first = 0.0, last = 0.0;
         for (int k = p.degree; k >= 0; --k) first = p.b[k].high != 0.0 ? p.b[k].high : first;
         for (int k = 0; k <= p.degree; ++k) last = p.b[k].high != 0.0 ? p.b[k].high : last;

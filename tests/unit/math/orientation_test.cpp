@@ -9,7 +9,7 @@
 namespace alhazen {
 namespace {
 
-/// Small whole numbers: the sign in integers is exact.
+/// Exact sign for small integers.
 int sign_of_integers(long a, long b, long c, long d, long e, long f) {
     const long sum = (a - e) * (d - f) - (b - f) * (c - e);
     return int(sum > 0) - int(sum < 0);
@@ -24,7 +24,8 @@ TEST(Orientation, LeftTurnsArePositive) {
 TEST(Orientation, MultiplesOfAnyFactorKeepTheSignOfTheirIntegers) {
     std::mt19937 random(3);
     std::uniform_int_distribution<long> number(-10, 10);
-    // A factor with few digits keeps the products of these numbers exact, straight lines included.
+    // A factor with few digits keeps the products of these numbers exact, collinear points
+    // included.
     const double factor = 1.0 + std::ldexp(1.0, -40);
     int straight = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -41,7 +42,7 @@ TEST(Orientation, MultiplesOfAnyFactorKeepTheSignOfTheirIntegers) {
 }
 
 TEST(Orientation, TheNextDoubleBesideALineIsBesideIt) {
-    // Points (k, k) / 10 with every coordinate rounded on its own are exactly on x = y.
+    // Points (k, k) / 10 with each coordinate rounded separately are exactly on x = y.
     for (int k = 1; k < 200; ++k) {
         const double x = k / 10.0;
         const double above = std::nextafter(x, 1e9);
@@ -60,7 +61,7 @@ TEST(Orientation, CyclicOrderDoesNotMatterEvenNearALine) {
         const Vec2 a{unit(random), unit(random)};
         const Vec2 b{1e9 * unit(random), 1e-9 * unit(random)};
         const double t = unit(random);
-        const Vec2 c = a + t * (b - a);  // on the line but for its rounding
+        const Vec2 c = a + t * (b - a);  // on the line up to rounding
         const int sign = orientation(a, b, c);
         EXPECT_EQ(orientation(b, c, a), sign);
         EXPECT_EQ(orientation(c, a, b), sign);

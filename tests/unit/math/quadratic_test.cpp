@@ -23,7 +23,7 @@ TEST(DifferenceOfProducts, IsRightToOneAndAHalfUlp) {
     for (int i = 0; i < 100000; ++i) {
         const double a = random.uniform(-2, 2), b = random.uniform(-2, 2);
         double c = random.uniform(-2, 2), d = random.uniform(-2, 2);
-        if (i % 2 == 0) {  // nearly equal products: plain arithmetic has no digit right
+        if (i % 2 == 0) {  // nearly equal products: plain arithmetic has no correct digit
             c = a * (1 + random.below(5) * 0x1p-52);
             d = b * (1 - random.below(5) * 0x1p-53);
         }
@@ -59,7 +59,7 @@ TEST(Quadratic, RootsAscendAndAreRightToAFewUlp) {
 }
 
 TEST(Quadratic, TheSmallRootDoesNotCancel) {
-    // t^2 - 2e8 t + 1 = 0: the schoolbook formula gives 7.45e-9 for the small root.
+    // t^2 - 2e8 t + 1 = 0: the textbook formula gives 7.45e-9 for the small root.
     const QuadraticRoots roots = solve_half_b_quadratic(1.0, -1e8, 1.0);
     EXPECT_DOUBLE_EQ(roots.t0, 5e-9);
     EXPECT_DOUBLE_EQ(roots.t1, 2e8);

@@ -55,7 +55,7 @@ TEST(Parallel, InvokeRunsBoth) {
     EXPECT_EQ(sum, 3);
 }
 
-/// Counts how many threads are inside a region, and the most that ever were.
+/// Counts the threads inside a region and their maximum.
 class Crowd {
   public:
     void visit() {
@@ -88,8 +88,7 @@ TEST(Parallel, ALimitIsNotExceededByNestedCalls) {
 
 TEST(Parallel, TwoThreadsReallyRunAtOnce) {
     if (ThreadLimit(2).threads() < 2) GTEST_SKIP() << "one core";
-    // Each side waits for the other: on one thread this would never end, so it is given a time
-    // limit.
+    // Each side waits for the other; on one thread this would never end, hence a time limit.
     std::atomic<int> arrived{0};
     const auto meet = [&] {
         ++arrived;

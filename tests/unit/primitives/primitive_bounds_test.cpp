@@ -1,4 +1,4 @@
-/// The bounds of primitives that are closer than their boxes: no point of one may be outside.
+/// Bounds tighter than boxes: no point of a primitive may be outside.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(PrimitiveBounds, ATriangleOverlapsACellJustWhereItHasAPointInIt) {
         builder.add_triangle(a, b, c);
         const PrimitiveTable table = builder.finish();
         const Box3 cell = random_cell(random, 1);
-        // The part in the cell is the oracle: it is found by clipping.
+        // Reference result: the part in the cell, found by clipping.
         const bool has_part = !table.clipped_box(0, cell).empty();
         EXPECT_EQ(table.overlaps(0, cell), has_part) << "triangle " << i;
         overlapping += has_part;
@@ -42,7 +42,7 @@ TEST(PrimitiveBounds, ATriangleOverlapsACellJustWhereItHasAPointInIt) {
         }
     }
     EXPECT_GT(overlapping, 200);
-    EXPECT_GT(apart, 200);  // the boxes touch, the triangle is beside
+    EXPECT_GT(apart, 200);  // the boxes overlap, the triangle is outside
 }
 
 TEST(PrimitiveBounds, ASphereOverlapsTheCellsThatItsSurfaceIsIn) {
@@ -80,11 +80,11 @@ TEST(PrimitiveBounds, OfSolidsThatASphereHoldsTheSphereIsKnown) {
         const PrimitiveTable& table = scene.aggregate->primitives();
         const BoundingSphere sphere = table.sphere(0);
         if (holds) {
-            // To what crossings that lie together may be apart.
+            // Tolerance: the distance of crossings that count as one.
             EXPECT_NEAR(sphere.radius, 0.7 * stretch, 1e-9);
             EXPECT_NEAR(length(sphere.center - placement.point({0.5, 0, 0})), 0, 1e-9);
         }
-        // Rays towards it find nothing outside of it.
+        // Rays towards it find nothing outside it.
         Random random(3);
         int found = 0;
         for (int i = 0; i < 2000; ++i) {
@@ -106,7 +106,7 @@ TEST(PrimitiveBounds, OfSolidsThatASphereHoldsTheSphereIsKnown) {
         sphere_of(turned, holds, 1);
         sphere_of(turned * Affine::scale({5, 5, 5}), holds, 5);
     }
-    // Longer along one axis: no sphere is as close.
+    // Longer along one axis: a sphere is less tight.
     sphere_of(turned * Affine::scale({1, 0.7, 1.4}), false, 1.4);
 }
 

@@ -19,12 +19,12 @@ Vec3 random_direction(RandomStream& random) {
     }
 }
 
-/// A ray that leaves a convex surface outward must not meet it again; one that goes in must not
-/// meet it at once.
+/// A ray that leaves a convex surface outward must not intersect it again; one that enters must not
+/// intersect it at once.
 void expect_no_self_intersection(const AnyShape& shape, std::uint64_t seed) {
     RandomStream random(seed);
     for (int round = 0; round < 200; ++round) {
-        // Sizes and places over many magnitudes.
+        // Sizes and positions over many magnitudes.
         const double scale = std::pow(10.0, random.uniform(-8, 8));
         const double distance = std::pow(10.0, random.uniform(-8, 8));
         const Affine placement = Affine::translate(distance * random_direction(random)) *
@@ -66,7 +66,7 @@ TEST(Surface, RaysThatLeaveAConvexShapeDoNotMeetItAgain) {
 TEST(Surface, RaysThatLeaveAFlatShapeNearTheOriginOfCoordinatesDoNotMeetItAgain) {
     RandomStream random(9);
     for (int round = 0; round < 2000; ++round) {
-        // A tilted shape through the origin, met where all coordinates of the point vanish.
+        // A tilted shape through the origin, hit where all coordinates of the point vanish.
         const Affine tilt = Affine::rotate(random_direction(random), random.uniform(0, 6));
         const double size = std::pow(10.0, random.uniform(0, 6));
         const Vec3 u = size * tilt.vector({1, 0, 0});
@@ -115,8 +115,8 @@ TEST(Surface, RaysThatLeaveAConvexMeshDoNotMeetItAgain) {
             Hit hit;
             if (!scene.aggregate->closest(ray, hit, nullptr)) continue;
             const Surface surface = surface_at(*scene.aggregate, ray, hit);
-            // Inside means beyond the far side of something as thin as its own rounding: leave
-            // those out.
+            // Skips hits from inside: in a shape as thin as its own rounding the offset point would
+            // lie beyond the far side.
             Vec3 away = random_direction(random);
             if (dot(away, surface.normal) < 0) away = -away;
             if (dot(d, surface.normal) > 0) continue;
@@ -128,8 +128,8 @@ TEST(Surface, RaysThatLeaveAConvexMeshDoNotMeetItAgain) {
     }
 }
 
-/// The test of a ray that starts in the plane z = 0 and runs mostly along x rounds to distances a
-/// little beyond 0, although the plane itself is exact.
+/// The distances of a ray that starts in the plane z = 0 and runs mostly along x round to slightly
+/// more than 0, although the plane itself is exact.
 TEST(Surface, RaysThatLeaveAFlatMeshThroughTheOriginDoNotMeetItAgain) {
     RandomStream random(47);
     for (const double height : {0.0, 1e-3, 1.0}) {

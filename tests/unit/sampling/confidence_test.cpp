@@ -33,7 +33,7 @@ TEST(Confidence, IntervalsOfNormalNumbersHoldTheTruthAsOftenAsTheySay) {
         }
         held += mean_of(sample).holds(3);
     }
-    // 0.95 with a standard deviation of 0.0015.
+    // Expected 0.95, standard deviation 0.0015.
     EXPECT_NEAR(held / double{kRuns}, 0.95, 0.006);
 }
 

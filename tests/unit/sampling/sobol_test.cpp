@@ -63,9 +63,9 @@ TEST(Sobol, AScrambledPointIsUniformAndScramblingsAreIndependent) {
         }
         double chi_squared = 0;
         for (const int n : counts) chi_squared += (n - 625.0) * (n - 625.0) / 625.0;
-        // 63 degrees of freedom: 63 +- 11; 1 in 10^5 above 118.
+        // 63 degrees of freedom: 63 +- 11; probability 1 in 10^5 above 118.
         EXPECT_LT(chi_squared, 118) << "dimension " << d;
-        // Of deviation 1 / 12 / sqrt(kKeys).
+        // Standard deviation 1 / 12 / sqrt(kKeys).
         EXPECT_LT(std::abs(product / kKeys), 4.5 / 12 / std::sqrt(double{kKeys}));
     }
 }
@@ -88,7 +88,7 @@ TEST(Sobol, ScramblingKeepsHowManyDigitsTwoPointsShareAndMixesTheRest) {
         const auto next = [&](double v) { return static_cast<int>(digits(v, shared + 3)) & 3; };
         same_tail += next(x) == next(y);
     }
-    // Two digits of independent flips agree in a quarter of the cases; deviation 0.007.
+    // Two digits of independent flips agree in a quarter of the cases; standard deviation 0.007.
     EXPECT_NEAR(same_tail / 4000.0, 0.25, 0.03);
 }
 
@@ -105,7 +105,7 @@ TEST(Sobol, SumsOfASmoothFunctionConvergeMuchFasterThanIndependentPoints) {
         const double error = sum / kPoints - 0.25;
         squares += error * error / kKeys;
     }
-    // Independent points: 0.22 / 64 = 3.4e-3.
+    // Independent points would have 0.22 / 64 = 3.4e-3.
     EXPECT_LT(std::sqrt(squares), 2e-5);
 }
 

@@ -21,7 +21,7 @@ Ray random_ray(RandomStream& random) {
     return {origin, point(4) - origin};
 }
 
-/// A transform that shears, scales unevenly and, for odd seeds, mirrors.
+/// A transform that shears, scales unevenly and, with `mirror`, reflects.
 Affine wild_transform(RandomStream& random, bool mirror) {
     const Vec3 axis{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1)};
     Affine m =

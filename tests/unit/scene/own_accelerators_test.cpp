@@ -1,4 +1,4 @@
-/// Objects that are traced by an accelerator of their own.
+/// Objects with an accelerator of their own.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ SceneMaker field(const std::string& inner, const std::string& middle) {
 
 TEST(OwnAccelerators, OneStandsInsideAnotherAndTheHitsStay) {
     const Scene list = field("list", "list").compile("list");
-    EXPECT_EQ(list.census.instances, 21u);  // what is placed once is not dissolved
+    EXPECT_EQ(list.census.instances, 21u);  // objects placed once are not flattened
     for (const auto& [inner, middle, outer] :
          {std::tuple{"uniform_grid:nx=3,ny=2,nz=1", "list", "kd_tree"},
           std::tuple{"ray_classification", "nested_grid", "wide_bvh"},

@@ -1,4 +1,4 @@
-// Loading for a picture takes the meshes out of the description; the picture must not change.
+// Loading for rendering moves the meshes out of the description; the image must not change.
 
 #include <gtest/gtest.h>
 

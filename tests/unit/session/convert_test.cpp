@@ -21,7 +21,7 @@ namespace {
 using testing::SceneMaker;
 using testing::ScratchFolder;
 
-/// Two tetrahedra, one mirrored, by an object that is placed twice.
+/// Two tetrahedra, one of them reflected, in an object that is placed twice.
 SceneDescription two_tetrahedra() {
     SceneMaker maker;
     (void)maker.material({.name = "red paint"});
@@ -121,7 +121,7 @@ TEST(ConvertMeshes, ASceneWithoutTrianglesIsAnError) {
               std::string::npos);
 }
 
-/// Each object places the one before twice: 2^30 of the first.
+/// Each object places the previous one twice: 2^30 placements of the first.
 SceneDescription doubling_scene(bool with_mesh) {
     SceneMaker maker;
     (void)maker.material({});
@@ -146,7 +146,7 @@ TEST(ConvertMeshes, InstancesThatMultiplyBeyondMemoryAreRefused) {
     EXPECT_NE(message_of(doubling_scene(true), path, ErrorKind::Resource, options)
                   .find("4294967296 triangles"),
               std::string::npos);
-    // Without meshes there is nothing to walk through.
+    // Without meshes there is nothing to traverse.
     SceneMaker maker;
     maker.description() = doubling_scene(false);
     maker.add(maker.mesh(testing::tetrahedron()), MaterialId{0});
@@ -203,7 +203,7 @@ TEST(ConvertMeshes, FilesOfTheSceneAreNeverOverwritten) {
     EXPECT_EQ(read_file(library), text);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.obj"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out_files/texture_0.exr"));
-    // What is not written may lie there.
+    // Entries that are not written may exist already.
     EXPECT_EQ(convert(scene, folder.path() / "out.ply").triangles, 1U);
     EXPECT_EQ(convert(scene, folder.path() / "other.obj").triangles, 1U);
 }
@@ -235,7 +235,7 @@ TEST(ConvertMeshes, BuffersMeshesAndIncludedFilesBelongToTheScene) {
     EXPECT_EQ(names("b.gltf"), (std::set<std::string>{"b.bin"}));
 }
 
-/// One textured mesh of many triangles; `grey` is the only texel of its picture.
+/// One textured mesh of many triangles; `grey` is the only texel of its texture.
 SceneDescription textured(std::uint8_t grey) {
     SceneMaker maker;
     Texture texture;
@@ -264,7 +264,7 @@ TEST(ConvertNative, FilesOfAnotherSceneAreNotReplaced) {
     const ScratchFolder folder;
     const auto native = folder.path() / "out.alhazen", obj = folder.path() / "out.obj";
     (void)convert(textured(10), native);
-    (void)convert(textured(20), obj);  // takes the same folder, and another name in it
+    (void)convert(textured(20), obj);  // writes to the same folder under another name
     EXPECT_EQ(texel_of(native), 10);
     EXPECT_EQ(texel_of(obj), 20);
     EXPECT_EQ(entries_in(folder.path() / "out_files"), 2U);
@@ -274,7 +274,7 @@ TEST(ConvertNative, FilesOfAnotherSceneAreNotReplaced) {
     (void)convert(textured(10), obj);
     EXPECT_EQ(texel_of(obj), 10);
     EXPECT_EQ(texel_of(native), 10);
-    // A copy under another name holds them, too.
+    // A copy under another name refers to them, too.
     std::filesystem::copy_file(native, folder.path() / "copy.alhazen");
     (void)convert(textured(40), native);
     EXPECT_EQ(texel_of(folder.path() / "copy.alhazen"), 10);
@@ -290,7 +290,7 @@ TEST(ConvertNative, WithoutAnotherSceneTheNamesStayTheSame) {
         EXPECT_EQ(texel_of(out), grey);
     }
     EXPECT_EQ(entries_in(folder.path() / "out_files"), 1U);
-    // A link may lead to anybody's file.
+    // A link may lead to any file.
     (void)folder.write("precious.png", std::string("precious"));
     std::filesystem::remove(folder.path() / "out_files" / "texture_0.png");
     std::filesystem::create_symlink("../precious.png",
@@ -304,14 +304,14 @@ TEST(ConvertNative, WhatFailsLeavesNothingBehind) {
     const ScratchFolder folder;
     SceneDescription broken = textured(10);
     broken.materials[0].material.emission.color.r = std::nan("");
-    // The picture is written before the material fails.
+    // The image is written before the material fails.
     (void)message_of(broken, folder.path() / "out.alhazen", ErrorKind::Scene);
     EXPECT_EQ(entries_in(folder.path()), 0U);
-    // The pictures and the materials are written before OUT, which is no place for a file.
+    // Images and materials are written before OUT, which cannot be created.
     std::filesystem::create_symlink("/dev/null", folder.path() / "out.obj");
     (void)message_of(textured(10), folder.path() / "out.obj", ErrorKind::File);
     EXPECT_EQ(entries_in(folder.path()), 1U);
-    // What was there before stays.
+    // Existing files stay.
     (void)folder.write("out_files/mine.txt", std::string("mine"));
     (void)message_of(textured(10), folder.path() / "out.obj", ErrorKind::File);
     EXPECT_EQ(entries_in(folder.path()), 2U);
@@ -354,7 +354,7 @@ TEST(ConvertNative, BumpMapsStayBitForBit) {
     ASSERT_EQ(found.all().size(), 0U) << to_string(found.all()[0]);
     (void)convert(scene, folder.path() / "out.alhazen");
     testing::expect_same(scene, load_description(folder.path() / "out.alhazen", {}, found));
-    // As MTL it is a normal map.
+    // MTL declares it as a normal map.
     const ConvertReport report = convert(scene, folder.path() / "out.obj");
     EXPECT_TRUE(report.lost.empty()) << report.lost[0];
     const SceneDescription back = load_description(folder.path() / "out.obj", {}, found);

@@ -12,7 +12,7 @@ namespace {
 
 using testing::SceneMaker;
 
-/// Where a point appears in the picture: both in [0, 1] when it is inside.
+/// Position of a point in the image: both coordinates in [0, 1] when inside.
 Vec2 film_place(const PerspectiveCamera& c, const Vec3& point) {
     const Vec3 d = point - c.eye;
     const double ahead = dot(d, c.look);
@@ -22,7 +22,7 @@ Vec2 film_place(const PerspectiveCamera& c, const Vec3& point) {
             0.5 + dot(d, c.up) / (ahead * height * height)};
 }
 
-/// The smallest distance of the box from the four sides of the picture.
+/// Smallest distances of the box from the four sides of the image.
 struct Gaps {
     double left = 1, right = 1, bottom = 1, top = 1;
 };
@@ -53,7 +53,7 @@ TEST(Framing, TheBoxFillsThePictureButForItsMargins) {
                 for (const UpAxis up : {UpAxis::Y, UpAxis::Z}) {
                     const PerspectiveCamera camera = framing_camera(box, up, view, aspect);
                     const Gaps g = gaps(camera, box);
-                    // Centred both ways, and touching the margin at least one way.
+                    // Centred in both directions, and touching the margin in at least one.
                     EXPECT_NEAR(g.left, g.right, 1e-6);
                     EXPECT_NEAR(g.bottom, g.top, 1e-6);
                     EXPECT_NEAR(std::min(g.left, g.bottom), 0.05, 1e-6);
@@ -75,7 +75,7 @@ TEST(Framing, TheConventionsOfAzimuthAndElevationHold) {
     EXPECT_EQ(look(UpAxis::Y, 0, 0), (Vec3{0, 0, -1}));
     EXPECT_EQ(look(UpAxis::Y, 90, 0), (Vec3{-1, 0, 0}));
     EXPECT_EQ(look(UpAxis::Y, -270, -90), (Vec3{0, 1, 0}));
-    // Right is right: at the front of a Y-up file, +X.
+    // At the front of a Y-up file, right is +X.
     const PerspectiveCamera front = framing_camera(box, UpAxis::Y, {0, 0}, 1);
     EXPECT_GT(front.right.x, 0.0);
     EXPECT_GT(front.up.y, 0.0);

@@ -1,5 +1,5 @@
-/// The standard databases by the numbers of their primitives, and scenes that are hard for
-/// accelerators; `golden/spd_files_test.cpp` compares the databases with the published files.
+/// Numbers of primitives of the standard databases, and scenes that are hard for accelerators;
+/// `golden/spd_files_test.cpp` compares the databases with the published files.
 
 #include <gtest/gtest.h>
 
@@ -72,8 +72,8 @@ TEST(Databases, WriteAsManyDigitsAsAsked) {
     EXPECT_THROW((void)generate_nff("stadium", 10), Error);
 }
 
-/// Rays through a lattice of pixels; the hits of `wide_bvh` are those of `list`. Returns how many
-/// there were.
+/// Traces rays through a lattice of pixels, compares the hits of `wide_bvh` with those of `list`,
+/// and returns their number.
 int expect_same_hits(const SceneDescription& description, const std::string& what) {
     const Scene fast = compile(description);
     const Scene plain = compile(description, {.accelerator = "list"});
@@ -139,7 +139,7 @@ TEST(Field, HasAtLeastItsPrimitivesInFewBytes) {
     EXPECT_LT(*bytes_per_effective_primitive(large), 1e-5);
 }
 
-/// Tests of boxes and triangles for the eye rays of a small picture.
+/// Tests of boxes and triangles by the eye rays of a small image.
 double tests_of_field(std::uint64_t size) {
     const Scene scene = compile(generate("field", size));
     TraversalStats stats;
@@ -160,7 +160,7 @@ TEST(Field, CostsAThousandTimesThePrimitivesFewTestsMore) {
 }
 
 TEST(Field, GivesTheSameHitsInGridsPutTogetherByHand) {
-    // Large enough that patches are instanced too.
+    // Large enough for instances of patches.
     const SceneDescription description = generate("field", 5'000'000);
     const Scene fast = compile(description);
     EXPECT_EQ(fast.census.instance_depth, 2);

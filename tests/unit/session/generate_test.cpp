@@ -37,7 +37,7 @@ TEST(Generate, TheGeneratorsOfSolidsMakeValidScenesOfAtLeastTheSize) {
     }
 }
 
-/// A cell of the sponge is gone where two of its three digits to the base 3 are 1 at any level.
+/// A cell of the sponge is empty where two of its three base-3 digits are 1 at any level.
 bool is_there(std::array<int, 3> cell) {
     for (int level = 0; level < 2; ++level) {
         int ones = 0;

@@ -62,7 +62,7 @@ TEST(MeshFigures, UnevenScalingIsMeasuredTriangleByTriangle) {
 }
 
 TEST(MeshFigures, NestedUnevenScalingsEndInNoAnswerInsteadOfNever) {
-    // Each level doubles the number of placements: 2^30 of them.
+    // Each level doubles the number of placements: 2^30 in total.
     SceneMaker maker;
     const MeshIndex mesh = maker.mesh(tetrahedron());
     ObjectIndex below = maker.object("leaf");

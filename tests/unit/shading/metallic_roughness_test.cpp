@@ -91,7 +91,7 @@ TEST(MetallicRoughness, TransmissionReplacesTheDiffuseAndThicknessMakesAVolume) 
     s = sample_of(with(p));
     EXPECT_FALSE(s.thin);
     EXPECT_EQ(s.index, 1.5);
-    // After the distance the colour is left.
+    // After the attenuation distance the attenuation colour remains.
     for (int i = 0; i < 3; ++i) {
         EXPECT_NEAR(std::exp(-s.absorption[i] * 2), p.attenuation_color[i], 1e-12);
     }

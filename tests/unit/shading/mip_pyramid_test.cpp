@@ -52,7 +52,8 @@ TEST(MipPyramid, BordersOfATexelCountInPart) {
     ASSERT_EQ(p.levels(), 2);
     EXPECT_NEAR(p.texel(1, 0, 0).r, 3, 1e-6);
     Image five(5, 1, 1);
-    five.samples = {1, 2, 3, 4, 5};  // halves of 2.5: (1 + 2 + 1.5) / 2.5, (1.5 + 4 + 5) / 2.5
+    five.samples = {1, 2, 3, 4,
+                    5};  // each half covers 2.5 texels: (1 + 2 + 1.5) / 2.5, (1.5 + 4 + 5) / 2.5
     const MipPyramid q(store(five), false);
     EXPECT_NEAR(q.texel(1, 0, 0).r, 1.8, 1e-6);
     EXPECT_NEAR(q.texel(1, 1, 0).r, 4.2, 1e-6);
@@ -107,7 +108,7 @@ TEST(MipmappedTexture, AThinFootprintFiltersAlongItselfOnly) {
         for (int x = 0; x < 64; ++x) image.pixel(x, y)[0] = float(y / 8 % 2);
     }
     const Texture t = mipmapped(std::move(image));
-    // In the middle of a white stripe, 12 texels long and 1 wide.
+    // Centre of a white stripe; footprint 12 texels long and 1 wide.
     const Vec2 uv{0.5, 1 - 12.0 / 64};
     const double twelve = 12.0 / 64, one = 1.0 / 64;
     EXPECT_NEAR(evaluate(t, uv, {{twelve, 0}, {0, one}}).r, 1.0, 1e-6);

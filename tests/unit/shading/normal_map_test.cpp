@@ -22,8 +22,8 @@ TEST(NormalMap, RedTiltsAlongUAndGreenAlongV) {
 }
 
 TEST(NormalMap, MirroredCoordinatesMirrorTheTilt) {
-    // u runs to the left: what is painted as tilted to the right is tilted to the left in space,
-    // and v still runs upward.
+    // u runs to the left: a texel tilted to the right is tilted to the left in space; v still runs
+    // upward.
     const TangentFrame frame = frame_from_derivatives(kUp, {-1, 0, 0}, {0, 1, 0});
     expect_near(bent_normal(kTiltedRight, 1, kUp, frame), {-1, 0, 0});
     expect_near(bent_normal(kTiltedUp, 1, kUp, frame), {0, 1, 0});

@@ -7,7 +7,7 @@
 namespace alhazen {
 namespace {
 
-/// 2 x 2 grey picture: top row 0, 1; bottom row 2, 3.
+/// 2 x 2 grey image: top row 0, 1; bottom row 2, 3.
 Texture small_texture() {
     auto image = std::make_shared<Image>(2, 2, 1);
     for (int i = 0; i < 4; ++i) image->samples[static_cast<std::size_t>(i)] = static_cast<float>(i);

@@ -1,5 +1,4 @@
-// What every shape of the list must do, whatever it is. A new shape is enrolled by its line in the
-// list.
+// Requirements of every shape in the list. A new shape is tested by its line in the list.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +18,7 @@ using testing::random_shape;
 using testing::ShapeSource;
 
 constexpr double kUlp = 0x1p-52;
-/// A shape of any type: these tests are compiled once, not once for each type.
+/// Type-erased shape: compiles these tests once, not once per type.
 class TestedShape {
   public:
     template <class S>
@@ -69,13 +68,13 @@ class TestedShape {
     std::shared_ptr<const Concept> shape_;
 };
 
-/// A type of shape and how random ones are made.
+/// A type of shape and the makers of random ones.
 struct ShapeType {
     const char* name;
     int max_hits;
     bool always_closed;
     TestedShape (*make)(const ShapeSource& from);         ///< prepared
-    TestedShape (*make_fields)(const ShapeSource& from);  ///< as a file gives it
+    TestedShape (*make_fields)(const ShapeSource& from);  ///< fields only, as read from a file
 };
 
 template <class S>
@@ -121,14 +120,15 @@ Ray lattice_ray(Random& random) {
     return line(random.on_lattice(5, 0.25), random.lattice_direction());
 }
 
-/// The crossings, from an empty list on; how many there are.
+/// Replaces `hits` by the crossings and returns their number.
 int count_hits(const TestedShape& shape, const Ray& ray, ShapeHits& hits) {
     hits.clear();
     shape.intersect(ray, hits);
     return static_cast<int>(hits.size());
 }
 
-/// Whether the number of crossings of a solid fits where its line begins and ends.
+/// Returns whether the number of crossings of a solid agrees with the sides on which its line
+/// begins and ends.
 bool parity_is_right(const TestedShape& shape, const Ray& line, int count) {
     Ray back = line;
     back.direction = -back.direction;
@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(, ShapeConformance,
                          ::testing::ValuesIn(shape_types(static_cast<AnalyticShapes*>(nullptr))),
                          [](const auto& type) { return std::string(type.param.name); });
 
-/// Rounding of a point at t, as a length in each component.
+/// Rounding of a point at t, as a length per component.
 Vec3 point_slack(const Ray& ray, double t) {
     return 64 * kUlp * (abs(ray.origin) + std::abs(t) * abs(ray.direction));
 }
@@ -184,7 +184,7 @@ TEST_P(ShapeConformance, RandomShapesAreValid) {
 }
 
 TEST_P(ShapeConformance, MostAimedRaysHit) {
-    // Else the tests below would pass for a shape that is never hit.
+    // Guards against a shape that is never hit, which would pass the tests below.
     Random random(2);
     int hit = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -233,7 +233,7 @@ TEST_P(ShapeConformance, ARangeOfTSelectsFromTheCrossingsOfTheLine) {
                 ++expected;
             }
             ASSERT_EQ(count, expected);
-            // Whoever wants the first only gets the same first.
+            // A query for only the first crossing finds the same one.
             ShapeHits first(1);
             shape.intersect(ray, first);
             ASSERT_EQ(first.empty(), some.empty());
@@ -305,7 +305,7 @@ TEST_P(ShapeConformance, SurfaceIsAtTheCrossing) {
                 ASSERT_NEAR(length(surface.normal), 1.0, 1e-14);
                 ASSERT_EQ(surface.shading_normal, surface.normal);
                 ASSERT_TRUE(std::isfinite(surface.uv.x) && std::isfinite(surface.uv.y));
-                // The bound is usable: not negative, and a few last digits of the sizes involved.
+                // The bound is usable: not negative, and a few ulps of the magnitudes involved.
                 const double magnitudes =
                     box.bounded() ? max_component(abs(box.lo)) + max_component(abs(box.hi))
                                   : 3 * max_component(abs(surface.point)) + 60;
@@ -325,7 +325,7 @@ TEST_P(ShapeConformance, NormalsOfClosedShapesFaceOutward) {
                         for (int i = 0; i < n; ++i) {
                             const double cosine =
                                 dot(shape.surface(ray, hits[i]).normal, normalize(ray.direction));
-                            // Seen from afar, a grazing ray may round to the other side of the
+                            // Seen from far away, a grazing ray may round to the other side of the
                             // horizon.
                             const double outward = (i % 2 == 0) != inside ? -cosine : cosine;
                             ASSERT_GE(outward, -1e-3);
@@ -353,8 +353,8 @@ TEST_P(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
             const ShapeSurface b = shape.surface(neighbour, beside[k]);
             if (std::abs(dot(a.normal, normalize(ray.direction))) < 0.2) continue;
             const Vec3 way = b.point - a.point;
-            // Curvature turns it by the step over the smallest radius; rounding by 1e-13 over the
-            // step.
+            // Curvature turns the normal by the step over the smallest radius; rounding by 1e-13
+            // over the step.
             if (length(way) > 1e-5 || length(a.normal - b.normal) > 1e-3) continue;
             ASSERT_LE(std::abs(dot(a.normal, way)), 1e-3 * length(way) + 1e-11)
                 << i << ": " << to_text(ray);
@@ -367,7 +367,7 @@ TEST_P(ShapeConformance, NormalsArePerpendicularToTheWayToNeighbours) {
 TEST_P(ShapeConformance, ScalingTheDirectionScalesT) {
     Random scales(12);
     for_random_rays(GetParam(), 13, [&](const auto& shape, Ray ray, const ShapeHit* hits, int n) {
-        // By a power of two, so that not one bit may change.
+        // A power of two, so that all bits stay the same.
         const double scale = std::ldexp(1.0, scales.below(21) - 10);
         ray.direction = scale * ray.direction;
         ShapeHits scaled;

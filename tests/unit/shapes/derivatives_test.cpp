@@ -24,7 +24,7 @@ template <class S>
 class ShapeDerivatives : public ::testing::Test {};
 TYPED_TEST_SUITE(ShapeDerivatives, AsTestTypes<AnalyticShapes>::Type);
 
-/// u may jump by a turn.
+/// Removes a jump of u by one turn.
 double shorter_turn(double difference) {
     return difference - std::round(difference);
 }
@@ -53,7 +53,7 @@ TYPED_TEST(ShapeDerivatives, PredictTheNextPoint) {
         append_hits(shape, ray, hits);
         if (hits.empty()) continue;
         const ShapeSurface a = shape.surface(ray, hits[0]);
-        // At grazing rays and close to a pole the next point is not close by.
+        // At grazing rays and near a pole the next point is not close.
         if (std::abs(dot(a.normal, direction)) < 0.3) continue;
         if (length(a.dpdu) < 0.02 * length(a.dpdv)) continue;
         const double step = 1e-5 * std::fmin(length(a.dpdu), length(a.dpdv));

@@ -1,5 +1,5 @@
-// The first crossing on its own is the first of all of them, bit for bit; so is the surface without
-// texture coordinates.
+// The first-crossing query equals the first of all crossings, bit for bit; so does the surface
+// without texture coordinates.
 
 #include "alhazen/shapes/core/first_hit.h"
 
@@ -31,7 +31,7 @@ bool same(const Vec3& a, const Vec3& b) {
     return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
 }
 
-/// Rays through the shape's box: from outside, from inside, and ranges that begin or end anywhere.
+/// Rays through the shape's box, from outside and inside, with ranges that begin or end anywhere.
 template <class S>
 Ray aimed_ray(const S& shape, Random& random) {
     const Box3 box = shape.box();
@@ -47,7 +47,7 @@ Ray aimed_ray(const S& shape, Random& random) {
     return ray;
 }
 
-/// Checks one shape with many rays; how many of them hit.
+/// Checks one shape with many rays and returns the number of hits.
 template <class S>
 int check_first(const S& shape, Random& random, int rays) {
     int hit_count = 0;

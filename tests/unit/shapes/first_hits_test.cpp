@@ -1,4 +1,4 @@
-// The first crossings of rays in lanes are those of each ray alone, bit for bit.
+// First crossings of rays in lanes equal those of single rays, bit for bit.
 
 #include "alhazen/shapes/core/first_hits.h"
 
@@ -47,7 +47,7 @@ int check_block(const S& shape, const std::array<Ray, 8>& rays, std::size_t coun
     return std::popcount(found);
 }
 
-/// Blocks of rays of all kinds, and of rays that go nearly the same way.
+/// Blocks of rays of all kinds, and of coherent rays.
 template <class S>
 int check_shape(const S& shape, Random& random, int blocks) {
     int hit_count = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of exact solids ask of a shape: where a line crosses it, and its volume by rays.
+/// Crossings of a line with a shape, and the shape's volume by rays, for tests of exact solids.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ inline void expect_near(const std::vector<double>& found, const std::vector<doub
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], tolerance);
 }
 
-/// The outward normal at the first crossing.
+/// Outward normal at the first crossing.
 template <class S>
 Vec3 first_normal(const S& shape, const Vec3& origin, const Vec3& direction) {
     ShapeHits hits;
@@ -49,7 +49,7 @@ Vec3 first_normal(const S& shape, const Vec3& origin, const Vec3& direction) {
     return hits.empty() ? Vec3{} : shape.surface(ray, hits[0]).normal;
 }
 
-/// From a stratified sample of lines along z through the box.
+/// Volume by a stratified sample of lines along z through the box.
 template <class S>
 double volume_by_rays(const S& shape, int side = 160) {
     Random random(24);

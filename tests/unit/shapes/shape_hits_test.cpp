@@ -1,4 +1,4 @@
-// The list of crossings: it holds any number, in order, wherever they are kept.
+// List of crossings: holds any number, in order, in inline and in allocated storage.
 
 #include "alhazen/shapes/core/shape_hits.h"
 

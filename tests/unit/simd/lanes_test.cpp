@@ -1,5 +1,4 @@
-// Lanes give the bits of the scalar, on every instruction set: operators, the triangle and the
-// sphere.
+// Lanes have the bits of the scalar code on every instruction set: operators, triangle and sphere.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +17,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "unit/simd/lanes_test.cpp"
 #include <hwy/foreach_target.h>  // IWYU pragma: keep
-// After foreach_target.h.
+// Must follow foreach_target.h.
 #include "alhazen/simd/lanes-inl.h"
 
 #ifndef ALHAZEN_LANES_TEST_ONCE
@@ -105,7 +104,7 @@ using lanes_test::Case;
 using lanes_test::kInputs;
 using lanes_test::kOutputs;
 
-/// Doubles of all sorts: ordinary, on a lattice, huge, tiny, special.
+/// Doubles of all kinds: ordinary, on a lattice, huge, tiny, special.
 double any_double(std::mt19937_64& random, int sort) {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     constexpr double kSpecial[] = {0.0, -0.0,      1.0,        -1.0,      kInf,     -kInf,
@@ -130,7 +129,7 @@ bool same(double a, double b) {
     return (std::isnan(a) && std::isnan(b)) ||
            std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
-/// A zero of either sign: the minimum of two zeros may have any.
+/// Equal, ignoring the sign of zero: the minimum of two zeros may have either.
 bool same_value(double a, double b) {
     return same(a, b) || (a == 0 && b == 0);
 }

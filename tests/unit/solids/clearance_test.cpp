@@ -10,14 +10,14 @@ namespace {
 
 using testing::SceneMaker;
 
-/// The clearance of two shapes that a scene holds alone.
+/// Clearance of the only two shapes of a scene.
 template <class A, class B>
 Clearance between(const A& a, const B& b, const Affine& place_b = {}) {
     SceneMaker maker;
     maker.add(a, MaterialId{0}, Affine::translate({1, 2, 3}));
     maker.add(b, MaterialId{0}, Affine::translate({1, 2, 3}) * place_b);
     const SolidList solids(maker.compile().aggregate);
-    // Their order in the table is that of the list of shapes.
+    // The table orders them as the list of shapes does.
     return clearance(IsolatedSolid(solids, SolidId{0}), IsolatedSolid(solids, SolidId{1}));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Solids whose volume, area, centroid and moments are known, for the tests of measures.
+/// Solids with known volume, area, centroid and moments, for the tests of measures.
 
 #include <string>
 #include <vector>
@@ -70,7 +70,7 @@ inline std::vector<KnownSolid> known_solids() {
     return all;
 }
 
-/// A scene of that solid alone.
+/// A scene of one solid.
 struct LoneScene {
     explicit LoneScene(const KnownSolid& known)
         : solids([&] {

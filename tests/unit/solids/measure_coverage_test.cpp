@@ -1,5 +1,5 @@
-// Heavy: how often the intervals of whole measurements, which end when they are narrow enough, hold
-// the truth.
+// Heavy: how often the intervals of whole measurements, which end when they are narrow enough,
+// contain the true value.
 
 #include <gtest/gtest.h>
 
@@ -37,9 +37,9 @@ Coverage coverage_of(const Measurable& solid, double volume, double area, double
     return held;
 }
 
-/// `fills_its_shadow`: seen from the side it leaves nothing of its rectangle, so that the interval
-/// of the volume is widened by what could have been overlooked (with_rare_misses), which is nothing
-/// here.
+/// `fills_its_shadow`: the solid's silhouette fills its rectangle in every direction, so that the
+/// volume's interval is widened for possibly overlooked parts (with_rare_misses), of which there
+/// are none here.
 void expect_honest(int held, const std::string& what, bool fills_its_shadow = false) {
     std::cout << what << ": " << held / 4.0 << " %\n";
     EXPECT_GE(held, kRuns * 90 / 100) << what;
@@ -50,7 +50,7 @@ void expect_honest(int held, const std::string& what, bool fills_its_shadow = fa
 
 TEST(MeasureCoverage, OfMeasurementsThatEndWhenTheyAreNarrowEnough) {
     for (const KnownSolid& known : testing::known_solids()) {
-        if (known.name == "box") continue;  // exact: its intervals are only rounding
+        if (known.name == "box") continue;  // exact: its intervals contain only rounding
         const LoneScene scene(known);
         const Coverage held = coverage_of(scene.solid, known.volume, known.area, known.centroid.x);
         expect_honest(held.volume, known.name + " volume", known.name == "cylinder");

@@ -43,7 +43,7 @@ TEST(Section, TheOutlineOfASphereStaysWithinTheToleranceOfItsCircle) {
         }
         EXPECT_LE(farthest, tolerance);
         EXPECT_NEAR(found.area(), 3 * kPi, 2 * kPi * radius * tolerance);
-        // No more points than the tolerance asks for, within a small factor.
+        // At most a small factor more points than the tolerance needs.
         EXPECT_LT(static_cast<double>(loop.size()), 40 + 8 * kPi * std::sqrt(radius / tolerance));
     }
 }
@@ -64,7 +64,7 @@ TEST(Section, CornersOfABoxAreFoundWithinTheTolerance) {
 }
 
 TEST(Section, HolesRunTheOtherWayRound) {
-    // A tube of square section as a mesh: two boxes, the inner one turned inside out.
+    // A tube of square section as a mesh: two boxes, the inner one reversed.
     TriangleMesh tube;
     const std::array<std::array<std::uint32_t, 3>, 12> faces{{{0, 2, 1},
                                                               {1, 2, 3},
@@ -116,7 +116,7 @@ TEST(Section, ThePictureShowsTheCutInTheColourOfTheSolidAndWhatLiesBehind) {
     const SolidScene solids(maker.description(), scene);
     const Image image =
         section_picture(solids, scene, {{0, 0, 1}, 0}, {.width = 120, .height = 60});
-    // The window holds x from -1 to 4 in the middle of it with a margin; y from -1 to 1.
+    // The window spans x from -1 to 4 plus a margin and is centred there; y from -1 to 1.
     const double per_unit = 120 / (1.06 * 5);
     const auto at = [&](double x, double y) {
         return image.rgb(static_cast<int>(60 + per_unit * (x - 1.5)),
@@ -124,7 +124,7 @@ TEST(Section, ThePictureShowsTheCutInTheColourOfTheSolidAndWhatLiesBehind) {
     };
     EXPECT_EQ(at(0, 0).r, 1);
     EXPECT_EQ(at(0.5, -0.5).g, 0);
-    EXPECT_EQ(at(1.5, 0).b, 1);  // paper
+    EXPECT_EQ(at(1.5, 0).b, 1);  // background
     EXPECT_NEAR(at(3, 0).g, 0.5, 0.01);
     EXPECT_EQ(at(3, 0).r, 0);
     bool inked = false;

@@ -24,7 +24,7 @@ TEST(SolidMeasures, SolidsWithKnownFiguresHaveThem) {
         const LoneScene scene(known);
         const SolidMeasures m = measure(scene.solid, {.relative_error = 4e-4, .seconds = 20});
         EXPECT_TRUE(m.reached) << known.name;
-        // Twice the interval: of these some fifty numbers a few miss their own.
+        // Twice the interval: of about fifty numbers a few miss their own.
         const auto near = [&](const Estimate& e, double truth, const char* what) {
             EXPECT_NEAR(e.value, truth, 2 * e.half_width) << known.name << " " << what;
         };
@@ -55,7 +55,7 @@ TEST(SolidMeasures, ABoxAlongTheAxesIsExact) {
     EXPECT_NEAR(m.area.value, 22, 1e-12);
 }
 
-/// How often the interval from half samples holds the truth.
+/// How often the interval from half samples contains the true value.
 double coverage(const Measurable& solid, const BundleFrame& frame, double truth, bool area) {
     constexpr int kRuns = 400;
     int held = 0;
@@ -80,7 +80,7 @@ TEST(SolidMeasures, IntervalsOfTheBundlesHoldTheTruthAsOftenAsTheySay) {
         EXPECT_GE(c, 0.90) << known.name;
         EXPECT_LE(c, 0.99) << known.name;
     }
-    // The ends of a cylinder seen along its axis: nothing but a silhouette that is counted.
+    // The ends of a cylinder seen along its axis: only a silhouette is counted.
     const LoneScene cylinder(known_solids()[3]);
     const double ends = coverage(cylinder.solid, along_z, 3 * kPi, false);
     EXPECT_GE(ends, 0.90);
@@ -129,7 +129,7 @@ TEST(SolidMeasures, TheLensOfTwoSpheresIsTheirOverlap) {
 }
 
 TEST(SolidMeasures, BicylindersAreRightToFiveDigits) {
-    // Two as the overlap of cylinders, 16 r^3 / 3; along the axes, and turned.
+    // The intersection of two cylinders, 16 r^3 / 3; axis-aligned and rotated.
     for (const Affine& placement :
          {Affine{}, Affine::rotate({1, -2, 1}, 0.8) * Affine::scale({2, 2, 2})}) {
         SceneMaker maker;
@@ -157,7 +157,7 @@ TEST(SolidMeasures, SectionsHaveTheAreaOfDiscsEllipsesAndRectangles) {
         section_area(IsolatedSolid(solids, SolidId{0}), {{0, 0, 2}, 4}, options);
     EXPECT_NEAR(disc.area.value, 3 * kPi, 2 * disc.area.half_width);
     EXPECT_LT(disc.area.half_width, 1e-5);
-    // Cut at 60 degrees to the axis the half axes are 1 and 2.
+    // A cut at 60 degrees to the axis has the semi-axes 1 and 2.
     const double s = std::sqrt(3.0) / 2;
     const SectionArea ellipse =
         section_area(IsolatedSolid(solids, SolidId{2}), {{0, s, 0.5}, 0.1}, options);
@@ -170,8 +170,8 @@ TEST(SolidMeasures, SectionsHaveTheAreaOfDiscsEllipsesAndRectangles) {
 }
 
 TEST(SolidMeasures, WhatTheCornersOfAnAlmostFullShadowLackIsInTheInterval) {
-    // 8 gamma(1 + 1/p)^3 / gamma(1 + 3/p): of the difference to the cube a third is in corners that
-    // one line in 25000 meets.
+    // 8 gamma(1 + 1/p)^3 / gamma(1 + 3/p): a third of the difference to the cube is in corners that
+    // one line in 25000 hits.
     constexpr double kPower = 200;
     const double truth =
         8 * std::exp(3 * std::lgamma(1 + 1 / kPower) - std::lgamma(1 + 3 / kPower));
@@ -199,7 +199,7 @@ TEST(SolidMeasures, LinesGoOnWhereThereAreAsManyCellsAsMayBe) {
     EXPECT_NEAR(m.volume.value, 32 * kPi / 3, 2 * m.volume.half_width);
 }
 
-/// Every other line is said to have crossings that come in no pairs.
+/// Reports an odd number of crossings on every other line.
 class OddSolid final : public Measurable {
   public:
     [[nodiscard]] Box3 box() const override { return {{0, 0, 0}, {1, 1, 1}}; }
@@ -225,7 +225,7 @@ TEST(SolidMeasures, LinesWhoseCrossingsComeInNoPairsAreCountedInEveryRound) {
     EXPECT_EQ(bundle.inconsistent(), odd.asked() / 2);
 }
 
-/// Counts the lines that ask for another solid.
+/// Counts the lines that are traced for another solid.
 class CountedSolid final : public Measurable {
   public:
     explicit CountedSolid(const Measurable& solid) : solid_(solid) {}
@@ -274,7 +274,7 @@ TEST(SolidMeasures, NumbersThatOverflowOrVanishSaySo) {
             measure(IsolatedSolid(solids, SolidId{0}), {.relative_error = 1e-2, .seconds = 20});
         EXPECT_EQ(m.in_range, radius == 1.0) << radius;
         EXPECT_TRUE(m.has_moments) << radius;
-        // The volume itself is a number, and so is its interval.
+        // The volume itself and its interval are finite.
         EXPECT_TRUE(m.volume.holds(4 * kPi / 3 * radius * radius * radius)) << radius;
         EXPECT_GT(m.volume.half_width, 0) << radius;
     }

@@ -18,8 +18,8 @@ inline Vec3 uniform_point(std::mt19937_64& random, double reach) {
     return {x, y, uniform(random, reach)};
 }
 
-/// Something of every kind of leaf: triangles in float and in double, spheres, other shapes, a
-/// plane, instances. Within a cube of half a side 10 or so, but for the plane.
+/// Every kind of leaf: triangles in float and in double, spheres, other shapes, a plane, instances.
+/// Within a cube of about half side 10, except the plane.
 inline TracerScene mixed_scene(std::uint64_t seed, int triangle_count = 200) {
     std::mt19937_64 random(seed);
     std::vector<Vec3> positions;
@@ -58,7 +58,7 @@ inline TracerScene mixed_scene(std::uint64_t seed, int triangle_count = 200) {
     return scene;
 }
 
-/// Some along the axes and the lattice.
+/// Random rays, some along the axes and on the lattice.
 inline std::vector<Ray> random_rays(std::uint64_t seed, std::size_t count) {
     std::mt19937_64 random(seed);
     std::vector<Ray> rays;
@@ -75,7 +75,7 @@ inline std::vector<Ray> random_rays(std::uint64_t seed, std::size_t count) {
     return rays;
 }
 
-/// The same bits.
+/// Returns whether all bits are equal.
 inline bool same_hit(const Hit& a, const Hit& b) {
     return a.t == b.t && a.u == b.u && a.v == b.v && a.part == b.part &&
            a.primitive == b.primitive && a.path == b.path;

@@ -10,7 +10,7 @@ using namespace testing;
 
 constexpr Ray kDown{{0.2, 0.1, 10}, {0, 0, -1}};
 
-/// Of every kind of geometry one, above each other; only the ray of its own bit sees it.
+/// One geometry of each kind, stacked; each is visible only to the ray of its own bit.
 TracerScene tower() {
     TracerScene inner;
     inner.add_sphere({0, 0, 0}, 0.5, {.visible_to = 1u << 3});
@@ -36,8 +36,8 @@ TEST(TracerMasks, ARaySeesTheGeometryThatHasABitOfItsMask) {
         const Tracer tracer(tower(), {.accelerator = accelerator});
         std::vector<Hit> hits;
         tracer.all_hits(kDown, hits);
-        // Two crossings of the sphere on top and of that in the instance; the other sphere in it
-        // and the instance have no bit in common, but the ray has bits of both.
+        // Two crossings of the sphere on top and of the one in the instance; the other sphere and
+        // its instance have no common bit, although the ray has bits of both.
         EXPECT_EQ(hits.size(), 2u + 2u + 2u + 3u) << accelerator;
         const std::size_t crossings[] = {1, 1, 1, 2, 0, 0, 0};
         for (std::uint32_t bit = 0; bit < 7; ++bit) {

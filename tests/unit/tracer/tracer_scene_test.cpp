@@ -13,7 +13,7 @@
 namespace alhazen {
 namespace {
 
-/// The message of the error that `action` ends with.
+/// Message of the error that `action` throws.
 template <class Action>
 std::string refusal(Action&& action) {
     try {

@@ -164,7 +164,7 @@ TEST(Tracer, EveryAcceleratorAndBatchGivesTheHitsOfTheList) {
     EXPECT_GT(found, rays.size() / 4);
 }
 
-/// Tiles of rays from a point, then rays of any kind: the hint is right for the first ones only.
+/// Tiles of rays from a point, then incoherent rays: the hint is right for the first ones only.
 std::vector<Ray> tiles_and_others() {
     std::vector<Ray> rays;
     for (int tile = 0; tile < 12; ++tile) {
@@ -172,7 +172,7 @@ std::vector<Ray> tiles_and_others() {
             const double x = 0.02 * (8 * (tile % 4) + i % 8 - 16),
                          y = 0.02 * (8 * tile / 4.0 + i / 8.0 - 16);
             rays.push_back({{0, 0, 11}, {x, y, -1}});
-            // As towards a light: each ends at a common point.
+            // As towards a light: all end at a common point.
             if (tile >= 8) rays.back() = {rays.back().at(9), -9 * rays.back().direction, 0, 1};
         }
     }
@@ -181,7 +181,7 @@ std::vector<Ray> tiles_and_others() {
 }
 
 TEST(Tracer, TheHintOfCoherenceChangesNoHit) {
-    // Triangles alone and spheres alone go in packets; few shapes without a tree.
+    // Triangles only and spheres only use packets; few shapes use treeless packets.
     TracerScene spheres, few;
     std::mt19937_64 random(12);
     for (int i = 0; i < 60; ++i) spheres.add_sphere(testing::uniform_point(random, 6), 0.5);
@@ -333,7 +333,7 @@ TEST(Tracer, DirectionsOfAnyLengthMeetTheSame) {
             tracer.all_hits(scaled, hits);
             tracer.all_hits(ray, usual_hits);
             EXPECT_EQ(hits.size(), usual_hits.size());
-            // In a batch with one of usual length.
+            // In a batch with a ray of usual length.
             const std::array<Ray, 2> rays{scaled, ray};
             std::array<Hit, 2> batch;
             std::array<bool, 2> blocked{};

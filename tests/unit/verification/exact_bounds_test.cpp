@@ -31,7 +31,7 @@ TEST(ExactBounds, LeaveOutWhatIsEndless) {
     EXPECT_EQ(box.hi, (Vec3{4, 1, 1}));
 }
 
-/// A strip of 70 triangles on x + y = 1, so that its box is much larger when it is turned.
+/// A strip of 70 triangles on x + y = 1, whose box grows considerably by rotation.
 std::string strip() {
     std::string text =
         "ply\nformat ascii 1.0\nelement vertex 72\nproperty float x\nproperty float "
@@ -59,7 +59,7 @@ TEST(ExactBounds, OfSharedMeshesAreThoseOfTheirPlacedVertices) {
                           "instance \"m\" { transform = rotate((0, 0, 1), 45) }\n"));
     ASSERT_EQ(loaded.scene.census.instances, 2U);
     const Box3 box = exact_bounds(*loaded.scene.aggregate);
-    // The box of the strip, turned, would reach from -0.71 to 0.71 and from 0 to 1.41.
+    // The rotated box of the strip would reach from -0.71 to 0.71 and from 0 to 1.41.
     EXPECT_NEAR(box.lo.x, -std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(box.lo.y, std::sqrt(0.5), 1e-6);
     EXPECT_NEAR(box.hi.y, std::sqrt(0.5), 1e-6);

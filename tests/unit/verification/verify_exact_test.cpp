@@ -60,7 +60,7 @@ TEST(VerifyExact, ShapesAtRandomPlacesAndSizesAreRight) {
         EXPECT_EQ(report.disagreements, 0u) << first_of(report);
         EXPECT_LE(report.worst_point, 1.0);
         EXPECT_GT(report.worst_point, 0.0);
-        // Most rays must be decided without recourse to displaced lines.
+        // Most rays must be resolved without displaced lines.
         EXPECT_LT(report.grazing, report.rays / 4);
     }
 }
@@ -161,7 +161,7 @@ TEST(VerifyExact, AMeshIsNotChecked) {
 }
 
 TEST(ExactCrossings, AWrongCrossingIsFarFromTheTruth) {
-    // What the check rests on: the formula knows a sphere that is wrong in the last digits.
+    // Basis of the check: the formula detects a sphere that is wrong in the last digits.
     const ExactLine line{{-3, Real128(0.3), 0}, {1, 0, 0}};
     const ExactCrossings truth = exact_crossings(Sphere{{0, 0, 0}, 1}, line);
     const ExactCrossings wrong = exact_crossings(Sphere{{0, 0, 0}, 1 + 1e-15}, line);

@@ -1,4 +1,4 @@
-/// Every road is compared, and a wrong answer on any of them is reported.
+/// Every traversal path is compared, and a wrong answer on any of them is reported.
 
 #include "alhazen/verification/verify_roads.h"
 
@@ -34,7 +34,7 @@ void add_triangles(SceneMaker& maker) {
     maker.add(maker.mesh(round_mesh(3)));
     maker.add(maker.mesh(testing::tetrahedron()), MaterialId{0}, Affine::translate({1, 1, 0}));
 }
-/// Few shapes that lanes take: they are traced without the tree.
+/// Few shapes that lanes support: traced without a tree.
 void add_few_spheres(SceneMaker& maker) {
     maker.add(Sphere{{0, 0, 0}, 1});
     maker.add(Sphere{{1, 0.5, 0.5}, 0.75});
@@ -47,7 +47,7 @@ void add_spheres(SceneMaker& maker) {
         maker.add(Sphere{random.on_lattice(4, 0.5), 0.5});
     }
 }
-/// Solids that the table of truths evaluates.
+/// Solids evaluated by the truth table.
 void add_solids(SceneMaker& maker) {
     Random random(4);
     for (int i = 0; i < 12; ++i) {
@@ -106,12 +106,12 @@ TEST(VerifyRoads, EveryRoadAgreesOnScenesOfEveryKind) {
         EXPECT_EQ(report.rays, 2600u);
         EXPECT_EQ(report.roads[0].rays, 2600u);
         EXPECT_EQ(report.roads[1].rays, 2600u);
-        // Two sets of 64 of each 512 rays; the last set is cut off.
+        // Two sets of 64 from each 512 rays; the last set is truncated.
         EXPECT_EQ(report.roads[2].rays, 5 * 128u + 40u);
     }
 }
 
-/// Gives the answers of another aggregate.
+/// Forwards queries to another aggregate.
 class Delegating : public Aggregate {
   public:
     explicit Delegating(const Aggregate& honest) : honest_(honest) {}
@@ -137,10 +137,10 @@ class Delegating : public Aggregate {
     const Aggregate& honest_;
 };
 
-/// Spoils one hit, or one answer about occlusion, of each batch of a coherence.
+/// Corrupts one hit, or one occlusion result, of each batch of a coherence.
 class Spoiled final : public Delegating {
   public:
-    /// Without `spoil_hit` occlusion is spoiled.
+    /// Without `spoil_hit` corrupts occlusion.
     Spoiled(const Aggregate& honest, Coherence wrong, std::function<void(Hit&)> spoil_hit)
         : Delegating(honest), wrong_(wrong), spoil_hit_(std::move(spoil_hit)) {}
 
@@ -163,7 +163,7 @@ class Spoiled final : public Delegating {
     std::function<void(Hit&)> spoil_hit_;
 };
 
-/// Leaves the results of batches as they were.
+/// Leaves the results of batches unwritten.
 class Silent final : public Delegating {
   public:
     using Delegating::Delegating;
@@ -203,7 +203,7 @@ TEST(VerifyRoads, AWrongAnswerOfABatchIsReportedWithItsRoad) {
             const VerifyReport report = compared(spoiled, brute, 64);
             EXPECT_FALSE(report.holds()) << i;
             const auto road = wrong == Coherence::Any ? Road::Stream : Road::Coherent;
-            // A set is shot by itself and with the others of its block.
+            // A set is traced alone and with the others of its block.
             EXPECT_EQ(report.disagreements, wrong == Coherence::Any ? 1u : 2u) << i;
             EXPECT_EQ(report.roads[static_cast<std::size_t>(road)].disagreements,
                       report.disagreements);
@@ -240,7 +240,7 @@ TEST(VerifyRays, CoherentSetsAreTilesAndRaysTowardsAPoint) {
         for (const VerifyRays::Sample& sample : tile) {
             ASSERT_TRUE(is_valid(sample.ray));
             ASSERT_EQ(sample.ray.origin, tile.front().ray.origin);
-            // Neighbours go nearly the same way.
+            // Neighbours are nearly parallel.
             ASSERT_GT(dot(normalize(sample.ray.direction), normalize(tile.front().ray.direction)),
                       -0.5);
             origins.push_back(sample.ray.at(2.0));

@@ -1,4 +1,4 @@
-/// What the text of a BRL-CAD database says, and what is wrong with it.
+/// Parsing of the text of BRL-CAD databases, and its error messages.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ BrlcadDatabase v5(const std::string& text, Diagnostics& found) {
     return read<BrlcadV5Reader>(text, found);
 }
 
-/// A tree in brackets: -(a b) is the first without the second.
+/// Prints a tree with brackets: -(a b) is a minus b.
 std::string shown(const BrlcadTree& tree, std::uint32_t index) {
     if (index == BrlcadTree::kEmpty) return "nothing";
     const BrlcadNode& node = tree.node(index);

@@ -1,4 +1,4 @@
-/// The scenes that BRL-CAD databases make: what is solid where, and in which colour.
+/// Scenes of BRL-CAD databases: which points are solid, and in which colour.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ SceneDescription import(const std::string& text, Diagnostics& found, ImportOptio
     return scene;
 }
 
-/// A compiled scene that is asked for points.
+/// A compiled scene with point and colour queries.
 class Model {
   public:
     explicit Model(const std::string& text, ImportOptions options = {})
@@ -31,11 +31,11 @@ class Model {
         EXPECT_EQ(found_.error_count(), 0u) << text_of(found_);
         scene_ = compile(description_);
     }
-    /// How many solids hold the point.
+    /// Number of solids that contain the point.
     [[nodiscard]] std::size_t at(const Vec3& p) const {
         return SolidQueries(scene_.aggregate).inside(p).size();
     }
-    /// The diffuse colour, made brightest, of what a ray meets first.
+    /// Diffuse colour, scaled to full brightness, of the first surface on a ray.
     [[nodiscard]] Rgb color(const Vec3& origin, const Vec3& direction) const {
         Ray ray;
         ray.origin = origin;
@@ -88,7 +88,7 @@ TEST(BrlcadScene, ExclusiveOrAndIntersectionOfCombinationsAreSolids) {
 TEST(BrlcadScene, EverySolidIsWhereItsDefinitionSays) {
     struct Probe {
         const char* solid;
-        Vec3 inside, outside;  ///< both close to one place of the surface
+        Vec3 inside, outside;  ///< on both sides of a surface point
     };
     const Probe probes[] = {
         {"ell V {1 0 0} A {2 0 0} B {0 1 0} C {0 0 3}", {1, 0, 2.99}, {1, 0, 3.01}},
@@ -102,7 +102,7 @@ TEST(BrlcadScene, EverySolidIsWhereItsDefinitionSays) {
         {"half N {0 0 2} d 2", {5, 5, 0.99}, {5, 5, 1.01}},
         {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {0, 0, -1.99}, {0, 0, -2.01}},
         {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {0, 0, 4.99}, {0, 0, 5.01}},
-        // Half way up, the cone that touches both spheres: 1.5 / cos of its half angle.
+        // Half way up, the cone tangent to both spheres: 1.5 / cos of its half angle.
         {"part V {0 0 0} H {0 0 4} r_v 2 r_h 1", {1.54, 0, 2}, {1.56, 0, 2}},
         {"part V {0 0 0} H {0 0 1} r_v 3 r_h 1", {0, 0, 2.99}, {0, 0, 3.01}},
         {"rpc V {0 0 0} H {0 0 2} B {0 4 0} r 2", {0.99, 3, 1}, {1.01, 3, 1}},
@@ -153,7 +153,7 @@ TEST(BrlcadScene, OperatorsAboveRegionsActOnEachAndKeepTheirMaterials) {
                       "put all comb region no tree {- {u {l r} {l g}} {l cut}}\n");
     EXPECT_EQ(model.at({1.5, 0, 0.5}), 2u);
     EXPECT_EQ(model.at({1.5, 0, -0.5}), 0u);
-    // From below the cut faces are seen.
+    // The cut faces are visible from below.
     EXPECT_EQ(model.color({-1, 0, -9}, {0, 0, 1}), (Rgb{1, 0, 0}));
     EXPECT_EQ(model.color({4, 0, -9}, {0, 0, 1}), (Rgb{0, 1, 0}));
 }
@@ -275,7 +275,7 @@ TEST(BrlcadView, TheDefaultIsFrom35And25AsWideAsTheDiagonal) {
     const auto cameras = brlcad_cameras({{-1.5, -1, -0.5}, {2.5, 3, 1}}, {});
     ASSERT_EQ(cameras.size(), 8u);
     const auto& camera = std::get<OrthographicCamera>(cameras[0].camera);
-    // The box in whole numbers: (-2, -1, -1) to (3, 3, 1).
+    // The box has integer corners: (-2, -1, -1) and (3, 3, 1).
     const double size = std::sqrt(25.0 + 16.0 + 4.0);
     EXPECT_NEAR(length(camera.right), size, 1e-12);
     EXPECT_NEAR(length(camera.up), size, 1e-12);
@@ -287,7 +287,7 @@ TEST(BrlcadView, TheDefaultIsFrom35And25AsWideAsTheDiagonal) {
 }
 
 TEST(BrlcadView, OrientationAndRotationSayTheSame) {
-    // The log of a reference picture gives the orientation of azimuth 35, elevation 25.
+    // Orientation of azimuth 35, elevation 25, from the log of a reference image.
     Diagnostics found;
     const Box3 box{{-1, -1, -1}, {1, 1, 1}};
     const auto views = read_brlcad_views(

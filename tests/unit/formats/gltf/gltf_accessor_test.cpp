@@ -8,7 +8,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// One buffer with these bytes, one view of all of it (`view` adds members) and these accessors.
+/// One buffer with these bytes, one view of all of it (`view` adds members), and these accessors.
 std::string over(const std::string& bytes, const std::string& accessors,
                  const std::string& view = "") {
     const std::string size = std::to_string(bytes.size());
@@ -65,7 +65,7 @@ TEST(GltfAccessor, SparseValuesReplaceThoseOfTheBase) {
              "'componentType': 5121}, 'values': {'bufferView': 0, 'byteOffset': 20}}}"));
     ASSERT_TRUE(read.is_good()) << read.findings();
     EXPECT_EQ(gltf::read_numbers(read.document, 0), (Numbers{1, 20, 3, 40}));
-    // Of the first elements alone, with those sparse ones that are among them.
+    // Reads only the first elements, with the sparse values among them.
     EXPECT_EQ(gltf::read_numbers(read.document, 0, 1), (Numbers{1}));
     EXPECT_EQ(gltf::read_numbers(read.document, 0, 3), (Numbers{1, 20, 3}));
     EXPECT_EQ(gltf::read_numbers(read.document, 0, 9), (Numbers{1, 20, 3, 40}));

@@ -41,7 +41,7 @@ TEST(GltfAnimation, CubicSplineTangentsAreTimesTheSecondsBetweenKeys) {
 
 TEST(GltfAnimation, RotationsTurnTheShorterWayAround) {
     const double s = std::sqrt(0.5);
-    // A quarter turn about z, given as the quaternion and as its negative: the same rotation.
+    // A quarter turn about z, given as a quaternion and as its negative: the same rotation.
     for (const double sign : {1.0, -1.0}) {
         const Keys keys{{0, 1}, {0, 0, 0, 1, 0, 0, sign * s, sign * s}, 4, Interpolation::Linear};
         const Quaternion third = gltf::rotation_at(keys, 1.0 / 3);
@@ -56,14 +56,14 @@ TEST(GltfAnimation, RotationsAreUnitWhateverTheKeysAre) {
                       4,
                       Interpolation::CubicSpline};
     const Quaternion q = gltf::rotation_at(spline, 0.5);
-    // (0, 0, 1.5, 1) made unit.
+    // (0, 0, 1.5, 1) normalized.
     EXPECT_NEAR(q[2], 1.5 / std::sqrt(3.25), 1e-12);
     EXPECT_NEAR(q[3], 1.0 / std::sqrt(3.25), 1e-12);
     const Keys nothing{{0}, {0, 0, 0, 0}, 4, Interpolation::Linear};
     EXPECT_EQ(gltf::rotation_at(nothing, 0), (Quaternion{0, 0, 0, 1}));
 }
 
-/// A triangle that animation 0 ("slide") moves and animation 1 turns.
+/// A triangle that animation 0 ("slide") translates and animation 1 rotates.
 std::string animated_triangle() {
     GltfText t;
     const int p = t.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, bounds("0, 0, 0", "1, 1, 0"));
@@ -98,7 +98,7 @@ TEST(GltfAnimation, AtATimeAllAnimationsApply) {
     options.time = 1.0;
     const Imported result = import_gltf(animated_triangle(), options);
     EXPECT_EQ(result.errors(), 0u) << result.messages();
-    // Half of a half turn about z, and half of the way along x.
+    // Half of a half turn about z, and half of the translation along x.
     EXPECT_NEAR_VEC((Vec3{2, 1, 0}), world_positions(result.scene)[1], 1e-12);
 }
 

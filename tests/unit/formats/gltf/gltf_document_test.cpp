@@ -91,7 +91,7 @@ TEST(GltfExtensions, OnesThatAreOnlyUsedAreWarnings) {
 
 struct Refusal {
     const char* name;
-    const char* text;     ///< members beside the asset; or a whole file, when it begins with {
+    const char* text;     ///< members beside the asset; a whole file if it begins with {
     const char* finding;  ///< part of the message
 };
 
@@ -104,7 +104,7 @@ TEST_P(GltfRefusal, NamesThePlace) {
     EXPECT_TRUE(read.says(GetParam().finding)) << read.findings();
 }
 
-/// Three vertices with positions, at 0, and something else to go wrong.
+/// Three vertices with positions, at accessor 0, and one more faulty member.
 #define TRIANGLE                                                                            \
     "'buffers': [{'byteLength': 36, 'uri': 'data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAA" \
     "AAAAAAAgD8AAAAA'}], 'bufferViews': [{'buffer': 0, 'byteLength': 36}], 'accessors': "   \
@@ -234,7 +234,7 @@ TEST(GltfDocument, DepthOfJsonIsLimitedAndDepthOfNodesIsNot) {
 }
 
 TEST(GltfDocument, JsonThatNeedsMuchMemoryForItsSizeIsRefused) {
-    // An object of three bytes counts as eight values: of these 125 000 make a million.
+    // An object of three bytes counts as eight values: 125 000 of them make a million.
     const auto objects = [](std::size_t count) {
         std::string text = R"({"asset": {"version": "2.0"}, "extras": [{})";
         for (std::size_t i = 1; i < count; ++i) text += ",{}";
@@ -244,7 +244,7 @@ TEST(GltfDocument, JsonThatNeedsMuchMemoryForItsSizeIsRefused) {
     options.max_elements = 20'000'000;
     EXPECT_TRUE(read_gltf(objects(124'990), options).is_good());
     EXPECT_THROW((void)read_gltf(objects(125'000), options), Error);
-    // By default there are twenty million.
+    // The default limit is twenty million.
     EXPECT_TRUE(read_gltf(objects(2'400'000)).is_good());
     EXPECT_THROW((void)read_gltf(objects(2'500'000)), Error);
 }
@@ -258,7 +258,7 @@ TEST(GltfDocument, ABufferOnTheNetIsOnlyRefusedWhenItIsNeeded) {
 }
 
 TEST(GltfDocument, ImagesMustBeWhatTheySay) {
-    // The start of a JPEG and nothing more; the same declared as PNG.
+    // Only the signature of a JPEG; the same declared as PNG.
     EXPECT_TRUE(read_gltf(gltf_with(json("'images': [{'uri': 'data:image/jpeg;base64,/9j/4A=='}]")))
                     .says("#/images/0: the JPEG data ends within its header"));
     EXPECT_TRUE(read_gltf(gltf_with(json("'images': [{'uri': 'data:image/png;base64,/9j/4A=='}]")))

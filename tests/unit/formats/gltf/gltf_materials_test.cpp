@@ -1,4 +1,4 @@
-/// Materials and textures of glTF files in the terms of a scene.
+/// Conversion of materials and textures of glTF files.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST(GltfMaterial, KeepsWhatTheFileSays) {
               "attenuationColor": [0.5, 0.6, 0.7]},
             "KHR_materials_specular": {"specularFactor": 0.8, "specularColorFactor": [1, 0, 1]}}}])"));
     EXPECT_EQ(result.errors(), 0u) << result.messages();
-    // And the default material of the primitive that names none.
+    // One material, and the default one of the primitive without a material.
     ASSERT_EQ(result.scene.materials.size(), 2u);
     const Material& m = result.scene.materials[0].material;
     EXPECT_EQ(m.name, "m");
@@ -91,7 +91,7 @@ TEST(GltfMaterial, TexturesShareTheirPictureAndKeepTheirUse) {
     EXPECT_EQ(m.metallic_roughness->metallic.channel, Channel::Blue);
     EXPECT_EQ(m.metallic_roughness->roughness.channel, Channel::Green);
     EXPECT_EQ(m.metallic_roughness->metallic.texture, m.metallic_roughness->roughness.texture);
-    // Base colour and the linear one, which three inputs share.
+    // The base colour, and the linear texture that three inputs share.
     EXPECT_EQ(result.scene.textures.size(), 2u);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A glTF file of a few nodes, as text, for the tests of scenes, materials and views.
+/// Text of a glTF file with a few nodes, for the tests of scenes, materials and views.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace alhazen::testing {
 
-/// A file with one triangle as mesh 0 and these nodes, all of `shown` in its scene.
+/// A file with one triangle as mesh 0 and these nodes; its scene has the nodes `shown`.
 inline std::string with_nodes(const std::string& nodes, const std::string& shown = "0",
                               const std::string& more = "") {
     GltfText t;

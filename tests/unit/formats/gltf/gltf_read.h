@@ -1,5 +1,5 @@
 #pragma once
-/// Reads glTF documents from text for tests, and tells what was found.
+/// Reads glTF documents from text, with their findings.
 
 #include <string>
 #include <utility>
@@ -15,7 +15,7 @@ struct ReadDocument {
     Diagnostics diagnostics;
 
     [[nodiscard]] bool is_good() const { return diagnostics.error_count() == 0; }
-    /// All findings, one a line.
+    /// All findings, one per line.
     [[nodiscard]] std::string findings() const {
         std::string text;
         for (const Diagnostic& d : diagnostics.all()) text += to_string(d) + "\n";
@@ -34,12 +34,12 @@ inline ReadDocument read_gltf(std::string bytes, const ImportOptions& options = 
     return result;
 }
 
-/// A file with nothing but a version and these members.
+/// A file with only a version and these members.
 inline std::string gltf_with(const std::string& members) {
     return R"({"asset": {"version": "2.0"}, )" + members + "}";
 }
 
-/// The text with double instead of single quotes.
+/// Replaces single quotes by double ones.
 inline std::string json(std::string text) {
     for (char& c : text) c = c == '\'' ? '"' : c;
     return text;

@@ -39,7 +39,7 @@ TEST(GltfScene, TransformsMultiplyAlongTheHierarchy) {
     EXPECT_EQ(result.errors(), 0u) << result.messages();
     ASSERT_EQ(result.parts().size(), 1u);
     EXPECT_EQ(result.parts()[0].name, "b/tri");
-    // (1, 0, 0) -> (4, 0, 0) -> scaled (8, 0, 0) -> turned (0, 8, 0) -> moved.
+    // (1, 0, 0) -> (4, 0, 0) -> scaled (8, 0, 0) -> rotated (0, 8, 0) -> translated.
     EXPECT_NEAR_VEC((Vec3{10, 8, 0}), world_positions(result.scene)[1], 1e-12);
 }
 
@@ -109,7 +109,7 @@ TEST(GltfScene, InstancesOfTheExtensionAreParts) {
     ASSERT_EQ(result.parts().size(), 2u);
     EXPECT_EQ(result.parts()[1].name, "n/mesh 0[1]");
     EXPECT_EQ(world_positions(result.scene, 0)[1], (Vec3{1, 7, 0}));
-    // Three times as large, half a turn about z.
+    // Scaled by three, half a turn about z.
     EXPECT_NEAR_VEC((Vec3{2, 7, 0}), world_positions(result.scene, 1)[1], 1e-12);
 }
 
@@ -127,7 +127,7 @@ TEST(GltfScene, InstancesAreCountedByAnyAttribute) {
 }
 
 TEST(GltfScene, WhatIsMadeOfAFileIsBounded) {
-    // A mesh of three vertices that every node bends in its own way.
+    // A mesh of three vertices, with other morph weights in every node.
     GltfText t;
     const int p = t.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, bounds("0, 0, 0", "1, 1, 0"));
     std::string nodes, roots;

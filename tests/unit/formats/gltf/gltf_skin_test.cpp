@@ -9,8 +9,8 @@
 namespace alhazen::testing {
 namespace {
 
-/// A triangle whose corners follow joint 1 (node 1), joint 2 (node 2), and both by halves. The mesh
-/// node is moved far away, which must not matter. `weights`: of the three corners.
+/// A triangle whose corners follow joint 1 (node 1), joint 2 (node 2), and both by halves. The
+/// transform of the mesh node must have no effect. `weights`: those of the three corners.
 std::string skinned_triangle(std::initializer_list<double> weights) {
     GltfText t;
     const auto n = [](int i) { return std::to_string(i); };
@@ -37,9 +37,9 @@ TEST(GltfSkin, VerticesFollowTheirJointsAndNotTheirNode) {
     EXPECT_EQ(result.errors(), 0u) << result.messages();
     const std::vector<Vec3> points = world_positions(result.scene);
     ASSERT_EQ(points.size(), 3u);
-    // Joint 0 only lifts by 5.
+    // Joint 0 only translates by 5 along y.
     EXPECT_NEAR_VEC((Vec3{0, 5, 0}), points[0], 1e-12);
-    // Joint 1 turns by 90 degrees about its place at (1, 5, 0): a corner bound there stays.
+    // Joint 1 rotates by 90 degrees about its position (1, 5, 0): a corner bound there stays.
     EXPECT_NEAR_VEC((Vec3{1, 5, 0}), points[1], 1e-12);
     // Halfway between (2, 5, 0) and (1, 6, 0).
     EXPECT_NEAR_VEC((Vec3{1.5, 5.5, 0}), points[2], 1e-12);
@@ -55,7 +55,7 @@ TEST(GltfSkin, WeightsAreUsedAsShares) {
     geometry.joints = {4, {0, 1, 0, 0, 1, 0, 0, 0}, {0.25, 0.25, 0, 0, 0, 0, 0, 0}};
     gltf::apply_skin(geometry, {Affine::translate({2, 0, 0}), Affine::translate({4, 0, 0})});
     EXPECT_EQ(geometry.mesh.positions[0], (Vec3{3, 0, 0}));
-    // Without any weight a vertex goes with the first joint it names.
+    // A vertex without weights follows the first joint it names.
     EXPECT_EQ(geometry.mesh.positions[1], (Vec3{4, 0, 0}));
 }
 
@@ -69,14 +69,14 @@ TEST(GltfSkin, JointsBeyondTheSkinMoveNothing) {
 }
 
 TEST(GltfSkin, NormalsStandOnStretchedSurfaces) {
-    // Stretching x by 4 turns the normal of the plane x + y = 0 to (1, 4, 0).
+    // Scaling x by 4 turns the normal of the plane x + y = 0 to (1, 4, 0).
     alhazen::gltf::PrimitiveGeometry geometry;
     geometry.mesh.positions = {{0, 0, 0}};
     geometry.mesh.normals = {{std::sqrt(0.5), std::sqrt(0.5), 0}};
     geometry.joints = {1, {0}, {1}};
     gltf::apply_skin(geometry, {Affine::scale({4, 1, 1})});
     EXPECT_NEAR_VEC(normalize(Vec3{1, 4, 0}), geometry.mesh.normals[0], 1e-12);
-    // A mirror keeps it on the same side of the surface's material.
+    // A reflection keeps it on the same side of the surface.
     geometry.mesh.normals = {{0, 1, 0}};
     gltf::apply_skin(geometry, {Affine::scale({-1, 1, 1})});
     EXPECT_NEAR_VEC((Vec3{0, 1, 0}), geometry.mesh.normals[0], 1e-12);
@@ -88,16 +88,16 @@ TEST(GltfSkin, MirrorsKeepTheFrontAndTurnTheBitangent) {
     geometry.mesh.normals.assign(4, {0, 0, 1});
     geometry.mesh.tangents.assign(4, {1, 0, 0, 1});
     geometry.mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {3, 2, 0}};
-    // Only corners 0 and 1 are mirrored.
+    // Only corners 0 and 1 are reflected.
     geometry.joints = {1, {0, 0, 1, 1}, {1, 1, 1, 1}};
     gltf::apply_skin(geometry, {Affine::scale({-1, 1, 1}), Affine{}});
     const std::vector<std::array<std::uint32_t, 3>> expected{{0, 2, 1}, {1, 3, 2}, {3, 2, 0}};
     EXPECT_EQ(geometry.mesh.triangles, expected);
-    // The front of the first triangle is where its normals point.
+    // The front of the first triangle is the side of its normals.
     const std::vector<Vec3>& p = geometry.mesh.positions;
     const auto [a, b, c] = geometry.mesh.triangles[0];
     EXPECT_GT(dot(cross(p[b] - p[a], p[c] - p[a]), geometry.mesh.normals[0]), 0.0);
-    // The bitangent cross(n, t) * sign stays y, which the mirror leaves alone.
+    // The bitangent cross(n, t) * sign stays y, which the reflection preserves.
     EXPECT_EQ(geometry.mesh.tangents[0].x, -1.0f);
     EXPECT_EQ(geometry.mesh.tangents[0].sign, -1.0f);
     EXPECT_EQ(geometry.mesh.tangents[2].x, 1.0f);
@@ -126,7 +126,7 @@ TEST(GltfSkin, PrimitivesWithoutJointsFollowTheNodeThoseWithFollowTheJoints) {
 TEST(GltfSkin, NodesWithTheSameMeshAndSkinShareIt) {
     std::string text = skinned_triangle({1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0.5, 0, 0});
     const std::string children = R"({"children": [2])";
-    // A second one in place of the joint's parent's missing mesh.
+    // A second skinned node, in place of a node without a mesh.
     text.replace(text.find(children), children.size(), R"({"mesh": 0, "skin": 0, "children": [2])");
     const Imported result = import_gltf(text);
     EXPECT_EQ(result.errors(), 0u) << result.messages();

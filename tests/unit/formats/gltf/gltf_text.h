@@ -11,7 +11,7 @@
 
 namespace alhazen::testing {
 
-/// The bytes of these numbers, little-endian (as every machine that we run on).
+/// Little-endian bytes of these numbers (the byte order of all supported machines).
 template <class T>
 std::string bytes_of_numbers(std::initializer_list<double> numbers) {
     std::string bytes;
@@ -42,10 +42,10 @@ inline std::string base64(const std::string& bytes) {
     return text;
 }
 
-/// Collects accessors, each in a buffer and view of its own.
+/// Collects accessors, each with a buffer and view of its own.
 class GltfText {
   public:
-    /// Adds an accessor of `type` ("VEC3") over floats; the result is its index.
+    /// Adds an accessor of `type` ("VEC3") over floats and returns its index.
     int floats(const std::string& type, std::initializer_list<double> numbers,
                const std::string& more = "") {
         return add(5126, 4, type, bytes_of_numbers<float>(numbers), numbers.size(), more);
@@ -63,7 +63,7 @@ class GltfText {
         return add(5123, 2, type, bytes_of_numbers<unsigned short>(numbers), numbers.size(), more);
     }
 
-    /// The file: `rest` are its other members ("\"nodes\": ..., \"meshes\": ...").
+    /// The file; `rest` are its other members ("\"nodes\": ..., \"meshes\": ...").
     [[nodiscard]] std::string file(const std::string& rest) const {
         std::string text = R"({"asset": {"version": "2.0"}, )" + rest;
         if (!accessors_.empty()) {
@@ -83,7 +83,7 @@ class GltfText {
                                                    : 4;
         const char* comma = accessors_.empty() ? "" : ", ";
         const std::string n = std::to_string(count_);
-        // Vertex attributes must start at multiples of four bytes: narrow elements are padded.
+        // Vertex attributes must start at multiples of four bytes: pads narrow elements.
         std::string padded;
         const std::size_t element = width * size, stride = (element + 3) / 4 * 4;
         for (std::size_t i = 0; i < data.size(); i += element) {
@@ -110,12 +110,12 @@ inline Imported import_gltf(const std::string& text, const ImportOptions& option
     return import_text<GltfImporter>(text, "scene.gltf", options);
 }
 
-/// `"POSITION": n` with the bounds that a position accessor must declare.
+/// `"POSITION": n` with the required bounds of a position accessor.
 inline std::string bounds(const std::string& lo, const std::string& hi) {
     return R"(, "min": [)" + lo + R"(], "max": [)" + hi + "]";
 }
 
-/// The positions of a part of the root object's object, in the world.
+/// World-space positions of a part of the root object's object.
 inline std::vector<Vec3> world_positions(const SceneDescription& scene, std::size_t part = 0) {
     const Part& outer = scene.objects.at(0).parts.at(part);
     const Part& inner =

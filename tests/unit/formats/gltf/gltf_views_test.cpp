@@ -50,13 +50,13 @@ TEST(GltfViews, LightsKeepTheirUnitsUpToPi) {
     EXPECT_EQ(result.errors(), 0u) << result.messages();
     EXPECT_FALSE(result.scene.conventions.shading.clamp_attenuation);
     ASSERT_EQ(result.scene.lights.size(), 3u);
-    // Half of the way to its range: 40 cd / pi / 25 m^2 * (1 - 1/16).
+    // At half of its range: 40 cd / pi / 25 m^2 * (1 - 1/16).
     const LightSample point = sample(result.scene.lights[0].light, {0, 0, 0}, false);
     EXPECT_NEAR(point.intensity.r, 40 / std::numbers::pi / 25 * 15 / 16, 1e-12);
     EXPECT_NEAR(point.intensity.g, 20 / std::numbers::pi / 25 * 15 / 16, 1e-12);
     EXPECT_EQ(sample(result.scene.lights[0].light, {0, -5, 0}, false).intensity, Rgb{});
     EXPECT_EQ(sample(result.scene.lights[0].light, {0, -9, 0}, false).intensity, Rgb{});
-    // -z turned by -90 degrees about x points down.
+    // -z rotated by -90 degrees about x points down.
     const auto& sun = std::get<DirectionalLight>(result.scene.lights[1].light);
     EXPECT_EQ(result.scene.lights[1].name, "sun");
     EXPECT_NEAR_VEC((Vec3{0, 1, 0}), sun.to_light, 1e-12);

@@ -34,12 +34,12 @@ TriangleMesh ball(int levels) {
     return mesh;
 }
 
-/// A ball with every array, of numbers that need all their bits.
+/// A ball with every vertex array, of numbers that need all their bits.
 TriangleMesh full_mesh(testing::Random& random) {
     TriangleMesh mesh = ball(2);
     for (Vec3& p : mesh.positions) p = 3.7 * p + random.in_cube(0.01);
     mesh.generate_normals();
-    mesh.normals[5] = {};  // a vertex without area has none
+    mesh.normals[5] = {};  // a vertex without area has no normal
     mesh.normals[6] = {0.1, -0.0, 0.3};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const float c = float(random.uniform(0, 3));
@@ -52,7 +52,7 @@ TriangleMesh full_mesh(testing::Random& random) {
     return mesh;
 }
 
-/// The triangles as sorted lists of corners, each beginning with its least corner.
+/// Triangles as sorted lists of corners, each starting at its least corner.
 using Corners = std::array<std::array<double, 3>, 3>;
 std::vector<Corners> triangle_set(const TriangleMesh& mesh, const Affine& placement = {}) {
     std::vector<Corners> set;
@@ -69,8 +69,8 @@ std::vector<Corners> triangle_set(const TriangleMesh& mesh, const Affine& placem
     return set;
 }
 
-/// The value as a float has it. Volatile, because g++ 12 at -O2 takes double(float(x)) for x where
-/// two of them stand side by side.
+/// Rounds to float. Volatile, because g++ 12 at -O2 replaces double(float(x)) by x where two of
+/// them are adjacent.
 double rounded(double value) {
     volatile float narrow = float(value);
     return double(narrow);
@@ -218,7 +218,7 @@ TEST(MeshExport, MaterialsReadBackAsTheyWere) {
     EXPECT_EQ(back[2].d, 0.5);
 }
 
-/// The MTL statements of a material with one texture, read back, and what was lost.
+/// MTL statements of a material with one texture, the material read back, and the reported losses.
 struct MtlTrip {
     std::vector<std::string> lost;
     std::vector<MtlMaterial> back;

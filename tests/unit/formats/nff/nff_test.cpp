@@ -105,7 +105,7 @@ TEST(Nff, TheAngleRunsFromTheTopToTheBottomOfThePicture) {
     const Ray top = eye_ray(scene.cameras[0].camera, 0.5, 1.0);
     const Ray right = eye_ray(scene.cameras[0].camera, 1.0, 0.5);
     EXPECT_EQ(top.origin, (Vec3{1, 2, 3}));
-    // `up` is made perpendicular to the view: (1, 1, 0) / sqrt 2.
+    // `up` is made perpendicular to the view direction: (1, 1, 0) / sqrt 2.
     EXPECT_NEAR(length(top.direction - normalize({1, 1, -std::sqrt(2.0)})), 0.0, 1e-15);
     EXPECT_NEAR(length(right.direction - normalize({std::sqrt(2.0), -std::sqrt(2.0), -1})), 0.0,
                 1e-15);

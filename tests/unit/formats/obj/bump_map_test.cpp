@@ -1,4 +1,4 @@
-/// Pictures of heights as normal maps.
+/// Conversion of height maps to normal maps.
 
 #include "alhazen/formats/obj/bump_map.h"
 
@@ -15,7 +15,7 @@
 namespace alhazen {
 namespace {
 
-/// One channel of floats: f(x, y), rows from the top.
+/// One float channel f(x, y), rows from the top.
 template <class F>
 StoredImage heights_of(int width, int height, F&& f) {
     std::vector<float> samples;
@@ -25,7 +25,7 @@ StoredImage heights_of(int width, int height, F&& f) {
     return {width, height, 1, true, std::move(samples)};
 }
 
-/// The direction of a texel.
+/// Direction stored in a texel.
 Vec3 normal_at(const StoredImage& normals, int x, int y) {
     const Rgba c = normals.pixel(std::size_t(y * normals.width + x), false);
     return {2 * c.r - 1, 2 * c.g - 1, 2 * c.b - 1};
@@ -48,7 +48,7 @@ TEST(BumpMap, FlatHeightsPointStraightUp) {
 }
 
 TEST(BumpMap, ARampLeansAgainstItsSlope) {
-    // A side of 100 texels: a height of 1 is a texel.
+    // With a side of 100 texels, a height of 1 is one texel.
     const StoredImage to_right = heights_of(100, 100, [](int x, int) { return 0.5 * x; });
     const StoredImage up = heights_of(100, 100, [](int, int y) { return 0.5 * (99 - y); });
     const double sine = 0.5 / std::sqrt(1.25), cosine = 1 / std::sqrt(1.25);
@@ -68,11 +68,11 @@ TEST(BumpMap, TheRimHasTheNeighboursThatTheTextureHas) {
     const StoredImage ramp = heights_of(100, 100, [](int x, int) { return 0.5 * x; });
     const StoredImage repeated = normals_from_heights(ramp, {});
     const StoredImage clamped = normals_from_heights(ramp, {.wrap = Wrap::Clamp});
-    EXPECT_GT(normal_at(repeated, 99, 7).x, 0.9);  // falls to the first column
+    EXPECT_GT(normal_at(repeated, 99, 7).x, 0.9);  // slopes down to the first column
     EXPECT_GT(normal_at(repeated, 0, 7).x, 0.9);
     EXPECT_NEAR(normal_at(clamped, 99, 7).x, -0.25 / std::sqrt(1.0625), kCode);
     EXPECT_NEAR(normal_at(clamped, 0, 7).x, -0.25 / std::sqrt(1.0625), kCode);
-    // One texel has itself for neighbour.
+    // A single texel is its own neighbour.
     const StoredImage one = heights_of(1, 1, [](int, int) { return 0.7; });
     EXPECT_EQ(normal_at(normals_from_heights(one, {}), 0, 0).z, 1.0);
 }
@@ -132,7 +132,7 @@ TEST(BumpMap, PicturesOfDirectionsAreToldFromHeights) {
     const StoredImage bumps = heights_of(32, 32, [&](int, int) { return random.uniform(); });
     EXPECT_TRUE(looks_like_normal_map(normals_from_heights(bumps, {.strength = 2})));
     EXPECT_FALSE(looks_like_normal_map(bumps));
-    // As a lossy format leaves them.
+    // With the noise of a lossy format.
     EXPECT_TRUE(looks_like_normal_map(coloured([&](int) {
         return Texel{0.5 + random.uniform(-.1, .1), 0.5 + random.uniform(-.1, .1),
                      0.98 + random.uniform(-.03, .02)};
@@ -143,10 +143,10 @@ TEST(BumpMap, PicturesOfDirectionsAreToldFromHeights) {
     EXPECT_FALSE(looks_like_normal_map(coloured([&](int) {
         return Texel{random.uniform(), random.uniform(), random.uniform()};
     })));
-    // Brick, and a dull blue.
+    // Brick red, and a dull blue.
     EXPECT_FALSE(looks_like_normal_map(coloured([&](int) { return Texel{.6, .3, .2}; })));
     EXPECT_FALSE(looks_like_normal_map(coloured([&](int) { return Texel{.3, .3, .5}; })));
-    // Half of it is something else.
+    // Half of the texels are no normals.
     EXPECT_FALSE(looks_like_normal_map(coloured([&](int i) {
         return i % 2 == 0 ? Texel{.5, .5, 1} : Texel{.5, .5, .5};
     })));
@@ -179,7 +179,7 @@ TEST(BumpMap, ConversionsAreSharedAndCountAsPictures) {
     fill(100'000);
     EXPECT_EQ(made, 2);
     made = 0;
-    // Room for the picture and for one conversion, not for two.
+    // Memory for the image and one conversion, not for two.
     const std::uint64_t codes = 3 * 256;
     const StoredImage normals{16, 16, 3, false, std::vector<std::uint8_t>(codes)};
     const std::uint64_t one = codes + MipPyramid::memory_bytes_for(normals);

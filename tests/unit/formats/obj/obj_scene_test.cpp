@@ -1,4 +1,4 @@
-/// OBJ as a scene: parts, names, materials, pictures.
+/// OBJ files as scenes: parts, names, materials, textures.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using testing::text_of;
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-/// The scene of an OBJ text, validated, whose files lie in `folder`.
+/// The validated scene of an OBJ text whose files lie in `folder`.
 SceneDescription scene_of(const std::string& text, Diagnostics& found,
                           const std::filesystem::path& folder = "nowhere") {
     SceneDescription scene = import_text(text, folder / "a.obj", found);
@@ -32,7 +32,7 @@ SceneDescription scene_of(const std::string& text, Diagnostics& found,
     return scene;
 }
 
-/// The material that this MTL text gives to `usemtl m`.
+/// The material of `usemtl m` with this MTL text.
 Material material_of(const std::string& mtl, Diagnostics& found) {
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl m\n" + mtl);
@@ -165,7 +165,7 @@ TEST(ObjScene, MetallicRoughnessStatementsAreKept) {
     EXPECT_FALSE(material_of("Kd 1 1 1\n").metallic_roughness);
 }
 
-/// A folder with a small picture and an OBJ whose material names it as `map`.
+/// A folder with a small image and an OBJ whose material uses it as `map`.
 struct WithPicture {
     TemporaryFolder folder;
     Diagnostics found;
@@ -220,8 +220,8 @@ TEST(ObjScene, PicturesOfNumbersAreNotDecoded) {
     EXPECT_EQ(s.texture(m.metallic_roughness->roughness.texture).wrap_u, Wrap::Clamp);
 }
 
-/// An OBJ with the materials "m0", "m1" ... of these statements beside a picture of heights h.png
-/// (a ramp), and one of directions n.png.
+/// An OBJ with materials "m0", "m1" ... of these statements, a height map h.png (a ramp), and a
+/// normal map n.png.
 struct WithBumps {
     TemporaryFolder folder;
     Diagnostics found;
@@ -270,7 +270,7 @@ TEST(ObjScene, HeightsBecomeNormalsOnceForEachStrength) {
         EXPECT_EQ(s.texture(i).image->channels, 3);
         EXPECT_EQ(s.texture(i).image->width, 8);
     }
-    // The heights rise to the right, the normals lean to the left; alpha is 1 everywhere.
+    // The heights rise to the right, so the normals lean to the left; alpha is 1 everywhere.
     EXPECT_LT(s.texture(0).image->pixel(9, false).r, 0.5);
     EXPECT_LT(s.texture(2).image->pixel(9, false).r, s.texture(0).image->pixel(9, false).r);
     EXPECT_NEAR(s.texture(4).image->pixel(9, false).r, 0.5, 0.003);
@@ -282,11 +282,11 @@ TEST(ObjScene, BumpMapsOfDirectionsAreNormalMaps) {
                        "bump h.png\nnorm gone/../n.png\n", "map_bump -imfchan b n.png\n"});
     EXPECT_EQ(s.map(0).scale, 0.5);
     EXPECT_EQ(s.texture(0).image->pixel(0, false).b, 1.0);
-    EXPECT_EQ(s.map(1).scale, 2.0);  // said to be directions
+    EXPECT_EQ(s.map(1).scale, 2.0);  // declared as a normal map
     EXPECT_EQ(s.texture(1).image->channels, 1);
     EXPECT_EQ(s.texture(2).image, s.texture(0).image);
     EXPECT_EQ(s.texture(3).image, s.texture(0).image);
-    EXPECT_NE(s.texture(4).image, s.texture(0).image);  // a channel: one number is meant
+    EXPECT_NE(s.texture(4).image, s.texture(0).image);  // a selected channel implies heights
 }
 
 TEST(ObjScene, WhatIsMissingIsAWarningAndLeftOut) {

@@ -60,7 +60,7 @@ TEST(Obj, ACornerWithoutNormalAmongOthersGetsThatOfItsTriangles) {
 }
 
 TEST(Obj, MissingNormalsAreSmoothedWithinAGroupAndFlatWithoutOne) {
-    // A roof: two squares that meet in the edge from vertex 2 to 3.
+    // A roof: two squares that share the edge from vertex 2 to 3.
     const std::string roof = "v 0 0 0\nv 1 0 1\nv 1 1 1\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
     const auto normal_at_ridge = [&](const std::string& faces) {
         Diagnostics found;
@@ -83,7 +83,7 @@ TEST(Obj, MissingNormalsAreSmoothedWithinAGroupAndFlatWithoutOne) {
 
 TEST(Obj, AFaceCountsByItsAreaWhereNormalsAreSmoothed) {
     Diagnostics found;
-    // A flat quadrilateral of area 4 and an upright one of area 1 share the edge from 1 to 2.
+    // A horizontal quadrilateral of area 4 and a vertical one of area 1 share the edge from 1 to 2.
     const TriangleMesh mesh = mesh_of(
         "v 0 0 0\nv 0 1 0\nv -4 1 0\nv -4 0 0\nv 0 1 1\nv 0 0 1\ns 1\nf 1 2 3 4\nf 2 1 6 5\n",
         "a.obj", found);
@@ -259,7 +259,7 @@ TEST(Obj, AConcavePolygonKeepsItsArea) {
     const TriangleMesh mesh =
         read_mesh(testing::test_data() / "hostile/assimp/OBJ/concave_polygon.obj", {}, found);
     EXPECT_EQ(text_of(found), "");
-    // One polygon in a plane x = constant: triangles that overlapped would add up to more than its
+    // One polygon in a plane x = constant: overlapping triangles would add up to more than its
     // area.
     Vec3 sum;
     for (const auto& [a, b, c] : mesh.triangles) {

@@ -10,7 +10,7 @@
 namespace alhazen {
 namespace {
 
-/// A picture of `width` x 4 pixels as a file of this suffix.
+/// An image of `width` x 4 pixels as a file with this suffix.
 std::string picture(int width, const std::string& suffix = "png") {
     Image image;
     image.width = width;
@@ -23,10 +23,10 @@ std::string picture(int width, const std::string& suffix = "png") {
     return bytes;
 }
 
-/// The samples of picture(100) as 8-bit codes, and one row of them, which its decoder needs.
+/// Bytes of the 8-bit samples of picture(100), and of the row that its decoder needs.
 constexpr std::uint64_t kCodes = 1200, kRow = 300;
 
-/// How many of the pictures are taken before `max_bytes` are exceeded.
+/// Number of images that are loaded before `max_bytes` is exceeded.
 std::size_t taken(const std::vector<std::string>& pictures, std::uint64_t max_bytes,
                   const Texture& settings = {}) {
     SceneDescription scene;
@@ -53,7 +53,7 @@ TEST(TextureTable, AllPicturesTogetherAreLimited) {
     EXPECT_EQ(taken(three, 3 * each + kRow), 3U);
     EXPECT_EQ(taken(three, 3 * each + kRow - 1), 2U);
     EXPECT_EQ(taken(three, each + kRow - 1), 0U);
-    // Floats are four times as large.
+    // Floats take four times the bytes.
     const std::vector<std::string> floats(3, picture(100, "pfm"));
     EXPECT_EQ(taken(floats, 3 * (4 * kCodes + floats[0].size())), 3U);
     EXPECT_EQ(taken(floats, 3 * (4 * kCodes + floats[0].size()) - 1), 2U);
@@ -138,7 +138,7 @@ TEST(TextureTable, BytesThatManyPicturesShareAreCountedForEach) {
     EXPECT_THROW((void)table.add(view.substr(0, view.size() - 1), {}, "b", {}), Error);
 }
 
-/// A triangle with 40 materials, textures and images that all show this picture.
+/// A triangle with 40 materials, textures and images that all use this file.
 std::string forty_images(const std::string& png) {
     testing::GltfText t;
     const int p =
@@ -171,7 +171,7 @@ std::string forty_images(const std::string& png) {
 TEST(TextureTable, ManyImagesOfAGltfFileInOneBufferViewAreOnePicture) {
     ImportOptions options;
     const std::string png = picture(100);
-    // The materials show it with mipmaps.
+    // The materials use it with mipmaps.
     options.image_limits.max_bytes = kCodes + png.size() + 147 * 6;
     const auto imported = testing::import_gltf(forty_images(png), options);
     ASSERT_EQ(imported.errors(), 0U) << imported.messages();

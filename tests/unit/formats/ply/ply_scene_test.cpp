@@ -1,4 +1,4 @@
-/// PLY as a scene, and what other programs write into the format: colours, strips, extra lists.
+/// PLY files as scenes, and extensions by other programs: colours, strips, extra lists.
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(PlyScene, IntegerColoursAreDecodedAndFloatsAreLinear) {
 
 TEST(PlyScene, StripsOfTrianglesKeepTheirOrientation) {
     Diagnostics found;
-    // Two rows of a grid with a repeated vertex between, and a second strip.
+    // Two rows of a grid joined by a repeated vertex, and a second strip.
     const TriangleMesh mesh =
         mesh_of(header("element vertex 6\n" + kXyz +
                        "element tristrips 1\nproperty list int int vertex_indices\n") +

@@ -20,7 +20,7 @@ const std::string kSquare =
     "property list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
 
-/// The bytes of `value`, in the order asked for.
+/// Bytes of `value` in the given byte order.
 template <class T>
 void put(std::string& out, T value, bool big) {
     char bytes[sizeof(T)];
@@ -29,8 +29,8 @@ void put(std::string& out, T value, bool big) {
     for (std::size_t i = 0; i < sizeof(T); ++i) out += bytes[swap ? sizeof(T) - 1 - i : i];
 }
 
-/// A triangle whose properties stand in an odd order among unknown ones, with an unknown element
-/// before.
+/// A triangle whose properties are in an unusual order among unknown ones, after an unknown
+/// element.
 std::string binary_triangle(bool big, const std::string& newline) {
     std::string s;
     for (const char* line :
@@ -112,7 +112,7 @@ TEST(Ply, BinaryFilesOfBothOrdersMayNameTheirPropertiesInAnyOrder) {
 
 TEST(Ply, EveryPrefixOfAFileIsRefusedOrIsAWholeMesh) {
     for (const std::string& whole : {kSquare, binary_triangle(true, "\n")}) {
-        // Without the last newline or digit of an ascii file nothing is missing yet.
+        // An ascii file is still complete without its last newline or digit.
         for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
             Diagnostics found;
             const TriangleMesh mesh = mesh_of(whole.substr(0, size), "a.ply", found);

@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of .ray files share: import from text, and the parts of the result.
+/// Common parts of the tests of .ray files: import from text, and access to the result.
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@ using testing::import_ray_file;
 using testing::Imported;
 using testing::material_of;
 
-/// The scenes that need an extension, and what the message must name.
+/// Scenes that need an extension, and the name that the message must contain.
 const std::pair<const char*, const char*> kRefused[] = {
     {"csg.ray", "constructive solid geometry"},
     {"hyperbolic.ray", "hyperbolic"},

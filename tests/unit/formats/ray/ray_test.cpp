@@ -1,4 +1,4 @@
-/// .ray files as a whole: header, families, mistakes and limits.
+/// .ray files as a whole: header, dialects, errors and limits.
 
 #include <gtest/gtest.h>
 

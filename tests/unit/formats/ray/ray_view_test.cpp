@@ -55,7 +55,7 @@ TEST(RayImporter, NormalisesTheCameraOfTheDictionaryFamilyOnly) {
     expect_near(look(import_ray(camera + "}")), {0, 0, -3});
     const Imported a = import_ray(camera + "focaldistance = 3; }");
     expect_near(look(a), {0, 0, -1});
-    expect_near(up(a), Vec3{0, 2, 1} / std::sqrt(5.0));  // and still not perpendicular
+    expect_near(up(a), Vec3{0, 2, 1} / std::sqrt(5.0));  // not perpendicular to the view either
 }
 
 TEST(RayImporter, TurnsTheCameraByAQuaternionInBothSpellings) {

@@ -1,4 +1,4 @@
-/// STL: ascii and binary, what is welded and what is refused.
+/// STL: ascii and binary files, welding, rejected files.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::vector<StlSolid> solids_of(std::string_view bytes, Diagnostics& found) {
     return read_stl(bytes, "a.stl", {}, found);
 }
 
-/// A binary file of these facets (normal, three corners), all zeros in the header but `start`.
+/// A binary file of these facets (normal, three corners); its header is `start` padded by zeros.
 std::string binary(const std::vector<std::array<float, 12>>& facets, std::string start = "") {
     start.resize(80);
     const auto put = [&](std::uint32_t bits) {
@@ -93,7 +93,7 @@ TEST(Stl, CornersInTheSamePlaceAreOneVertexSoThatASolidIsClosed) {
     EXPECT_TRUE(solids[0].mesh.closed());
 }
 
-/// Positions whose hashes by a well-known multiplier, without a seed, end in the same 24 bits.
+/// Positions whose unseeded multiplicative hashes end in the same 24 bits.
 std::vector<Vec3> colliding_positions(std::size_t count) {
     constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15u;
     std::uint64_t inverse = kFactor;  // modulo 2^64, by Newton's iteration
@@ -125,7 +125,7 @@ TEST(Stl, PositionsThatAreChosenToCollideAreFoundAsFast) {
         }
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
-    EXPECT_LT(seconds.count(), 1.0);  // one list for all took 10 s and more
+    EXPECT_LT(seconds.count(), 1.0);  // a single hash chain takes 10 s and more
 }
 
 TEST(Stl, AWelderThatStartsSmallNumbersInOrder) {
@@ -153,7 +153,7 @@ TEST(Stl, SizesThatDoNotFitTheCountAreToldWithBoth) {
     EXPECT_NE(finding(bytes).find("has 184 bytes; the file has 300"), std::string::npos);
     EXPECT_NE(finding("abc").find("3 bytes"), std::string::npos);
     EXPECT_NE(finding("").find("0 bytes"), std::string::npos);
-    // A count that would need 200 GB.
+    // A facet count that would need 200 GB.
     bytes = binary({});
     bytes.replace(80, 4, "\xFF\xFF\xFF\xFF");
     EXPECT_NE(finding(bytes).find("of 4294967295 facets"), std::string::npos);
@@ -172,13 +172,13 @@ TEST(Stl, ABinaryFileThatBeginsWithSolidIsToldOfAsBinaryWhenItsSizeIsWrong) {
         EXPECT_TRUE(mentions(found, "a binary STL of 2 facets has 184 bytes; the file has 177"))
             << text_of(found);
     }
-    // A header without a zero byte; the coordinates have some.
+    // A header without a zero byte; the coordinates contain some.
     std::string bytes = binary({kTriangle, kTriangle}, "solid" + std::string(75, ' '));
     bytes.resize(bytes.size() - 50);
     Diagnostics found;
     EXPECT_TRUE(solids_of(bytes, found).empty());
     EXPECT_TRUE(mentions(found, "has 184 bytes; the file has 134")) << text_of(found);
-    // Bytes behind the last facet are as harmless as in other binary files.
+    // Bytes after the last facet are accepted, as in other binary files.
     Diagnostics more;
     EXPECT_EQ(solids_of(binary({kTriangle}, "solid") + "\r\n", more).size(), 1u);
     EXPECT_TRUE(mentions(more, "2 bytes behind the last facet")) << text_of(more);

@@ -104,7 +104,7 @@ TEST(Lexer, KeepsHyphensInsideWords) {
     EXPECT_EQ(lexed.tokens[0].text, "SBT-raytracer");
 }
 
-// The tree.
+// ---- syntax tree
 
 std::vector<std::string> syntax_errors(const std::string& text) {
     const SourceText source(text, "f");
@@ -192,7 +192,7 @@ TEST(TextTree, SurvivesRandomBytesAndRandomTokens) {
         const SourceText source(text, "f");
         Diagnostics diagnostics;
         const TextTree tree(source, {.max_nesting = 8}, diagnostics);
-        // Every node must lie inside its parent, and the walk must end.
+        // Every node must lie inside its parent, and the traversal must end.
         std::size_t nodes = 0;
         std::vector<TextNode> pending{tree.root()};
         while (!pending.empty()) {

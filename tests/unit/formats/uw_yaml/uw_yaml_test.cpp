@@ -27,7 +27,7 @@ Materials:
             IndexOfRefraction: 1.5
 )";
 
-/// A scene whose root holds `components` (lines indented by 8) and `children` (by 4).
+/// A scene whose root has `components` (lines indented by 8) and `children` (by 4).
 std::string scene_of(const std::string& components, const std::string& children = "    []\n") {
     return "Name: test" + kMaterials +
            "Root:\n    Name: Root\n    Enabled: true\n    Components:\n" + components +
@@ -141,7 +141,7 @@ TEST(UwYaml, LightsAndCameraFollowTheirNodes) {
     EXPECT_EQ(scene.conventions.shading.max_depth, 3);
     const Ray ray = eye_ray(scene.cameras[0].camera, 0.5, 1.0);
     expect_point(ray.origin, {0, 0, 5});
-    // Looking along +y with +z up, half the angle (30 degrees) to the top.
+    // Looks along +y with +z up; half the angle (30 degrees) to the top.
     expect_point(ray.direction, {0, std::cos(std::acos(-1.0) / 6), 0.5});
 }
 
@@ -156,7 +156,7 @@ TEST(UwYaml, TheCameraDecidesWhetherMirrorsAndGlassAreTraced) {
             scene_of("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
         EXPECT_EQ(scene.conventions.shading.trace_reflections, on);
         EXPECT_EQ(scene.conventions.shading.trace_refractions, on);
-        // Shadows are still tinted by what transmits.
+        // Transmitting surfaces still tint shadows.
         EXPECT_FALSE(scene.materials.at(0).material.transmissive.color.is_black());
         EXPECT_EQ(found.warning_count(), 0u) << text_of(found);
     }
@@ -221,7 +221,7 @@ TEST(UwYaml, FindingsNameLineAndColumn) {
         EXPECT_GT(found.error_count(), 0u);
         EXPECT_TRUE(mentions(found, part)) << components << "\n" << text_of(found);
     };
-    // The first component stands in line 16.
+    // The first component is in line 16.
     expect("        Sphere: {Material: Blue}\n",
            "a.yaml:16:17: error: unknown material 'Blue'; expected one of Red One");
     expect("        TriangleMesh: {Material: Red One, Mesh: cow}\n",

@@ -1,4 +1,4 @@
-/// Polygons of any size and shape: tiled exactly, quickly, and never lost.
+/// Polygons of any size and shape: tiled exactly and in short time.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Triangles cut(const std::vector<Vec2>& polygon) {
     return triangles;
 }
 
-/// Twice the area, positive when counter-clockwise.
+/// Twice the signed area, positive when counter-clockwise.
 long double doubled_area(Vec2 a, Vec2 b, Vec2 c) {
     const long double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - a.x, vy = c.y - a.y;
     return ux * vy - uy * vx;
@@ -44,8 +44,8 @@ long double doubled_area(const std::vector<Vec2>& polygon) {
     return sum;
 }
 
-/// n - 2 triangles, none turned over by the exact sign, with the area of the polygon, and every
-/// inner edge used once each way: a tiling.
+/// Checks for a tiling: n - 2 triangles, none reversed by the exact sign, with the area of the
+/// polygon, and every inner edge used once in each direction.
 void expect_tiling(const std::vector<Vec2>& polygon, const Triangles& triangles) {
     ASSERT_EQ(triangles.size(), polygon.size() - 2);
     long double sum = 0;
@@ -71,7 +71,7 @@ void expect_tiling(const std::vector<Vec2>& polygon, const Triangles& triangles)
     }
 }
 
-/// By the size's own way, by ears and by the sweep.
+/// Checks the algorithm chosen by size, ear clipping and the sweep.
 void expect_tiled(const std::vector<Vec2>& polygon) {
     expect_tiling(polygon, cut(polygon));
     expect_tiling(polygon, EarClipper(polygon).clip());
@@ -122,8 +122,8 @@ TEST(LargePolygons, RepeatedVerticesCostNoArea) {
     }
 }
 
-/// A square with square holes, each joined to the one before it and the border by a bridge that is
-/// walked both ways.
+/// A square with square holes, each connected to the previous one and the border by a bridge that
+/// is traversed in both directions.
 std::vector<Vec2> keyhole_polygon(int holes) {
     std::vector<Vec2> polygon{{0, 0}};
     for (int i = 0; i < holes; ++i) {
@@ -196,7 +196,7 @@ TEST(LargePolygons, TangledAndFlatOnesStillGiveTheirNumberOfTriangles) {
         for (const auto& t : triangles) {
             sum += doubled_area(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
         }
-        // Where the winding is negative the polygon was looked at from behind; the sum stays.
+        // Where the winding is negative the polygon was seen from behind; the sum is the same.
         EXPECT_NEAR(double(sum), double(doubled_area(polygon)), 1e-9 * double(polygon.size()));
     }
 }

@@ -19,8 +19,8 @@ std::vector<std::uint32_t> loop_of(std::size_t n) {
     return loop;
 }
 
-/// Every triangle turns as the polygon does, they add up to its area, and each inner edge is used
-/// in both directions, each outer one as in the polygon.
+/// Checks that every triangle has the orientation of the polygon, the areas add up, each inner edge
+/// is used in both directions, and each outer one as in the polygon.
 void expect_tiling(const std::vector<Vec3>& points, const Triangles& triangles) {
     const std::vector<std::uint32_t> loop = loop_of(points.size());
     ASSERT_EQ(triangles.size(), points.size() - 2);

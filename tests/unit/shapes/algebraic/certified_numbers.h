@@ -1,10 +1,9 @@
 #pragma once
-/// Numbers with error bounds: a centre and a radius. An operation is right, or throws `Uncertain`;
-/// then it is repeated with more digits.
-///
+/// Ball arithmetic: numbers as a centre and an error radius. An operation encloses the exact result
+/// or throws `Uncertain`; the computation is then repeated with more digits.
+/// The centre is a double or a DoubleDouble; radii are doubles, each enlarged by more than its
+/// rounding. Has only the operations needed for counting roots.
 /// Source: van der Hoeven, "Ball arithmetic", 2009.
-/// Differs: only what counts of roots need. The centre is a double or a DoubleDouble; radii are
-/// doubles, each enlarged by more than its rounding.
 
 #include <cmath>
 #include <limits>
@@ -13,15 +12,15 @@
 
 namespace alhazen::testing {
 
-/// Thrown where the digits do not suffice.
+/// Thrown where the precision is insufficient.
 struct Uncertain {};
 
 template <class Real>
 struct Ball {
     static constexpr bool kPlain = std::is_same_v<Real, double>;
-    /// Rounding of one operation relative to its result.
+    /// Relative rounding error of one operation.
     static constexpr double kUlp = kPlain ? 0x1p-53 : kDoubleDoubleUlp;
-    /// Bound of the loss where products underflow.
+    /// Bound of the loss by underflow of products.
     static constexpr double kTiny = 1e-280;
     static constexpr double kRoom = 1.0 + 0x1p-48;
 
@@ -29,7 +28,7 @@ struct Ball {
     double radius = 0;
 
     Ball() = default;
-    Ball(double value) : center(value) {}  // NOLINT: a double is one exactly
+    Ball(double value) : center(value) {}  // NOLINT: a double converts exactly
     Ball(const Real& c, double r) : center(c), radius(r) {}
 
     [[nodiscard]] double high() const {
@@ -39,7 +38,7 @@ struct Ball {
             return center.high;
         }
     }
-    /// No number in the ball has a larger magnitude but for its radius.
+    /// Upper bound of the magnitude of the centre.
     [[nodiscard]] double magnitude() const { return std::abs(high()) * kRoom; }
 
     friend Ball operator-(const Ball& a) { return {Real(0.0) - a.center, a.radius}; }
@@ -83,7 +82,7 @@ struct Ball {
         if (!(std::abs(a.high()) > a.radius * kRoom)) return 0;
         return a.high() > 0.0 ? 1 : -1;
     }
-    /// Times 2^n, exactly but for underflow.
+    /// Multiplies by 2^n; exact except for underflow.
     friend Ball scaled(const Ball& a, int n) {
         const double factor = std::ldexp(1.0, n);
         if constexpr (kPlain) {
@@ -111,7 +110,7 @@ struct Ball {
 using DoubleBall = Ball<double>;
 using PreciseBall = Ball<DoubleDouble>;
 
-/// The same number with fewer digits.
+/// Rounds the centre to double.
 inline DoubleBall shortened(const PreciseBall& a) {
     return {a.center.high, (a.radius + std::abs(a.center.low)) * PreciseBall::kRoom};
 }

@@ -1,11 +1,10 @@
 #pragma once
-/// The number of distinct roots of a polynomial, for any number type: exact with rational numbers;
-/// with balls exact or refused.
-///
+/// Number of distinct roots of a polynomial, for any number type: exact with rational numbers; with
+/// balls exact or rejected.
+/// Remainders are multiplied by positive numbers instead of divided.
+/// Conventions: coefficients in ascending order of powers.
 /// Source: Sturm's theorem, as in Basu, Pollack and Roy, "Algorithms in Real Algebraic Geometry",
 /// 2nd ed., 2006, section 2.2.
-/// Differs: remainders are multiplied by positive numbers instead of divided.
-/// Conventions: coefficients in ascending order of powers.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +16,7 @@ namespace alhazen::testing {
 
 inline constexpr std::size_t kMostPowers = 14;
 
-/// A polynomial of one variable.
+/// Univariate polynomial.
 template <class N>
 struct Powers {
     std::array<N, kMostPowers> c{};
@@ -63,7 +62,7 @@ struct Powers {
     }
 };
 
-/// Times a power of two that brings the largest coefficient near 1.
+/// Multiplies by a power of two that brings the largest coefficient near 1.
 template <class Real>
 void normalize(Powers<Ball<Real>>& p) {
     double largest = 0;
@@ -73,8 +72,8 @@ void normalize(Powers<Ball<Real>>& p) {
     for (std::size_t i = 0; i < p.count; ++i) p.c[i] = scaled(p.c[i], exponent);
 }
 
-/// The sequence of a polynomial whose remainders fall by one degree each: others are refused with
-/// Uncertain, or when they end early.
+/// Sturm sequence of a polynomial whose remainders fall by one degree each; others, and sequences
+/// that end early, throw Uncertain.
 template <class N>
 class CertifiedSturm {
   public:
@@ -96,14 +95,14 @@ class CertifiedSturm {
             if (sign_of(rows_[i].lead()) == 0) throw Uncertain{};
         }
     }
-    /// On the whole line.
+    /// Number of roots on the whole line.
     [[nodiscard]] int count() const {
         return variations([](const Powers<N>& row) {
                    return row.count % 2 == 0 ? -sign_of(row.lead()) : sign_of(row.lead());
                }) -
                variations([](const Powers<N>& row) { return sign_of(row.lead()); });
     }
-    /// Between two points that are not roots.
+    /// Number of roots between two points that are not roots.
     [[nodiscard]] int count(const N& from, const N& to) const {
         const auto at = [&](const N& x) {
             return variations([&](const Powers<N>& row) {

@@ -1,9 +1,8 @@
 #pragma once
-/// The exact number of sign changes of a polynomial with rational coefficients in an interval.
-///
+/// Exact number of distinct roots of a polynomial with rational coefficients in an interval, by
+/// integers of any length and primitive remainders.
 /// Source: Sturm's theorem, as in Basu, Pollack and Roy, "Algorithms in Real Algebraic Geometry",
 /// 2nd ed., 2006, section 2.2.
-/// Differs: integers of any length, primitive remainders.
 
 #include <gmpxx.h>
 
@@ -68,7 +67,7 @@ class SturmSequence {
         reduce(out);
         return out;
     }
-    /// Without leading zeros and the common factor, which is positive.
+    /// Removes leading zeros and the positive common factor.
     static void reduce(std::vector<mpz_class>& p) {
         while (!p.empty() && p.back() == 0) p.pop_back();
         mpz_class content = 0;
@@ -96,7 +95,7 @@ class SturmSequence {
         int count = 0, previous = 0;
         const mpz_class &n = at.get_num(), &d = at.get_den();
         for (const auto& row : rows_) {
-            // Homogeneous Horner: the value times d^degree > 0.
+            // Homogeneous Horner scheme: the value times d^degree > 0.
             mpz_class value = row.back(), power = 1;
             for (std::size_t i = row.size() - 1; i-- > 0;) {
                 power *= d;

@@ -1,9 +1,9 @@
 #pragma once
-/// The exact number of distinct real roots of a polynomial with rational coefficients: an oracle.
-///
+/// Exact number of distinct real roots of a polynomial with rational coefficients, as a reference.
+/// Conventions: coefficients in ascending order of powers; roots in the half-open interval (lo,
+/// hi].
 /// Source: Basu, Pollack and Roy, "Algorithms in Real Algebraic Geometry", 2nd ed., 2006, section
 /// 2.2.2 (Sturm's theorem).
-/// Conventions: coefficients from the constant upward; roots in the half-open interval (lo, hi].
 
 #include <gmpxx.h>
 
@@ -31,7 +31,7 @@ inline mpq_class value(const RationalPolynomial& p, const mpq_class& x) {
     return sum;
 }
 
-/// Minus the remainder of a by b.
+/// Negated remainder of a by b.
 inline RationalPolynomial minus_remainder(RationalPolynomial a, const RationalPolynomial& b) {
     while (a.size() >= b.size()) {
         const mpq_class factor = a.back() / b.back();

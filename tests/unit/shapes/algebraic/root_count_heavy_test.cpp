@@ -1,7 +1,7 @@
-// No crossing is missed and none invented: random and grazing rays at famous surfaces against an
-// exact count of the roots of the polynomial that the doubles of ray and shape define: Sturm's, in
-// numbers that know their errors, and over the integers where these cannot tell.
-// ALHAZEN_ROOT_COUNT_RAYS sets how many rays per surface (100000).
+// Crossings of random and grazing rays with well-known surfaces against an exact count of the roots
+// of the polynomial that the doubles of ray and shape define: Sturm's theorem in ball arithmetic,
+// and over the integers where that is uncertain. ALHAZEN_ROOT_COUNT_RAYS sets the number of rays
+// per surface (default 100000).
 
 #include <gtest/gtest.h>
 
@@ -29,14 +29,14 @@ using testing::RationalPolynomial;
 using testing::SturmSequence;
 using testing::Uncertain;
 
-// ---- the function along a line, in numbers of any kind
+// ---- the function along a line, for any number type
 
 template <class N>
 struct Coordinates {
     Powers<N> x, y, z;
 };
 
-/// About t = `start`.
+/// Expanded about t = `start`.
 template <class N>
 Coordinates<N> line_in(const SolidFrame& frame, const Ray& ray, double start) {
     const Vec3 columns[] = {frame.local_from_object.x_axis, frame.local_from_object.y_axis,
@@ -116,7 +116,7 @@ Powers<N> polynomial(const Algebraic& s, const Coordinates<N>& l) {
     return of.back();
 }
 
-/// Where 2 / e and the ratio e / n are whole numbers.
+/// Requires whole numbers 2 / e and e / n.
 template <class N>
 Powers<N> polynomial(const Superellipsoid& s, const Coordinates<N>& l) {
     const auto power = [](const Powers<N>& p, int n) {
@@ -130,9 +130,9 @@ Powers<N> polynomial(const Superellipsoid& s, const Coordinates<N>& l) {
 
 // ---- counts
 
-/// The part of the line where the shape looks for crossings.
+/// Part of the line in which the shape searches for crossings.
 struct Part {
-    bool whole = true;  ///< all of it: elsewhere there are none
+    bool whole = true;  ///< the whole line has no other crossings
     double entry = -1e9, exit = 1e9;
 };
 template <class S>
@@ -158,12 +158,12 @@ int exact_count(const S& shape, const Ray& ray, const Part& part) {
     return sturm.constant() ? 0 : sturm.count(mpq_class(part.entry), mpq_class(part.exit));
 }
 
-/// How many rays were decided by which numbers.
+/// Number of rays counted by each number type.
 struct Tally {
     long by_double = 0, by_double_double = 0, by_integers = 0;
 };
 
-/// As exact as the integers, which are asked only where balls cannot tell.
+/// Exact: uses balls, and integers where balls are uncertain.
 template <class S>
 int certain_count(const S& shape, const Ray& ray, const Part& part, Tally& tally) {
     if (!(part.entry < part.exit)) return 0;
@@ -193,7 +193,7 @@ int certain_count(const S& shape, const Ray& ray, const Part& part, Tally& tally
     return exact_count(shape, ray, part);
 }
 
-/// Rays of which one is counted in both ways.
+/// One ray in this many is counted in both ways.
 constexpr int kCountedTwice = 2048;
 
 int rays_per_surface() {
@@ -201,7 +201,8 @@ int rays_per_surface() {
     return text != nullptr ? std::atoi(text) : 100000;
 }
 
-/// Half of the rays at random, half along a tangent plane, moved off it by 0 to 1e-16 of the size.
+/// Half of the rays are random, half lie along a tangent plane, displaced by 0 to 1e-16 of the
+/// size.
 template <class S>
 Ray random_ray(const S& shape, Random& random) {
     const Box3 box = shape.box();
@@ -246,7 +247,7 @@ void compare(const char* name, S shape) {
         }
         ASSERT_EQ(ours % 2, truth % 2)
             << name << " ray " << i << ": ours " << ours << ", exact " << truth;
-        // Only roots that lie closer than double tells positions on the line apart may be missing.
+        // Only roots closer than the resolution of double on the line may be missing.
         const double length = part.whole ? 4.0 : part.exit - part.entry;
         const mpq_class distance = mpq_class(length * 0x1p-44);
         const int pairs = close_pairs(exact_sequence(shape, ray), mpq_class(part.entry),

@@ -13,7 +13,7 @@ TEST(Torus, IsCrossedOnBothSidesOfItsHole) {
     testing::expect_near(crossings(t, {0, 0, 0}, {1, 0, 0}), {-2.5, -1.5, 1.5, 2.5});
     testing::expect_near(crossings(t, {2, 0, 0}, {0, 0, 1}), {-0.5, 0.5});
     EXPECT_TRUE(crossings(t, {0, 0, 0}, {0, 0, 1}).empty());
-    // A line that touches the top all along, and one just below it.
+    // A line tangent to the tube at its top, and one just below it.
     EXPECT_EQ(crossings(t, {0, 0, 0.5}, {1, 0, 0}).size() % 2, 0u);
     EXPECT_EQ(crossings(t, {0, 0, 0.4999}, {1, 0, 0}).size(), 4u);
     EXPECT_NEAR(testing::volume_by_rays(t), 2 * kPi * kPi * 2 * 0.25, 2e-2);
@@ -39,7 +39,7 @@ TEST(Torus, PointsLieOnTheTubeAndNormalsPointAwayFromItsCircle) {
             const Vec3 flat = p - dot(p, t.unit_axis) * t.unit_axis;
             const Vec3 from_circle = p - normalize(flat);
             EXPECT_NEAR(length(from_circle), minor, length(s.error)) << i;
-            // The digits of a thin tube are lost in those of its circle.
+            // A thin tube loses its digits to those of its circle.
             EXPECT_NEAR(dot(s.normal, from_circle) / minor, 1, 1e-12 + 1e-14 / minor) << i;
         }
     }

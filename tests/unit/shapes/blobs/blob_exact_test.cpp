@@ -1,5 +1,5 @@
-// Crossings of random and grazing rays with blobs against the exact number that the ray's and the
-// blob's doubles define. ALHAZEN_EXACT_RAYS in the environment: how many rays, 20000 by default.
+// Crossings of random and grazing rays with blobs against the exact number that the doubles of ray
+// and blob define. ALHAZEN_EXACT_RAYS sets the number of rays (default 20000).
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using testing::Random;
 using testing::RationalPolynomial;
 using testing::Uncertain;
 
-// ---- blobs in numbers of any kind
+// ---- blobs for any number type
 
 template <class N>
 using VecOf = std::array<N, 3>;
@@ -50,7 +50,7 @@ VecOf<N> cross_of(const VecOf<N>& a, const VecOf<N>& b) {
 int sign_of(const mpq_class& x) {
     return sgn(x);
 }
-/// A rational number that is right to 2^-200.
+/// Square root with an error below 2^-200.
 mpq_class square_root(const mpq_class& x) {
     mpf_class r(0, 512);
     r = x;
@@ -60,13 +60,13 @@ mpq_class square_root(const mpq_class& x) {
     return q;
 }
 
-/// Balls that overlap have no order: Uncertain.
+/// Overlapping balls have no order: throws Uncertain.
 template <class N>
 bool less(const N& a, const N& b) {
     return sign_of(N(b - a)) > 0;
 }
 
-/// A place where a component begins or ends. Some share one: it has then the same number.
+/// Position where a component begins or ends. Equal positions have the same number.
 template <class N>
 struct End {
     N t;
@@ -83,7 +83,7 @@ struct Piece {
     Powers<N> density;
 };
 
-/// The components along a line.
+/// Components along a line.
 template <class N>
 class PiecesOf {
   public:
@@ -103,7 +103,7 @@ class PiecesOf {
         }
         const VecOf<N> e = minus(exact<N>(c.top), exact<N>(c.base));
         const N ee = dot_of(e, e), from = dot_of(f, e), speed = dot_of(direction_, e);
-        // Random rays are not across a rod exactly.
+        // Random rays are not exactly perpendicular to a rod.
         const bool upward = sign_of(speed) > 0;
         const End<N> at_base{N(-from / speed), ends_++}, at_top{N((ee - from) / speed), ends_++};
         const End<N>& first = upward ? at_base : at_top;
@@ -114,8 +114,8 @@ class PiecesOf {
         add_piece(upward ? g : f, direction_, r2, c.strength, &last, nullptr);
     }
 
-    /// strength (1 - |f + t d|^2 / scale)^2 where the quadratic is positive and between `lo` and
-    /// `hi`, where these are given.
+    /// Adds strength (1 - |f + t d|^2 / scale)^2 where the quadratic is positive, limited to `lo`
+    /// to `hi` if given.
     void add_piece(const VecOf<N>& f, const VecOf<N>& d, const N& scale, double strength,
                    const End<N>* lo, const End<N>* hi) {
         const N a = dot_of(d, d), b = dot_of(f, d), c = dot_of(f, f) - scale;
@@ -141,7 +141,7 @@ class PiecesOf {
     int ends_ = 0;
 };
 
-/// The sum over all spans between two ends of components of count(polynomial, from, to).
+/// Sum of count(polynomial, from, to) over all spans between adjacent ends of components.
 template <class N, class Count>
 int count_spans(const Blob& blob, const PiecesOf<N>& along, Count&& count) {
     std::vector<End<N>> ends;
@@ -149,7 +149,7 @@ int count_spans(const Blob& blob, const PiecesOf<N>& along, Count&& count) {
         ends.push_back(p.in);
         ends.push_back(p.out);
     }
-    // By insertion: comparing may throw.
+    // Insertion sort: comparisons may throw.
     for (std::size_t i = 1; i < ends.size(); ++i) {
         for (std::size_t k = i; k > 0 && ends[k] < ends[k - 1]; --k) {
             std::swap(ends[k], ends[k - 1]);
@@ -181,7 +181,7 @@ struct Tally {
     long by_double = 0, by_double_double = 0, by_integers = 0;
 };
 
-/// As exact as the integers, which are asked only where balls cannot tell.
+/// Exact: uses balls, and integers where balls are uncertain.
 int certain_count(const Blob& blob, const Ray& ray, Tally& tally) {
     const double start = dot(blob.box().center() - ray.origin, ray.direction);
     const VecOf<PreciseBall> d = exact<PreciseBall>(ray.direction);
@@ -208,7 +208,7 @@ int certain_count(const Blob& blob, const Ray& ray, Tally& tally) {
     return exact_count(blob, ray);
 }
 
-/// Rays of which one is counted in both ways.
+/// One ray in this many is counted in both ways.
 constexpr long kCountedTwice = 512;
 
 Blob random_blob(Random& random) {

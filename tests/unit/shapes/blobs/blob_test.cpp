@@ -80,7 +80,7 @@ TEST(Blob, OfOneRodIsACylinderWithRoundEnds) {
         if (i % 5 == 1) d.z = 0;
         const Vec3 target{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)};
         const Ray ray = line(target - 5.0 * d, d);
-        // The hull of what the line spends in the three convex parts of the convex whole.
+        // Convex hull of the intervals in the three convex parts of the convex whole.
         double entry = 1e9, exit = -1e9;
         ShapeHit part[2];
         const auto include = [&](int n) {
@@ -126,7 +126,7 @@ TEST(Blob, ItsCrossingsAreWhereTheDensityIsTheThresholdAndNowhereElse) {
             for (const ShapeHit& hit : hits) {
                 ASSERT_NEAR(density(blob, ray.at(hit.t)), blob.threshold, 1e-11) << k << " " << i;
             }
-            // In and out by turns where a dense row of samples says so.
+            // Entries and exits agree with the transitions of densely spaced samples.
             std::size_t next = 0;
             for (int s = 0; s < 400; ++s) {
                 const double t = 20.0 * (s + 0.5) / 400;

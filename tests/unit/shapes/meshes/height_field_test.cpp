@@ -53,7 +53,7 @@ TEST(HeightField, ItsTrianglesAreAClosedMeshTurnedOutward) {
                 mean += (2 * a + 2 * c + field.height(i + 1, j) + field.height(i, j + 1)) / 6;
             }
         }
-        // Under two triangles over each cell, down to the base at -1.
+        // Volume under the two triangles of each cell, down to the base at -1.
         EXPECT_NEAR(signed_volume(mesh), 15 * (1 + mean / field.cells()), 1e-12);
     }
 }
@@ -94,7 +94,7 @@ TEST(HeightField, MeetsWhatItsTrianglesDoAndNothingElse) {
                 const auto found = std::find_if(
                     hits.begin(), hits.end(), [&](const ShapeHit& h) { return h.part == e.part; });
                 ASSERT_NE(found, hits.end()) << k << " " << i;
-                // It is kept in the box, which may cost the last digits.
+                // Clamping to the box may cost the last digits.
                 ASSERT_NEAR(found->t, e.t, 1e-10 * (1 + std::abs(e.t)));
             }
             crossings += int(hits.size());

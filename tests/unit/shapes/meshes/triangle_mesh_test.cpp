@@ -23,7 +23,7 @@ TriangleMesh sphere_mesh(int levels) {
     return {.positions = std::move(sphere.positions), .triangles = std::move(sphere.triangles)};
 }
 
-/// Each triangle with three vertices of its own, as many files have it.
+/// Gives each triangle three vertices of its own, as in many files.
 TriangleMesh unshared(const TriangleMesh& mesh) {
     TriangleMesh soup;
     for (const auto& triangle : mesh.triangles) {
@@ -39,7 +39,7 @@ TEST(TriangleMesh, ClosedMeshesAreRecognisedAfterMergingEqualPositions) {
     EXPECT_TRUE(mesh.closed());
     TriangleMesh soup = unshared(mesh);
     EXPECT_TRUE(soup.closed());
-    // Neither the orientation nor the sign of zero nor triangles without area matter.
+    // Orientation, the sign of zero and triangles without area do not matter.
     std::swap(soup.triangles[5][0], soup.triangles[5][1]);
     for (Vec3& p : soup.positions) {
         if (p.x == 0.0) p.x = (&p - soup.positions.data()) % 2 == 0 ? 0.0 : -0.0;
@@ -61,7 +61,7 @@ TEST(TriangleMesh, OpenMeshesAreRecognised) {
     TriangleMesh cracked = unshared(closed);
     cracked.positions[0].x = std::nextafter(cracked.positions[0].x, 9.0);
     EXPECT_FALSE(cracked.closed());
-    TriangleMesh four_at_an_edge = closed;  // two solids that share an edge
+    TriangleMesh four_at_an_edge = closed;  // two solids with a common edge
     four_at_an_edge.triangles.insert(four_at_an_edge.triangles.end(), closed.triangles.begin(),
                                      closed.triangles.end());
     EXPECT_FALSE(four_at_an_edge.closed());
@@ -151,7 +151,7 @@ TEST(TriangleMesh, NormalsStayPerpendicularUnderTransforms) {
         ASSERT_NEAR(dot(mesh.normals[0], e1), 0.0, 1e-12 * length(e1)) << "seed 71, case " << i;
         ASSERT_NEAR(dot(mesh.normals[0], e2), 0.0, 1e-12 * length(e2)) << "seed 71, case " << i;
         ASSERT_NEAR(length(mesh.normals[0]), 1.0, 1e-14) << "seed 71, case " << i;
-        // The side of the normal moves along; the winding turns over when mirrored.
+        // The normal keeps its side; a reflection reverses the winding.
         ASSERT_EQ(dot(mesh.normals[0], cross(e1, e2)) < 0.0, mirror) << "seed 71, case " << i;
     }
 }

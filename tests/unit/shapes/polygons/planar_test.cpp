@@ -151,7 +151,8 @@ TEST(Rectangle, ParametersSolveForThePoint) {
 TEST(Rectangle, BoxIsThatOfTheCorners) {
     Random random(54);
     for (int i = 0; i < 10000; ++i) {
-        // A far corner with an edge back to the origin: the sum is tiny, its rounding is not.
+        // A distant corner with an edge back to the origin: the sum is tiny, its rounding error is
+        // not.
         const Vec3 corner = random.in_cube(1e6);
         const Rectangle r = prepared(Rectangle{
             .corner = corner, .edge_u = random.in_cube(1) - corner, .edge_v = random.in_cube(5)});

@@ -57,7 +57,8 @@ TEST(Polygon, OddEvenRuleAgreesWithTheAngleAroundThePoint) {
     Random random(61);
     int inside_count = 0;
     for (int i = 0; i < 2000; ++i) {
-        // Corners in any order of radius around the origin: simple, concave, star-shaped.
+        // Corners of random radius in angular order around the origin: simple, concave,
+        // star-shaped.
         const int n = 3 + random.below(142);
         std::vector<Vec3> vertices;
         for (int k = 0; k < n; ++k) {
@@ -85,7 +86,7 @@ TEST(Polygon, OddEvenRuleAgreesWithTheAngleAroundThePoint) {
     EXPECT_GT(inside_count, 5000);
 }
 
-/// A square cut into quadrilaterals, some of them joined in pairs, in a random or a lattice plane.
+/// A square divided into quadrilaterals, some joined in pairs, in a random or a lattice plane.
 struct Tiling {
     static constexpr int kSide = 7;
     std::vector<Vec3> corners;
@@ -155,7 +156,8 @@ TEST(Polygon, TilesOfAPlaneAreHitExactlyOnce) {
     EXPECT_GT(checked, 15000);
 }
 
-/// A prism over a star with a hole: two concave faces of two loops, and a quadrilateral per edge.
+/// A prism over a star with a hole: two concave faces of two loops each, and a quadrilateral per
+/// edge.
 struct Prism {
     std::vector<Vec3> corners;
     std::vector<Polygon> faces;

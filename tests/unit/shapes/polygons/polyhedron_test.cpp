@@ -39,7 +39,7 @@ std::array<Vec3, 8> box_points(const Vec3& lo, const Vec3& hi) {
             Vec3{lo.x, lo.y, hi.z}, {hi.x, lo.y, hi.z}, {hi.x, hi.y, hi.z}, {lo.x, hi.y, hi.z}};
 }
 
-/// Volume of the corners that were found: the test of convex_corners.
+/// Volume of the found corners, to test convex_corners.
 double volume(const Polyhedron& p) {
     return convex_volume(convex_corners(p.faces));
 }
@@ -108,7 +108,7 @@ TEST(Polyhedron, FacesNeedBeFlatOnlyRoughly) {
     EXPECT_NE(complaint(hexahedron(points)).find("not convex"), std::string::npos);
 }
 
-/// A dodecahedron of planes: distance 1 from the middle.
+/// A dodecahedron from planes at distance 1 from the centre.
 Polyhedron dodecahedron(const Vec3& middle) {
     const double phi = (1 + std::sqrt(5.0)) / 2;
     Polyhedron p;
@@ -126,7 +126,7 @@ TEST(Polyhedron, TheCornersOfADodecahedronAreItsTwenty) {
     const Polyhedron p = prepared(dodecahedron({3, -2, 5}));
     const ConvexCorners solid = convex_corners(p.faces);
     EXPECT_EQ(solid.corners.size(), 60u);
-    // For the inradius 1: circumradius, and the volume as (area of the faces) / 3.
+    // For inradius 1: circumradius, and volume = (area of the faces) / 3.
     const double circumradius = std::sqrt(15.0 - 6.0 * std::sqrt(5.0));
     for (const Vec3& c : solid.corners) {
         EXPECT_NEAR(length(c - Vec3{3, -2, 5}), circumradius, 1e-14);

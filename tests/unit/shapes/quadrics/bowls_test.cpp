@@ -1,4 +1,4 @@
-// The paraboloid and both hyperboloids.
+// Paraboloid and both hyperboloids.
 
 #include "alhazen/shapes/quadrics/hyperboloid.h"
 #include "alhazen/shapes/quadrics/paraboloid.h"
@@ -30,14 +30,14 @@ TEST(Hyperboloid, IsNarrowestInTheMiddle) {
     testing::expect_near(crossings(h, {0, 0, 0.5}, {0, 1, 0}), {-half, half});
     testing::expect_near(crossings(h, {0, 0, -4}, {0, 0, 1}), {3, 5});
     EXPECT_NEAR(testing::volume_by_rays(h), 2 * kPi * (0.36 + 0.64 / 3), 1e-2);
-    // Out of the bowl above the waist and into it again.
+    // Leaves the bowl above the waist and enters it again.
     EXPECT_EQ(crossings(h, {0.8, 0, -2}, {0, 0, 1}).size(), 4u);
 }
 
 TEST(Hyperboloid, LinesThatLieInItCrossEvenlyOften) {
     const Hyperboloid h = prepared(Hyperboloid{.waist = 0.6});
     for (int i = 0; i < 360; ++i) {
-        // x^2 + y^2 = 0.36 + 0.64 z^2 holds (0.6, 0.8 z, z) for all z.
+        // x^2 + y^2 = 0.36 + 0.64 z^2 holds for (0.6, 0.8 z, z) at all z.
         const double a = kPi * i / 180, c = std::cos(a), s = std::sin(a);
         const auto turned = [&](const Vec3& v) {
             return Vec3{c * v.x - s * v.y, s * v.x + c * v.y, v.z};

@@ -1,5 +1,5 @@
 #pragma once
-/// Cylinders and cones in quadruple precision, by the schoolbook.
+/// Cylinders and cones in quadruple precision by the textbook formulas.
 
 #include <algorithm>
 
@@ -19,11 +19,11 @@ struct ExactFrustum {
           base_radius(radius),
           slope((Quad(top_radius) - Quad(radius)) / height) {}
 
-    /// Where a line is inside the solid, for a line that is neither grazing nor parallel to a
+    /// Interval of a line inside the solid, for a line that is neither grazing nor parallel to a
     /// generator.
     struct Span {
         bool hit;
-        bool clear;  ///< far enough from every special case for the answer to be compared
+        bool clear;  ///< far enough from special cases to be compared
         double entry, exit;
     };
     Span span(const Ray& ray) const {
@@ -59,7 +59,7 @@ struct ExactFrustum {
                 static_cast<double>(exit)};
     }
 
-    /// How far a point is off the surface `part`, along its normal.
+    /// Distance of a point from the surface `part`, along its normal.
     double distance(const Vec3& p, std::uint32_t part) const {
         const QuadVec q = QuadVec(p) - base;
         const Quad z = dot(q, axis);

@@ -98,7 +98,7 @@ TEST(Cone, HitsAreWhereTheFormulaSays) {
     EXPECT_EQ(hits[0].part, 0u);
     EXPECT_DOUBLE_EQ(hits[1].t, 9.0);
     EXPECT_EQ(hits[1].part, 1u);
-    // The other nappe, above the apex, is not there.
+    // The nappe above the apex does not exist.
     EXPECT_EQ(c.intersect({{-5, 0, 3}, {1, 0, 0}}, hits), 0);
     EXPECT_EQ(c.intersect(line({-5, 0, 2.5}, {1, 0, 0.001}), hits), 0);
 }
@@ -156,13 +156,13 @@ TEST(Frustum, HitsAgreeWithQuadruplePrecision) {
         const ExactFrustum::Span span = exact.span(ray);
         ShapeHit hits[2];
         const int n = c.intersect(ray, hits);
-        // From afar, 1e-10 of the distance is lost: near-tangent lines may go either way.
+        // From far away 1e-10 of the distance is lost: near-tangent lines may hit or miss.
         const double lost = 1e-15 * (std::abs(distance) + 50);
         if (!span.clear || std::abs(span.exit - span.entry) < 1e8 * lost) continue;
         ASSERT_EQ(n, span.hit ? 2 : 0) << "seed 43, case " << i;
         if (n == 0) continue;
         ++hit;
-        // Clearance 1e-6 in the discriminant: the root magnifies by up to 1e3.
+        // A clearance of 1e-6 in the discriminant: the root magnifies errors by up to 1e3.
         ASSERT_NEAR(hits[0].t, span.entry, 1e4 * lost) << "seed 43, case " << i;
         ASSERT_NEAR(hits[1].t, span.exit, 1e4 * lost) << "seed 43, case " << i;
     }

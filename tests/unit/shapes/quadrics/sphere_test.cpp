@@ -69,7 +69,7 @@ TEST(Sphere, RootsAgreeWithQuadruplePrecision) {
         const ExactRoots exact = exact_roots(sphere, ray);
         ShapeHit hits[2];
         const int n = sphere.intersect(ray, hits);
-        // The rounding of origin - centre and of the discriminant, over half the chord.
+        // Rounding of origin - centre and of the discriminant, over half the chord.
         const double reach = length(ray.origin) + length(sphere.center) + sphere.radius;
         const double unsure = 8 * 0x1p-53 * reach * reach;
         if (!exact.hit || exact.half_chord * exact.half_chord < 10 * unsure) continue;
@@ -89,7 +89,8 @@ TEST(Sphere, RaysFromFarAwayHitWithoutCancellation) {
         const Vec3 towards = random.unit_vector();
         const Vec3 x = perpendicular(towards);
         const Vec3 y = cross(towards, x);
-        // Offsets up to 1 - 1e-6 of the radius: no holes. (1e6 radii away a coordinate has 1e-10.)
+        // Offsets up to 1 - 1e-6 of the radius: no holes. (At 1e6 radii a coordinate has an error
+        // of 1e-10.)
         const double offset = std::sqrt(random.uniform()) * (1 - 1e-6);
         const double angle = random.uniform(0, 6.283);
         const Vec3 side = offset * (std::cos(angle) * x + std::sin(angle) * y);
@@ -142,7 +143,7 @@ TEST(Sphere, VolumeByRaysIsThatOfTheFormula) {
     Random random(24);
     const Sphere sphere{.center = {3, -2, 1}, .radius = 1.5};
     const Box3 box = sphere.box();
-    // Stratified over the box's face: the error falls faster than with plain random samples.
+    // Stratified over the box's face: the error falls faster than with independent samples.
     constexpr int kSide = 300;
     double sum = 0;
     for (int i = 0; i < kSide * kSide; ++i) {

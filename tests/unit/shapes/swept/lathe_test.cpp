@@ -42,7 +42,7 @@ TEST(Lathe, OfLinesIsTheCone) {
         cone.prepare();
         const Vec3 o = random.in_cube(5);
         Vec3 d = random.in_cube(1.2) - o;
-        // Level, nearly level, steep and upright ones too.
+        // Includes horizontal, nearly horizontal, steep and vertical rays.
         const double tilt[] = {0, 1e-17, 1e-13, 1e-9, 1e-5};
         if (i % 2 == 0) d.z = tilt[random.below(5)] * random.sign();
         if (i % 16 == 1) d = {0, 0, 1};
@@ -116,7 +116,7 @@ TEST(Lathe, ARingOfCurvesIsCrossedFourTimes) {
     hits.clear();
     ring.intersect(line({0, 0, -9}, {0, 0, 1}), hits);
     EXPECT_EQ(hits.size(), 0u);
-    // Its height at the middle of a curve: 3/4 at radius 3.
+    // Height at the midpoint of a curve: 3/4 at radius 3.
     ring.intersect(line({3, 0, -9}, {0, 0, 1}), hits);
     ASSERT_EQ(hits.size(), 2u);
     EXPECT_NEAR(hits[0].t, 9 - 0.75, 1e-14);
@@ -141,8 +141,8 @@ TEST(Lathe, RaysThatHardlyClimbMeetFlatEndsWhereTheirHeightIs) {
     for (int i = 0; i < 20000; ++i) {
         const double tilt = random.sign() * random.log_uniform(1e-17, 1e-2);
         const Vec3 d{1, 0, tilt};
-        // Through the rim at the height of 1, where its radius is 1 to 2: out of the foot and then
-        // through the neck, or into the foot.
+        // Through the rim at height 1, where the radius is 1 to 2: out of the foot and then through
+        // the neck, or into the foot.
         const Vec3 o{-4, random.uniform(-0.9, 0.9), 1 - tilt * random.uniform(2.5, 2.9)};
         const double through = (1 - o.z) / tilt;
         const double x = -4 + through, r = std::sqrt(x * x + o.y * o.y);

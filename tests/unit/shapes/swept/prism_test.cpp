@@ -30,7 +30,7 @@ Prism prepared(Prism prism) {
     return prism;
 }
 
-/// A leaf of two cubics.
+/// A leaf bounded by two cubics.
 Profile leaf() {
     Profile profile;
     add_loop(profile, {cubic_curve({-1, 0}, {-0.5, 1.5}, {0.8, 1}, {1, 0}),
@@ -176,7 +176,7 @@ TEST(Prism, CrossingsOfACurveLieOnItHoweverFarTheRayComes) {
         prism.intersect(ray, hits);
         for (const ShapeHit& hit : hits) {
             const ShapeSurface s = prism.surface(ray, hit);
-            // Where its last digits lie: the point's, and those of the ray's far origin.
+            // Ulps of the point and of the ray's distant origin.
             ASSERT_LT(length(s.point - ray.at(hit.t)), 1e-14 * (3 + far)) << i;
             ++hits_seen;
         }
