@@ -289,7 +289,7 @@ void claim_b3(ClaimRun& run) {
         seconds.push_back(least);
     }
     const double slope = log_log_slope(n, steps);
-    run.expect("exponent of n, nodes looked at", fmt::format("{:.3f}", slope), "1.0 to 1.15",
+    run.expect("exponent of n, visited nodes", fmt::format("{:.3f}", slope), "1.0 to 1.15",
                slope >= 1.0 && slope <= 1.15);
     run.tell("exponent of n, time", fmt::format("{:.3f}", log_log_slope(n, seconds)));
     run.note(
