@@ -156,7 +156,7 @@ TEST(UwYaml, TheCameraDecidesWhetherMirrorsAndGlassAreTraced) {
             scene_of("        Sphere: {Material: Red One}\n" + camera), "a.yaml", found);
         EXPECT_EQ(scene.conventions.trace_reflections, on);
         EXPECT_EQ(scene.conventions.trace_refractions, on);
-        // Transmitting surfaces still tint shadows.
+        // Shadows are still tinted by what transmits.
         EXPECT_FALSE(scene.materials.at(0).material.transmissive.color.is_black());
         EXPECT_EQ(found.warning_count(), 0u) << text_of(found);
     }
