@@ -136,7 +136,7 @@ int cut_number(std::string& text, char mark, const std::string& spec) {
     const std::size_t at = text.rfind(mark);
     const std::string digits = at == std::string::npos ? "" : text.substr(at + 1);
     if (digits.size() != 1 || digits[0] < '0' || digits[0] > '9') {
-        throw Error(ErrorKind::Usage, fmt::format("scene '{}': a number from 0 to 9 is wanted; "
+        throw Error(ErrorKind::Usage, fmt::format("scene '{}': expected a number from 0 to 9; "
                                                   "scenes are {}",
                                                   spec, kSceneSpecs));
     }

@@ -120,7 +120,7 @@ void LeakMesh::find_balls() {
         balls_.push_back(std::move(ball));
     }
     if (balls_.empty()) {
-        throw Error(ErrorKind::Usage, fmt::format("{}: no room was found inside", name_));
+        throw Error(ErrorKind::Usage, fmt::format("{}: no inside point found", name_));
     }
 }
 

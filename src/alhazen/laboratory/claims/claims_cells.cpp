@@ -57,13 +57,13 @@ void claim_b4(ClaimRun& run) {
                     published.cells_1);
     }
     run.note(
-        "Lists by boxes and no mailboxes, as the published figures evidently are. Of the others, "
-        "most are of scenes that differ: the mountain is another one, gears holds faces of 144 "
-        "corners as one primitive, the view of lattice is not known. In tetra at density 1 the "
-        "walls "
-        "of cells are walls of the tetrahedra, which lie in the cells on both sides here. In balls "
-        "and tree a large ground leaves the rest a few cells, so that one more or less counts. See "
-        "accelerators.md, Counts beside published ones.");
+        "Cell lists by boxes and no mailboxes, as evidently in the published figures. Most "
+        "scenes of the other rows differ: the mountain is another one, gears has faces of 144 "
+        "corners as one primitive, the view of lattice is unknown. In tetra at density 1 cell "
+        "walls coincide with faces of the tetrahedra, which lie in the cells on both sides "
+        "here. In balls and tree a large ground leaves only a few cells for the rest, so that "
+        "the figures are sensitive to the grid's resolution. See docs/log/accelerators.md, "
+        "Counts beside published ones.");
 }
 
 void claim_b5(ClaimRun& run) {
@@ -83,7 +83,7 @@ void claim_b5(ClaimRun& run) {
             "fewer, equal answers",
             saved > 0 && with.disagreements == 0 && without.disagreements == 0);
     }
-    run.note("Tests of primitives for each ray in a uniform grid of density 3.");
+    run.note("Primitive tests per ray in a uniform grid of density 3.");
 }
 
 void claim_b6(ClaimRun& run) {
@@ -149,9 +149,8 @@ void claim_b8(ClaimRun& run) {
                     ratio, published.top_down / published.point_location);
     }
     run.note(
-        "Steps are all nodes that are looked at, inner ones too. balls, one primitive to a leaf. "
-        "The published octrees (octree-84-A and octree-93-A) divide where it pays, ours at the "
-        "middle.");
+        "Steps are all visited nodes, inner ones included. balls, one primitive per leaf. The "
+        "published octrees (octree-84-A and octree-93-A) split by cost, ours at the middle.");
 }
 
 void claim_b9(ClaimRun& run) {

@@ -52,10 +52,10 @@ void claim_b10(ClaimRun& run) {
                    few.seconds > kd.seconds && any.seconds > kd.seconds);
     }
     run.note(
-        "The restricted tree of Kammaje and Mora, and that of Ize, Wald and Parker, whose planes "
-        "besides those across the axes are those of flat polygons; it holds where one of them "
-        "does fewer tests. All with their default settings. Of spheres only the first has anything "
-        "to choose from.");
+        "The restricted tree of Kammaje and Mora, and that of Ize, Wald and Parker, whose "
+        "planes are the axis-aligned ones and those of flat polygons; the claim holds if one "
+        "of them does fewer tests. All with default settings. For spheres only the first tree "
+        "has additional planes to choose from.");
 }
 
 void claim_b11(ClaimRun& run) {
@@ -80,9 +80,10 @@ void claim_b11(ClaimRun& run) {
                              1e-6 * static_cast<double>(built.scene.aggregate->memory_bytes())));
     }
     run.note(
-        "All rays of the picture, in its order. The two pull apart: a class that is small enough "
-        "for few candidates is that of few rays, so that the next one is not in it. Counted are "
-        "tests only; a ray looks at some 3 nodes here, at 20 to 40 in an octree.");
+        "All rays of the image, in its order. Fewer candidates and more cache hits exclude "
+        "each other: a class small enough for few candidates contains few rays, so that the "
+        "next ray is outside it. Only tests are counted; a ray visits about 3 nodes here, 20 "
+        "to 40 in an octree.");
 }
 
 void claim_b12(ClaimRun& run) {
@@ -103,7 +104,7 @@ void claim_b12(ClaimRun& run) {
                    fmt::format("{:.2f} hierarchy, {:.1f} times", generic, generic / buffer),
                    generic >= 4 * buffer);
     }
-    run.note("Tests of primitives and bounds for each shadow ray.");
+    run.note("Tests of primitives and bounds per shadow ray.");
 }
 
 void claim_b13(ClaimRun& run) {
@@ -132,10 +133,10 @@ void claim_b13(ClaimRun& run) {
                    fmt::format("{:.2f} times", last / first), "<= 2", last <= 2 * first);
     }
     run.note(
-        "A cell of directions has as many candidates as spheres are seen in it: as many with more "
-        "spheres as with few, where their radii shrink with n^(-1/2) and the cells of a sphere are "
-        "as many as two for each sphere. With radii of n^(-1/3) the share of the volume stays the "
-        "same, and the view fills with spheres.");
+        "A direction cell has as many candidates as spheres visible in it. With radii "
+        "proportional to n^(-1/2) and two direction cells per sphere their number does not "
+        "depend on n. With radii of n^(-1/3) the share of the volume is constant, and the "
+        "spheres fill the view.");
 }
 
 }  // namespace alhazen

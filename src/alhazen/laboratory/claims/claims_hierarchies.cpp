@@ -115,7 +115,7 @@ void claim_a1(ClaimRun& run) {
             before = share;
         }
     }
-    run.note("The share of the processor time of a picture.");
+    run.note("Share of the processor time of an image.");
 }
 
 void claim_a2(ClaimRun& run) {
@@ -140,7 +140,7 @@ void claim_a3(ClaimRun& run) {
                    fmt::format("{:.1f} / {:.2f} = {:.0f} times", list, pruned, list / pruned),
                    ">= 100", list >= 100 * pruned);
     }
-    run.note("Tests of primitives for each ray, list over hierarchy.");
+    run.note("Primitive tests per ray, list over hierarchy.");
 }
 
 void claim_a4(ClaimRun& run) {
@@ -166,9 +166,9 @@ void claim_a4(ClaimRun& run) {
                  "heap gains 0 to 5 % on ordered");
     }
     run.note(
-        "Of eye, reflected and refracted rays: shadow rays ask for any hit. The heap, depth first "
-        "the "
-        "nearest child first, depth first as stored; boxes, the same tree. Times are of all rays.");
+        "Eye, reflected and refracted rays; shadow rays are any-hit queries. Traversal by a "
+        "heap, depth first with the nearest child first, and depth first as stored; the same "
+        "tree of boxes. Times are of all rays.");
 }
 
 void claim_a5(ClaimRun& run) {
@@ -183,7 +183,7 @@ void claim_a5(ClaimRun& run) {
         run.tell("", fmt::format("{:.1f} bounds, {:.0f} ns", f.each(kBoxTests), f.nanoseconds()));
         before = f.each(kPrimitiveTests);
     }
-    run.note("4000 cylinders, 100 times longer than thick, in directions by chance.");
+    run.note("4000 cylinders, 100 times as long as thick, in random directions.");
 }
 
 void claim_a6(ClaimRun& run) {
@@ -225,7 +225,9 @@ void claim_b1(ClaimRun& run) {
     }
     run.expect("2000 insertions, sum of increments over cost", fmt::format("1 + {:.1e}", worst),
                "1", worst < 1e-9);
-    run.note("The area has a little of the edges in it, so that flat boxes differ: 7.8 to 1e-6.");
+    run.note(
+        "The area includes a small part of the edge lengths, which distinguishes flat boxes: "
+        "7.8 to 1e-6.");
 }
 
 void claim_b2(ClaimRun& run) {
@@ -262,8 +264,8 @@ void claim_b2(ClaimRun& run) {
     run.expect("scenes with fewer tests of bounds", fmt::format("{}", fewer), ">= 5 of 7",
                fewer >= 5);
     run.note(
-        "Published totals are those of another program, whose shadow rays may have looked for the "
-        "closest hit; the mountain is another one.");
+        "Published totals are of another program, whose shadow rays may have been closest-hit "
+        "queries; the mountain is another one.");
 }
 
 void claim_b3(ClaimRun& run) {
@@ -287,13 +289,13 @@ void claim_b3(ClaimRun& run) {
         seconds.push_back(least);
     }
     const double slope = log_log_slope(n, steps);
-    run.expect("exponent of n, nodes looked at", fmt::format("{:.3f}", slope), "1.0 to 1.15",
+    run.expect("exponent of n, visited nodes", fmt::format("{:.3f}", slope), "1.0 to 1.15",
                slope >= 1.0 && slope <= 1.15);
     run.tell("exponent of n, time", fmt::format("{:.3f}", log_log_slope(n, seconds)));
     run.note(
-        "n log n itself has the exponent 1.11 over this range. The claim is about steps; the time "
-        "of a step grows, too, once the tree (100 bytes and more for each sphere) no longer fits "
-        "into the caches, beyond 10^4 spheres.");
+        "n log n itself has the exponent 1.11 over this range. The claim is about steps; the "
+        "time of a step grows, too, once the tree (100 bytes and more per sphere) exceeds the "
+        "caches, beyond 10^4 spheres.");
 }
 
 }  // namespace alhazen

@@ -35,7 +35,7 @@ std::string megabytes(double bytes) {
 
 void claim_b14(ClaimRun& run) {
     const FieldFigures small = measure_field(run, kSmall), large = measure_field(run, kLarge);
-    run.expect("primitives that are seen", fmt::format("{}", large.census.effective_primitives),
+    run.expect("effective primitives", fmt::format("{}", large.census.effective_primitives),
                ">= 2 x 10^9", large.census.effective_primitives >= kLarge);
     run.expect("scene and structures", megabytes(large.bytes()), "<= 100 MB",
                large.bytes() <= 100 * kMegabyte);
@@ -53,7 +53,7 @@ void claim_b14(ClaimRun& run) {
 void claim_h1(ClaimRun& run) {
     const FieldFigures field = measure_field(run, kLarge);
     const double each = field.bytes() / static_cast<double>(field.census.effective_primitives);
-    run.expect("bytes for each primitive that is seen", fmt::format("{:.2e}", each), "<= 1e-2",
+    run.expect("bytes per effective primitive", fmt::format("{:.2e}", each), "<= 1e-2",
                each <= 1e-2);
     run.tell("scene and structures", fmt::format("{} for {} primitives", megabytes(field.bytes()),
                                                  field.census.effective_primitives));
