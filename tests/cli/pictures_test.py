@@ -154,11 +154,11 @@ class Pictures(CommandLineCase):
         self.assertIn("the work in hand has no result", messages)
         self.assertFalse(os.path.exists(self.path("big.png")))
 
-    def test_the_readme_scene_renders(self):
-        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as readme:
-            text = readme.read()
-        scene = self.write("readme.alhazen", text[text.index("alhazen 1\n"):].split("```")[0])
-        self.assertEqual(run("render", scene, "-o", self.path("readme.png"), "--size", "32x32", "--strict").returncode, 0)
+    def test_the_first_scene_of_the_guide_renders(self):
+        with open(os.path.join(SOURCE, "docs/guide/first_scene.md"), encoding="utf-8") as guide:
+            text = guide.read()
+        scene = self.write("first.alhazen", text[text.index("alhazen 1\n"):].split("```")[0])
+        self.assertEqual(run("render", scene, "-o", self.path("first.png"), "--size", "32x32", "--strict").returncode, 0)
 
 
 if __name__ == "__main__":
