@@ -46,8 +46,8 @@ using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cyli
                                   Tgc, Torus, Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric,
                                   Algebraic, Superellipsoid, Prism, Lathe, Blob, HeightField>;
 
-/// Any one analytic shape by value: the variant, but copied, moved and destroyed by functions that
-/// are compiled once, not in every file that has parts.
+/// Any analytic shape by value: the variant, with copy, move and destruction compiled once instead
+/// of in every file that has parts.
 class AnyShape : public AnalyticShapes::Variant {
   public:
     using AnalyticShapes::Variant::Variant;

@@ -1,9 +1,8 @@
 #pragma once
-/// Declaration of the fields of a shape: name, member, unit and check of each. The native reader
-/// and writer, the validation, the comparison and the random maker of the tests follow from it.
+/// Declares the fields of a shape: name, member, unit and check of each. The native reader and
+/// writer, validation, comparison and the random shapes of the tests are derived from them.
 ///
-/// A shape lists the fields that describe it, in the order of its file format, and none of the
-/// derived ones:
+/// A shape lists its describing fields, without derived ones, in the order of its file format:
 ///
 ///     static constexpr auto kFields =
 ///         std::make_tuple(field("center", &Sphere::center, Unit::Point, Check::Point),
@@ -14,10 +13,10 @@
 
 namespace alhazen {
 
-/// What a field measures.
+/// The quantity of a field.
 enum class Unit : std::uint8_t {
     Point,      ///< position, scene units
-    Vector,     ///< vector whose length counts, scene units
+    Vector,     ///< vector with a length, scene units
     Direction,  ///< vector of any length
     Length,     ///< scene units
     Number,     ///< without unit: ratio, exponent, coefficient
@@ -27,17 +26,17 @@ enum class Unit : std::uint8_t {
     Compound,   ///< list or struct with a textual form of its own
 };
 
-/// Which values of a field are valid. Magnitudes: kMinLength to kMaxCoordinate.
+/// The valid values of a field. Magnitudes: kMinLength to kMaxCoordinate.
 enum class Check : std::uint8_t {
-    None,          ///< all of its type
+    None,          ///< any value of its type
     Point,         ///< finite
     Vector,        ///< finite, not zero
     Length,        ///< positive
     LengthOrZero,  ///< positive or zero
-    Shape,         ///< tested by the shape's `validate`, with other fields or in its own words
+    Shape,         ///< tested by the shape's `validate`, with other fields or with its own message
 };
 
-/// One field of the shape S. An optional field is left out of files where it has its default.
+/// One field of the shape S. An optional field is omitted from files where it has its default.
 template <class S, class T>
 struct Field {
     const char* name;

@@ -1,10 +1,10 @@
 #pragma once
-/// The first crossing of a ray with any shape: `first_hit` where the shape has one, which takes
-/// less time than finding all crossings, else the first of all.
+/// The first crossing of a ray with any shape: the shape's own `first_hit`, which is faster than
+/// finding all crossings, else the first of all crossings.
 ///
-/// Conventions: the same bits as the first crossing that `intersect` writes; false where that
-/// writes none. A shape declares `bool first_hit(const S&, const Ray&, ShapeHit&)` in its own
-/// header and joins first_hit_test.cpp, which compares the two.
+/// Conventions: returns the same bits as the first crossing that `intersect` writes, or false where
+/// it writes none. A shape declares `bool first_hit(const S&, const Ray&, ShapeHit&)` in its own
+/// header; first_hit_test.cpp compares the two.
 
 #include "alhazen/shapes/core/shape.h"
 #include "alhazen/shapes/core/shape_hits.h"

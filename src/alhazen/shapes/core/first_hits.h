@@ -1,10 +1,10 @@
 #pragma once
 /// The first crossings of a packet of rays with one shape.
 ///
-/// Conventions: for each ray the bits of `find_first_hit`. A shape with a packet test declares
+/// Conventions: each ray has the bits of `find_first_hit`. A shape with a packet test declares
 /// `std::uint32_t first_hits(const S&, std::span<const Ray* const>, ShapeHit*)` in its own header:
-/// the set of rays that hit, bit i for ray i; [ray] their first crossings; one to `kMaxPacketRays`
-/// valid rays. It joins first_hits_test.cpp, which compares the two.
+/// takes one to `kMaxPacketRays` valid rays, returns the set of rays that hit (bit i for ray i) and
+/// writes their first crossings to [ray]. first_hits_test.cpp compares the two.
 
 #include <cstdint>
 #include <span>

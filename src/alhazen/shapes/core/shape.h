@@ -2,15 +2,15 @@
 /// The Shape concept, and the surface record at a crossing.
 ///
 /// A shape is a plain struct that describes a surface in its own frame, without material, transform
-/// or file format. To add one: CONTRIBUTING.md. Conventions: `intersect` takes rays of any
-/// direction length and writes every crossing with t in [ray.t_min, ray.t_max] (either may be
-/// infinite) in ascending order of t: at most `kMaxHits` into an array, or any number into a
-/// ShapeHits where `kMaxHits` is `kManyHits`. Nearest, any and all crossings are read from that
-/// list, so they cannot disagree. A closed shape is a solid: along a line its crossings alternate
-/// between entry and exit, whatever their normals. A tangent ray is reported as two equal crossings
-/// or none, never as one. A line crosses a bounded solid an even number of times; an unbounded one
-/// tells with `inside_at_minus_infinity` where its lines begin. Threads: const functions may be
-/// called from many threads.
+/// or file format. To add one: CONTRIBUTING.md.
+/// Conventions: `intersect` takes rays of any direction length and writes every crossing with t in
+/// [ray.t_min, ray.t_max] (either may be infinite) in ascending order of t: at most `kMaxHits` into
+/// an array, or any number into a ShapeHits where `kMaxHits` is `kManyHits`. Nearest, any and all
+/// crossings are read from that list, and thus agree. A closed shape is a solid: along a line its
+/// crossings alternate between entry and exit, regardless of their normals. A tangent ray has two
+/// equal crossings or none, never one. A line crosses a bounded solid an even number of times; an
+/// unbounded solid returns from `inside_at_minus_infinity` whether a line begins inside. Threads:
+/// const functions may be called from many threads.
 
 #include <array>
 #include <concepts>
@@ -29,12 +29,12 @@ namespace alhazen {
 
 /// The surface at a crossing, in the shape's frame.
 struct ShapeSurface {
-    Vec3 point;           ///< on the surface: re-projected, not merely origin + t * direction
-    Vec3 normal;          ///< unit geometric normal; outward for a closed shape
+    Vec3 point;   ///< on the surface: re-projected, more accurate than origin + t * direction
+    Vec3 normal;  ///< unit geometric normal; outward for a closed shape
     Vec3 shading_normal;  ///< unit; equal to `normal` unless the shape interpolates normals
     Vec2 uv;              ///< texture coordinates
-    Vec3 dpdu, dpdv;      ///< change of the point by u and by v; zero where there is none
-    Vec3 error;           ///< bound of |point - true point on the surface|, component by component
+    Vec3 dpdu, dpdv;      ///< derivatives of the point by u and by v; zero where undefined
+    Vec3 error;           ///< bound of |point - true point on the surface|, per component
 };
 
 /// A shape with at most kMaxHits crossings; `intersect` returns their number.
@@ -52,10 +52,10 @@ concept WritesManyHits = S::kMaxHits ==
     { shape.intersect(ray, hits) } -> std::same_as<void>;
 };
 
-/// A solid that may reach to infinity.
+/// A solid that may be unbounded.
 template <class S>
 concept UnboundedSolid = requires(const S& shape, const Ray& ray) {
-    /// Whether the line of the ray (its limits do not matter) begins inside: at t = -infinity.
+    /// Whether the line of the ray, regardless of its limits, is inside at t = -infinity.
     { shape.inside_at_minus_infinity(ray) } -> std::same_as<bool>;
 };
 
@@ -63,17 +63,20 @@ template <class S>
 concept Shape = requires(S& fresh, const S& shape, const Ray& ray, const ShapeHit& hit,
                          const Vec3& axis, const FileLocation& where, Diagnostics& diagnostics) {
     { S::kMaxHits } -> std::convertible_to<int>;
-    { S::kName } -> std::convertible_to<const char*>;  // as in scene files: "sphere"
-    { S::kClosed } -> std::convertible_to<bool>;       // could bound a volume whatever its options
-    S::kFields;  // what describes it (fields.h); all other members are derived
-    /// Sets derived fields. Called once, after the public fields are set and validated, before any
-    /// query.
+    { S::kName } -> std::convertible_to<const char*>;  // name in scene files: "sphere"
+    {
+        S::kClosed
+        } -> std::convertible_to<bool>;  // whether the shape can bound a volume with some of its
+                                         // options
+    S::kFields;  // describing fields (fields.h); all other members are derived
+    /// Sets the derived fields. Called once, after the public fields are set and validated and
+    /// before any query.
     { fresh.prepare() } -> std::same_as<void>;
     /// Reports every invalid field or combination of fields (NaN, zero radius, ...).
     { shape.validate(where, diagnostics) } -> std::same_as<void>;
     /// True when this instance bounds a volume (a cylinder without caps does not).
     { shape.closed() } -> std::same_as<bool>;
-    /// Holds the shape, rounded outward; infinite along an axis where the shape is.
+    /// Contains the shape, rounded outward; infinite along the axes where the shape is unbounded.
     { shape.box() } -> std::same_as<Box3>;
     /// Range of dot(axis, p) over the shape, rounded outward.
     { shape.extent(axis) } -> std::same_as<Interval>;
@@ -91,7 +94,7 @@ inline void append_hits(const S& shape, const Ray& ray, ShapeHits& hits) {
     }
 }
 
-/// Whether the line of a ray begins inside the solid.
+/// Whether the line of a ray is inside the solid at t = -infinity.
 template <Shape S>
 [[nodiscard]] inline bool inside_at_minus_infinity(const S& shape, const Ray& ray) {
     if constexpr (UnboundedSolid<S>) {

@@ -1,11 +1,11 @@
 #pragma once
-/// The crossings of one ray with one shape: a small vector with room for `kMaxShapeHits` without
-/// allocation.
+/// The crossings of one ray with one shape: a small vector with a capacity of `kMaxShapeHits`
+/// without allocation.
 ///
-/// Conventions: ascending in t. Shapes with a known small number of crossings write into `room` and
-/// say how many with `grow`; shapes with any number (`kManyHits`) append. Making an empty one
-/// touches none of its room. A caller that wants no more than the first crossings says how many; a
-/// shape may stop once it has `enough`, and need not. Threads: belongs to one.
+/// Conventions: ascending in t. Shapes with a small fixed bound of crossings write into `room` and
+/// state their number with `grow`; shapes with any number (`kManyHits`) append. The constructor
+/// leaves the storage uninitialised. A caller that reads only the first crossings states how many;
+/// a shape may stop once there are `enough`. Threads: used by one thread.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,37 +17,38 @@
 
 namespace alhazen {
 
-/// Crossings that a shape with a fixed bound may have with a line.
+/// Largest number of crossings with a line for shapes with a fixed bound.
 inline constexpr int kMaxShapeHits = 16;
 
-/// As a shape's kMaxHits: any number of crossings; its `intersect` appends to ShapeHits.
+/// Value of `kMaxHits` for shapes with any number of crossings; their `intersect` appends to
+/// ShapeHits.
 inline constexpr int kManyHits = std::numeric_limits<int>::max();
 
 class ShapeHits {
   public:
     static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-    /// For a caller that reads no more than the first `wanted` crossings.
+    /// For a caller that reads only the first `wanted` crossings.
     explicit ShapeHits(std::size_t wanted = kAll) : wanted_(wanted) {}
     ShapeHits(const ShapeHits&) = delete;
     ShapeHits& operator=(const ShapeHits&) = delete;
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }
-    /// How many the caller reads at most.
+    /// Largest number of crossings that the caller reads.
     [[nodiscard]] std::size_t wanted() const { return wanted_; }
-    /// True when a shape need not look for crossings behind those it has appended.
+    /// True when a shape may omit further crossings behind those appended.
     [[nodiscard]] bool enough() const { return size_ >= wanted_; }
 
-    /// Where the next `n` crossings go. Valid until the next call that is not const.
+    /// Storage of the next `n` crossings. Valid until the next call of a non-const function.
     ShapeHit* room(int n) {
         if (size_ + static_cast<std::size_t>(n) > capacity_) enlarge(static_cast<std::size_t>(n));
         return data() + size_;
     }
-    /// The first `n` of the room have been written.
+    /// Appends the first `n` crossings written to `room`.
     void grow(int n) { size_ += static_cast<std::size_t>(n); }
     void push_back(const ShapeHit& hit) {
-        const ShapeHit kept = hit;  // it may lie in what is enlarged
+        const ShapeHit kept = hit;  // `hit` may lie in the storage that is reallocated
         *room(1) = kept;
         ++size_;
     }
@@ -79,7 +80,7 @@ class ShapeHits {
 
     std::size_t size_ = 0, capacity_ = kMaxShapeHits, wanted_;
     std::unique_ptr<ShapeHit[]> heap_;
-    // Bytes, not values: those would be set to zero for every ray.
+    // Bytes, because an array of values would be zeroed for every ray.
     alignas(ShapeHit) std::byte inside_[kMaxShapeHits * sizeof(ShapeHit)];
 };
 

@@ -1,9 +1,11 @@
 #pragma once
-/// Helpers of the shapes: rounding bounds, accurate vectors, checks of fields, writing of hits.
+/// Numeric helpers of the shapes: rounding bounds, accurate vectors, checks of fields, writing of
+/// hits.
 ///
 /// Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., SIAM, 2002, section
 /// 3.1 (gamma); Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8
-/// (error bounds of surface points). Conventions: internal to this folder.
+/// (error bounds of surface points).
+/// Conventions: internal to this folder.
 
 #include <cmath>
 #include <limits>
@@ -16,25 +18,25 @@
 
 namespace alhazen {
 
-/// Relative error bound of n roundings in a row.
+/// Relative error bound of n consecutive roundings.
 constexpr double gamma_bound(int n) {
     constexpr double kHalfUlp = 0x1p-53;
     return n * kHalfUlp / (1.0 - n * kHalfUlp);
 }
 
-/// Shapes larger or smaller than this are refused: squares and products of four must not overflow
-/// or vanish.
+/// Limit of the magnitude of coordinates and, by its inverse, of lengths: squares and products of
+/// four neither overflow nor underflow.
 inline constexpr double kMaxCoordinate = 1e70;
 inline constexpr double kMinLength = 1e-70;
 
-/// Each component right to 1.5 ulp, however nearly parallel the two are.
+/// Cross product, each component within 1.5 ulp, also for nearly parallel vectors.
 inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
     return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
             difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
 /// Half the size of a circle's box: `radius` times the sine of the angle between `n` (unit) and
-/// each axis, without the cancellation of 1 - n^2.
+/// each axis, without the cancellation in 1 - n^2.
 inline Vec3 circle_half_box(const Vec3& n, double radius) {
     return radius * Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)};
 }
@@ -45,7 +47,8 @@ inline Box3 outward_box(const Vec3& center, const Vec3& half) {
     return {center - padded_half, center + padded_half};
 }
 
-/// dot(axis, p) for p within `half` of `center` in that measure, rounded outward.
+/// Range of dot(axis, p) for a shape whose extent along `axis` is `half` on each side of `center`,
+/// rounded outward.
 inline Interval outward_extent(const Vec3& axis, const Vec3& center, double half) {
     const double middle = dot(axis, center);
     const double reach = half + gamma_bound(16) * (dot(abs(axis), abs(center)) + half);
@@ -62,14 +65,15 @@ inline double turn_fraction(double x, double y) {
 
 // ---- writing hits
 
-/// Writes the crossing when the ray covers it; returns how many were written.
+/// Writes the crossing if t lies in the ray's range; returns the number written.
 inline int report_crossing(const Ray& ray, const ShapeHit& hit, ShapeHit* hits) {
     if (!ray.covers(hit.t) || !std::isfinite(hit.t)) return 0;
     hits[0] = hit;
     return 1;
 }
 
-/// Writes those ends of a span entry <= exit that the ray covers. A span that does not end is none.
+/// Writes the ends of a span entry <= exit that lie in the ray's range. A span with an infinite end
+/// counts as none.
 inline int report_span(const Ray& ray, double entry, std::uint32_t entry_part, double exit,
                        std::uint32_t exit_part, ShapeHit* hits) {
     if (!(entry <= exit) || !std::isfinite(entry) || !std::isfinite(exit)) return 0;
@@ -81,18 +85,18 @@ inline int report_span(const Ray& ray, double entry, std::uint32_t entry_part, d
 
 // ---- planes
 
-/// t of the crossing with a plane; not finite when the ray runs along it.
+/// t of the crossing with a plane; not finite when the ray is parallel to it.
 inline double plane_crossing(const Ray& ray, const Vec3& point, const Vec3& unit_normal) {
     return dot(unit_normal, point - ray.origin) / dot(unit_normal, ray.direction);
 }
 
-/// `p` moved to the plane through `point`, with its error; uv are left to the caller.
+/// `p` projected to the plane through `point`, with its error; the caller sets uv.
 inline ShapeSurface surface_on_plane(const Vec3& p, const Vec3& point, const Vec3& unit_normal) {
     ShapeSurface surface;
     const Vec3 from_point = p - point;
     surface.point = p - dot(unit_normal, from_point) * unit_normal;
     surface.normal = surface.shading_normal = unit_normal;
-    // Seven roundings of the offset's terms (three of them the normal's own), one of the result.
+    // Seven roundings of the offset's terms (three of them in the normal), one of the result.
     const Vec3 n = abs(unit_normal);
     const double distance =
         gamma_bound(10) * dot(n, abs(from_point)) + gamma_bound(2) * dot(n, abs(surface.point));
@@ -102,7 +106,7 @@ inline ShapeSurface surface_on_plane(const Vec3& p, const Vec3& point, const Vec
 
 // ---- validation
 
-/// Writes "NAME: FIELD ..." for each field that cannot be used.
+/// Reports "NAME: FIELD ..." for each invalid field.
 class FieldChecks {
   public:
     FieldChecks(const char* shape, const FileLocation& where, Diagnostics& diagnostics)
@@ -134,8 +138,7 @@ class FieldChecks {
     }
     [[nodiscard]] bool ok() const { return ok_; }
 
-    /// Tests each field of the shape as its declaration says (fields.h), in order; skips those of
-    /// Check::Shape.
+    /// Tests each field as declared (fields.h), in order; skips those of Check::Shape.
     template <class S>
     void fields(const S& shape) {
         for_each_field<S>(

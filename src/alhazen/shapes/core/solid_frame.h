@@ -1,11 +1,12 @@
 #pragma once
-/// Helpers of exact solids: a local frame in which their equation is simple, the convex region that
-/// clips them, and the writing of their crossings with the right parity.
+/// Helpers of exact solids: a local frame in which the equation is simple, the convex region that
+/// clips them, and the output of their crossings with the right parity.
 ///
-/// Source: Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18,
-/// 1982 (a solid as the intersection of intervals). Differs: whether the line is inside where it
-/// enters the clip determines the caps, so the count of crossings is even by construction.
-/// Conventions: internal to this folder. Numbers may be double or double-double: in the latter the
+/// Source: Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18, 1982
+/// (a solid as the intersection of intervals).
+/// Differs: whether the line is inside where it enters the clip determines the caps, so the number
+/// of crossings is even by construction.
+/// Conventions: internal to this folder. Numbers are double or double-double: in double-double the
 /// transform of a ray is exact to 30 digits, and the doubles of `SolidFrame` define the shape.
 
 #include "alhazen/geometry/bounds_source.h"
@@ -53,7 +54,7 @@ struct SolidFrame {
     }
     [[nodiscard]] Vec3 to_local(const Vec3& p) const { return local_from_object * (p - origin); }
     [[nodiscard]] Vec3 to_object(const Vec3& p) const { return object_from_local * p + origin; }
-    /// Rounding of `to_object`, component by component.
+    /// Rounding of `to_object`, per component.
     [[nodiscard]] Vec3 object_error(const Vec3& p, int roundings) const {
         const Mat3& m = object_from_local;
         return gamma_bound(roundings) *
@@ -62,8 +63,8 @@ struct SolidFrame {
     }
 };
 
-/// The ray with its origin moved to t = shift, right to an ulp of the new origin however far the
-/// old one was. A crossing at t of the result is one at shift + t of `ray`.
+/// The ray with its origin moved to t = shift, within an ulp of the new origin for any distance of
+/// the old one. A crossing at t of the result is at shift + t of `ray`.
 inline Ray advanced(const Ray& ray, double shift) {
     Ray moved = ray;
     for (int k = 0; k < 3; ++k) {
@@ -81,18 +82,18 @@ struct ClipPlane {
     friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
-/// The part of a line within a clip, and the faces through which it enters and leaves.
+/// The part of a line within a clip, and the faces where it enters and leaves.
 struct ClipRange {
     double entry = -kInfinity, exit = kInfinity;
     std::uint32_t entry_part = 0, exit_part = 0;
 
-    /// Narrows it to where o + t d lies between lo and hi; false when nothing is left. The face
-    /// that is entered is chosen by the sign of d; in the plane of a face is outside.
+    /// Cuts the range to where o + t d lies between lo and hi; returns false when it is empty. The
+    /// sign of d selects the entry face; a line in the plane of a face is outside.
     bool cut(double o, double d, double lo, double hi, std::uint32_t lo_part) {
         if (d == 0.0) return lo < o && o < hi;
         const double near = ((d > 0.0 ? lo : hi) - o) / d;
         const double far = ((d > 0.0 ? hi : lo) - o) / d;
-        // Faces too far away for a finite t.
+        // A face without a finite t.
         if (!std::isfinite(near) && std::isfinite(d > 0.0 ? lo : hi)) return false;
         if (!std::isfinite(far) && std::isfinite(d > 0.0 ? hi : lo)) return false;
         if (near > entry) {
@@ -107,8 +108,8 @@ struct ClipRange {
     }
 };
 
-/// Part numbers: 0 the surface itself, 1 to 6 the faces -x +x -y +y -z +z of the clip's box, from 7
-/// its planes.
+/// Part numbers: 0 the surface itself, 1 to 6 the faces -x +x -y +y -z +z of the clip's box, 7 and
+/// above its planes.
 inline constexpr std::uint32_t kFirstClipPlanePart = 7;
 
 /// Cuts the line by a box in the frame of the clip.
@@ -117,8 +118,8 @@ inline bool cut_by_box(const Vec3& o, const Vec3& d, const Box3& box, ClipRange&
            range.cut(o.y, d.y, box.lo.y, box.hi.y, 3) && range.cut(o.z, d.z, box.lo.z, box.hi.z, 5);
 }
 
-/// Writes the crossings of a clipped solid. `t` ascending, within the range, are where the line
-/// goes in and out of the unclipped solid; `inside` says whether it is in it at the range's entry.
+/// Writes the crossings of a clipped solid. `t`, ascending and within the range, are where the line
+/// enters and leaves the unclipped solid; `inside`: whether the line is in it at the range's entry.
 inline int report_solid(const Ray& ray, const ClipRange& range, bool inside, const double* t,
                         int count, bool capped, ShapeHit* hits) {
     int written = 0;
@@ -134,15 +135,15 @@ inline int report_solid(const Ray& ray, const ClipRange& range, bool inside, con
     return written;
 }
 
-/// Texture coordinates as functions of a point in the frame: their values and gradients.
+/// Texture coordinates as functions of a point in the frame: values and gradients.
 struct LocalUv {
     Vec2 uv;
     Vec3 u_gradient, v_gradient;
 };
 
-/// Fills in uv, dpdu and dpdv: the steps within the tangent plane that change one of u and v by one
-/// and not the other; zero where there are none, or where the surface is so steep in terms of u and
-/// v that they tell nothing: sine of the angle below `least_slope`.
+/// Sets uv, dpdu and dpdv: the steps within the tangent plane that change one of u and v by one and
+/// leave the other constant. They are zero where undefined, and where the surface is too steep in u
+/// and v: sine of the angle below `least_slope`.
 inline void set_uv(const SolidFrame& frame, const LocalUv& local, const Vec3& local_normal,
                    ShapeSurface& surface, double least_slope = 0.0) {
     surface.uv = local.uv;
