@@ -6,7 +6,7 @@ bool cut_by_clip(const Vec3& o, const Vec3& d, const Box3& box,
                  const std::vector<ClipPlane>& planes, ClipRange& range) {
     if (!cut_by_box(o, d, box, range)) return false;
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        // The far side of the slab is infinitely far: only one of its two parts can be met.
+        // With the far side infinitely far, only one of the slab's two parts can be hit.
         const std::uint32_t part = kFirstClipPlanePart + static_cast<std::uint32_t>(i);
         if (!range.cut(dot(planes[i].normal, o), dot(planes[i].normal, d), -kInfinity,
                        planes[i].offset, part - 1)) {
@@ -100,7 +100,7 @@ ShapeSurface ClippedQuadric::side_surface(const Vec3& start, const Vec3& before)
     Vec3 p = start;
     Vec3 gradient = form.gradient(p);
     double residual = 0.0;
-    // The value in double-double: what is left is the rounding of p itself.
+    // The value in double-double: the remaining error is the rounding of p.
     const auto value = [&] { return form.value(to_real<DoubleDouble>(p)).high; };
     for (int i = 0; i < 2; ++i) {
         const double squared = length_squared(gradient);
@@ -110,7 +110,7 @@ ShapeSurface ClippedQuadric::side_surface(const Vec3& start, const Vec3& before)
     }
     const double steepness = length(gradient);
     if (steepness > 0.0) residual = std::abs(value()) / steepness;
-    // At an apex the normal is that of the way by which the ray came.
+    // At an apex the normal is taken just before it on the ray.
     const Vec3 usable = steepness > 0.0 ? gradient : form.gradient(before);
 
     ShapeSurface surface;

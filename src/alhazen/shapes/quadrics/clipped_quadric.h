@@ -3,12 +3,13 @@
 /// frame and by planes, with caps or open.
 ///
 /// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1; Roth 1982 (see
-/// solid_frame.h). Differs: the meeting of at most two intervals of the quadric with the one of the
-/// clip, so a line crosses the closed surface evenly often by construction. Conventions: part 0 the
-/// quadric, 1 to 6 the faces of the box, from 7 the planes. u runs around the frame's z axis from
-/// its x axis; v along z, from 0 to 1 through `v_range`. On the faces across z, v runs from the
-/// axis (0) to the distance 1 in the frame; on other faces uv are the other two coordinates. Open
-/// ends: crossings outside the clip are left out.
+/// solid_frame.h).
+/// Differs: intersects the at most two intervals of the quadric with that of the clip, so a line
+/// crosses the closed surface an even number of times by construction.
+/// Conventions: part 0 the quadric, 1 to 6 the faces of the box, 7 and above the planes. u runs
+/// around the frame's z axis from its x axis; v along z, from 0 to 1 through `v_range`. On the
+/// faces across z, v runs from the axis (0) to the distance 1 in the frame; on other faces uv are
+/// the other two coordinates. Open ends: crossings outside the clip are omitted.
 
 #include "alhazen/shapes/quadrics/quadric_line.h"
 
@@ -33,7 +34,7 @@ struct ClippedQuadric {
 
     int intersect(const Ray& ray, ShapeHit* hits) const;
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
-    /// Whether the line begins inside, at t = -infinity.
+    /// Whether the line is inside at t = -infinity.
     [[nodiscard]] bool inside_at_minus_infinity(const Ray& ray) const;
 
   private:
@@ -41,12 +42,13 @@ struct ClippedQuadric {
     [[nodiscard]] bool has_clip() const;
 };
 
-/// Surface on a face of a clip: `p` in the frame, moved onto the face; see the conventions above.
+/// Surface on a face of a clip: `p` in the frame, projected to the face; uv as in the conventions
+/// above.
 [[nodiscard]] ShapeSurface clip_face_surface(const SolidFrame& frame, const Box3& clip_box,
                                              const std::vector<ClipPlane>& planes, Vec3 p,
                                              std::uint32_t part);
 
-/// Cuts the line by the box and all planes; false when nothing is left.
+/// Cuts the line by the box and all planes; returns false when nothing is left.
 [[nodiscard]] bool cut_by_clip(const Vec3& o, const Vec3& d, const Box3& box,
                                const std::vector<ClipPlane>& planes, ClipRange& range);
 

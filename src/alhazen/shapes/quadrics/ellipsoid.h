@@ -1,8 +1,8 @@
 #pragma once
 /// An ellipsoid with any three semi-axes, not necessarily perpendicular.
 ///
-/// Source: clipped_quadric.h: the unit sphere in the frame of the semi-axes. Conventions: u runs
-/// around `axis_c` from `axis_a` (0 to 1), v from -axis_c (0) to +axis_c (1).
+/// Source: clipped_quadric.h: the unit sphere in the frame of the semi-axes.
+/// Conventions: u runs around `axis_c` from `axis_a` (0 to 1), v from -axis_c (0) to +axis_c (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -32,7 +32,7 @@ struct Ellipsoid {
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
 };
 
-/// Reports axes of which one is zero or that lie, nearly, in one plane.
+/// Reports axes that are zero or nearly coplanar.
 void check_axes(FieldChecks& checks, const Mat3& axes, const char* x, const char* y, const char* z);
 
 }  // namespace alhazen

@@ -1,9 +1,9 @@
 #pragma once
-/// An elliptic cone or its lower part, right or oblique: all cross-sections are of one shape.
+/// An elliptic cone or frustum, right or oblique, with similar cross-sections.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < (1 - (1 - s) z)^2 between z = 0 and 1 in the frame of the
-/// semi-axes of the base and the way to the top. Conventions: as for elliptic_cylinder.h. Where the
-/// shape of the cross-section changes see tgc.h.
+/// semi-axes of the base and the vector from base to top; s = top_scale.
+/// Conventions: as for elliptic_cylinder.h. For cross-sections of varying shape see tgc.h.
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -14,9 +14,9 @@ struct EllipticCone {
     static constexpr int kMaxHits = ClippedQuadric::kMaxHits;
     static constexpr bool kClosed = true;
 
-    Vec3 base{0, 0, 0}, top{0, 0, 1};       ///< the middles of the ends
+    Vec3 base{0, 0, 0}, top{0, 0, 1};       ///< centres of the ends
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of the base
-    double top_scale = 0;                   ///< size of the top over that of the base; 0: an apex
+    double top_scale = 0;                   ///< size of the top relative to the base; 0: an apex
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
 

@@ -2,9 +2,9 @@
 /// An elliptic cylinder, right or oblique, with flat ends or open.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < 1 between z = 0 and 1 in the frame of the two semi-axes
-/// and the way from base to top. Conventions: part 0 the side, 5 the end at `base`, 6 the one at
-/// `top`. u runs around from `axis_a`, v from base (0) to top (1), on the ends from the middle (0)
-/// to the rim (1).
+/// and the vector from base to top.
+/// Conventions: part 0 the side, 5 the end at `base`, 6 the end at `top`. u runs around from
+/// `axis_a`, v from base (0) to top (1), on the ends from the centre (0) to the rim (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -15,7 +15,7 @@ struct EllipticCylinder {
     static constexpr int kMaxHits = ClippedQuadric::kMaxHits;
     static constexpr bool kClosed = true;
 
-    Vec3 base{0, 0, 0}, top{0, 0, 1};       ///< the middles of the ends
+    Vec3 base{0, 0, 0}, top{0, 0, 1};       ///< centres of the ends
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of both ends
     bool capped = true;
     ClippedQuadric solid{};  ///< derived

@@ -9,12 +9,11 @@ namespace alhazen {
 
 namespace {
 
-/// A line in the frame of a frustum (z along the axis, 0 at the centre) and what its quadric makes
-/// of it.
+/// A line in the frame of a frustum (z along the axis, 0 at the centre), with its quadratic.
 struct LocalLine {
     double shift;  ///< t of the local origin
     double ox, oy, oz, dx, dy, dz;
-    double radius, growth;  ///< radius at the local origin's height; its change along the line
+    double radius, growth;  ///< radius at the local origin's height; its derivative along the line
     // a t^2 + 2 b t + c <= 0 inside the infinite quadric (both nappes).
     double a, b, c, discriminant;
 };
@@ -24,7 +23,7 @@ LocalLine localise(const Frustum& f, const Ray& ray) {
     l.shift = 0.0;
     const Vec3& d = ray.direction;
     Vec3 origin = ray.origin - f.center;
-    // Close by, the shift would only round away digits of a small t.
+    // For a near origin the shift would only lose digits of a small t.
     if (length_squared(origin) > 16.0 * f.bounding_radius_squared) {
         l.shift = -dot(origin, d) / length_squared(d);
         origin += l.shift * d;
@@ -45,7 +44,7 @@ LocalLine localise(const Frustum& f, const Ray& ray) {
     const double w = std::sqrt(wx * wx + wy * wy);
     const double moment = std::abs(difference_of_products(l.ox, l.dy, l.oy, l.dx));
     l.discriminant = (w - moment) * (w + moment);
-    // A line that misses the side is asked no further.
+    // The line misses the side: c is not needed.
     l.c = 0.0;
     if (l.a > 0.0 && !(l.discriminant >= 0.0)) return l;
     const double across = std::sqrt(l.ox * l.ox + l.oy * l.oy);
@@ -58,7 +57,7 @@ Interval roots(const LocalLine& l) {
     const double s = std::sqrt(l.discriminant);
     double t0, t1;
     if (4.0 * std::abs(l.b) < s || s == 0.0) {
-        // Nothing to cancel; and c, which may be mere noise, is not divided by something tiny.
+        // No cancellation, and no division of c, which may be pure rounding, by a small number.
         t0 = (-l.b - s) / l.a;
         t1 = (-l.b + s) / l.a;
     } else {
@@ -75,12 +74,13 @@ constexpr Interval kWholeLine{-kInfinity, kInfinity};
 Interval inside_side(const LocalLine& l) {
     if (l.a > 0.0) {
         if (!(l.discriminant >= 0.0)) return {};
-        // The line is flatter than the cone: it stays in one nappe, that of the roots' middle.
+        // The line is flatter than the cone: it stays in the nappe that contains the middle of the
+        // roots.
         if (l.radius + (-l.b / l.a) * l.growth < 0.0) return {};
         return roots(l);
     }
     if (l.a < 0.0) {
-        // Steeper: it enters or leaves the positive nappe for good. Its discriminant is never truly
+        // Steeper: it enters or leaves the positive nappe once. The true discriminant is never
         // negative.
         LocalLine steep = l;
         steep.discriminant = std::max(0.0, l.discriminant);
@@ -88,7 +88,8 @@ Interval inside_side(const LocalLine& l) {
         return l.growth > 0.0 ? Interval{both.hi, kInfinity} : Interval{-kInfinity, both.lo};
     }
     if (l.growth == 0.0) return l.c < 0.0 ? kWholeLine : Interval{};
-    // Parallel to a generator: one crossing, inside towards growing radius or never in this nappe.
+    // Parallel to a generator: one crossing; inside towards growing radius, or never inside this
+    // nappe.
     if (l.b < 0.0 && l.growth > 0.0) return {-0.5 * l.c / l.b, kInfinity};
     if (l.b > 0.0 && l.growth < 0.0) return {-kInfinity, -0.5 * l.c / l.b};
     return {};
@@ -102,7 +103,7 @@ int intersect_solid(const LocalLine& l, double half_height, const Ray& ray, Shap
     if (l.dz == 0.0) {
         if (!(std::abs(l.oz) < half_height)) return 0;
     } else {
-        // The cap that is entered is chosen by the direction's sign; rounding then keeps the order.
+        // The sign of the direction selects the entry cap; the order then survives rounding.
         const double slab_entry = (std::copysign(half_height, -l.dz) - l.oz) / l.dz;
         const double slab_exit = (std::copysign(half_height, l.dz) - l.oz) / l.dz;
         if (slab_entry > entry) {
@@ -190,10 +191,10 @@ double Frustum::turn(const Vec3& across) const {
 ShapeSurface Frustum::side_surface(const Vec3& from_center) const {
     const double along = dot(axis, from_center);
     const Vec3 across = from_center - along * axis;
-    // On the axis (an apex) any direction across it will do.
+    // On the axis (an apex) any perpendicular direction is valid.
     const Vec3 outward = unit_or(across, x_axis);
-    // The nearest point of the generator, not the one of equal height: a flat cone would magnify
-    // its error.
+    // The nearest point of the generator; the one of equal height would magnify the error of a flat
+    // cone.
     const double distance = length(across) - (middle_radius + slope * along);
     const double foot = along + slope * distance / (1.0 + slope * slope);
     const double height = std::clamp(foot, -half_height, half_height);
@@ -233,7 +234,7 @@ ShapeSurface Frustum::cap_surface(const Vec3& p, bool at_top) const {
 
 ShapeSurface Frustum::surface(const Ray& ray, const ShapeHit& hit) const {
     const Vec3 p = ray.at(hit.t);
-    // A cap without area is the apex, which belongs to the side.
+    // A cap of zero area is the apex, part of the side.
     if (hit.part == 1 && base_radius > 0.0) return cap_surface(p, false);
     if (hit.part == 2 && top_radius > 0.0) return cap_surface(p, true);
     return side_surface(p - center);

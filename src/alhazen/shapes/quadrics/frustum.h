@@ -1,15 +1,16 @@
 #pragma once
-/// The kernel that cylinder and cone share: a circular solid whose radius is linear along its axis.
+/// The kernel of cylinder and cone: a circular solid whose radius is linear along its axis.
 ///
 /// Source: quadric by substitution, with the discriminant as a difference of two lengths
 /// (Lagrange's identity), second root from the product of the roots (Vieta); Kay and Kajiya,
-/// SIGGRAPH 1986, for the meeting of intervals. Differs: the solid is the meeting of one interval
-/// of the infinite quadric with one of the slab between the caps, so a line crosses its surface
-/// twice or not at all by construction, rims and apex included. The line is first shifted to its
-/// point nearest the shape when it starts far away. Conventions: part 0 the side, 1 the cap at
-/// `base`, 2 the cap at `top`. u runs around the axis, v along it from `base`; on caps v runs from
-/// the axis (0) to the rim (1). A line in a cap's plane, or one along the side of a cylinder, is
-/// outside. Open ends: a crossing of the side belongs to the half-open range [base, top).
+/// SIGGRAPH 1986 (intersection of intervals).
+/// Differs: the solid is the intersection of one interval of the infinite quadric with one of the
+/// slab between the caps, so a line crosses its surface twice or not at all by construction, rims
+/// and apex included. A line that starts far away is first shifted to its point nearest the shape.
+/// Conventions: part 0 the side, 1 the cap at `base`, 2 the cap at `top`. u runs around the axis, v
+/// along it from `base`; on caps v runs from the axis (0) to the rim (1). A line in a cap's plane
+/// or along the side of a cylinder is outside. Open ends: a crossing of the side belongs to the
+/// half-open range [base, top).
 
 #include "alhazen/shapes/core/shape.h"
 
@@ -20,7 +21,7 @@ struct Frustum {
     double base_radius = 1, top_radius = 1;
     Vec3 center{0, 0, 0.5};                 ///< of the axis
     Vec3 axis{0, 0, 1};                     ///< unit, from base to top
-    Vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0};  ///< unit, across it
+    Vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0};  ///< unit, perpendicular to the axis
     double half_height = 0.5;
     double middle_radius = 1;
     double slope = 0;                       ///< radius = middle_radius + slope * height

@@ -2,9 +2,9 @@
 /// A one-sheet elliptic hyperboloid between two equal rims: a cooling tower.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < w^2 + (1 - w^2) z^2 for z from -1 to 1, w = waist, in the
-/// frame of the rims' semi-axes and half the way from one rim to the other. Conventions: part 0 the
-/// surface, 5 the end at `base`, 6 the one at `top`. u runs around from `axis_a`, v from base (0)
-/// to top (1).
+/// frame of the rims' semi-axes and half the vector from one rim to the other.
+/// Conventions: part 0 the surface, 5 the end at `base`, 6 the end at `top`. u runs around from
+/// `axis_a`, v from base (0) to top (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -15,9 +15,9 @@ struct Hyperboloid {
     static constexpr int kMaxHits = ClippedQuadric::kMaxHits;
     static constexpr bool kClosed = true;
 
-    Vec3 base{0, 0, -1}, top{0, 0, 1};      ///< the middles of the rims
+    Vec3 base{0, 0, -1}, top{0, 0, 1};      ///< centres of the rims
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of both rims
-    double waist = 0.5;  ///< size of the narrowest cross-section over that of the rims, in (0, 1)
+    double waist = 0.5;  ///< size of the narrowest cross-section relative to the rims, in (0, 1)
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
 

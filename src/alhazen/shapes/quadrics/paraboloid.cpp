@@ -11,7 +11,7 @@ void Paraboloid::prepare() {
     form.z = -0.5;
     form.c = 0.0;
     solid.quadric = QuadricLine(form, 1.5);
-    // Below the apex nothing is cut off: every line is outside there.
+    // Below the apex nothing is clipped: every line is outside there.
     solid.clip_box.lo.z = -1.0 / 16;
     solid.clip_box.hi.z = 1.0;
     solid.capped = capped;
@@ -27,7 +27,7 @@ Interval Paraboloid::extent(const Vec3& axis) const {
     const Vec3 along = rim - apex;
     const double up = dot(axis, along);
     const double across = std::hypot(dot(axis, axis_a), dot(axis, axis_b));
-    // The highest of up * r^2 + across * r for r in [0, 1].
+    // The maximum of up * r^2 + across * r for r in [0, 1].
     const auto highest = [&](double rise) {
         const double at_rim = rise + across;
         if (rise < 0.0 && across < -2.0 * rise) return across * across / (-4.0 * rise);

@@ -2,8 +2,9 @@
 /// An elliptic paraboloid from its apex to a flat rim, right or oblique.
 ///
 /// Source: clipped_quadric.h: x^2 + y^2 < z up to z = 1 in the frame of the rim's semi-axes and the
-/// way from the apex to its middle. Conventions: part 0 the bowl, 6 the rim's plane. u runs around
-/// from `axis_a`, v from the apex (0) to the rim (1).
+/// vector from the apex to the rim's centre.
+/// Conventions: part 0 the bowl, 6 the rim's plane. u runs around from `axis_a`, v from the apex
+/// (0) to the rim (1).
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -14,7 +15,7 @@ struct Paraboloid {
     static constexpr int kMaxHits = ClippedQuadric::kMaxHits;
     static constexpr bool kClosed = true;
 
-    Vec3 apex{0, 0, 0}, rim{0, 0, 1};       ///< rim: its middle
+    Vec3 apex{0, 0, 0}, rim{0, 0, 1};       ///< rim: its centre
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of the rim
     bool capped = true;
     ClippedQuadric solid{};  ///< derived

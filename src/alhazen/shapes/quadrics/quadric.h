@@ -1,11 +1,11 @@
 #pragma once
 /// A general quadric, f < 0 for a polynomial f of degree 2 with ten coefficients, clipped by a box
-/// and by planes, with caps or open; or not clipped at all.
+/// and by planes, with caps or open; or unclipped.
 ///
-/// Source: clipped_quadric.h. Conventions: part 0 the quadric, 1 to 6 the faces -x +x -y +y -z +z
-/// of the box, from 7 the planes. u runs around the z axis from +x (0 to 1), v is the angle above
-/// the xy plane, from -z (0) to +z (1). Normals point along the gradient. Without bounds it is an
-/// unbounded solid.
+/// Source: clipped_quadric.h.
+/// Conventions: part 0 the quadric, 1 to 6 the faces -x +x -y +y -z +z of the box, 7 and above the
+/// planes. u runs around the z axis from +x (0 to 1), v is the angle above the xy plane, from -z
+/// (0) to +z (1). Normals point along the gradient. Without bounds it is an unbounded solid.
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -21,7 +21,7 @@ struct Quadric {
     Vec3 linear{0, 0, 0};    ///< of x, y, z
     double constant = -1;
     Box3 clip_box{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-    std::vector<ClipPlane> clip_planes;  ///< what lies on the side of their normals is cut off
+    std::vector<ClipPlane> clip_planes;  ///< cut off the side that their normals point to
     bool capped = true;
     ClippedQuadric solid{};  ///< derived
 

@@ -16,12 +16,12 @@ DoubleDouble dot(const Point3<DoubleDouble>& a, const Point3<DoubleDouble>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Crossings that lie at no finite t: both or, in front of every t there is, the one.
+/// Drops crossings at no finite t: both, or the one before every finite t.
 void drop_infinite(QuadricSpans& s) {
     if (s.count == 2 && std::isfinite(s.t[0]) && std::isfinite(s.t[1])) return;
     if (s.count == 1 && std::isfinite(s.t[0])) return;
     if (std::isnan(s.t[0]) || std::isnan(s.t[1])) {
-        s = {};  // overflow: nothing can be said
+        s = {};  // overflow: no result
         return;
     }
     if (s.count == 1 && s.t[0] < 0.0) s.inside_first = !s.inside_first;
@@ -49,8 +49,8 @@ bool QuadricLine::fast_spans(const SolidFrame& frame, const Ray& ray, QuadricSpa
         from = advanced(ray, shift).origin - frame.origin;
         o = frame.local_from_object * from;
     }
-    // Length of the error of o: two roundings of the way from the frame's origin (relative to where
-    // that lies), four of the product.
+    // Length of the error of o: two roundings of the vector from the frame's origin (relative to
+    // its position), four of the product.
     const double delta = 10 * kHalfUlp * frame.stretch *
                          (max_component(abs(from)) + max_component(abs(frame.origin)));
     const Vec3 od = as_vec(form_.times(Point3<double>{d.x, d.y, d.z}));
@@ -60,7 +60,7 @@ bool QuadricLine::fast_spans(const SolidFrame& frame, const Ray& ray, QuadricSpa
     const double d_length = std::sqrt(dd), o_length = length(o);
     const double m = second_norm_;
     // The direction's own error (four roundings of sums of at most `stretch` times its length), and
-    // those of the sums.
+    // the error of the sums.
     const double d_error = 7 * kHalfUlp * frame.stretch * max_component(abs(ray.direction));
     const double slope = m * o_length + first_norm_;
     const double a_error = 2.0 * m * d_length * (d_error + 4 * kHalfUlp * d_length);
@@ -78,7 +78,7 @@ bool QuadricLine::fast_spans(const SolidFrame& frame, const Ray& ray, QuadricSpa
     const double root = std::sqrt(discriminant);
     const double q = -(b + std::copysign(root, b));
     const double t0 = q / a, t1 = c / q;
-    // Of each root, from the errors of the discriminant, of b and of a.
+    // Error of each root, from the errors of the discriminant, of b and of a.
     const double t_error =
         (0.5 * error / root + b_error + std::fmax(std::abs(t0), std::abs(t1)) * a_error) /
         std::abs(a);
@@ -126,7 +126,7 @@ QuadricSpans QuadricLine::precise_spans(const SolidFrame& frame, const Ray& ray)
         2.0 * std::abs(b.high) * b_error + std::abs(a.high) * c_error + std::abs(c.high) * a_error;
     if (!(discriminant.high > error)) return s;
     const Number root = square_root(discriminant);
-    // Thirty digits bear the cancellation of the plain formula, unless a is almost nothing.
+    // The plain formula: its cancellation is within 30 digits, unless a is nearly zero.
     const Number q = b.high > 0.0 ? -(b + root) : root - b;
     Number t0 = quotient(q, a), t1 = quotient(c, q);
     if (t1 < t0) std::swap(t0, t1);
@@ -145,7 +145,7 @@ QuadricSpans QuadricLine::spans(const SolidFrame& frame, const Ray& ray) const {
         drop_infinite(s);
         return s;
     }
-    // Squares would over- or underflow: by a power of two, so that nothing rounds.
+    // Squares would overflow or underflow: scaled by a power of two, exactly.
     const int exponent = std::ilogb(largest);
     Ray scaled = ray;
     for (int k = 0; k < 3; ++k) {

@@ -1,12 +1,13 @@
 #pragma once
-/// A quadric, and where a line goes in and out of it.
+/// A quadric, and where a line enters and leaves it.
 ///
 /// Source: Kahan, "On the Cost of Floating-Point Computation Without Extra-Precise Arithmetic",
 /// 2004 (discriminant and roots); the origin is shifted along the line as by Haines, Günther and
-/// Akenine-Möller, Ray Tracing Gems, 2019, ch. 7. Differs: every step carries its error bound;
-/// where the sign of the discriminant or the last digits of t are not certain, all is done again in
-/// double-double, from the ray as it is given. Conventions: inside is f < 0; a tangent is no
-/// crossing. Roots are right to 2 ulp of t plus 2^-41 of the solid's size, mostly far better.
+/// Akenine-Möller, Ray Tracing Gems, 2019, ch. 7.
+/// Differs: every step carries its error bound; where the sign of the discriminant or the last
+/// digits of t are uncertain, the computation is repeated in double-double, from the original ray.
+/// Conventions: inside is f < 0; a tangent is no crossing. Roots are within 2 ulp of t plus 2^-41
+/// of the solid's size, usually far better.
 
 #include "alhazen/shapes/core/solid_frame.h"
 
@@ -43,12 +44,12 @@ struct QuadricSpans {
     double t[2]{};
 };
 
-/// The quadric with what its error bounds need.
+/// The quadric with the norms for its error bounds.
 class QuadricLine {
   public:
     QuadricLine() = default;
-    /// `size` is about the distance from the frame's origin within which the solid lies, in the
-    /// frame's units; lines are shifted to near there.
+    /// `size`: approximate radius of the solid around the frame's origin, in the frame's units;
+    /// lines are shifted to within it.
     QuadricLine(const QuadricForm& form, double size);
 
     [[nodiscard]] QuadricSpans spans(const SolidFrame& frame, const Ray& ray) const;
@@ -59,7 +60,7 @@ class QuadricLine {
     [[nodiscard]] QuadricSpans precise_spans(const SolidFrame& frame, const Ray& ray) const;
 
     QuadricForm form_;
-    double second_norm_ = 1;  ///< no eigenvalue of the second-order part is larger
+    double second_norm_ = 1;  ///< upper bound of the eigenvalues of the second-order part
     double first_norm_ = 0;   ///< length of (x, y, z)
     double size_ = 1;
 };

@@ -24,7 +24,7 @@ Interval Sphere::extent(const Vec3& axis) const {
 
 namespace {
 
-/// With the fmin and fmax of the library, for what is not plain.
+/// Uses the library's fmin and fmax, for values that fast min/max does not cover.
 int intersect_with_care(const Sphere& sphere, const Ray& ray, ShapeHit* hits) {
     const Vec3& d = ray.direction;
     const Vec3 f = ray.origin - sphere.center;
@@ -76,7 +76,7 @@ ShapeSurface plain_surface(const Sphere& shape, const Ray& ray, const ShapeHit& 
     ShapeSurface surface;
     surface.point = shape.center + from_center;
     surface.normal = surface.shading_normal = n;
-    // |n| is 1 to four roundings, its product with the radius one more, the sum one.
+    // n| is 1 within four roundings, its product with the radius adds one, the sum one.
     surface.error = gamma_bound(6) * abs(from_center) + gamma_bound(2) * abs(surface.point);
     return surface;
 }
@@ -87,7 +87,7 @@ ShapeSurface Sphere::surface(const Ray& ray, const ShapeHit& hit) const {
     const double across = std::hypot(n.x, n.y);
     surface.uv = {turn_fraction(n.x, n.y), 0.5 + std::atan2(n.z, across) / kPi};
     surface.dpdu = (2.0 * kPi * radius) * Vec3{-n.y, n.x, 0.0};
-    // At a pole every u is the same point: the direction of u = 0 will do.
+    // At a pole every u is the same point: uses the direction of u = 0.
     const Vec3 outward = across > 0.0 ? Vec3{n.x / across, n.y / across, 0.0} : Vec3{1, 0, 0};
     surface.dpdv = (kPi * radius) * Vec3{-n.z * outward.x, -n.z * outward.y, across};
     return surface;

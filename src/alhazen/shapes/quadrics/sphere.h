@@ -3,8 +3,10 @@
 ///
 /// Source: Foley, van Dam et al., "Computer Graphics", eq. 15.12-15.17; Haines, Günther and
 /// Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019,
-/// ch. 7. Differs: the direction need not be unit. Conventions: u runs around the z axis from +x (0
-/// to 1), v from the -z pole (0) to the +z pole (1).
+/// ch. 7.
+/// Differs: the direction need not be unit.
+/// Conventions: u runs around the z axis from +x (0 to 1), v from the -z pole (0) to the +z pole
+/// (1).
 
 #include <cstdint>
 #include <span>
@@ -38,7 +40,7 @@ struct Sphere {
 /// The first crossings of a packet (shapes/core/first_hits.h).
 [[nodiscard]] std::uint32_t first_hits(const Sphere& shape, std::span<const Ray* const> rays,
                                        ShapeHit* hits);
-/// The same for the rays of a set that lie in lanes already; hits lane by lane.
+/// The first crossings of the rays of a set that is already in lanes; one hit per lane.
 [[nodiscard]] std::uint32_t first_hits(const Sphere& shape, const RayLanes& rays,
                                        std::uint32_t wanted, ShapeHit* hits);
 /// The surface without texture coordinates (shapes/core/plain_surface.h).

@@ -65,7 +65,7 @@ namespace alhazen {
 HWY_EXPORT(sphere_hits_of_target);
 
 SphereHitsKernel sphere_hits_kernel() {
-    // Asked for every eight rays: what the processor can do is not looked up again.
+    // Called for every eight rays: the dispatch is cached.
     return HWY_DYNAMIC_DISPATCH(sphere_hits_of_target)();
 }
 

@@ -1,9 +1,10 @@
 #pragma once
-/// The first crossings of eight rays with a sphere, side by side in lanes.
+/// The first crossings of eight rays with a sphere, in lanes.
 ///
-/// Source: geometry/sphere_roots.h, the same formulas. Differs: what is not plain
-/// (plain_double-inl.h) is left to the scalar text. Conventions: internal to this folder. Bit i of
-/// a set stands for lane i. Every target gives the bits of the scalar text.
+/// Source: geometry/sphere_roots.h, the same formulas.
+/// Differs: values outside the fast min/max range (plain_double-inl.h) are left to the scalar code.
+/// Conventions: internal to this folder. Bit i of a set stands for lane i. Every target returns the
+/// bits of the scalar code.
 
 #include <cstdint>
 
@@ -14,14 +15,14 @@
 namespace alhazen {
 
 struct alignas(64) SphereHitLanes {
-    double t[kRayLanes];  ///< of the lanes that hit
+    double t[kRayLanes];  ///< for the lanes that hit
     std::uint32_t hit;
-    std::uint32_t unsure;  ///< ask the scalar text
+    std::uint32_t unsure;  ///< lanes left to the scalar code
 };
 
 using SphereHitsKernel = void (*)(const RayLanes&, const Sphere&, SphereHitLanes&);
 
-/// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
+/// For the best instruction set of this machine, or the forced one (simd/targets.h).
 [[nodiscard]] SphereHitsKernel sphere_hits_kernel();
 
 }  // namespace alhazen
