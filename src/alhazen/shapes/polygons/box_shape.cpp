@@ -33,7 +33,7 @@ int BoxShape::intersect(const Ray& ray, ShapeHit* hits) const {
         const double o = ray.origin[k];
         const double d = ray.direction[k];
         if (d == 0.0) {
-            // In the plane of a face is outside: 0 / 0 never arises, nor a single crossing.
+            // A ray in the plane of a face is outside: prevents 0 / 0 and single crossings.
             if (!(lo[k] < o && o < hi[k])) return 0;
             continue;
         }
@@ -67,8 +67,8 @@ ShapeSurface BoxShape::surface(const Ray& ray, const ShapeHit& hit) const {
     surface.uv = {along / (hi[u] - lo[u]), (surface.point[v] - lo[v]) / (hi[v] - lo[v])};
     surface.dpdu[u] = high ? hi[u] - lo[u] : lo[u] - hi[u];
     surface.dpdv[v] = hi[v] - lo[v];
-    // The point is on the face exactly; the bound is one of the box's own last digits, so that
-    // whoever steps off the face by it does leave the face.
+    // The point is exactly on the face; the bound covers the last digits of the box, so that a step
+    // by it leaves the face.
     surface.error = gamma_bound(2) * Vec3{std::fmax(std::abs(lo.x), std::abs(hi.x)),
                                           std::fmax(std::abs(lo.y), std::abs(hi.y)),
                                           std::fmax(std::abs(lo.z), std::abs(hi.z))};

@@ -25,7 +25,7 @@ Interval Disc::extent(const Vec3& axis) const {
 
 int Disc::intersect(const Ray& ray, ShapeHit* hits) const {
     const double t = plane_crossing(ray, center, unit_normal);
-    // From the centre, not from the world's origin: fewer digits are lost for a disc far away.
+    // Relative to the centre: more accurate for a disc far from the origin.
     const double squared = length_squared((ray.origin - center) + t * ray.direction);
     if (!(squared <= radius * radius && squared >= inner_radius * inner_radius)) return 0;
     return report_crossing(ray, {t, 0, 0, 0}, hits);

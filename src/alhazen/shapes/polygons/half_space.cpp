@@ -15,7 +15,7 @@ void HalfSpace::validate(const FileLocation& where, Diagnostics& diagnostics) co
     checks.fields(*this);
 }
 
-// Of the solid, not only of its face: whatever lies in the solid must not be missed.
+// The box of the whole solid, not only of its face.
 Box3 HalfSpace::box() const {
     Box3 box = face.box();
     for (int k = 0; k < 3; ++k) {
@@ -44,7 +44,7 @@ ShapeSurface HalfSpace::surface(const Ray& ray, const ShapeHit& hit) const {
 }
 
 bool HalfSpace::inside_at_minus_infinity(const Ray& ray) const {
-    // Parity must fit: a crossing that is too far away to be a number is none.
+    // Keeps the parity: a crossing whose t overflows is omitted.
     Ray line = ray;
     line.t_min = -kInfinity;
     line.t_max = kInfinity;

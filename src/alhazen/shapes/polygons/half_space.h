@@ -1,10 +1,11 @@
 #pragma once
-/// All space on one side of a plane: a solid without bounds.
+/// All space on one side of a plane: an unbounded solid.
 ///
 /// Source: Roth, "Ray Casting for Modeling Solids", Computer Graphics and Image Processing 18,
-/// 1982. Conventions: `normal` points out of the solid and need not be unit. uv are coordinates
-/// along two unit vectors in the plane from `point`, as for `plane`. A line in the plane is
-/// outside, so that it never crosses.
+/// 1982.
+/// Conventions: `normal` points out of the solid and need not be unit. uv are coordinates along two
+/// unit vectors in the plane from `point`, as for `plane`. A line in the plane is outside and has
+/// no crossing.
 
 #include "alhazen/shapes/polygons/plane.h"
 

@@ -26,7 +26,7 @@ Box3 Plane::box() const {
 }
 
 Interval Plane::extent(const Vec3& axis) const {
-    // Bounded only along the normal; whether two directions are parallel is asked exactly.
+    // Bounded only along the normal; the test for parallel directions is exact.
     if (accurate_cross(axis, normal) != Vec3{}) return {-kInfinity, kInfinity};
     return outward_extent(axis, point, 0.0);
 }

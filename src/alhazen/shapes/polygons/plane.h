@@ -1,9 +1,9 @@
 #pragma once
 /// An unbounded plane.
 ///
-/// Source: Foley, van Dam et al., "Computer Graphics", eq. 15.18-15.21. Conventions: both sides are
-/// hit; `normal` need not be unit. uv are coordinates along two unit vectors in the plane from
-/// `point`. A ray in the plane misses it.
+/// Source: Foley, van Dam et al., "Computer Graphics", eq. 15.18-15.21.
+/// Conventions: both sides are hit; `normal` need not be unit. uv are coordinates along two unit
+/// vectors in the plane from `point`. A ray in the plane misses it.
 
 #include "alhazen/shapes/core/shape.h"
 

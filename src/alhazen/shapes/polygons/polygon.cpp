@@ -9,7 +9,8 @@ namespace alhazen {
 
 namespace {
 
-/// Newell's normal: the sum over the edges of (a - origin) x (b - origin), twice the area long.
+/// Newell's normal: the sum over the edges of (a - origin) x (b - origin); its length is twice the
+/// area.
 Vec3 newell_normal(const Polygon& polygon) {
     Vec3 sum;
     const Vec3 origin = polygon.vertices.front();
@@ -24,7 +25,7 @@ Vec3 newell_normal(const Polygon& polygon) {
     return sum;
 }
 
-/// As differences from the first vertex, so that a plane along two axes stays exactly that.
+/// Sums differences from the first vertex: exact for a plane along two axes.
 Vec3 mean_vertex(const std::vector<Vec3>& vertices) {
     Vec3 sum;
     for (const Vec3& v : vertices) sum += v - vertices.front();
@@ -42,7 +43,7 @@ Vec3 first_edge_direction(const Polygon& polygon) {
     return perpendicular(polygon.normal);
 }
 
-/// The odd-even rule about the ray, in sheared space.
+/// Odd-even rule around the ray, in sheared space.
 bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
     const RayShear shear(ray.direction);
     const auto vertex = [&](std::size_t i) {
@@ -57,7 +58,7 @@ bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
         for (std::size_t i = first; i < end; ++i) {
             const ShearedVertex<double> b = vertex(i);
             if ((a.y > 0.0) != (b.y > 0.0)) {
-                // Does the edge cross the positive x axis? Most often the signs of x tell.
+                // Whether the edge crosses the positive x axis; usually decided by the signs of x.
                 if (a.x > 0.0 && b.x > 0.0) {
                     inside = !inside;
                 } else if (!(a.x < 0.0 && b.x < 0.0)) {
@@ -71,8 +72,8 @@ bool surrounds_ray(const Polygon& polygon, const Ray& ray) {
     return inside;
 }
 
-/// `t` moved into the range where the line runs through `box`. A ray nearly in the polygon's plane
-/// has a t that is mostly rounding; this keeps its hit on the polygon.
+/// Clamps `t` to the range where the line is in `box`. For a ray nearly in the polygon's plane t is
+/// mostly rounding; this keeps the hit on the polygon.
 double clamped_to_box(double t, const Ray& ray, const Box3& box) {
     double lo = -kInfinity, hi = kInfinity;
     for (int k = 0; k < 3; ++k) {
@@ -154,8 +155,8 @@ int Polygon::intersect(const Ray& ray, ShapeHit* hits) const {
     const Vec3 to_plane = point - ray.origin;
     const double cosine = dot(normal, ray.direction);
     const double t = dot(normal, to_plane) / cosine;
-    // How far t can be off: by rounding, and where the vertices are not in one plane. The sheared
-    // test below decides; these two only spare it, so they must never reject what it would accept.
+    // Bound of the error of t: by rounding, and by vertices off the plane. The sheared test below
+    // is exact; these two only cull, and never reject a hit.
     const Vec3 size = abs(to_plane) + std::abs(t) * abs(ray.direction);
     const double t_slack =
         (off_plane + gamma_bound(16) * (size.x + size.y + size.z)) / std::abs(cosine);

@@ -2,14 +2,16 @@
 /// A planar polygon of one or several loops, concave or with holes; inside by the odd-even rule.
 ///
 /// Source: Foley, van Dam et al., "Computer Graphics", section 15.10.1 (drop the axis along which
-/// the normal is longest). Differs: the plane's normal is Newell's, over all loops; the point is
-/// not projected along an axis but along the ray, by the shear and the exact edge signs of
-/// geometry/watertight_triangle.h. Polygons that share vertices bit for bit, in one plane or around
-/// a solid, thus leave no gap and no double hit: a ray through a shared edge or vertex hits exactly
-/// one of them. The plane only gives t. Conventions: counter-clockwise from the side the
-/// normal points to. uv are coordinates in the plane, from the first vertex along the first edge.
-/// Vertices need not lie in one plane; a hit lies in the plane of the mean. Complexity: O(vertices)
-/// for a ray that crosses the plane within the polygon's box, else O(1).
+/// the normal is longest).
+/// Differs: the plane's normal is Newell's, over all loops; the point is projected along the ray
+/// instead of an axis, by the shear and the exact edge signs of geometry/watertight_triangle.h.
+/// Polygons that share vertices bit for bit, in one plane or around a solid, thus have no gap and
+/// no double hit: a ray through a shared edge or vertex hits exactly one of them. The plane only
+/// determines t.
+/// Conventions: counter-clockwise from the side of the normal. uv are coordinates in the plane,
+/// from the first vertex along the first edge. Vertices need not be coplanar; a hit lies in the
+/// mean plane.
+/// Complexity: O(vertices) for a ray that crosses the plane within the polygon's box, else O(1).
 
 #include "alhazen/shapes/core/shape.h"
 
@@ -20,13 +22,13 @@ struct Polygon {
     static constexpr int kMaxHits = 1;
     static constexpr bool kClosed = false;
 
-    std::vector<Vec3> vertices;            ///< all loops, one after another
+    std::vector<Vec3> vertices;            ///< of all loops, consecutive
     std::vector<std::uint32_t> loop_ends;  ///< [loop] one past its last vertex; empty: one loop
     Vec3 point{};                          ///< derived: on the plane
     Vec3 normal{0, 0, 1};                  ///< derived: unit
     Vec3 u_axis{1, 0, 0};                  ///< derived: unit, in the plane, along the first edge
-    Box3 bounds{};                         ///< derived: of the vertices and their feet on the plane
-    double off_plane = 0;                  ///< derived: no vertex is farther from the plane
+    Box3 bounds{};         ///< derived: of the vertices and their projections to the plane
+    double off_plane = 0;  ///< derived: largest distance of a vertex from the plane
 
     static constexpr auto kFields =
         std::make_tuple(field("vertices", &Polygon::vertices, Unit::Compound, Check::Shape),

@@ -9,10 +9,10 @@ namespace alhazen {
 
 namespace {
 
-/// Vertices farther outside of a face than this times the size are no rounding: not convex, or a
-/// face that is not flat.
+/// Tolerance times the size: vertices farther outside of a face make the solid non-convex or the
+/// face non-planar.
 constexpr double kFlatness = 1e-3;
-/// Faces smaller than this times the square of the size have no normal to speak of.
+/// Times the square of the size: smaller faces have no reliable normal.
 constexpr double kLeastArea = 1e-12;
 
 Vec3 mean_of(const std::vector<Vec3>& points) {
@@ -27,7 +27,7 @@ double size_of(const std::vector<Vec3>& points) {
     return length(box.hi - box.lo);
 }
 
-/// The corners of a face without those that repeat the one before.
+/// The corners of a face without consecutive duplicates.
 std::vector<Vec3> face_corners(const Polyhedron& p, std::size_t begin, std::size_t end) {
     std::vector<Vec3> points;
     for (std::size_t i = begin; i < end; ++i) {
@@ -38,7 +38,7 @@ std::vector<Vec3> face_corners(const Polyhedron& p, std::size_t begin, std::size
     return points;
 }
 
-/// Newell's normal, twice the area long.
+/// Newell's normal; its length is twice the area.
 Vec3 newell_normal(const std::vector<Vec3>& points) {
     Vec3 sum;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -47,7 +47,7 @@ Vec3 newell_normal(const std::vector<Vec3>& points) {
     return sum;
 }
 
-/// The planes with unit normals outward; faces without area stay out.
+/// The planes with unit outward normals, without faces of zero area.
 std::vector<OrientedPlane> oriented_planes(const Polyhedron& p) {
     std::vector<OrientedPlane> planes;
     for (const OrientedPlane& plane : p.planes) {
@@ -147,8 +147,8 @@ void Polyhedron::validate(const FileLocation& where, Diagnostics& diagnostics) c
 
 void Polyhedron::prepare() {
     faces = oriented_planes(*this);
-    // The corners of the planes a few last digits farther out: near a sharp edge a crossing may be
-    // rounded past the edge by much more.
+    // Moves the corners outward by a few ulps: near a sharp edge a crossing may be rounded much
+    // farther past the edge.
     const double pad = gamma_bound(32) * largest_coordinate(faces, convex_corners(faces));
     std::vector<OrientedPlane> outer = faces;
     for (OrientedPlane& plane : outer) plane.point += pad * plane.normal;

@@ -2,11 +2,12 @@
 /// A convex polyhedron: by its planes, or by vertices and faces.
 ///
 /// Source: Haines, "Fast Ray-Convex Polyhedron Intersection", Graphics Gems II, 1991 (intersection
-/// of the line's intervals in the half spaces). Differs: a line in the plane of a face is outside.
-/// Conventions: the solid is what lies inside all planes, so that a line crosses it twice or not at
-/// all. Faces by vertices may be wound either way, may repeat vertices, and need lie in one plane
-/// only roughly: the plane is that of the mean (Newell). part = the plane or face; uv are
-/// coordinates in its plane along two unit vectors from its point.
+/// of the line's intervals in the half spaces).
+/// Differs: a line in the plane of a face is outside.
+/// Conventions: the solid is the intersection of the half spaces of all planes, so that a line
+/// crosses it twice or not at all. Faces by vertices may have either winding, may repeat vertices,
+/// and need be planar only approximately: the plane is the mean one (Newell). part = the plane or
+/// face; uv are coordinates in its plane along two unit vectors from its point.
 /// Complexity: O(planes) per ray.
 
 #include "alhazen/geometry/polygon/convex_corners.h"
@@ -19,14 +20,14 @@ struct Polyhedron {
     static constexpr int kMaxHits = 2;
     static constexpr bool kClosed = true;
 
-    std::vector<OrientedPlane> planes;  ///< normals of any length; or none, and:
+    std::vector<OrientedPlane> planes;  ///< normals of any length; or empty, and:
     std::vector<Vec3> vertices;
-    std::vector<std::uint32_t> corners;    ///< of all faces, one after another: numbers of vertices
+    std::vector<std::uint32_t> corners;    ///< vertex numbers of all faces, consecutive
     std::vector<std::uint32_t> face_ends;  ///< [face] one past its last corner
 
     std::vector<OrientedPlane> faces;  ///< derived: [part], unit normals
     Box3 bounds{};                     ///< derived: rounded outward
-    std::vector<Vec3> hull;            ///< derived: the true corners, each a little farther out
+    std::vector<Vec3> hull;            ///< derived: the true corners, each slightly moved outward
 
     static constexpr auto kFields =
         std::make_tuple(field("planes", &Polyhedron::planes, Unit::Compound, Check::Shape),
@@ -44,7 +45,7 @@ struct Polyhedron {
 };
 
 /// The hexahedron with the bottom 0 1 2 3 and above it the top 4 5 6 7. Points may coincide (a
-/// wedge, a pyramid, a tetrahedron); faces that are left without area are left out.
+/// wedge, a pyramid, a tetrahedron); faces without area are omitted.
 [[nodiscard]] Polyhedron hexahedron(const std::array<Vec3, 8>& points);
 
 }  // namespace alhazen

@@ -23,7 +23,7 @@ void Rectangle::validate(const FileLocation& where, Diagnostics& diagnostics) co
 }
 
 Box3 Rectangle::box() const {
-    // The centre and half the edges: one rounding less than four corners, and symmetric.
+    // From the centre and half the edges: one rounding less than from four corners, and symmetric.
     return outward_box(corner + 0.5 * edge_u + 0.5 * edge_v,
                        0.5 * abs(edge_u) + 0.5 * abs(edge_v) + gamma_bound(4) * abs(corner));
 }
