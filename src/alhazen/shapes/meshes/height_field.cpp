@@ -11,10 +11,10 @@ namespace alhazen {
 
 namespace {
 
-/// So that the numbers of all triangles fit into 32 bits.
+/// Keeps the numbers of all triangles within 32 bits.
 constexpr std::uint64_t kMaxSamples = std::uint64_t{1} << 29;
 
-/// Walks the squares of the pyramid that the ray may pass, nearest first.
+/// Traverses the squares of the pyramid that the ray may cross, nearest first.
 class HeightFieldWalk {
   public:
     HeightFieldWalk(const HeightField& field, const Ray& ray, ShapeHits& hits)
@@ -28,12 +28,12 @@ class HeightFieldWalk {
         const Vec3 reach{std::max(std::abs(field.bounds.lo.x), std::abs(field.bounds.hi.x)),
                          std::max(std::abs(field.bounds.lo.y), std::abs(field.bounds.hi.y)),
                          std::max(std::abs(field.bounds.lo.z), std::abs(field.bounds.hi.z))};
-        // The test of triangles lets the point at t pass them at this distance (see there).
+        // Error of a point at t in the triangle test (geometry/watertight_triangle.h).
         pad_ = 0x1p-36 * (max_component(abs(ray.origin)) + max_component(reach));
         within_ = slabs(field.bounds, 0.0);
     }
 
-    /// False when the order of the crossings takes those of the whole line.
+    /// Returns false when the order of the crossings requires those of the whole line.
     bool run(bool only_first) {
         only_first_ = only_first;
         visit(top_level_, 0, 0, false);
@@ -47,8 +47,8 @@ class HeightFieldWalk {
         return true;
     }
 
-    /// Lets those at one t enter and leave by turns: where the ray passes an edge or a vertex, or
-    /// t is rounded to the same.
+    /// Makes crossings at equal t alternate between entry and exit: where the ray passes an edge or
+    /// a vertex, or where t is rounded to the same value.
     void alternate() {
         bool inside = false;
         for (std::size_t i = 0; i < hits_.size(); ++i, inside = !inside) {
@@ -68,7 +68,7 @@ class HeightFieldWalk {
         return level == 0 ? field_.rows - 1 : field_.pyramid->levels[level - 1].rows;
     }
 
-    /// The square's box; `bottom`: only its bottom.
+    /// The square's box; `bottom`: the box of its bottom only.
     [[nodiscard]] Box3 box(std::uint32_t level, std::uint32_t i, std::uint32_t j,
                            bool bottom) const {
         const std::uint32_t i0 = i << level, j0 = j << level;
@@ -88,14 +88,14 @@ class HeightFieldWalk {
             lowest = double{l.lowest[std::size_t{j} * l.columns + i]};
             highest = double{l.highest[std::size_t{j} * l.columns + i]};
         }
-        // At the border there are sides.
+        // Squares at the border include the sides.
         const bool border = i0 == 0 || j0 == 0 || i1 == field_.columns - 1 || j1 == field_.rows - 1;
         if (!border) box.lo.z = lowest;
         box.hi.z = highest;
         return box;
     }
 
-    /// Where the line is in the box grown by `pad`.
+    /// The range of the line in the box grown by `pad`.
     [[nodiscard]] Interval slabs(const Box3& box, double pad) const {
         Interval t{-kInfinity, kInfinity};
         for (int k = 0; k < 3; ++k) {
@@ -116,7 +116,7 @@ class HeightFieldWalk {
     [[nodiscard]] bool may_pass(const Box3& box) const {
         const Interval t = slabs(box, pad_);
         const double enter = std::max(ray_.t_min, t.lo), leave = std::min(nearest_, t.hi);
-        // Room for the roundings of these two themselves.
+        // Margin for the rounding of these two.
         return !(enter > leave + 0x1p-50 * (std::abs(enter) + std::abs(leave)));
     }
 
@@ -134,8 +134,7 @@ class HeightFieldWalk {
         ShapeHit hit;
         if (!intersect_triangle(line_, shear_, a, b, c, hit)) return;
         hit.part = part;
-        // A ray nearly in the triangle's plane has a t that is mostly rounding; this keeps it in
-        // the box.
+        // For a ray nearly in the triangle's plane t is mostly rounding; this keeps it in the box.
         if (within_.lo <= within_.hi) {
             hit.t = std::max(within_.lo, std::min(hit.t, within_.hi));
         }
@@ -172,7 +171,7 @@ class HeightFieldWalk {
     const Ray& ray_;
     ShapeHits& hits_;
     const Ray line_;
-    Interval within_{};  ///< where the line is in the bounds
+    Interval within_{};  ///< range of the line in the bounds
     const RayShear shear_;
     std::uint32_t top_level_;
     double nearest_;
@@ -190,7 +189,7 @@ HeightPyramid::Level next_level(const HeightField& field, const HeightPyramid& b
     for (std::uint32_t j = 0; j < level.rows; ++j) {
         for (std::uint32_t i = 0; i < level.columns; ++i) {
             float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
-            // Of cells the corners count, of squares the squares.
+            // Counts corners for cells, squares for squares.
             const std::uint32_t end_i = std::min(2 * i + (first ? 3 : 2), columns + first);
             const std::uint32_t end_j = std::min(2 * j + (first ? 3 : 2), rows + first);
             for (std::uint32_t y = 2 * j; y < end_j; ++y) {
@@ -212,7 +211,7 @@ HeightPyramid::Level next_level(const HeightField& field, const HeightPyramid& b
 }  // namespace
 
 Vec3 HeightField::vertex(std::uint32_t column, std::uint32_t row, bool at_base) const {
-    // The last ones exactly at the end.
+    // The last samples lie exactly at the end.
     const auto place = [](double from, double to, std::uint32_t i, std::uint32_t count) {
         return i + 1 == count ? to : from + (to - from) * i / (count - 1);
     };
@@ -228,7 +227,7 @@ std::array<Vec3, 3> HeightField::triangle(std::uint32_t part) const {
         const std::uint32_t i = cell % across, j = cell / across;
         const Vec3 a = vertex(i, j, bottom), c = vertex(i + 1, j + 1, bottom);
         const Vec3 b = k == 0 ? vertex(i + 1, j, bottom) : vertex(i, j + 1, bottom);
-        // Turned over at the bottom.
+        // Reversed at the bottom.
         if ((k == 0) != bottom) return {a, b, c};
         return {a, c, b};
     }
@@ -251,7 +250,7 @@ std::array<Vec3, 3> HeightField::triangle(std::uint32_t part) const {
         std::swap(i0, i1);
         std::swap(j0, j1);
     }
-    // Seen from outside: from the left below.
+    // Seen from outside: from the lower left.
     const Vec3 left = vertex(i0, j0, true), right_top = vertex(i1, j1);
     if (k == 0) return {left, vertex(i1, j1, true), right_top};
     return {left, right_top, vertex(i0, j0)};
@@ -283,7 +282,7 @@ void HeightField::validate(const FileLocation& where, Diagnostics& diagnostics) 
                            std::to_string(heights == nullptr ? 0 : heights->size()));
     }
     for (const float h : *heights) {
-        // Also for a height that is no number.
+        // Also true for NaN.
         if (!(double{h} > base && h <= std::numeric_limits<float>::max())) {
             return checks.fail("every height must be a number above the base, which is " +
                                shortest(base) + "; found " + shortest(double{h}));
@@ -301,7 +300,7 @@ Interval HeightField::extent(const Vec3& axis) const {
 }
 
 void HeightField::intersect(const Ray& ray, ShapeHits& hits) const {
-    // The test of triangles multiplies three of the ray's numbers.
+    // The triangle test multiplies three numbers of the ray.
     const int exponent = std::ilogb(max_component(abs(ray.direction)));
     const double scale = std::abs(exponent) > 100 ? std::ldexp(1.0, -exponent / 2) : 1.0;
     const Ray whole{ray.origin, scale * (scale * ray.direction), -kInfinity, kInfinity};

@@ -1,17 +1,18 @@
 #pragma once
-/// A terrain over a rectangle, solid down to a level: two triangles a cell.
+/// A terrain over a rectangle, solid down to a base level: two triangles per cell.
 ///
 /// Source: Tevs, Ihrke and Seidel, "Maximum mipmaps for fast, accurate, and scalable dynamic height
 /// field rendering", I3D 2008 (a pyramid of the highest and lowest values as a tree over the
-/// cells). Differs: exact. The geometry is triangles, intersected by the watertight test
-/// (geometry/watertight_triangle.h); the top, the four sides and the bottom are a closed mesh whose
-/// vertices are never stored, so that a line crosses it an even number of times. The tree only
-/// culls cells. Conventions: samples (column, row) are evenly spaced at x from `lo.x` to `hi.x` and
-/// y from `lo.y` to `hi.y`; heights are stored as float, and these floats are the geometry. Each
-/// cell is cut along the diagonal from its low to its high corner. On the top and the bottom uv run
-/// with x and y from 0 to 1, on the sides u along them, v upward. Flat shading. Complexity:
-/// O(sqrt(samples)) cells for a grazing ray, O(log samples) for most; 2.7 bytes a sample beside the
-/// 4 of the heights.
+/// cells).
+/// Differs: exact. The geometry is triangles, intersected by the watertight test
+/// (geometry/watertight_triangle.h); the top, the four sides and the bottom are a closed mesh of
+/// implicit vertices, so that a line crosses it an even number of times. The tree only culls cells.
+/// Conventions: samples (column, row) are evenly spaced at x from `lo.x` to `hi.x` and y from
+/// `lo.y` to `hi.y`; heights are stored as float, and these floats are the geometry. Each cell is
+/// cut along the diagonal from its low to its high corner. On the top and the bottom uv run with x
+/// and y from 0 to 1, on the sides u along them, v upward. Flat shading.
+/// Complexity: O(sqrt(samples)) cells for a grazing ray, O(log samples) for most; 2.7 bytes per
+/// sample in addition to the 4 of the heights.
 
 #include <memory>
 
@@ -19,7 +20,7 @@
 
 namespace alhazen {
 
-/// Lowest and highest value of squares of 2^level cells, from level 1 on.
+/// Lowest and highest values of squares of 2^level cells, from level 1 on.
 struct HeightPyramid {
     struct Level {
         std::uint32_t columns = 0, rows = 0;
@@ -59,11 +60,11 @@ struct HeightField {
 
     /// Corners of a triangle by its part, counter-clockwise from outside.
     [[nodiscard]] std::array<Vec3, 3> triangle(std::uint32_t part) const;
-    /// The parts of a cell's top are 2 cell and 2 cell + 1; those of its bottom and of the sides
-    /// follow behind.
+    /// The parts of a cell's top are 2 cell and 2 cell + 1; the parts of the bottom and of the
+    /// sides follow.
     [[nodiscard]] std::uint32_t cells() const { return (columns - 1) * (rows - 1); }
 
-    /// A sample's place; at the level of the base instead, where that is asked for.
+    /// Position of a sample, or with `at_base` its projection to the base level.
     [[nodiscard]] Vec3 vertex(std::uint32_t column, std::uint32_t row, bool at_base = false) const;
     [[nodiscard]] float height(std::uint32_t column, std::uint32_t row) const {
         return (*heights)[std::size_t{row} * columns + column];

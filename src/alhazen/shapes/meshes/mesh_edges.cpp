@@ -7,13 +7,13 @@ namespace alhazen {
 
 namespace {
 
-/// A position as bits, 0 and -0 made one: ordered whatever it holds, NaN included.
+/// A position as bits, with -0 equal to 0: a total order that includes NaN.
 struct PositionKey {
     std::array<std::uint64_t, 3> bits;
     std::uint32_t vertex;
 };
 
-/// For each vertex the lowest vertex of equal position. By sorting: no input makes it slow.
+/// For each vertex the lowest vertex of equal position. Sorts, and so is O(n log n) for any input.
 std::vector<std::uint32_t> merged_vertices(const std::vector<Vec3>& positions) {
     std::vector<PositionKey> keys(positions.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -33,8 +33,8 @@ std::vector<std::uint32_t> merged_vertices(const std::vector<Vec3>& positions) {
     return merged;
 }
 
-/// The edges, lower vertex first, and whether the triangle runs along it from the lower to the
-/// higher one.
+/// An edge, lower vertex first, and whether the triangle traverses it from the lower to the higher
+/// vertex.
 struct DirectedEdge {
     std::uint64_t vertices;
     bool upward;

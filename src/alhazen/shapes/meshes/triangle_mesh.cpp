@@ -100,7 +100,7 @@ ShapeSurface TriangleMesh::surface(std::size_t triangle, const ShapeHit& hit) co
     const double w = rest - hit.v;
     ShapeSurface surface;
     surface.point = w * p0 + hit.u * p1 + hit.v * p2;
-    // Seven roundings of the sum; and the weight of p0 is only right to its own terms.
+    // Seven roundings of the sum; the weight of p0 has the absolute error of its terms.
     surface.error = gamma_bound(7) * (std::abs(w) * abs(p0) + std::abs(hit.u) * abs(p1) +
                                       std::abs(hit.v) * abs(p2)) +
                     gamma_bound(2) * std::abs(rest) * abs(p0);
@@ -127,7 +127,7 @@ UvDerivatives TriangleMesh::uv_derivatives(std::size_t triangle,
     const Vec2 b = coordinates[i2] - coordinates[i0];
     const double area = difference_of_products(a.x, b.y, a.y, b.x);
     const UvDerivatives result{(b.y * e1 - a.y * e2) / area, (a.x * e2 - b.x * e1) / area};
-    // Coordinates in one line or point say nothing about one of the directions.
+    // Texture coordinates on a line or in a point do not determine both directions.
     return is_finite(result.dpdu) && is_finite(result.dpdv) ? result : UvDerivatives{};
 }
 
@@ -138,7 +138,7 @@ void TriangleMesh::generate_normals() {
         const Vec3 area = cross(positions[triangle[1]] - p0, positions[triangle[2]] - p0);
         for (const std::uint32_t vertex : triangle) normals[vertex] += area;
     }
-    // A vertex without area keeps a zero normal; its triangles are then shaded flat there.
+    // A vertex without area keeps a zero normal; its triangles have flat shading there.
     for (Vec3& normal : normals) normal = unit_or(normal, {});
 }
 
@@ -146,7 +146,7 @@ void TriangleMesh::transform(const Affine& to_from) {
     for (Vec3& position : positions) position = to_from.point(position);
     const Mat3 from_to = inverse(to_from.linear);
     for (Vec3& normal : normals) normal = unit_or(transpose_times(from_to, normal), {});
-    // A mirrored frame runs the other way around.
+    // A mirrored frame reverses the orientation.
     const float turn = determinant(to_from.linear) < 0.0 ? -1.0f : 1.0f;
     for (VertexTangent& tangent : tangents) {
         const Vec3 t = unit_or(to_from.linear * Vec3{tangent.x, tangent.y, tangent.z}, {1, 0, 0});

@@ -2,9 +2,9 @@
 /// An indexed triangle mesh with optional normals, texture coordinates and materials at the
 /// vertices.
 ///
-/// Each triangle is a primitive of its own in an accelerator; the mesh is what they share.
+/// Each triangle is a primitive of its own in an accelerator; all share the mesh.
 /// Conventions: counter-clockwise from outside. Without vertex normals shading is flat; without
-/// texture coordinates uv are the barycentrics (weight of the second and of the third vertex).
+/// texture coordinates uv are the barycentrics (weights of the second and the third vertex).
 
 #include <cstdint>
 
@@ -24,7 +24,7 @@ struct VertexTangent {
     friend bool operator==(const VertexTangent&, const VertexTangent&) = default;
 };
 
-/// Change of the point by each of two texture coordinates; zero where they do not tell.
+/// Derivatives of the point by texture coordinates; zero where undefined.
 struct UvDerivatives {
     Vec3 dpdu, dpdv;
 };
@@ -37,7 +37,7 @@ struct TriangleMesh {
     std::vector<Vec2> uvs2;                               ///< [vertex] second set, or empty
     std::vector<VertexColor> colors;                      ///< [vertex], or empty
     std::vector<VertexTangent> tangents;                  ///< [vertex], or empty
-    /// [vertex] index into the list of materials that the owner keeps, or empty.
+    /// [vertex] index into the owner's list of materials, or empty.
     std::vector<std::uint32_t> vertex_materials;
 
     /// Reports indices out of range, positions that are not finite, arrays of the wrong length.
@@ -47,15 +47,15 @@ struct TriangleMesh {
     [[nodiscard]] Interval triangle_extent(std::size_t triangle, const Vec3& axis) const;
     /// The surface at a hit whose u, v are the weights of the second and third vertex.
     [[nodiscard]] ShapeSurface surface(std::size_t triangle, const ShapeHit& hit) const;
-    /// `coordinates` is one of the sets of texture coordinates; empty: barycentrics.
+    /// `coordinates`: a set of texture coordinates; empty: barycentrics.
     [[nodiscard]] UvDerivatives uv_derivatives(std::size_t triangle,
                                                const std::vector<Vec2>& coordinates) const;
-    /// True when each edge is shared by exactly two triangles, after vertices of equal position are
-    /// merged: every line then crosses the mesh an even number of times.
+    /// True when each edge is shared by exactly two triangles after merging vertices of equal
+    /// position: every line then crosses the mesh an even number of times.
     [[nodiscard]] bool closed() const;
 
-    /// Sets `normals` to the normalised sum over each vertex's triangles of their area-weighted
-    /// normals.
+    /// Sets each normal to the normalised sum of the area-weighted normals of the vertex's
+    /// triangles.
     void generate_normals();
     /// Applies a transform to positions, tangents and (by the inverse transpose) to normals.
     void transform(const Affine& to_from);

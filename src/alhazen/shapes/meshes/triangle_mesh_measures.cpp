@@ -1,4 +1,4 @@
-// Whole-mesh questions: does it close, how large is it, what does it hold.
+// Measures of whole meshes: closedness, area, volume.
 
 #include "alhazen/shapes/meshes/mesh_edges.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
@@ -7,7 +7,7 @@ namespace alhazen {
 
 namespace {
 
-/// A sum with the roundings carried along (Neumaier).
+/// A compensated sum (Neumaier).
 class CompensatedSum {
   public:
     void add(double x) {
@@ -39,7 +39,7 @@ double area(const TriangleMesh& mesh) {
 
 double signed_volume(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) return 0.0;
-    // Tetrahedra from a point of the mesh: from a far one, large volumes would cancel.
+    // Tetrahedra from a point of the mesh: from a distant point large volumes would cancel.
     const Vec3 origin = mesh.positions[mesh.triangles.front()[0]];
     CompensatedSum six_times;
     for (const auto& triangle : mesh.triangles) {
