@@ -10,24 +10,24 @@ namespace alhazen {
 
 namespace {
 
-/// Rays that climb less than this are level: beside the lathe their height changes by less than a
-/// hundredth of the last digit of its own.
+/// Rays of smaller climb are level: near the lathe their height changes by less than a hundredth of
+/// its last digit.
 constexpr double kLevel = 0x1p-60;
-/// Below this climb the parameter of the profile says little about t.
+/// Below this climb t is ill-conditioned in the parameter of the profile.
 constexpr double kNearLevel = 1e-4;
 
 struct LatheRay {
     double shift = 0;
     Vec3 o;
     const Vec3& d;
-    double across;       ///< length of the direction across the axis
-    double far;          ///< size of the numbers that made o
-    double nearest = 0;  ///< t (from o) nearest to the axis; 0 for a ray along it
+    double across;       ///< length of the direction's component perpendicular to the axis
+    double far;          ///< magnitude of the numbers that o was computed from
+    double nearest = 0;  ///< t (from o) nearest to the axis; 0 for a ray parallel to it
     double distance;     ///< from the axis, there
 
     LatheRay(const Lathe& lathe, const Ray& ray) : o(ray.origin), d(ray.direction) {
         const Vec3 from_center = ray.origin - lathe.center;
-        // Close by, the shift would only round away digits of a small t.
+        // For a near origin the shift would only lose digits of a small t.
         if (length_squared(from_center) > 16.0 * lathe.radius * lathe.radius) {
             shift = -dot(from_center, d) / length_squared(d);
             o = ray.origin + shift * d;
@@ -45,8 +45,8 @@ struct LatheRay {
     }
 };
 
-/// |d_z o + (z - o_z) d|^2 - (d_z r)^2 across the axis, for (r, z) on the curve: it vanishes where
-/// the ray passes the height z at the distance r. Degree 2 for lines, 6 for cubics.
+/// d_z o + (z - o_z) d|^2 - (d_z r)^2 perpendicular to the axis, for (r, z) on the curve: zero
+/// where the ray passes the height z at the distance r. Degree 2 for lines, 6 for cubics.
 template <class Real>
 void make_polynomial(const Lathe& lathe, const LatheRay& ray, const Ray& given,
                      const ProfileCurve& curve, BernsteinPolynomial<Real, 6>& p) {
@@ -84,7 +84,8 @@ void make_polynomial(const Lathe& lathe, const LatheRay& ray, const Ray& given,
             p.b[k] = Real(q) + Real(rest.high / total);
         }
     }
-    // One bound for all curves, so that a sign at a point they share is known to both or to none.
+    // One bound for all curves, so that a sign at a shared point is certain for both or for
+    // neither.
     const double side = std::fmax(std::abs(d.x), std::abs(d.y)), up = std::abs(d.z);
     const double near = max_component(abs(ray.o));
     const double most = up * near + (lathe.reach + near) * side;
@@ -97,8 +98,7 @@ double half_chord(const LatheRay& ray, double r) {
     return std::sqrt(std::fmax(0.0, (r - ray.distance) * (r + ray.distance))) / ray.across;
 }
 
-/// s and t made precise together, where they are not nearly a tangent: Newton's method for as long
-/// as it comes nearer.
+/// Refines s and t together, except near a tangent: Newton's method while it converges.
 void polish(const ProfileCurve& curve, const LatheRay& ray, double lo, double hi, double& s,
             double& t) {
     double try_s = s, try_t = t, best = kInfinity;
@@ -247,7 +247,7 @@ ShapeSurface Lathe::surface(const Ray& ray, const ShapeHit& hit) const {
     ShapeSurface surface;
     surface.point = p.x * outward + Vec3{0.0, 0.0, p.y};
     surface.normal = unit_or(along.y * outward - Vec3{0.0, 0.0, along.x}, outward);
-    // Whether the ray enters here (v = -1) or leaves is known from all its crossings.
+    // Only the full list of crossings tells whether the ray enters here (v = -1) or leaves.
     if (dot(surface.normal, ray.direction) * hit.v < 0.0) surface.normal = -surface.normal;
     surface.shading_normal = surface.normal;
     surface.uv = {turn_fraction(outward.x, outward.y), (hit.part + hit.u) / count};

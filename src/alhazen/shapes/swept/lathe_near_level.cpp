@@ -11,10 +11,10 @@ namespace {
 /// Control points of a coordinate of a curve.
 using Controls = BernsteinPolynomial<DoubleDouble, 3>;
 
-/// Places on a curve are right to less than this.
+/// Error bound of parameters on a curve.
 constexpr double kPlace = 0x1p-50;
 
-/// The polar form of a curve at the first `degree` of three places.
+/// The polar form of a curve at the first `degree` of three parameters.
 DoubleDouble blossom(const Controls& curve, const std::array<double, 3>& at) {
     std::array<DoubleDouble, 4> row = curve.b;
     for (int step = 0; step < curve.degree; ++step) {
@@ -47,7 +47,7 @@ double largest_of(const Controls& curve) {
     return largest;
 }
 
-/// Adds where the curve has this value.
+/// Adds the parameters at which the curve has this value.
 void add_places(Controls curve, double value, std::array<double, 8>& places, std::size_t& count) {
     for (int i = 0; i <= curve.degree; ++i) curve.b[i] -= value;
     curve.error = 4.0 * kDoubleDoubleUlp * largest_of(curve);
@@ -56,7 +56,7 @@ void add_places(Controls curve, double value, std::array<double, 8>& places, std
     for (int k = 0; k < changes.count; ++k) places[count++] = changes.u[k];
 }
 
-/// Calls f(from, to) for pieces of [0, 1] that hold all places where |curve| <= most.
+/// Calls f(from, to) for pieces of [0, 1] that contain all parameters where |curve| <= most.
 template <class F>
 void for_each_piece_within(const Controls& curve, double most, F f) {
     std::array<double, 8> places{0.0};
@@ -64,7 +64,7 @@ void for_each_piece_within(const Controls& curve, double most, F f) {
     add_places(curve, -most, places, count);
     add_places(curve, most, places, count);
     places[count++] = 1.0;
-    // By insertion: GCC 12 sees std::sort reach beyond so few (false warning).
+    // Insertion sort: GCC 12 falsely warns that std::sort reads past the end.
     for (std::size_t i = 1; i < count; ++i) {
         for (std::size_t k = i; k > 0 && places[k] < places[k - 1]; --k) {
             std::swap(places[k], places[k - 1]);
@@ -82,7 +82,7 @@ void for_each_piece_within(const Controls& curve, double most, F f) {
     };
     for (std::size_t i = 0; i + 1 < count; ++i) {
         const double lo = places[i], hi = places[i + 1];
-        // A piece may be so short that both its ends are one number.
+        // The ends of a short piece may be equal.
         if (i > 0) add(lo, lo);
         if (std::abs(value_at(curve, 0.5 * lo + 0.5 * hi).high) <= most) add(lo, hi);
         if (i + 2 < count) add(hi, hi);
@@ -90,7 +90,7 @@ void for_each_piece_within(const Controls& curve, double most, F f) {
     if (to >= 0.0) f(from, to);
 }
 
-/// A ray by its way from where it is nearest to the axis.
+/// A ray parameterised from its point nearest to the axis.
 class NearLevelRay {
   public:
     NearLevelRay(const Lathe& lathe, const Ray& ray) : lathe_(lathe) {
@@ -135,13 +135,13 @@ class NearLevelRay {
     }
 
   private:
-    /// How far the ray goes from where it is nearest to the axis until it has this height.
+    /// Change of t from the point nearest to the axis to this height.
     [[nodiscard]] DoubleDouble way_to(double height) const {
         return quotient(two_sum(height, -height_), climb_) - nearest_;
     }
 
-    /// Whether the ray passes the height of a point farther from the axis than the point is; what
-    /// cannot be told is.
+    /// Whether the ray passes the height of a point farther from the axis than the point; true
+    /// where uncertain.
     [[nodiscard]] bool is_beyond(Vec2 p) const {
         const DoubleDouble way = way_to(p.y), r(p.x);
         if (std::abs(way.high) > reach_) return true;
@@ -176,8 +176,8 @@ class NearLevelRay {
         b = positive ? 2.0 * error : -2.0 * error;
     }
 
-    /// Of the crossing at the place u: by the height there, or by the radius, whichever says it
-    /// better.
+    /// t of the crossing at the parameter u: from the height or from the radius there, whichever is
+    /// better conditioned.
     [[nodiscard]] double t_at(const Controls& way, const Controls& radius, double u) const {
         DoubleDouble w, r;
         double w_slope, r_slope;
@@ -195,10 +195,11 @@ class NearLevelRay {
     const Lathe& lathe_;
     double height_, climb_;
     DoubleDouble nearest_;  ///< t
-    DoubleDouble squared_;  ///< length of the direction across the axis, squared
-    DoubleDouble close_;    ///< distance from the axis where it is least, squared
-    double reach_;          ///< after such a way the ray is twice as far off as the profile
-    double error_;          ///< bound of that of signs at points of the profile
+    DoubleDouble
+        squared_;         ///< squared length of the direction's component perpendicular to the axis
+    DoubleDouble close_;  ///< squared least distance from the axis
+    double reach_;        ///< at this distance the ray is twice as far from the axis as the profile
+    double error_;        ///< error bound of the signs at points of the profile
 };
 
 }  // namespace

@@ -13,13 +13,13 @@ double larger(double a, double b) {
     return std::fmax(std::abs(a), std::abs(b));
 }
 
-/// The line that a ray, seen from the apex, draws into the plane of the profile: the zeros of
-/// c + x p.x + y p.y. With o the ray's origin (moved along it by `shift`), d its direction and
-/// a + b t the size of the section at t, these are the cross product of (o, a) and (d, b).
+/// The projection of a ray from the apex into the plane of the profile: the line of zeros of c + x
+/// p.x + y p.y. With o the ray's origin (moved along it by `shift`), d its direction and a + b t
+/// the size of the section at t, these coefficients are the cross product of (o, a) and (d, b).
 template <class Real>
 struct ProfileLine {
     Real x, y, c;
-    double error;  ///< of the sum, for any point of the profile
+    double error;  ///< of the sum, for every point of the profile
 
     ProfileLine(const Prism& prism, const Ray& ray, double shift) {
         const Vec3& d = ray.direction;
@@ -37,7 +37,7 @@ struct ProfileLine {
         const double size = 1.0 + 2.0 * g * z, slope = g * std::abs(d.z);
         const double terms =
             2.0 * near * across + 2.0 * prism.reach * (slope * near + size * across);
-        // What the shift rounds away is a move of the origin.
+        // The rounding of the shift is a displacement of the origin.
         const double moved =
             max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(d));
         const double per_move = 2.0 * across + 2.0 * prism.reach * (slope + g * across);
@@ -50,12 +50,12 @@ struct ProfileLine {
 struct PrismRay {
     double shift, ox, oy, oz, dx, dy, dz;
     double size, size_growth;  ///< of the section: a + b t
-    double far;                ///< size of the numbers that made the origin
+    double far;                ///< magnitude of the numbers that the origin was computed from
 
     PrismRay(const Prism& prism, const Ray& ray) : shift(0) {
         const Vec3& d = ray.direction;
         const Vec3 from_center = ray.origin - prism.center;
-        // Close by, the shift would only round away digits of a small t.
+        // For a near origin the shift would only lose digits of a small t.
         if (length_squared(from_center) > 16.0 * prism.radius * prism.radius) {
             shift = -dot(from_center, d) / length_squared(d);
         }
@@ -65,14 +65,14 @@ struct PrismRay {
         size_growth = prism.growth * dz;
         far = max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(d));
     }
-    /// Where the ray is at this point of the profile, as far as it is on its line.
+    /// t of the ray at this point of the profile, which is on its line.
     [[nodiscard]] double t_at(Vec2 p) const {
         const double x = dx - size_growth * p.x, y = dy - size_growth * p.y;
         return ((size * p.x - ox) * x + (size * p.y - oy) * y) / (x * x + y * y);
     }
-    /// Whether this point, found where the line's value is within `error` of 0, lies on the ray but
-    /// for the last digits of the numbers in play. It does not where the ray nearly runs along the
-    /// side of a cone.
+    /// Whether this point, found where the line's value is within `error` of 0, lies on the ray up
+    /// to the last digits of the numbers involved. False where the ray nearly runs along the side
+    /// of a cone.
     [[nodiscard]] bool is_precise(Vec2 p, double error, double reach) const {
         const double x = dx - size_growth * p.x, y = dy - size_growth * p.y;
         const double size_there = size + t_at(p) * size_growth;
@@ -80,7 +80,7 @@ struct PrismRay {
     }
 };
 
-/// Calls f(curve, s) where the function that makes polynomials of curves changes its sign.
+/// Calls f(curve, s) at the sign changes of the polynomials that `make` returns for the curves.
 template <class Make, class F>
 void for_each_sign_change(const Profile& profile, Make make, F f) {
     for (std::uint32_t i = 0; i < profile.curves.size(); ++i) {
@@ -142,7 +142,7 @@ bool side_crossings(const Prism& prism, const Ray& ray, const PrismRay& local, S
         }
         for (int k = 0; k < changes.count; ++k) {
             const double t = local.t_at(curve.point(changes.u[k]));
-            // Else seen through the apex.
+            // Otherwise it is the projection through the apex.
             if (local.size + t * local.size_growth > 0.0)
                 found.push_back({t, changes.u[k], 0, i + 2});
         }
@@ -254,8 +254,8 @@ ShapeSurface Prism::side_surface(const Ray& ray, const ShapeHit& hit) const {
     const ProfileCurve& curve = profile.curves[i];
     const Vec2 p = curve.point(hit.u), along = curve.direction(hit.u),
                speed = curve.derivative(hit.u);
-    // The nearest point of the line to the apex, not the one of equal height: a slanted side would
-    // magnify the error of the height.
+    // The nearest point of the line to the apex; the one of equal height would magnify the error of
+    // the height on a slanted side.
     const Vec3 generator{growth * p.x, growth * p.y, 1.0}, at = ray.at(hit.t);
     const double level_size = 1.0 + growth * (at.z - h0);
     const Vec3 off{at.x - level_size * p.x, at.y - level_size * p.y, 0.0};
@@ -267,7 +267,7 @@ ShapeSurface Prism::side_surface(const Ray& ray, const ShapeHit& hit) const {
     const Vec3 across{along.y, -along.x,
                       growth * difference_of_products(along.x, p.y, along.y, p.x)};
     surface.normal = unit_or(across, {1, 0, 0});
-    // Whether the ray enters here (v = -1) or leaves is known from all its crossings.
+    // Only the full list of crossings tells whether the ray enters here (v = -1) or leaves.
     if (dot(surface.normal, ray.direction) * hit.v < 0.0) surface.normal = -surface.normal;
     surface.shading_normal = surface.normal;
     surface.uv = {(i + hit.u) / count, (z - h0) / (h1 - h0)};
