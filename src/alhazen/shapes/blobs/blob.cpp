@@ -18,20 +18,20 @@ struct Event {
     bool begins;
 };
 
-/// What one ray needs; kept from ray to ray so that nothing is allocated.
+/// Buffers for one ray; kept between rays to avoid allocation.
 struct Workspace {
     std::vector<Piece> pieces;
     std::vector<Event> events;
     std::vector<std::uint32_t> active;
 };
 
-/// The crossings of the spans, one after another.
+/// Collects the crossings of consecutive spans.
 class SpanWalk {
   public:
     SpanWalk(const LocalRay& ray, const Workspace& work, ShapeHits& hits)
         : ray_(ray), work_(work), hits_(hits) {}
 
-    /// The components in work.active hold on [t0, t1].
+    /// The components in work.active are active on [t0, t1].
     void span(double t0, double t1) {
         gap(t0);
         last_ = t1;
@@ -60,24 +60,24 @@ class SpanWalk {
         if (changes.negative_at_start != inside_) turn(t0);
         for (int k = 0; k < changes.count; ++k) turn(t0 + changes.u[k] * (t1 - t0));
     }
-    /// A span that ends before the ray begins.
+    /// Skips a span that ends before the ray begins.
     void skip(double t1) {
         last_ = t1;
         skipped_ = true;
     }
-    /// Nothing lies between the last span and t.
+    /// The density is zero between the last span and t.
     void gap(double t) {
         if (t == last_) return;
         if (skipped_) inside_ = skipped_ = false;
         leave(last_);
     }
-    /// From here on there is nothing.
+    /// Beyond t the density is zero.
     void leave(double t) {
         if (inside_) turn(t);
     }
 
   private:
-    /// Whether the components in work.active are too weak together on all of [t0, t1].
+    /// Whether the sum of the components in work.active is below the threshold on all of [t0, t1].
     [[nodiscard]] bool is_weak(double t0, double t1) const {
         double here = 0.0;
         for (const std::uint32_t i : work_.active) {
@@ -89,7 +89,7 @@ class SpanWalk {
             } else {
                 here += s;
             }
-            // Written so that a NaN is not passed over.
+            // In this form NaN is not skipped.
             if (!(here < 0.999 * ray_.blob.threshold)) return false;
         }
         return true;
@@ -105,7 +105,7 @@ class SpanWalk {
     ShapeHits& hits_;
     double last_ = -kInfinity;
     bool inside_ = false;
-    bool skipped_ = false;  ///< whether it is inside here is not known
+    bool skipped_ = false;  ///< whether it is inside here is unknown
 };
 
 }  // namespace
@@ -161,7 +161,7 @@ Interval Blob::extent(const Vec3& axis) const {
 
 namespace {
 
-/// The pieces of all components that the line may meet.
+/// Collects the pieces of all components that the line may intersect.
 void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     const Blob& blob = local.blob;
     const auto add = [&](std::uint32_t i) { add_pieces(local, i, pieces); };
@@ -174,7 +174,7 @@ void collect_pieces(const LocalRay& local, std::vector<Piece>& pieces) {
     }
 }
 
-/// Whether all pieces together are too weak, wherever they meet.
+/// Whether the sum of all pieces is below the threshold for any overlap.
 bool all_weak(const LocalRay& local, const std::vector<Piece>& pieces) {
     double most = 0.0;
     for (const Piece& piece : pieces) {
@@ -185,8 +185,8 @@ bool all_weak(const LocalRay& local, const std::vector<Piece>& pieces) {
     return most < 0.999 * local.blob.threshold;
 }
 
-/// The events of the pieces in their order. Rays side by side mostly have the same one: those of
-/// the ray before are a start that needs little sorting.
+/// Sorts the events of the pieces. Coherent rays mostly have the same order, so that the events of
+/// the previous ray need little sorting.
 void order_events(const std::vector<Piece>& pieces, std::vector<Event>& events) {
     const auto is_before = [](const Event& a, const Event& b) {
         return a.t != b.t ? a.t < b.t : a.piece < b.piece;
@@ -216,7 +216,7 @@ void order_events(const std::vector<Piece>& pieces, std::vector<Event>& events) 
     }
 }
 
-/// The crossings that follow from the pieces in `work`; `events` are those of the ray before.
+/// The crossings of the pieces in `work`; `events` are those of the previous ray.
 ALHAZEN_FOR_EACH_INSTRUCTION_SET
 void walk_pieces(const LocalRay& local, Workspace& work, std::vector<Event>& events,
                  ShapeHits& hits) {
@@ -237,7 +237,7 @@ void walk_pieces(const LocalRay& local, Workspace& work, std::vector<Event>& eve
             }
         }
         last = event.t;
-        // In the order of the pieces, so that sums do not depend on where they begin.
+        // In the order of the pieces, so that sums do not depend on where the pieces begin.
         const auto at = std::lower_bound(work.active.begin(), work.active.end(), event.piece);
         if (event.begins) {
             work.active.insert(at, event.piece);

@@ -5,11 +5,12 @@
 /// al., "Object modeling by distribution function", 1985; Wyvill, McPheeters and Wyvill, "Data
 /// structure for soft objects", The Visual Computer 2, 1986. The density s (1 - r^2 / R^2)^2 within
 /// the radius R, r the distance from a point or from a segment, is that of POV-Ray's blobs.
-/// Differs: along a ray the sum is a polynomial of degree four between the places where a component
-/// begins or ends; it is made anew in each such span, in Bernstein form, with a bound of its error,
-/// and all its changes of sign are found with certainty (math/bernstein_roots.h). A tree finds the
-/// components. Conventions: the threshold is positive, so that a blob is bounded; strengths may be
-/// negative. uv are directions from the middle of the box, without derivatives.
+/// Differs: along a ray the sum is a polynomial of degree four between the points where a component
+/// begins or ends; it is computed anew in each of these spans, in Bernstein form, with a bound of
+/// its error, and all its sign changes are isolated with certainty (math/bernstein_roots.h). A tree
+/// finds the components.
+/// Conventions: the threshold is positive, so that a blob is bounded; strengths may be negative. uv
+/// are directions from the centre of the box, without derivatives.
 /// Complexity: O(k log k + sum over the spans of the components there) for k components on the ray.
 
 #include <cstdint>

@@ -15,17 +15,17 @@ namespace {
 
 using namespace blob;
 
-/// What eight rays need; kept from one eight to the next so that nothing is allocated.
+/// Buffers for eight rays; kept between packets to avoid allocation.
 struct FirstHitsWorkspace {
     std::vector<std::uint32_t> numbers;
     std::vector<BlobRow> rows;
     std::vector<Piece> pieces;
 };
 
-/// A component has no more pieces than there are regions.
+/// The most pieces of a component: one per region.
 constexpr std::size_t kRegions = 3;
 
-/// The numbers of the components that the beam may meet.
+/// The numbers of the components that the beam may intersect.
 std::span<const std::uint32_t> near_components(const Blob& blob, const BlobKernels& kernels,
                                                const BlobRayLanes& rays, FirstHitsWorkspace& work) {
     if (blob.components.size() <= BlobTree::kFew) {
@@ -38,16 +38,17 @@ std::span<const std::uint32_t> near_components(const Blob& blob, const BlobKerne
     return work.numbers;
 }
 
-/// Many components of which eight rays that go their own ways meet many: one by one is faster.
+/// Whether tracing one by one is faster: many components, of which eight incoherent rays intersect
+/// many.
 bool better_alone(const Blob& blob, const BlobRayLanes& rays) {
     constexpr std::size_t kMany = 400;
     return blob.components.size() > kMany && !(rays.width <= blob.tree->mean_radius());
 }
 
-/// The search looks at all rows for every span.
+/// The search scans all rows for every span.
 constexpr std::size_t kMostRows = 512;
 
-/// The rows of the components that are near eight rays.
+/// Makes the rows of the components near eight rays.
 class RowMaker {
   public:
     RowMaker(const Blob& blob, std::span<const Ray* const> rays, const BlobKernels& kernels,
@@ -97,7 +98,7 @@ class RowMaker {
             ++count_;
         }
     }
-    /// No ray has it, of a row of this piece.
+    /// Marks a row of this piece as absent for every ray.
     void clear(BlobRow& row, const Piece& piece) const {
         const BlobComponent& c = blob_.components[piece.component];
         std::fill_n(row.in, kRayLanes, kInfinity);
@@ -114,7 +115,7 @@ class RowMaker {
     const BlobRayLanes& lanes_;
     FirstHitsWorkspace& work_;
     std::size_t count_ = 0;
-    std::array<std::optional<LocalRay>, kRayLanes> local_;  ///< made for the first rod
+    std::array<std::optional<LocalRay>, kRayLanes> local_;  ///< created for the first rod
 };
 
 }  // namespace

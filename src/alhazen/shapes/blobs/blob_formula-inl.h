@@ -1,24 +1,25 @@
 /// The arithmetic of a blob's components along a ray; a fragment without a guard, included by
 /// blob_pieces.h and by kernels in the namespace of each instruction set.
 ///
-/// Source: see blob.h. Differs: one square root and no division for each ball, the same in double
-/// and in lanes. Conventions: `Real` needs + - * and, by argument-dependent look-up, sqrt.
+/// Source: see blob.h.
+/// Differs: one square root and no division per ball, the same in double and in lanes.
+/// Conventions: `Real` needs + - * and, by argument-dependent look-up, sqrt.
 
-/// A line from a point near the blob: direction, its square, and one over that.
+/// A line from a point near the blob: direction, its square, and the reciprocal of the square.
 template <class Real>
 struct BlobLine {
     Real dx, dy, dz, square, inverse;
 };
 
-/// Where a line is nearest the centre of a ball, and the square of the radius less that of the
-/// distance there. Where `room` is positive, 1 - (distance / radius)^2 along the line is
-/// peak - bend (t - middle)^2 with the peak room / radius^2 and the bend square / radius^2.
+/// Where a line is nearest the centre of a ball, and the square of the radius minus that of the
+/// distance there. Where `room` is positive, 1 - (distance / radius)^2 along the line is peak -
+/// bend (t - middle)^2 with the peak room / radius^2 and the bend square / radius^2.
 template <class Real>
 struct NearestPlace {
     Real middle, room;
 };
 
-/// (fx, fy, fz) origin - centre, and the square of the radius.
+/// (fx, fy, fz) is origin - centre; takes the square of the radius.
 template <class Real>
 [[gnu::always_inline]] inline NearestPlace<Real> nearest_place(const BlobLine<Real>& line,
                                                                const Real& fx, const Real& fy,
@@ -31,14 +32,15 @@ template <class Real>
     return {middle, squared - (nx * nx + ny * ny + nz * nz)};
 }
 
-/// How far from the middle the ball ends.
+/// Half the length in t of the line's part in the ball.
 template <class Real>
 [[gnu::always_inline]] inline Real half_chord(const BlobLine<Real>& line, const Real& room) {
     using std::sqrt;
     return sqrt(room * line.inverse);
 }
 
-/// Takes s q^2 from a polynomial of degree four, q with these coefficients; all in Bernstein form.
+/// Subtracts s q^2 from a polynomial of degree four, q with these coefficients; all in Bernstein
+/// form.
 template <class Real>
 [[gnu::always_inline]] inline void take_square(const Real& q0, const Real& q1, const Real& q2,
                                                const Real& s, const Real& third_of_s, Real* b) {
@@ -49,7 +51,7 @@ template <class Real>
     b[3] = b[3] - s * (q1 * q2);
     b[4] = b[4] - s * (q2 * q2);
 }
-/// The same of q = peak - bend (t - middle)^2 on [t0, t1].
+/// The same with q = peak - bend (t - middle)^2 on [t0, t1].
 template <class Real>
 [[gnu::always_inline]] inline void take_bump(const Real& middle, const Real& peak, const Real& bend,
                                              const Real& t0, const Real& t1, const Real& s,

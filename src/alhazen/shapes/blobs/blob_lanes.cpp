@@ -52,13 +52,13 @@ Vec3 lane_of(const double (&rows)[3][kRayLanes], std::size_t lane) {
     return {rows[0][lane], rows[1][lane], rows[2][lane]};
 }
 
-/// The beam about the ray in the middle.
+/// The beam around the middle ray.
 HWY_INLINE void make_beam(const Blob& blob, const Doubles& square, BlobRayLanes& out) {
     const Vec3 o = out.axis_origin = lane_of(out.origin, kRayLanes / 2);
     const Vec3 d = out.axis_direction = lane_of(out.direction, kRayLanes / 2);
     const Point from = load_point(out.origin), along = load_point(out.direction);
     const Point from_center = minus(from, blob.bounds.center());
-    // So far from its origin a ray may be near the blob.
+    // Distance from its origin within which a ray may be near the blob.
     const Doubles far = sqrt(dot(from_center, from_center)) + Doubles(length(blob.bounds.size()));
     const Doubles aside =
         sqrt(square_across(minus(from, o), d)) + far * sqrt(square_across(along, d) / square);
@@ -154,7 +154,7 @@ namespace alhazen {
 HWY_EXPORT(blob_kernels_of_target);
 
 const BlobKernels& blob_kernels() {
-    // Asked for every eight rays: what the processor can do is not looked up again.
+    // Called for every eight rays: the dispatch is cached.
     return HWY_DYNAMIC_DISPATCH(blob_kernels_of_target)();
 }
 

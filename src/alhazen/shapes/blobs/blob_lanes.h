@@ -1,12 +1,13 @@
 #pragma once
-/// The first crossings of eight rays with a blob, side by side in lanes.
+/// The first crossings of eight rays with a blob, in lanes.
 ///
-/// Source: blob.cpp and blob_pieces.h, the same formulas. Differs: components are left out that a
-/// beam around the eight rays does not meet; nothing is sorted, each ray goes from the end of a
-/// span to the next by looking at all components; a span is passed over only where it is weak or
-/// the signs of its coefficients are certain. What is rarer is left to the scalar text.
-/// Conventions: internal to this folder. Bit i of a set stands for lane i. Every target gives the
-/// bits of the scalar text.
+/// Source: blob.cpp and blob_pieces.h, the same formulas.
+/// Differs: components outside of a beam around the eight rays are culled; nothing is sorted: each
+/// ray steps from the end of a span to the next by scanning all components; a span is skipped only
+/// where it is weak or the signs of its coefficients are certain. Rarer cases are left to the
+/// scalar code.
+/// Conventions: internal to this folder. Bit i of a set stands for lane i. Every target returns the
+/// bits of the scalar code.
 
 #include <cstdint>
 #include <span>
@@ -16,22 +17,22 @@
 
 namespace alhazen {
 
-/// Eight rays from points near a blob, as LocalRay; and a beam that holds them near the blob.
+/// Eight rays from points near a blob, as LocalRay; and a beam that contains them near the blob.
 struct alignas(64) BlobRayLanes {
     double origin[3][kRayLanes], direction[3][kRayLanes];  ///< [axis][lane]
     double shift[kRayLanes], far[kRayLanes];
     double t_min[kRayLanes], t_max[kRayLanes];
     Vec3 axis_origin, axis_direction;
-    double width;  ///< no point of the rays near the blob is farther from the axis
+    double width;  ///< largest distance from the axis of points of the rays near the blob
     std::uint32_t finite;
 };
 
-/// A piece of a blob along eight rays: see Piece and Bump. A ray without it has it from infinity to
-/// -infinity with a peak of -1.
+/// A piece of a blob along eight rays: see Piece and Bump. For a ray without the piece it spans
+/// infinity to -infinity with a peak of -1.
 struct alignas(64) BlobRow {
     double in[kRayLanes], out[kRayLanes];
     double middle[kRayLanes], peak[kRayLanes], bend[kRayLanes];
-    double strength, third;  ///< and a third of it
+    double strength, third;  ///< the strength, and a third of it
     double weight;           ///< the strength if positive, else 0
     double inverse_radius;
     double span;  ///< of the rod, in its middle
@@ -46,24 +47,25 @@ struct alignas(64) BlobRow {
 };
 
 struct alignas(64) BlobHitLanes {
-    double t[kRayLanes];   ///< of the lanes that hit
+    double t[kRayLanes];   ///< for the lanes that hit
     std::uint32_t hit;     ///< the lanes that enter
     std::uint32_t leave;   ///< the lanes that leave
-    std::uint32_t unsure;  ///< ask the scalar text
+    std::uint32_t unsure;  ///< lanes left to the scalar code
 };
 
-/// Those of one instruction set.
+/// The kernels of one instruction set.
 struct BlobKernels {
     void (*begin)(const Blob&, const RayLanes&, BlobRayLanes&);
-    /// Writes the numbers of the components that the beam may meet, of all or more; how many.
+    /// Writes the numbers of the components that the beam may intersect, a superset of them;
+    /// returns their count.
     std::size_t (*near)(const Blob&, const BlobRayLanes&, std::uint32_t* numbers);
-    /// Writes a row for each of these balls that a ray meets; how many.
+    /// Writes a row for each of these balls that a ray intersects; returns their count.
     std::size_t (*balls)(const Blob&, const BlobRayLanes&, std::span<const std::uint32_t> numbers,
                          BlobRow* rows);
     void (*search)(const Blob&, const BlobRayLanes&, std::span<const BlobRow>, BlobHitLanes&);
 };
 
-/// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
+/// For the best instruction set of this machine, or the forced one (simd/targets.h).
 [[nodiscard]] const BlobKernels& blob_kernels();
 
 }  // namespace alhazen

@@ -1,8 +1,9 @@
 #pragma once
-/// The pieces of a blob along a ray: where which component holds, and what it adds there.
+/// The pieces of a blob along a ray: the range of each component, and its density there.
 ///
-/// Source: see blob.h. Conventions: internal to this folder. The parameter of a piece runs from a
-/// point of the ray near the blob.
+/// Source: see blob.h.
+/// Conventions: internal to this folder. The parameter of a piece runs from a point of the ray near
+/// the blob.
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,10 @@ namespace alhazen::blob {
 template <class Real>
 inline constexpr double kRounding = std::is_same_v<Real, double> ? 0x1p-53 : kDoubleDoubleUlp;
 
-/// Where a quadratic 1 - (distance / radius)^2 of a component holds along the ray.
+/// The region of a component along the ray with one quadratic 1 - (distance / radius)^2.
 enum class Region : std::uint8_t { Base, Middle, Top };
-/// Where it does, and what it is there in double: peak - bend (t - middle)^2. Without bend that is
-/// not known.
+/// The range of a region, and its quadratic in double: peak - bend (t - middle)^2. Without bend the
+/// quadratic is unknown.
 struct Bump {
     Interval t;
     double middle = 0, peak = 1, bend = 0;
@@ -39,7 +40,7 @@ struct Piece {
     Region region;
     double in, out;  ///< from the local origin
     Bump bump;
-    double room;  ///< more than the numbers of the bump round
+    double room;  ///< bound above the rounding of the bump
 };
 template <class Real>
 struct Vec3Of {
@@ -66,20 +67,20 @@ struct LocalRay {
     const Ray& given;
     double shift = 0;
     Vec3 o;
-    double far;  ///< size of the numbers that made o
+    double far;  ///< magnitude of the numbers that o was computed from
     BlobLine<double> line;
 
     LocalRay(const Blob& b, const Ray& ray)
         : blob(b), given(ray), o(ray.origin), line(line_along(ray.direction)) {
         const Vec3 from_center = ray.origin - b.bounds.center();
-        // Close by, the shift would only round away digits of a small t.
+        // For a near origin the shift would only lose digits of a small t.
         if (length_squared(from_center) > 4.0 * length_squared(b.bounds.size())) {
             shift = -dot(from_center, ray.direction) / line.square;
             o = ray.origin + shift * ray.direction;
         }
         far = max_component(abs(ray.origin)) + std::abs(shift) * max_component(abs(ray.direction));
     }
-    /// The room of a piece of this component.
+    /// The margin of a piece of this component.
     [[nodiscard]] double room(const BlobComponent& c) const {
         return 0x1p-46 * (far + blob.reach) / c.radius;
     }
@@ -136,7 +137,7 @@ struct LocalRay {
     }
 };
 
-/// Where a line from f, relative to an axis or a centre, is closer than the radius.
+/// The range where a line from f, relative to an axis or a centre, is closer than the radius.
 [[gnu::always_inline]] inline Bump within(const BlobLine<double>& line, const Vec3& f,
                                           double radius) {
     const double squared = radius * radius;
@@ -149,7 +150,7 @@ struct LocalRay {
             line.square * inverse_squared};
 }
 
-/// Whether it is a ball and the line does not meet it.
+/// Whether it is a ball that the line misses.
 inline bool misses_ball(const LocalRay& ray, const BlobComponent& c) {
     const Vec3 f = ray.o - c.base;
     return !c.rod && !(nearest_place(ray.line, f.x, f.y, f.z, c.radius * c.radius).room > 0.0);
@@ -165,7 +166,7 @@ inline Bump within_rod(const LocalRay& ray, const BlobComponent& c) {
     return within(line, f, c.radius);
 }
 
-/// What is common to both.
+/// Intersection of two intervals.
 inline Interval meeting(const Interval& a, const Interval& b) {
     return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }

@@ -1,6 +1,7 @@
-/// Where eight rays enter a blob, from its rows along them, side by side in lanes.
+/// The entry points of eight rays into a blob, from its rows along them, in lanes.
 ///
-/// Source: blob.cpp and math/bernstein_roots.h. Differs: see blob_lanes.h.
+/// Source: blob.cpp and math/bernstein_roots.h.
+/// Differs: as in blob_lanes.h.
 /// Conventions: included once per target (see simd/lanes-inl.h); internal to this folder.
 
 #if defined(ALHAZEN_SHAPES_BLOBS_BLOB_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -23,12 +24,13 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// What all rows together are, and what their sums round.
+/// Bounds over all rows, and the rounding of their sums.
 struct RowTotals {
     Doubles first_in, last_out;
-    Doubles most;   ///< no place is stronger
-    Doubles error;  ///< no coefficient in a span rounds more: what the scalar text says, or more
-    std::uint32_t unknown = 0;  ///< a row of these lanes is no known bump, or rounds too much
+    Doubles most;  ///< upper bound of the density
+    Doubles
+        error;  ///< rounding bound of the coefficients in a span: at least that of the scalar code
+    std::uint32_t unknown = 0;  ///< lanes with a row that is no known bump, or that rounds too much
 };
 HWY_INLINE RowTotals totals_of(const Blob& blob, const BlobRayLanes& rays,
                                std::span<const BlobRow> rows) {
@@ -58,14 +60,14 @@ HWY_INLINE RowTotals totals_of(const Blob& blob, const BlobRayLanes& rays,
     fixed += 4.0 * static_cast<double>(rows.size()) * (blob.threshold + strengths);
     totals.error = Doubles(1.001 * 0x1p-53) *
                    (Doubles(192.0 * by_distance) * (distance + coordinates) + Doubles(fixed));
-    // As LocalRay::room: what a bump rounds must be nothing beside what makes it weak.
+    // As LocalRay::room: the rounding of a bump must be negligible in the test for weakness.
     const Doubles room = Doubles(0x1p-46 * least_radius) * distance;
     known = known & (Doubles(3.0 * strengths) * room < Doubles(0.0004 * blob.threshold));
     totals.unknown = kAllLanes & ~bits_of(known);
     return totals;
 }
 
-/// The span of each lane that begins at t0: where it ends, and its polynomial.
+/// The span of each lane that begins at t0: its end and its polynomial.
 HWY_INLINE Doubles span_end(std::span<const BlobRow> rows, const Doubles& t0) {
     Doubles t1(std::numeric_limits<double>::infinity());
     for (const BlobRow& row : rows) {
@@ -88,7 +90,7 @@ HWY_INLINE void span_polynomial(const Blob& blob, std::span<const BlobRow> rows,
                   third, b);
     }
 }
-/// No place on [t0, t1] is stronger, but for what is rounded.
+/// Upper bound of the density on [t0, t1], up to rounding.
 HWY_INLINE Doubles most_within(std::span<const BlobRow> rows, const Doubles& t0,
                                const Doubles& t1) {
     const Doubles nothing(0.0);
@@ -102,7 +104,7 @@ HWY_INLINE Doubles most_within(std::span<const BlobRow> rows, const Doubles& t0,
     }
     return most;
 }
-/// The last place at or before t where a piece begins or ends.
+/// The last point at or before t where a piece begins or ends.
 HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t) {
     Doubles event(-std::numeric_limits<double>::infinity());
     for (const BlobRow& row : rows) {
@@ -113,12 +115,13 @@ HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t)
     return event;
 }
 
-/// What the signs of the coefficients of a span tell.
+/// Result of the signs of the coefficients of a span.
 struct SpanSigns {
-    std::uint32_t outside = 0;                       ///< all of it
-    std::uint32_t once = 0, twice = 0, oftener = 0;  ///< it begins outside, the signs change so
-    std::uint32_t inside = 0;                        ///< all of it
-    std::uint32_t leaves = 0;                        ///< it begins inside, the signs change once
+    std::uint32_t outside = 0;  ///< all of the span is outside
+    std::uint32_t once = 0, twice = 0,
+                  oftener = 0;  ///< begins outside, with one, two or more sign changes
+    std::uint32_t inside = 0;   ///< all of the span is inside
+    std::uint32_t leaves = 0;   ///< begins inside, with one sign change
 };
 HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
     Doubles total = abs(b[0]);
@@ -130,7 +133,7 @@ HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
         negative[k] = bits_of(b[k] < Doubles(0.0));
     }
     const std::uint32_t certain = bits_of(known), begins = certain & ~negative[0];
-    std::uint32_t one = 0, two = 0, three = 0;  // so many changes and more
+    std::uint32_t one = 0, two = 0, three = 0;  // one, two, and three or more sign changes
     for (int k = 1; k <= 4; ++k) {
         const std::uint32_t change = negative[k] ^ negative[k - 1];
         three |= two & change;
@@ -142,11 +145,11 @@ HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
             begins & three, negative_start & ~one, negative_start & one & ~two};
 }
 
-/// The spans in which rays enter, or leave, with their polynomials.
+/// The spans in which rays enter or leave, with their polynomials.
 struct CrossedSpans {
     PolynomialLanes lanes;
     Doubles t0, t1;  ///< the span
-    Doubles lo, hi;  ///< where in it the first change of sign is, alone
+    Doubles lo, hi;  ///< the part that contains the first sign change, alone
     std::uint32_t set = 0;
 
     HWY_INLINE void add(std::uint32_t more, const Doubles* b, const Doubles& from,
@@ -165,8 +168,8 @@ struct CrossedSpans {
     }
 };
 
-/// What becomes of lanes in which the signs change more than once: those that enter, between lo and
-/// hi, and those that stay outside. In the rest that is not certain.
+/// Result of the search in lanes with several sign changes: those that enter, between lo and hi,
+/// and those that stay outside. The rest is uncertain.
 struct SearchedSpans {
     std::uint32_t enter, outside;
     Doubles lo, hi;
@@ -202,7 +205,7 @@ HWY_NOINLINE SearchedSpans search_spans(const SpanSigns& signs, std::uint32_t wa
     return result;
 }
 
-/// Refines where the rays cross the surface: t. `sign_lo`: 1 where they enter, -1 where they leave.
+/// Refines t where the rays cross the surface. `sign_lo`: 1 where they enter, -1 where they leave.
 HWY_NOINLINE Doubles crossings(CrossedSpans& spans, double sign_lo) {
     spans.lanes.degree = 4;
     store_lanes(spans.lo, spans.lanes.lo);
@@ -213,7 +216,7 @@ HWY_NOINLINE Doubles crossings(CrossedSpans& spans, double sign_lo) {
     return spans.t0 + u * (spans.t1 - spans.t0);
 }
 
-/// The walk of eight rays along their spans.
+/// Advances eight rays along their spans.
 class BlobWalk {
   public:
     HWY_INLINE BlobWalk(const Blob& blob, const BlobRayLanes& rays, std::span<const BlobRow> rows,
@@ -225,7 +228,7 @@ class BlobWalk {
           shift_(load_lanes(rays.shift)),
           t_min_(load_lanes(rays.t_min)),
           t_max_(load_lanes(rays.t_max)),
-          // Where the rays begin, or earlier by more than what is rounded.
+          // Where the rays begin, or earlier by more than the rounding.
           begin_((t_min_ - shift_) - Doubles(0x1p-48) * (abs(t_min_) + abs(shift_))),
           limit_(0.9985 * blob.threshold),
           t0_(totals_.first_in) {
@@ -245,9 +248,9 @@ class BlobWalk {
             Doubles b[5];
             span_polynomial(blob_, rows_, t0_, t1_, b);
             const SpanSigns signs = span_signs(b, totals_.error);
-            // What has been inside must still be.
+            // A lane that has been inside must still be inside.
             give_up(inside_ & ~(signs.inside | signs.leaves));
-            // Of rays that begin within this span what lies before is passed over.
+            // For rays that begin within this span, skips the part before.
             const std::uint32_t begin_here = left_ & bits_of(t0_ <= begin_);
             const std::uint32_t may_leave = begin_here | inside_;
             const std::uint32_t entered = cross(begin_here & signs.once, b, 1.0, out_.hit);
@@ -261,13 +264,13 @@ class BlobWalk {
     }
 
   private:
-    /// These lanes are left to the scalar text.
+    /// Leaves these lanes to the scalar code.
     HWY_INLINE void give_up(std::uint32_t lanes) {
         out_.unsure |= left_ & lanes;
         left_ &= ~lanes;
     }
 
-    /// Every lane to its next span that is not weak.
+    /// Advances every lane to its next span that is not weak.
     HWY_INLINE void pass_weak_spans() {
         t1_ = t0_;
         for (std::uint32_t weak = kAllLanes; weak != 0;) {
@@ -280,8 +283,7 @@ class BlobWalk {
         }
     }
 
-    /// Notes those of these lanes that enter in this span; returns the ones that do not, looked at
-    /// closely.
+    /// Records the lanes that enter in this span, after a closer test; returns those that do not.
     HWY_INLINE std::uint32_t enter(const SpanSigns& signs, std::uint32_t lanes, const Doubles* b) {
         if (const std::uint32_t once = left_ & lanes & signs.once; once != 0) {
             entered_.add(once, b, t0_, t1_, Doubles(0.0), Doubles(1.0));
@@ -297,8 +299,8 @@ class BlobWalk {
         return searched.outside;
     }
 
-    /// Finds where these lanes cross the surface, and adds those to `hit` that do so in their
-    /// range; returns those that do before.
+    /// Finds where these lanes cross the surface, and adds those that cross in their range to
+    /// `hit`; returns those that cross before it.
     HWY_INLINE std::uint32_t cross(std::uint32_t lanes, const Doubles* b, double sign_lo,
                                    std::uint32_t& hit) {
         if (lanes == 0) return 0;
@@ -308,8 +310,8 @@ class BlobWalk {
         report(lanes, at, hit);
         return lanes & bits_of(at < t_min_);
     }
-    /// Adds those of these lanes to `hit` whose range covers `at`; they and those that end before
-    /// it are done.
+    /// Adds the lanes whose range contains `at` to `hit`; these and the lanes that end before `at`
+    /// are done.
     HWY_INLINE void report(std::uint32_t lanes, const Doubles& at, std::uint32_t& hit) {
         const std::uint32_t covered = lanes & bits_of((t_min_ <= at) & (at <= t_max_));
         const bool first = (out_.hit | out_.leave) == 0;
@@ -320,7 +322,7 @@ class BlobWalk {
         left_ &= ~(covered | (lanes & bits_of(at > t_max_)));
     }
 
-    /// Those that enter before they begin are left to the scalar text.
+    /// Leaves lanes that enter before they begin to the scalar code.
     HWY_INLINE void finish() {
         if (entered_.set == 0) return;
         const Doubles at = shift_ + crossings(entered_, 1.0);
@@ -335,8 +337,8 @@ class BlobWalk {
     const Doubles shift_, t_min_, t_max_, begin_, limit_;
     Doubles t0_, t1_;  ///< the span of each lane
     CrossedSpans entered_;
-    std::uint32_t left_;        ///< the lanes that are still on their way
-    std::uint32_t inside_ = 0;  ///< those of them that have been inside since they began
+    std::uint32_t left_;        ///< the lanes still active
+    std::uint32_t inside_ = 0;  ///< the active lanes that have been inside since they began
 };
 
 inline void search(const Blob& blob, const BlobRayLanes& rays, std::span<const BlobRow> rows,

@@ -16,7 +16,7 @@ struct Density {
     double rounding = 0;
 };
 
-/// Of the components in `near`, which are all that hold at p.
+/// Density of the components in `near`, which are all that are active at p.
 Density density_at(const Blob& blob, const std::vector<std::uint32_t>& near, const Vec3& p) {
     Density sum;
     for (const std::uint32_t i : near) {
@@ -39,7 +39,7 @@ Density density_at(const Blob& blob, const std::vector<std::uint32_t>& near, con
 }  // namespace
 
 ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hit) {
-    // Kept from ray to ray so that nothing is allocated.
+    // Kept between rays to avoid allocation.
     static thread_local std::vector<std::uint32_t> near;
     ShapeSurface surface;
     surface.point = ray.at(hit.t);
@@ -48,19 +48,20 @@ ShapeSurface plain_surface(const Blob& shape, const Ray& ray, const ShapeHit& hi
     Density there = density_at(shape, near, surface.point);
     double steepness = length(there.gradient);
     if (steepness > 0.0) {
-        // One step to the surface; no farther than what the ray rounds.
+        // One step to the surface, at most the rounding of the ray.
         const double off = (shape.threshold - there.value) / steepness;
         const double room = 0x1p-48 * (max_component(abs(ray.origin)) + shape.reach);
         surface.point += (std::clamp(off, -room, room) / steepness) * there.gradient;
-        // What begins to hold on so short a way adds nothing yet.
+        // A component that becomes active within so short a step adds nothing yet.
         there = density_at(shape, near, surface.point);
         steepness = length(there.gradient);
     }
     surface.normal = unit_or(-there.gradient, -unit_or(ray.direction, {0, 0, 1}));
-    // Whether the ray enters here (v = -1) or leaves is known from all its crossings.
+    // Only the full list of crossings tells whether the ray enters here (v = -1) or leaves.
     if (dot(surface.normal, ray.direction) * hit.v < 0.0) surface.normal = -surface.normal;
     surface.shading_normal = surface.normal;
-    // What the density rounds, over its steepness; where that hardly tells, the last digits of all.
+    // The rounding of the density over its slope; where the slope is unreliable, the rounding of
+    // all coordinates.
     const double most = gamma_bound(48) * shape.reach;
     const double off = 0x1p-53 * there.rounding / steepness + gamma_bound(4) * shape.reach;
     const double error = off < most ? off : most;

@@ -27,7 +27,7 @@ void BlobTree::add_sphere(const Vec3& center, double radius) {
     last.used |= 1u << i;
 }
 
-// Halves make it at most 33 deep.
+// Halving limits the depth to 33.
 void BlobTree::build(const std::vector<Box3>& boxes, std::uint32_t first, std::uint32_t end) {
     const std::size_t at = nodes_.size();
     nodes_.emplace_back();
@@ -54,7 +54,7 @@ void BlobTree::build(const std::vector<Box3>& boxes, std::uint32_t first, std::u
     build(boxes, middle, end);
 }
 
-// A line misses a box where it does so seen along an axis; without a division. All lengths doubled.
+// Separating axis test of line and box, without a division. All lengths are doubled.
 bool BlobTree::meets_line(const Box3& box, const Vec3& o, const Vec3& d, double pad) {
     const Vec3 m = (box.lo + box.hi) - 2.0 * o;
     const Vec3 size = (box.hi - box.lo) + Vec3{2.0 * pad, 2.0 * pad, 2.0 * pad};

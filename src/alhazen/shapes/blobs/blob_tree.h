@@ -1,11 +1,13 @@
 #pragma once
-/// A small tree of boxes over the components of a blob: which of them a line or a point may touch.
+/// A small tree of boxes over the components of a blob: finds those that a line or a point may
+/// touch.
 ///
-/// Source: Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996 (a line misses a box when an axis
-/// across both parts them); split at the median of the longest axis. Differs: the axes are the
-/// three cross products with the line; boxes are tested with room for what the origin rounds.
-/// Conventions: answers may hold too many, never too few. Threads: const functions may be called
-/// from many.
+/// Source: Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996 (separating axes of a line and a
+/// box); split at the median of the longest axis.
+/// Differs: the axes are the three cross products with the line; boxes are tested with a margin for
+/// the rounding of the origin.
+/// Conventions: conservative: results may contain too many components, never too few. Threads:
+/// const functions may be called from many.
 
 #include <cstdint>
 #include <vector>
@@ -14,7 +16,7 @@
 
 namespace alhazen {
 
-/// Spheres around eight components, side by side.
+/// Spheres around eight components, in lanes.
 struct BlobSpheres {
     static constexpr std::uint32_t kCount = 8, kAll = (1u << kCount) - 1;
 
@@ -24,24 +26,25 @@ struct BlobSpheres {
 
 class BlobTree {
   public:
-    /// So few components are looked at one after the other; beyond that the tree is faster.
+    /// Up to this number components are tested one by one; beyond it the tree is faster.
     static constexpr std::size_t kFew = 64;
 
     explicit BlobTree(const std::vector<Box3>& boxes);
 
-    /// Adds a sphere around the next component, with room for what it rounds.
+    /// Adds a sphere around the next component, with a margin for its rounding.
     void add_sphere(const Vec3& center, double radius);
-    /// What was added, in that order.
+    /// The spheres, in the order of addition.
     [[nodiscard]] const std::vector<BlobSpheres>& spheres() const { return spheres_; }
-    /// The mean of half the least sizes of the boxes.
+    /// Mean over the boxes of half the least size.
     [[nodiscard]] double mean_radius() const { return mean_radius_; }
 
-    /// Calls f(component) for all whose box, grown by `pad`, the line o + t d meets.
+    /// Calls f(component) for all components whose box, grown by `pad`, intersects the line o + t
+    /// d.
     template <class F>
     void for_line(const Vec3& o, const Vec3& d, double pad, F f) const {
         visit([&](const Box3& box) { return meets_line(box, o, d, pad); }, f);
     }
-    /// Calls f(component) for all whose box holds the point.
+    /// Calls f(component) for all components whose box contains the point.
     template <class F>
     void for_point(const Vec3& p, F f) const {
         visit([&](const Box3& box) { return box.contains(p); }, f);
@@ -51,8 +54,9 @@ class BlobTree {
     static constexpr std::uint32_t kLeafSize = 4;
     struct Node {
         Box3 box;
-        std::uint32_t first = 0, count = 0;  ///< of a leaf: where in order_; else count is 0
-        std::uint32_t second_child = 0;      ///< of an inner node; the first one follows it
+        std::uint32_t first = 0,
+                      count = 0;         ///< of a leaf: its range in order_; otherwise count is 0
+        std::uint32_t second_child = 0;  ///< of an inner node; the first child follows the node
     };
 
     void build(const std::vector<Box3>& boxes, std::uint32_t first, std::uint32_t end);
