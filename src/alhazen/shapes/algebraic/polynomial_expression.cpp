@@ -87,7 +87,7 @@ double PolynomialExpression::magnitude(const Vec3& reach) const {
 
 namespace {
 
-/// Room for as many values as an expression may have nodes or coefficients; they are not set.
+/// Uninitialised storage for the largest number of nodes or coefficients of an expression.
 template <class T>
 class Values {
   public:

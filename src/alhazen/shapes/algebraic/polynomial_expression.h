@@ -4,10 +4,11 @@
 ///
 /// Source: Hanrahan, "Ray Tracing Algebraic Surfaces", SIGGRAPH 1983 (symbolic substitution of the
 /// line); Farouki and Rajan, "Algorithms for polynomials in Bernstein form", Computer Aided
-/// Geometric Design 5, 1988 (products are convolutions of coefficients times binomials). Differs:
-/// the expression is kept as it is written, not expanded, so that products of factors cost and
-/// round little. Conventions: + - * and powers by whole numbers; division by constants and sqrt of
-/// constants, to 30 digits; parentheses. Functions are const and may be called from many threads.
+/// Geometric Design 5, 1988 (products are convolutions of coefficients times binomials).
+/// Differs: the expression is stored as written, not expanded: products of factors are cheap and
+/// round little.
+/// Conventions: + - * and powers by whole numbers; division by constants and sqrt of constants, to
+/// 30 digits; parentheses. Threads: const functions may be called from many threads.
 
 #include <cstdint>
 #include <string_view>
@@ -22,13 +23,13 @@ class PolynomialExpression {
     static constexpr int kMaxDegree = 12;
 
     PolynomialExpression() = default;
-    /// Throws Error (Scene) that says what is wrong at which column.
+    /// Throws Error (Scene) with the message and the column.
     explicit PolynomialExpression(std::string_view text);
 
     [[nodiscard]] int degree() const { return nodes_.empty() ? 0 : nodes_.back().degree; }
-    /// How many roundings in a row the coefficients of `restricted` suffer, at most.
+    /// Largest number of consecutive roundings in the coefficients of `restricted`.
     [[nodiscard]] double roundings() const;
-    /// The sum of the absolute terms where |x|, |y|, |z| are these.
+    /// The sum of the absolute terms at |x|, |y|, |z| = `reach`.
     [[nodiscard]] double magnitude(const Vec3& reach) const;
 
     template <class Real>
@@ -43,13 +44,13 @@ class PolynomialExpression {
         Op op = Op::Constant;
         int degree = 0;
         std::uint16_t a = 0, b = 0;  ///< operands: nodes before this one
-        std::uint16_t first = 0;     ///< of its coefficients among those of all nodes
+        std::uint16_t first = 0;     ///< index of its first coefficient among those of all nodes
         DoubleDouble constant{};
     };
-    /// Operands before operators, the last one is the whole.
+    /// Operands before operators; the last node is the whole expression.
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
 
-    /// Coefficients of all nodes together.
+    /// Largest number of coefficients of all nodes together.
     static constexpr int kMaxCoefficients = 1024;
 
   private:

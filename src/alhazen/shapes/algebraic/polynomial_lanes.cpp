@@ -49,12 +49,12 @@ HWY_INLINE Doubles dot(const Point& a, const Point& b) {
 HWY_INLINE Point cross(const Point& a, const Point& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// The largest magnitude of a coordinate that is a number.
+/// The largest finite magnitude of a coordinate.
 HWY_INLINE Doubles reach_of(const Point& p) {
     return max_lanes(abs(p.x), max_lanes(abs(p.y), abs(p.z)));
 }
 
-/// Eight lines in the frame of a shape, and the part of each that is within its clip.
+/// Eight lines in the frame of a shape, and the part of each within its clip.
 struct Lines {
     Point from;  ///< as in `clip_segment_by`
     Point o, d;
@@ -73,7 +73,7 @@ HWY_INLINE Lines to_frame(const SolidFrame& frame, const RayLanes& rays) {
     return l;
 }
 
-/// As `cut_around` of the torus; the lanes that it leaves.
+/// As `cut_around` of the torus; returns the lanes that remain.
 HWY_INLINE std::uint32_t cut_around(double reach, double height, Lines& l) {
     const auto cut = [&](const Doubles& o, const Doubles& d, double half) HWY_ATTR {
         const Doubles inverse = Doubles(1.0) / d;
@@ -90,7 +90,7 @@ HWY_INLINE std::uint32_t cut_around(double reach, double height, Lines& l) {
                    (dot(c, c) <= Doubles(reach * reach) * dot(l.d, l.d)));
 }
 
-/// As `cut_by_box`; the lanes that it leaves. `unsure` are those where a quotient overflows.
+/// As `cut_by_box`; returns the lanes that remain. `unsure`: those where a quotient overflows.
 HWY_INLINE std::uint32_t cut_by_box(const Box3& box, Lines& l, std::uint32_t& unsure) {
     std::uint32_t left = kAllLanes;
     unsure = 0;
@@ -116,8 +116,8 @@ HWY_INLINE std::uint32_t cut_by_box(const Box3& box, Lines& l, std::uint32_t& un
     return left & bits_of(l.entry < l.exit);
 }
 
-/// The rest of `clip_segment_by`, for the lanes in `left`: the ends of the segments. False when all
-/// lanes miss.
+/// The rest of `clip_segment_by` for the lanes in `left`: the ends of the segments. Returns false
+/// when all lanes miss.
 HWY_INLINE bool end_points(const SolidFrame& frame, const RayLanes& rays, double size,
                            std::uint32_t left, Lines& l, PolynomialLanes& out, Point& p, Point& q) {
     left &= bits_of((l.exit >= load_lanes(rays.t_min)) & (l.entry <= load_lanes(rays.t_max)));
@@ -163,7 +163,7 @@ HWY_INLINE bool end_points(const SolidFrame& frame, const RayLanes& rays, double
     return true;
 }
 
-/// As `restrict_to_segment`, with b already there.
+/// As `restrict_to_segment`, with b already computed.
 HWY_INLINE void set_error(double magnitude, double roundings, PolynomialLanes& lanes) {
     store_lanes(
         Doubles(0x1p-53 * magnitude) *
@@ -210,11 +210,11 @@ void algebraic(const Algebraic& shape, const RayLanes& rays, PolynomialLanes& la
     Point p, q;
     const std::uint32_t left = cut_by_box(shape.clip_box, lines, lanes.unsure);
     const bool any = end_points(frame, rays, shape.size, left, lines, lanes, p, q);
-    // What is unsure is neither missed nor anything else.
+    // Unsure lanes are in no other set.
     lanes.missed &= ~lanes.unsure;
     if (!any) return;
     const PolynomialExpression& polynomial = *shape.polynomial;
-    // Room that is not set before it is used.
+    // Storage, set before it is used.
     alignas(64) std::byte room[PolynomialExpression::kMaxCoefficients * sizeof(Doubles)];
     Doubles b[PolynomialLanes::kCoefficients];
     formulas::restrict_nodes(std::span(polynomial.nodes()), p, q, reinterpret_cast<Doubles*>(room),
@@ -264,7 +264,7 @@ namespace alhazen {
 HWY_EXPORT(polynomial_kernels_of_target);
 
 const PolynomialKernels& polynomial_kernels() {
-    // Asked for every eight rays: what the processor can do is not looked up again.
+    // Called for every eight rays: the dispatch is cached.
     return HWY_DYNAMIC_DISPATCH(polynomial_kernels_of_target)();
 }
 

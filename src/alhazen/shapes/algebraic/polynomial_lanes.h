@@ -1,11 +1,12 @@
 #pragma once
-/// The first crossings of eight rays with one polynomial solid, side by side in lanes.
+/// The first crossings of eight rays with one polynomial solid, in lanes.
 ///
-/// Source: polynomial_solid.h, the same operations in the same order. Differs: a kernel computes
-/// the segments and the coefficients of eight rays, says which of them miss, begin inside, or have
-/// a bracket around their first root from the signs of the coefficients alone, and refines the
-/// brackets; what is rarer is left to the scalar text. Conventions: internal to this folder. Bit i
-/// of a set of lanes stands for lane i. Every target gives the bits of the scalar text.
+/// Source: polynomial_solid.h, the same operations in the same order.
+/// Differs: a kernel computes the segments and the coefficients of eight rays; finds, from the
+/// signs of the coefficients alone, which of them miss, begin inside, or have a bracket around
+/// their first root; and refines the brackets. Rarer cases are left to the scalar code.
+/// Conventions: internal to this folder. Bit i of a set of lanes stands for lane i. Every target
+/// returns the bits of the scalar code.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,30 +20,31 @@ namespace alhazen {
 struct Algebraic;
 struct Torus;
 
-/// What the kernels know of the rays, lane by lane.
+/// State of the rays in the kernels, per lane.
 struct alignas(64) PolynomialLanes {
     static constexpr std::size_t kCoefficients = 13;
 
-    // Every row is a block that kernels load: nothing smaller between them.
+    // Every row is a block that kernels load; nothing smaller lies between them.
     // ---- the segments, as ClipSegment
     double o[3][kRayLanes], d[3][kRayLanes];  ///< [axis][lane]
     double entry[kRayLanes], exit[kRayLanes], shift[kRayLanes], relative_error[kRayLanes];
     double entry_part[kRayLanes], exit_part[kRayLanes];  ///< whole numbers
     // ---- the polynomials on them
     double b[kCoefficients][kRayLanes], error[kRayLanes];
-    // ---- of the bracketed lanes
+    // ---- for the bracketed lanes
     double lo[kRayLanes], hi[kRayLanes];
     double sign_lo[kRayLanes];          ///< of the polynomial at lo: 1 or -1
     double u[kRayLanes], t[kRayLanes];  ///< the root, once refined
     int degree;
-    // ---- what is known of the first crossing; of what is in no set nothing is
-    std::uint32_t unsure;     ///< not even the segment is known
-    std::uint32_t missed;     ///< there is none
-    std::uint32_t at_entry;   ///< it is where the segment begins
-    std::uint32_t bracketed;  ///< if the ray covers it, it is the one sign change between lo and hi
-    std::uint32_t last;       ///< it is the last one, behind which no cap follows
-    std::uint32_t steep;      ///< t is right to about its rounding
-    std::uint32_t covered;    ///< t lies in the range of the ray
+    // ---- results for the first crossing; nothing is known of lanes in no set
+    std::uint32_t unsure;    ///< not even the segment is known
+    std::uint32_t missed;    ///< there is none
+    std::uint32_t at_entry;  ///< it is at the start of the segment
+    std::uint32_t
+        bracketed;  ///< it is the only sign change between lo and hi, if within the ray's range
+    std::uint32_t last;     ///< it is the last one, with no cap behind it
+    std::uint32_t steep;    ///< t is accurate to about its rounding
+    std::uint32_t covered;  ///< t lies in the ray's range
 
     [[nodiscard]] ClipSegment segment(std::size_t lane) const {
         ClipSegment s;
@@ -64,19 +66,19 @@ struct alignas(64) PolynomialLanes {
     }
 };
 
-/// Those of one instruction set.
+/// The kernels of one instruction set.
 struct PolynomialKernels {
-    /// Segments, coefficients and what follows from their signs.
+    /// Compute segments, coefficients and the results of their signs.
     void (*torus)(const Torus&, const RayLanes&, PolynomialLanes&);
     void (*algebraic)(const Algebraic&, const RayLanes&, PolynomialLanes&);
     /// Refines the roots of the bracketed lanes.
     void (*refine)(const RayLanes&, PolynomialLanes&);
 };
 
-/// For the best instruction set of this machine, or the one that is forced (simd/targets.h).
+/// For the best instruction set of this machine, or the forced one (simd/targets.h).
 [[nodiscard]] const PolynomialKernels& polynomial_kernels();
 
-/// The root of a lane that was refined but is not steep enough: see `improved_root`.
+/// The root of a refined lane that is not steep enough: see `improved_root`.
 template <class Polynomial>
 double improved_root_of_lane(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
                              std::size_t lane, const PolynomialLanes& lanes) {
@@ -92,9 +94,9 @@ double improved_root_of_lane(const Polynomial& f, const SolidFrame& frame, const
     return improved_root(f, frame, ray, covered, p, changes, 0);
 }
 
-/// The first crossings of up to eight rays: the set of those that hit. `begin(kernels, in, lanes)`
-/// calls the kernel of the shape, `improve(ray, lane, lanes)` is `improved_root_of_lane`, and
-/// `alone(ray, hit)` the scalar text.
+/// The first crossings of up to eight rays; returns the set of rays that hit. `begin(kernels, in,
+/// lanes)` calls the kernel of the shape, `improve(ray, lane, lanes)` is `improved_root_of_lane`,
+/// and `alone(ray, hit)` is the scalar code.
 template <class Begin, class Improve, class Alone>
 std::uint32_t first_hits_in_lanes(std::span<const Ray* const> rays, ShapeHit* hits, Begin&& begin,
                                   Improve&& improve, Alone&& alone) {
@@ -123,7 +125,7 @@ std::uint32_t first_hits_in_lanes(std::span<const Ray* const> rays, ShapeHit* hi
         if (report_crossing(*rays[i], {improve(*rays[i], i, lanes), 0, 0, 0}, hits + i) > 0) {
             hit |= 1u << i;
         } else if ((lanes.last >> i & 1) == 0) {
-            ask_alone(i);  // what comes behind it
+            ask_alone(i);  // for later crossings
         }
     });
     return hit;

@@ -23,7 +23,7 @@ class Parser {
         const std::uint16_t root = sum(0);
         skip_blanks();
         if (at_ < text_.size()) fail("expected an operator or the end");
-        // What was made for constants that are folded is left out: only the root's own remain.
+        // Drops the nodes of folded constants: only those of the root remain.
         return needed(root);
     }
 
@@ -50,7 +50,7 @@ class Parser {
         return true;
     }
 
-    /// What is there already, as the squares of coordinates often are, is computed once.
+    /// Reuses an equal existing node, such as the square of a coordinate.
     std::uint16_t add(const Node& node) {
         const auto known = std::find_if(nodes_.begin(), nodes_.end(),
                                         [&](const Node& n) { return is_same(n, node); });
@@ -187,7 +187,7 @@ class Parser {
         return constant(value);
     }
 
-    /// The nodes that `root` needs, in order, with room for their coefficients.
+    /// The nodes that `root` needs, in order, with storage for their coefficients.
     std::vector<Node> needed(std::uint16_t root) const {
         std::vector<bool> used(nodes_.size(), false);
         used[root] = true;

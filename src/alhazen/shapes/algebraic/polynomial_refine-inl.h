@@ -1,8 +1,8 @@
-/// The roots in eight brackets of polynomials in Bernstein form, refined side by side in lanes.
+/// Refines the roots in eight brackets of polynomials in Bernstein form, in lanes.
 ///
 /// Source: math/bernstein_roots.h and shapes/algebraic/polynomial_solid.h, the same operations in
-/// the same order. Conventions: included once per target (see simd/lanes-inl.h); internal to this
-/// folder.
+/// the same order.
+/// Conventions: included once per target (see simd/lanes-inl.h); internal to this folder.
 
 #if defined(ALHAZEN_SHAPES_ALGEBRAIC_POLYNOMIAL_REFINE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SHAPES_ALGEBRAIC_POLYNOMIAL_REFINE_INL_H_
@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// As `bracketed_newton`; what comes out of lanes that are not `wanted` is nothing.
+/// As `bracketed_newton`; the results of lanes that are not `wanted` are undefined.
 template <int N>
 HWY_INLINE Doubles newton(const ScaledLanes<N>& f, Doubles lo, Doubles hi, const Doubles& sign_lo,
                           const Doubles& guess, const Mask& wanted) {
@@ -31,7 +31,7 @@ HWY_INLINE Doubles newton(const ScaledLanes<N>& f, Doubles lo, Doubles hi, const
         f(x, value, slope);
         Doubles next = x - value / slope;
         Mask within = (next >= lo) & (next <= hi);
-        // The one more step of those that have come near.
+        // One more step for the lanes that have converged.
         result = select_lanes(finishing, select_lanes(within, next, x), result);
         running = running & !finishing;
         const Mask positive = value > Doubles(0.0), differs = positive | (value < Doubles(0.0));
@@ -96,7 +96,7 @@ HWY_INLINE Doubles polished(const PolynomialLanes& lanes, const Mask& wanted) {
     return select_lanes(mirrored, unit, w) / (unit + w);
 }
 
-/// The slope at u, as `evaluate` has it.
+/// The slope at u, as computed by `evaluate`.
 template <int N>
 HWY_INLINE Doubles slope_at(const PolynomialLanes& lanes, const Doubles& u) {
     const int n = degree_of<N>(lanes);

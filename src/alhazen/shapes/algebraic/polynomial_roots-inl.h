@@ -1,9 +1,9 @@
-/// The first sign changes of eight polynomials in Bernstein form, side by side in lanes.
+/// The first sign changes of eight polynomials in Bernstein form, in lanes.
 ///
 /// Source: math/bernstein_roots.h and shapes/algebraic/polynomial_solid.h, the same operations in
-/// the same order. Differs: only what is certain from the signs is found here; see
-/// polynomial_lanes.h. Conventions: included once per target (see simd/lanes-inl.h); internal to
-/// this folder.
+/// the same order.
+/// Differs: finds only what is certain from the signs; see polynomial_lanes.h.
+/// Conventions: included once per target (see simd/lanes-inl.h); internal to this folder.
 
 #if defined(ALHAZEN_SHAPES_ALGEBRAIC_POLYNOMIAL_ROOTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_SHAPES_ALGEBRAIC_POLYNOMIAL_ROOTS_INL_H_
@@ -37,7 +37,7 @@ HWY_INLINE Mask is_finite(const Doubles& a) {
     return abs(a) < Doubles(std::numeric_limits<double>::infinity());
 }
 
-/// The degree: a constant where it is N <= 6.
+/// The degree: a compile-time constant for N <= 6.
 template <int N>
 HWY_INLINE int degree_of(const PolynomialLanes& lanes) {
     return N <= 6 ? N : lanes.degree;
@@ -50,7 +50,7 @@ struct ScaledLanes {
     int n;
 
     HWY_INLINE explicit ScaledLanes(const PolynomialLanes& lanes) : n(degree_of<N>(lanes)) {
-        if constexpr (N > 6) {  // the compiler does not see that no more is read than written
+        if constexpr (N > 6) {  // the compiler does not see that every value read was written
             for (Doubles& coefficient : s) coefficient = Doubles(0.0);
         }
         const double* row = bernstein::kBinomials<N>[static_cast<std::size_t>(n)].data();
@@ -80,8 +80,8 @@ struct LanePart {
     Doubles lo, hi, first;  ///< the part, and the sign at lo: 1 or -1
 };
 
-/// Lanes in which the signs change at least once and at least twice; `known`, those in which no
-/// sign is in doubt.
+/// Lanes with at least one and at least two sign changes; `known`: lanes in which every sign is
+/// certain.
 struct LaneSigns {
     std::uint32_t one = 0, two = 0, known = kAllLanes;
 };
@@ -101,7 +101,7 @@ HWY_INLINE LaneSigns signs_of(const Doubles* b, int n, const Doubles& error) {
     return signs;
 }
 
-/// Where the coefficients are most unlike the first one, and the largest magnitude: see `extremes`.
+/// The coefficients that differ most from the first one, and the largest magnitude: see `extremes`.
 template <int N>
 HWY_INLINE Doubles most_unlike(const Doubles* b, int n, const Doubles& first, Doubles& largest) {
     Doubles lowest(0.0), middle(0.5);
@@ -117,8 +117,8 @@ HWY_INLINE Doubles most_unlike(const Doubles* b, int n, const Doubles& first, Do
     return middle;
 }
 
-/// Of lanes whose coefficients change their sign twice: those where a place between the changes is
-/// found, as by `found_between`; it becomes `hi`.
+/// For lanes with two sign changes of the coefficients: returns those in which `found_between`
+/// finds a point between the changes, which becomes `hi`.
 template <int N>
 HWY_INLINE std::uint32_t find_between(const PolynomialLanes& lanes, const Doubles& first,
                                       Doubles& hi) {
@@ -161,7 +161,7 @@ HWY_INLINE Doubles parameter_at(const PolynomialLanes& lanes, const Doubles& u) 
     return select_lanes(exit < along, exit, along);
 }
 
-/// The brackets that a search finds.
+/// The brackets found by a search.
 struct LaneBrackets {
     Doubles lo, hi, sign;
     std::uint32_t known = 0;
@@ -175,9 +175,9 @@ struct LaneBrackets {
     }
 };
 
-/// As `search` where no sign is in doubt and of both sides of a split one has no more than one
-/// change: of `wanted` the lanes in which it is done. The first brackets that do not end before the
-/// rays begin are in `found`; lanes without one have no change of sign there.
+/// As `search`, where every sign is certain and one side of each split has at most one change;
+/// returns the lanes of `wanted` in which it completes. `found` holds the first brackets that do
+/// not end before the rays begin; lanes without one have no sign change there.
 template <int N>
 HWY_NOINLINE std::uint32_t search(std::uint32_t wanted, const RayLanes& rays,
                                   const PolynomialLanes& lanes, LanePart<N>& part,
@@ -188,7 +188,7 @@ HWY_NOINLINE std::uint32_t search(std::uint32_t wanted, const RayLanes& rays,
     };
     constexpr int kMostSplits = 12;
     const Doubles least_part(0x1p-52), unit(1.0);
-    LaneBrackets later;  // the lowest of those to the right of a part that is still searched
+    LaneBrackets later;  // the lowest bracket to the right of a part that is still searched
     later.lo = later.hi = later.sign = found.lo = found.hi = found.sign = unit;
     std::uint32_t active = wanted, done = 0;
     for (int i = 0; i < kMostSplits && active != 0; ++i) {
@@ -224,7 +224,7 @@ HWY_NOINLINE std::uint32_t search(std::uint32_t wanted, const RayLanes& rays,
     return done;
 }
 
-/// What the signs of the coefficients tell of the first crossing.
+/// Result of the signs of the coefficients for the first crossing.
 template <int N>
 HWY_INLINE void classify(const RayLanes& rays, bool capped, PolynomialLanes& lanes) {
     const int n = degree_of<N>(lanes);
@@ -232,7 +232,7 @@ HWY_INLINE void classify(const RayLanes& rays, bool capped, PolynomialLanes& lan
     Doubles total = error;
     Mask known = error >= Doubles(0.0);
     std::uint32_t negative = 0, starts_negative = 0;
-    std::uint32_t one = 0, two = 0, three = 0;  // so many changes of sign and more
+    std::uint32_t one = 0, two = 0, three = 0;  // one, two, and three or more sign changes
     for (int i = 0; i <= n; ++i) {
         const Doubles b = load_lanes(lanes.b[i]), size = abs(b);
         total = total + size;
@@ -249,7 +249,7 @@ HWY_INLINE void classify(const RayLanes& rays, bool capped, PolynomialLanes& lan
     }
     const Doubles t_min = load_lanes(rays.t_min), t_max = load_lanes(rays.t_max);
     const Mask finite = is_finite(total);
-    // The parameter at the start of the search is the entry: +0 where that is -0, which is as good.
+    // The parameter at the start of the search is the entry, with +0 for -0, which is equivalent.
     const std::uint32_t covered = bits_of((t_min <= entry) & (entry <= t_max) & is_finite(entry));
     lanes.at_entry = 0;
     if (capped) {
@@ -260,12 +260,12 @@ HWY_INLINE void classify(const RayLanes& rays, bool capped, PolynomialLanes& lan
     const std::uint32_t plain =
         ~(lanes.missed | lanes.unsure | lanes.at_entry) & bits_of(known & finite);
     lanes.missed |= plain & ~one & ~starts_negative;
-    // A cap at the start comes before what follows.
+    // A cap at the start precedes later crossings.
     const std::uint32_t behind_cap = capped ? starts_negative & covered : 0;
     lanes.bracketed = plain & one & ~two & ~behind_cap;
     const Doubles first =
         select_lanes(load_lanes(lanes.b[0]) < Doubles(0.0), Doubles(-1.0), Doubles(1.0));
-    // What follows the last change: nothing, unless a cap does.
+    // The last change is followed at most by a cap.
     const std::uint32_t ends = ~(capped ? negative : 0);
     lanes.last = lanes.bracketed & ends;
     LaneBrackets found;

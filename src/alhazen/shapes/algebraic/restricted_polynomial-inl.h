@@ -1,8 +1,9 @@
 /// An expression evaluated over polynomials of one variable; a fragment without a guard, included
 /// by polynomial_expression.cpp in namespace alhazen and by kernels in the namespace of each
-/// instruction set. Before it come `constant_as<Real>(DoubleDouble)` and `divided(Real, double)`.
+/// instruction set. Requires `constant_as<Real>(DoubleDouble)` and `divided(Real, double)`,
+/// declared before it.
 
-/// [k] n over k.
+/// [k] binomial coefficient, n over k.
 inline const double* binomials(int n) {
     return bernstein::kBinomials<PolynomialExpression::kMaxDegree>[static_cast<std::size_t>(n)]
         .data();
@@ -56,7 +57,7 @@ inline void add(const Real* u, int m, const Real* v, int n, double sign, Real* o
 }
 
 /// Bernstein coefficients of the last node on the segment from p to q, points with x, y and z.
-/// `all` is room for those of all nodes; they become the coefficients times binomials.
+/// `all` is storage for those of all nodes; they become the coefficients times binomials.
 template <class Real, class Point>
 inline void restrict_nodes(std::span<const PolynomialExpression::Node> nodes, const Point& p,
                            const Point& q, Real* all, Real* b) {

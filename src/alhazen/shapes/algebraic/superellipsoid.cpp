@@ -11,30 +11,30 @@ namespace alhazen {
 
 namespace {
 
-/// Beyond this the line is outside for sure.
+/// Beyond this the line is certainly outside.
 constexpr double kRoom = 1.0 + 1.0 / 64;
-/// Roundings of a sum of powers for every unit of the exponents, in half ulps.
+/// Roundings of a sum of powers per unit of the exponents, in half ulps.
 constexpr double kRoundings = 32.0;
-/// The same of double-double, relative.
+/// The same in double-double, relative.
 constexpr double kPreciseSlack = 0x1p-92;
-/// Where the slope is at least this share of its terms, a root found in double is right to about
-/// the rounding of t.
+/// Where the slope is at least this fraction of its terms, a root found in double is accurate to
+/// about the rounding of t.
 constexpr double kSteepEnough = 1.0 / 8;
-/// Halvings of a part of the line, at the most.
+/// Largest number of halvings of a part of the line.
 constexpr int kMostHalvings = 48;
-/// Of one line, at the most.
+/// Largest number of samples of one line.
 constexpr int kMostSamples = 2000;
 
-/// The function at one point of the line, term by term.
+/// The function at one point of the line, with its terms.
 struct Sample {
     double t = 0;
     std::array<double, 3> at{};     ///< |x|, |y|, |z|
     std::array<double, 3> power{};  ///< |x|^p, |y|^p, |z|^q
-    double error = 0;               ///< bound of that of the terms' sum
-    double value = 0;               ///< that sum minus 1, in double-double where double cannot tell
-    double value_error = 0;         ///< bound of that of `value`
-    bool inside = false;   ///< as it is computed: in double-double where double cannot tell
-    bool certain = false;  ///< not within the rounding of the surface
+    double error = 0;               ///< error bound of the sum of the terms
+    double value = 0;               ///< the sum minus 1, in double-double where double is uncertain
+    double value_error = 0;         ///< error bound of `value`
+    bool inside = false;            ///< as computed: in double-double where double is uncertain
+    bool certain = false;           ///< farther from the surface than the rounding
 };
 
 /// The line of a ray in the frame of the solid.
@@ -68,14 +68,13 @@ class CrossingSearch {
           q_(line.solid.q),
           o_(line.segment.o),
           coordinate_error_(0x1p-53 * line.segment.relative_error) {
-        // Each component to its own last digit: along a face two of them may be next to nothing.
+        // Each component to its own last digit: along a face two of them may be nearly zero.
         const Point3<DoubleDouble> d =
             line.solid.frame.local_vector(to_real<DoubleDouble>(line.ray.direction));
         d_ = {d.x.high, d.y.high, d.z.high};
     }
 
-    /// Appends where the line goes in and out between two samples on one side of all planes
-    /// through the axes.
+    /// Appends the crossings between two samples on the same side of all planes through the axes.
     void search_part(const Sample& a, const Sample& b) {
         const double middle = 0.5 * a.t + 0.5 * b.t;
         for (int k = 0; k < 3; ++k) {
@@ -108,7 +107,7 @@ class CrossingSearch {
             const double exponent = k < 2 ? p_ : q_;
             s.at[k] = std::abs(o_[axis] + t * d_[axis]);
             s.power[k] = std::pow(s.at[k], exponent);
-            // A root falls without bound where its argument is next to nothing.
+            // The derivative of a root is unbounded where its argument is nearly zero.
             steep = steep || (exponent < 1.0 && s.at[k] < 0x1p-20);
         }
         const double across = s.power[0] + s.power[1];
@@ -123,15 +122,15 @@ class CrossingSearch {
         s.certain = std::abs(s.value) > s.error && !steep;
         return s;
     }
-    /// The slope of a power over its exponent.
+    /// The derivative of a power, divided by its exponent.
     static double slope(const Sample& s, std::size_t k) {
         return s.at[k] > 0.0 ? s.power[k] / s.at[k] : 0.0;
     }
 
     struct Slope {
-        Interval range{0.0, 0.0};  ///< of the function over q, by t
-        double terms = 0;          ///< bound of the sum of the magnitudes of what it is made of
-        double noise = 0;          ///< it is not known better than to this
+        Interval range{0.0, 0.0};  ///< of the derivative of the function by t, over q
+        double terms = 0;          ///< bound of the sum of the magnitudes of its terms
+        double noise = 0;          ///< its error bound
 
         [[nodiscard]] bool has_sign() const { return range.lo > noise || range.hi < -noise; }
         [[nodiscard]] double most() const {
@@ -153,20 +152,20 @@ class CrossingSearch {
             if (a.inside != b.inside) put(root(a, b, slope.is_steep()));
             return;
         }
-        // Too far from the surface to come there and back.
+        // Too far from the surface to reach it and return.
         const double way = q_ * slope.most() * (b.t - a.t);
         if (a.inside == b.inside && std::abs(a.value) - a.value_error > way) return;
         if (a.inside == b.inside && std::abs(b.value) - b.value_error > way) return;
         ++samples_;
         Sample middle = sample(0.5 * a.t + 0.5 * b.t);
-        // Noise along a line that grazes must not look like crossings.
+        // Noise on a grazing line must not produce crossings.
         if (!middle.certain && a.inside == b.inside) middle.inside = a.inside;
         search(a, middle, depth - 1);
         search(middle, b, depth - 1);
     }
 
     /// Slope / q = s^(r - 1) (x^(p - 1) x' + y^(p - 1) y') + z^(q - 1) z', each factor monotone
-    /// between a and b, as the terms of the function are: `value` is its range.
+    /// between a and b, as are the terms of the function: `value` is its range.
     Slope slope_between(const Sample& a, const Sample& b, Interval& value) const {
         std::array<double, 3> lo, hi;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -192,14 +191,14 @@ class CrossingSearch {
         return slope;
     }
 
-    /// Anything positive where one end is no number: on a plane of symmetry.
+    /// Any positive value where one end is NaN: on a plane of symmetry.
     static Interval ordered(double a, double b) {
         if (a <= b) return {a, b};
         if (b <= a) return {b, a};
         return {0.0, kInfinity};
     }
 
-    /// The t between a and b, of which one is inside, where the function is 1.
+    /// The t between a and b, one of which is inside, where the function is 1.
     [[nodiscard]] double root(const Sample& a, const Sample& b, bool steep) const {
         const auto f = [&](double t, double& value, double& slope) {
             const Sample s = sample_in_double(t);
@@ -223,8 +222,9 @@ class CrossingSearch {
     const LocalLine& line_;
     double p_, q_;
     Vec3 o_, d_;
-    double coordinate_error_;       ///< bound of that of x, y and z
-    std::array<double, 3> rate_{};  ///< change of |x|, |y| and |z| in the part that is searched
+    double coordinate_error_;  ///< error bound of x, y and z
+    std::array<double, 3>
+        rate_{};  ///< derivatives of |x|, |y| and |z| in the part that is searched
     std::array<double, Superellipsoid::kMaxHits> t_{};
     int count_ = 0;
     int samples_ = 0;
@@ -247,7 +247,7 @@ void Superellipsoid::validate(const FileLocation& where, Diagnostics& diagnostic
 }
 
 Interval Superellipsoid::extent(const Vec3& axis) const {
-    // Of the parallelepiped of the semi-axes.
+    // Of the parallelepiped spanned by the semi-axes.
     const double half =
         std::abs(dot(axis, axis_a)) + std::abs(dot(axis, axis_b)) + std::abs(dot(axis, axis_c));
     const double slack = gamma_bound(4) * dot(abs(axis), abs(axis_a) + abs(axis_b) + abs(axis_c));
@@ -300,7 +300,7 @@ ShapeSurface Superellipsoid::surface(const Ray& ray, const ShapeHit& hit) const 
         return Vec3{std::pow(std::abs(v.x), p), std::pow(std::abs(v.y), p),
                     std::pow(std::abs(v.z), q)};
     };
-    // The function is homogeneous of degree q: along the way to the centre it is known.
+    // The function is homogeneous of degree q: it is known along the line to the centre.
     Vec3 w = powers(at);
     const double value = std::pow(w.x + w.y, r) + w.z;
     if (value > 0.0 && std::isfinite(value)) at = std::pow(value, -1.0 / q) * at;
@@ -326,7 +326,7 @@ ShapeSurface Superellipsoid::surface(const Ray& ray, const ShapeHit& hit) const 
                            (kPi * length_squared(at));
     }
     set_uv(frame, local, gradient, surface, 0.2);
-    // Powers and roots add a few roundings for every unit of the exponents' ratio.
+    // Powers and roots add a few roundings per unit of the exponents' ratio.
     surface.error = frame.object_error(at, 16);
     return surface;
 }

@@ -1,17 +1,18 @@
 #pragma once
 /// A superellipsoid: (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) < 1 in the frame of three semi-axes.
 ///
-/// Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE CG&A 1(1), 1981;
-/// Kalra and Barr, "Guaranteed Ray Intersections with Implicit Surfaces", SIGGRAPH 1989 (bounds of
-/// a function and of its slope over an interval). Differs: between the planes x = 0, y = 0 and z =
-/// 0 every term is monotone along the line, so interval arithmetic is exact at the ends; where the
-/// slope has one sign the ends decide, else the interval is halved. Where double cannot tell inside
-/// from outside, double-double does, on the ray as it is given. Conventions: exponents of 1
-/// make an ellipsoid, towards 0 a box, 2 an octahedron, above 2 a star. u runs around `axis_c` from
-/// `axis_a` (0 to 1), v is the angle above its equator, from -axis_c (0) to +axis_c (1). The
-/// surface is that of the frame, of p and of q as they are stored. A line that grazes within 2^-92
-/// (p + q) of the function's value 1, or dips for less than 2^-48 of its way, may be reported as a
-/// miss or with both crossings.
+/// Source: Barr, "Superquadrics and Angle-Preserving Transformations", IEEE CG&A 1(1), 1981; Kalra
+/// and Barr, "Guaranteed Ray Intersections with Implicit Surfaces", SIGGRAPH 1989 (bounds of a
+/// function and of its slope over an interval).
+/// Differs: between the planes x = 0, y = 0 and z = 0 every term is monotone along the line, so
+/// interval arithmetic is exact at the ends; where the slope has one sign the ends decide, else the
+/// interval is halved. Where double cannot distinguish inside from outside, double-double does, on
+/// the original ray.
+/// Conventions: exponents of 1 make an ellipsoid, towards 0 a box, 2 an octahedron, above 2 a star.
+/// u runs around `axis_c` from `axis_a` (0 to 1), v is the angle above its equator, from -axis_c
+/// (0) to +axis_c (1). The surface is defined by the stored frame, p and q. A line that grazes
+/// within 2^-92 (p + q) of the function's value 1, or is inside for less than 2^-48 of its length,
+/// may be reported as a miss or with both crossings.
 
 #include "alhazen/shapes/core/solid_frame.h"
 

@@ -38,7 +38,7 @@ struct TgcPolynomial {
         add(p.x, q.x, bp, bq, 1.0);
         add(p.y, q.y, ap, aq, 1.0);
         add(ap, aq, bp, bq, -1.0);
-        // All six times: only multiples of f are asked for.
+        // All times six: only multiples of f are needed.
         out[0] = out[0] * Real(6.0);
         out[1] = out[1] * Real(1.5);
         out[3] = out[3] * Real(1.5);
@@ -56,7 +56,7 @@ struct TgcPolynomial {
         return {2.0 * p.x * b * b, 2.0 * p.y * a * a,
                 2.0 * (p.x * p.x * b * db + p.y * p.y * a * da - a * b * (a * db + b * da))};
     }
-    // Within the clip |x|, |y|, |a|, |b| are at most 1 + 1/64, at the bounds themselves.
+    // Within the clip |x|, |y|, |a|, |b| are at most 1 + 1/64, the value at the bounds.
     [[nodiscard]] double magnitude() const { return 6.0 * 4.0; }
     [[nodiscard]] double roundings() const { return 24.0; }
 };
@@ -79,7 +79,7 @@ void Tgc::prepare() {
     a1 = c / longest_x;
     b0 = b / longest_y;
     b1 = d / longest_y;
-    // Parallel ratios may differ by their rounding alone.
+    // Ratios of parallel ends may differ by rounding.
     quartic = std::abs(a0 * b1 - a1 * b0) > 1e-13;
     solid.clip_box.lo.z = 0.0;
     solid.clip_box.hi.z = 1.0;

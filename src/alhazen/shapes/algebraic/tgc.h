@@ -1,12 +1,12 @@
 #pragma once
-/// A truncated general cone: two parallel ellipses of any axes and everything between them.
+/// A truncated general cone: the hull between two parallel ellipses of any axes.
 ///
 /// Source: Weiss, "Geometry primitives of the GIFT code", 1966, and their use in BRL-CAD (the TGC:
-/// base vertex, height, semi-axes of both ends); polynomial_solid.h. Differs: the semi-axes of one
-/// end need not be perpendicular to each other, only along those of the other end. A quartic
-/// x^2 b(z)^2 + y^2 a(z)^2 < a(z)^2 b(z)^2 where the ratios of the two ends differ, else the
-/// quadric of an elliptic cone or cylinder. Conventions: as for elliptic_cylinder.h. An end may
-/// shrink to a line or a point, not both ends.
+/// base vertex, height, semi-axes of both ends); polynomial_solid.h.
+/// Differs: the semi-axes of one end need not be perpendicular to each other, only parallel to
+/// those of the other end. A quartic x^2 b(z)^2 + y^2 a(z)^2 < a(z)^2 b(z)^2 where the ratios of
+/// the two ends differ, else the quadric of an elliptic cone or cylinder.
+/// Conventions: as for elliptic_cylinder.h. One end may shrink to a line or a point, not both.
 
 #include "alhazen/shapes/quadrics/clipped_quadric.h"
 
@@ -17,9 +17,11 @@ struct Tgc {
     static constexpr int kMaxHits = 6;
     static constexpr bool kClosed = true;
 
-    Vec3 base{0, 0, 0}, height{0, 0, 1};    ///< middle of the base; from there to that of the top
+    Vec3 base{0, 0, 0},
+        height{0, 0, 1};  ///< centre of the base; vector from it to the centre of the top
     Vec3 axis_a{1, 0, 0}, axis_b{0, 1, 0};  ///< semi-axes of the base
-    Vec3 axis_c{1, 0, 0}, axis_d{0, 1, 0};  ///< of the top; along a and b, of any length or zero
+    Vec3 axis_c{1, 0, 0},
+        axis_d{0, 1, 0};  ///< semi-axes of the top; parallel to a and b, of any length or zero
     bool capped = true;
     ClippedQuadric solid{};                 ///< derived: frame, clip, and the quadric if it is one
     bool quartic = false;                   ///< derived

@@ -11,20 +11,20 @@ namespace alhazen {
 
 namespace {
 
-/// Cuts the line to a cylinder's box around the torus. Where it is cut counts for nothing else, so
-/// that products with reciprocals will do.
+/// Cuts the line to a cylinder's box around the torus. The cut has no other use, so that products
+/// with reciprocals are accurate enough.
 bool cut_around(const Vec3& o, const Vec3& d, double reach, double height, ClipRange& range) {
     const double half[] = {reach, reach, height};
     for (int k = 0; k < 3; ++k) {
         const double inverse = 1.0 / d[k];
         const double far = std::copysign(half[k], d[k]);
-        // No number where the line runs within a face: there it is outside of the torus.
+        // NaN where the line runs within a face: there it is outside of the torus.
         const double near = (-far - o[k]) * inverse, beyond = (far - o[k]) * inverse;
         range.entry = near > range.entry ? near : range.entry;
         range.exit = beyond < range.exit ? beyond : range.exit;
     }
     if (!(range.entry < range.exit) || !std::isfinite(range.exit - range.entry)) return false;
-    // Nearer to the middle than the torus reaches.
+    // Whether the line is nearer to the centre than `reach`.
     return length_squared(cross(o, d)) <= reach * reach * length_squared(d);
 }
 
@@ -50,8 +50,8 @@ void Torus::validate(const FileLocation& where, Diagnostics& diagnostics) const 
 }
 
 Box3 Torus::box() const {
-    // As circle_half_box, which counts where a half is next to nothing: here the tube is added.
-    // Asked for with every surface.
+    // As circle_half_box, without its care for a half near zero: the tube is added here. Called for
+    // every surface.
     const Vec3& n = unit_axis;
     const double xx = n.x * n.x, yy = n.y * n.y, zz = n.z * n.z;
     const Vec3 ring{std::sqrt(yy + zz), std::sqrt(zz + xx), std::sqrt(xx + yy)};
@@ -67,7 +67,7 @@ Interval Torus::extent(const Vec3& direction) const {
 
 namespace {
 
-/// Cuts the line to the surroundings of the torus.
+/// Cuts the line to the neighbourhood of the torus.
 bool segment_of(const Torus& torus, const Ray& ray, ClipSegment& s) {
     const double reach = kTorusRoom * (1.0 + torus.tube), height = kTorusRoom * torus.tube;
     const auto cut = [&](const Vec3& o, const Vec3& d, ClipRange& range) {
@@ -124,13 +124,13 @@ std::uint32_t first_hits(const Torus& shape, std::span<const Ray* const> rays, S
 
 namespace {
 
-/// The nearest point of the tube: along the way to the circle. Right to some roundings of the
-/// coordinates, which `Torus::surface` counts.
+/// The nearest point of the tube, towards the circle. Accurate to a few roundings of the
+/// coordinates, which `Torus::surface` accounts for.
 ProjectedPoint nearest_on_tube(const Vec3& p, double tube, const Vec3& direction) {
     const double across = std::sqrt(p.x * p.x + p.y * p.y);
     const double out = across - 1.0;
     const double distance = std::sqrt(out * out + p.z * p.z);
-    // On the axis or on the circle there is no such way.
+    // On the axis or on the circle this direction is undefined.
     if (!(across > 0.0 && distance > 0.0)) {
         const Vec3 back = -1e-6 * tube * unit_or(direction, {0, 0, 1});
         return project_to_zero(TorusPolynomial{tube}, p, back);

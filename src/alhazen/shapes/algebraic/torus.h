@@ -2,10 +2,12 @@
 /// A torus: a tube around a circle.
 ///
 /// Source: Hanrahan, "Ray Tracing Algebraic Surfaces", SIGGRAPH 1983 (the quartic);
-/// polynomial_solid.h. Differs: computed in a frame where the circle has radius 1, as
-/// (|p|^2 + 1 - r^2)^2 - 4 (x^2 + y^2), whose Bernstein coefficients come from the dot products of
-/// the ends of the line's segment. Conventions: u runs around the axis (0 to 1), v around the tube
-/// from its outermost circle (0), by the side that the axis points to.
+/// polynomial_solid.h.
+/// Differs: computed in a frame where the circle has radius 1, as (|p|^2 + 1 - r^2)^2 - 4 (x^2 +
+/// y^2), whose Bernstein coefficients follow from the dot products of the ends of the line's
+/// segment.
+/// Conventions: u runs around the axis (0 to 1), v around the tube from its outermost circle (0)
+/// towards the direction of the axis.
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,8 @@
 #pragma once
 /// The quartic of a torus whose circle has radius 1.
 ///
-/// Source: see torus.h. Conventions: internal to this folder.
+/// Source: see torus.h.
+/// Conventions: internal to this folder.
 
 #include <cmath>
 #include <type_traits>
@@ -12,7 +13,7 @@ namespace alhazen {
 
 #include "alhazen/shapes/algebraic/torus_formula-inl.h"
 
-/// The clip is this much larger than the torus, so that the line is outside at its ends for sure.
+/// Ratio of the clip to the torus: at its ends the line is certainly outside.
 inline constexpr double kTorusRoom = 1.0 + 1.0 / 64;
 
 /// 1 / 3.
@@ -46,7 +47,7 @@ struct TorusPolynomial {
         return a * a - Real(4.0) * across;
     }
     [[nodiscard]] Vec3 gradient(const Vec3& p) const {
-        // Of the square of the distance to the circle, times what makes it that of the quartic.
+        // Gradient of the squared distance to the circle, times the factor to that of the quartic.
         const double across = std::hypot(p.x, p.y);
         if (!(across > 0.0)) return {0.0, 0.0, 4.0 * p.z * (p.z * p.z + k<double>())};
         const double radial = (across - 1.0) / across;
