@@ -1,5 +1,5 @@
 #pragma once
-/// The words of the native format that stand for enumerators, for its reader and its writer.
+/// Words of the native format for enumerators, shared by its reader and its writer.
 
 #include "alhazen/formats/text/block_reader.h"
 #include "alhazen/scene_model/scene_description.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// What the parts of the native importer share while one scene is read, and where in it they are.
+/// Shared state of the native importer while one scene is read, and the current position in it.
 
 #include <filesystem>
 #include <map>
@@ -20,7 +20,7 @@ struct NativeContext {
     SceneDescription& scene;
     Diagnostics& diagnostics;
     const ImportOptions& options;
-    std::vector<std::filesystem::path> roots;  ///< files the scene names must lie inside of one
+    std::vector<std::filesystem::path> roots;  ///< named files must lie inside one of these
     TextureTable textures;
 
     // Names defined so far; a name must be defined before it is used.
@@ -28,11 +28,11 @@ struct NativeContext {
     std::map<std::string, TextureId, std::less<>> texture_names;
     std::map<std::string, MeshIndex, std::less<>> geometry_names;
     std::map<std::string, ObjectIndex, std::less<>> object_names;
-    /// Objects that have a number and no definition yet, and where they are listed.
+    /// Objects that are numbered but not yet defined, and where they are listed.
     std::map<std::string, FileLocation, std::less<>> listed_objects;
     std::optional<MaterialId> built_in_material;
 
-    std::vector<std::size_t> cameras_without_aspect;  ///< they take that of the picture
+    std::vector<std::size_t> cameras_without_aspect;  ///< they take the aspect of the image
     std::vector<std::filesystem::path>
         open_files;  ///< the file being read and those that include it
     std::uint64_t included_bytes = 0;
@@ -46,24 +46,24 @@ struct NativeContext {
     void count_elements(std::uint64_t more, const FileLocation& where);
 };
 
-/// The place of an item: what it is added to, and what holds there.
+/// Where an item is added, and the settings in force there.
 struct NativeScope {
     std::vector<Part>& parts;
     Affine object_from_here;
     std::optional<MaterialId> material;  ///< default for parts without one
     std::filesystem::path folder;        ///< of the file that is being read
-    int nesting = 0;                     ///< objects and groups around, through all included files
-    RayMask visible_to = kAllRays;       ///< rays that the groups around let through
+    int nesting = 0;  ///< number of enclosing objects and groups, through all included files
+    RayMask visible_to = kAllRays;  ///< rays that all enclosing groups are visible to
 
     [[nodiscard]] bool top_level() const { return nesting == 0; }
-    /// Where a transform that is written here leads. One that stands alone is kept bit for bit:
+    /// The transform of this scope times one written here. A single transform is kept bit for bit:
     /// multiplication by the identity turns -0 into 0.
     [[nodiscard]] Affine placed(const Affine& here_from_part) const {
         return object_from_here == Affine{} ? here_from_part : object_from_here * here_from_part;
     }
 };
 
-/// `type "name" { ... }`, taken apart.
+/// The parts of `type "name" { ... }`.
 struct NativeBlock {
     std::string type, name;
     std::optional<TextNode> block;
@@ -72,7 +72,7 @@ struct NativeBlock {
 /// Reports an error when the entry has no block; never throws.
 [[nodiscard]] NativeBlock take_apart(TextNode entry, Diagnostics& diagnostics);
 
-/// Defines `name` in `names`, or reports that it is taken.
+/// Defines `name` in `names`, or reports that it is already defined.
 template <class Id>
 void define_name(const std::string& name, Id id, const char* kind, const FileLocation& where,
                  std::map<std::string, Id, std::less<>>& names, Diagnostics& diagnostics) {
@@ -82,7 +82,7 @@ void define_name(const std::string& name, Id id, const char* kind, const FileLoc
     }
 }
 
-/// The id of the name that `value` is, or an error that lists the names there are.
+/// The id of the name `value`, or an error that lists the defined names.
 template <class Id>
 std::optional<Id> look_up(TextNode value, const char* kind,
                           const std::map<std::string, Id, std::less<>>& names,

@@ -8,11 +8,11 @@
 
 namespace alhazen {
 
-/// Reads the file that `entry` names as if its items stood here. Throws Error (Resource) when the
-/// limits of ImportOptions are exceeded.
+/// Reads the file that `entry` names as if its items were written here. Throws Error (Resource)
+/// beyond the limits of ImportOptions.
 void read_native_include(TextNode entry, NativeContext& context, NativeScope& scope);
 
-/// The one name of a file, whatever links lead to it.
+/// The canonical name of a file, independent of links.
 [[nodiscard]] std::filesystem::path file_identity(const std::filesystem::path& path);
 
 /// Checks the header of the file whose root is `root`; false after an error.

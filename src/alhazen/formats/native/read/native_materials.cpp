@@ -6,7 +6,7 @@ namespace alhazen {
 
 namespace {
 
-/// The arguments of texture("NAME", factor, channel); the last two may be left out.
+/// The arguments of texture("NAME", factor, channel); the last two are optional.
 struct TextureCall {
     TextureId texture = kNoTexture;
     std::optional<TextNode> factor;
@@ -158,7 +158,7 @@ MaterialId add_material(TextNode block, std::string name, NativeContext& context
     return static_cast<MaterialId>(context.scene.materials.size() - 1);
 }
 
-/// What parts are made of when the file says nothing: a matt grey.
+/// Default material of parts: a matt grey.
 MaterialId built_in_material(NativeContext& context) {
     if (!context.built_in_material) {
         Material grey;
@@ -187,7 +187,7 @@ void read_native_material(const NativeBlock& block, NativeContext& context) {
 
 namespace {
 
-/// `filter`, or `bilinear` of the first files.
+/// `filter`, or `bilinear` in files of the first version.
 void read_filter(BlockReader& reader, TextureFilter& out) {
     bool bilinear = true;
     if (reader.has("filter") && reader.has("bilinear")) {

@@ -9,13 +9,13 @@ void read_native_material(const NativeBlock& block, NativeContext& context);
 void read_native_texture(const NativeBlock& block, NativeContext& context,
                          const NativeScope& scope);
 
-/// A colour, or a number for a grey.
+/// A colour, or one number for a grey.
 bool read_native_color(TextNode value, std::string_view key, const ValueReader& values, Rgb& out);
 
-/// The material that `value` names or describes. Nothing, after an error, when it is neither.
+/// The material that `value` names or describes. Nothing, after an error, when it does neither.
 [[nodiscard]] std::optional<MaterialId> read_material_value(TextNode value, NativeContext& context);
 /// `material = ...` of a part; the default of `scope`, or the built-in grey, when it is absent or
-/// wrong.
+/// invalid.
 [[nodiscard]] MaterialId read_part_material(BlockReader& reader, NativeContext& context,
                                             const NativeScope& scope);
 

@@ -22,7 +22,7 @@ void read_inline_mesh(BlockReader& reader, TriangleMesh& mesh) {
     if (uvs) read_uvs(*uvs, "uvs", reader.values(), mesh);
 }
 
-/// `materials`: what the numbers in the file mean; without it they mean nothing here.
+/// `materials`: maps the material numbers of the file; without it they are ignored.
 void read_materials_of_file(BlockReader& reader, NativeContext& context, TriangleMesh& mesh) {
     const auto list = reader.find("materials");
     if (!list || !reader.values().is_list(*list, "materials")) {

@@ -1,14 +1,14 @@
 #pragma once
-/// Meshes of the native format: written out in the scene or read from files beside it, placed once
-/// (`mesh`) or defined to be placed by several parts (`geometry`).
+/// Meshes of the native format: inline in the scene or read from other files, placed once (`mesh`)
+/// or defined for several parts (`geometry`).
 
 #include "alhazen/formats/native/read/native_context.h"
 
 namespace alhazen {
 
-/// `geometry "NAME" { ... }`: a mesh that parts can name.
+/// `geometry "NAME" { ... }`: a mesh that parts refer to by name.
 void read_native_geometry(const NativeBlock& block, NativeContext& context, NativeScope& scope);
-/// What a `mesh` block is about: the geometry it names or its own. Nothing after an error.
+/// The mesh of a `mesh` block: the geometry it names or its own. Nothing after an error.
 [[nodiscard]] std::optional<MeshIndex> read_native_mesh(BlockReader& reader,
                                                         const NativeBlock& block,
                                                         NativeContext& context,

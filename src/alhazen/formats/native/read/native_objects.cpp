@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// A definition fills the place that the list of objects gave the name, or takes the next one.
+/// A definition takes the number that the list of objects gave the name, or the next one.
 void define_object(const NativeBlock& block, ObjectDescription object, NativeContext& context) {
     auto& objects = context.scene.objects;
     const auto listed = context.listed_objects.find(block.name);
@@ -75,7 +75,7 @@ void read_native_object_list(const NativeBlock& block, NativeContext& context, N
         object.cut_material = how.cut_material;
         context.listed_objects.erase(root);
     }
-    // Even after an error: the names have their numbers now.
+    // Also after an error, because the names are numbered already.
     context.scene.objects = std::move(objects);
 }
 

@@ -14,7 +14,7 @@ void read_native_solid(const NativeBlock& block, NativeContext& context, NativeS
 /// `instance "object" { transform = ... }` or `instance "object";`
 void read_native_instance(TextNode entry, NativeContext& context, NativeScope& scope);
 
-/// Reports objects that are listed and not defined. Call when all is read.
+/// Reports objects that are listed but not defined. Call after the last item.
 void check_listed_objects(NativeContext& context);
 
 }  // namespace alhazen

@@ -51,7 +51,7 @@ void read_mesh_part(const NativeBlock& block, NativeContext& context, NativeScop
     scope.parts.push_back(std::move(part));
 }
 
-// What holds parts.
+// Blocks that contain parts.
 
 void read_group(const NativeBlock& block, NativeContext& context, NativeScope& scope) {
     BlockReader reader = context.reader(*block.block, block.type);
@@ -73,7 +73,7 @@ void read_defaults(const NativeBlock& block, NativeContext& context, NativeScope
     reader.finish();
 }
 
-// Which block goes where.
+// Dispatch of the blocks.
 
 /// Blocks of the top level besides cameras and lights.
 constexpr NativeTopBlock kSettingsBlocks[] = {
@@ -104,7 +104,7 @@ std::string known_blocks() {
     return joined(names);
 }
 
-/// True when `type` is a block of the top level; reads it, or reports that it stands too deep.
+/// True when `type` is a block of the top level; reads it, or reports that it is nested.
 bool read_top_level_block(const NativeBlock& block, NativeContext& context,
                           const NativeScope& scope) {
     const auto read_one_of = [&](std::span<const NativeTopBlock> blocks) {
@@ -180,7 +180,7 @@ NativeBlock take_apart(TextNode entry, Diagnostics& diagnostics) {
 
 void read_native_items(TextNode block, NativeContext& context, NativeScope& scope,
                        std::size_t skip) {
-    // Each file is bounded by its tree; this bounds what files nest in each other.
+    // The tree limits the nesting of each file; this limits it across included files.
     const int max_nesting = std::min(context.options.max_nesting, TextTree::kMaxNesting);
     if (scope.nesting > max_nesting) {
         context.diagnostics.error(block.location(),
@@ -196,7 +196,7 @@ void read_native_items(TextNode block, NativeContext& context, NativeScope& scop
         if (item.is(NodeKind::Entry)) {
             read_entry(item, context, scope);
         } else if (item.is(NodeKind::Pair) && !scope.top_level()) {
-            continue;  // belongs to the group or object, which has read it
+            continue;  // already read by the group or object
         } else {
             context.diagnostics.error(
                 item.location(), "expected a block such as sphere { }, found " + item.describe());

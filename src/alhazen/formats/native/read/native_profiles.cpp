@@ -6,8 +6,8 @@ namespace alhazen {
 
 namespace {
 
-/// One step of a loop: a point, to which a line leads, or curve(control, control, point). False
-/// after a mistake.
+/// One step of a loop: a point (the end of a line), or curve(control, control, point). False after
+/// an error.
 bool read_step(TextNode step, std::string_view key, const ValueReader& values, Vec2& last,
                Profile& profile) {
     if (!step.is(NodeKind::Entry, "curve")) {

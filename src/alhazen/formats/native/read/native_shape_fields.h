@@ -1,11 +1,11 @@
 #pragma once
 /// Text of the fields of shapes (shapes/core/fields.h) in the native format, reading and writing.
 ///
-/// Source: docs/reference/formats/native.md. Conventions: keys are the names of the fields; a key
-/// that a file leaves out keeps the default of the struct. Fields of basic types need no code. ADD
-/// A FIELD of another type here: `read_native_field` and `native_field_text` for its type. A shape
-/// whose text is not one pair for each field has `read_native_fields` and `write_native_fields` of
-/// its own. Internal to the native format.
+/// Source: docs/reference/formats/native.md.
+/// Conventions: keys are the names of the fields; an absent key keeps the default of the struct.
+/// Fields of basic types need no code. ADD A FIELD of another type here: `read_native_field` and
+/// `native_field_text` for its type. A shape whose text is not one pair per field has its own
+/// `read_native_fields` and `write_native_fields`. Internal to the native format.
 
 #include "alhazen/formats/native/read/native_text.h"
 #include "alhazen/formats/text/block_reader.h"
@@ -43,12 +43,12 @@ template <class T>
 [[nodiscard]] std::string native_field_text(const Profile& profile);
 [[nodiscard]] std::string native_field_text(const std::vector<BlobComponent>& components);
 
-/// The value is what the reader assumes when the key is missing.
+/// Whether the value is the reader's default for an absent key.
 template <class T>
 [[nodiscard]] bool is_native_default(const T& value, const T& usual) {
     return native_field_text(value) == native_field_text(usual);
 }
-/// A box without bounds cannot be written.
+/// An unbounded box cannot be written.
 inline bool is_native_default(const Box3& box, const Box3&) {
     return !box.bounded();
 }
@@ -74,7 +74,7 @@ void read_native_fields(BlockReader& reader, S& shape) {
 void read_native_fields(BlockReader& reader, Polygon& shape);
 /// `planes = ((point, normal), ...)`, or `vertices` and `faces`.
 void read_native_fields(BlockReader& reader, Polyhedron& shape);
-/// `heights` row by row and `columns`; the heights of a picture: see native_height_picture.h.
+/// `heights` row by row and `columns`; for heights of a picture see native_height_picture.h.
 void read_native_fields(BlockReader& reader, HeightField& shape);
 
 template <class S>

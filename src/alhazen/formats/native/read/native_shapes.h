@@ -1,5 +1,5 @@
 #pragma once
-/// The analytic shapes of the native format: all of shapes/shape_list.h, by their names and fields.
+/// The analytic shapes of the native format: all of shapes/shape_list.h, by name and fields.
 
 #include <string_view>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace alhazen {
 
-/// Makes the shape whose block type is `type` from the keys of its block.
-/// Precondition: is_native_shape(type).
+/// Reads the shape of block type `type` from the keys of its block. Precondition:
+/// is_native_shape(type).
 [[nodiscard]] AnyShape read_native_shape(std::string_view type, BlockReader& reader);
 [[nodiscard]] bool is_native_shape(std::string_view type);
-/// All block types that are shapes.
+/// All block types of shapes.
 [[nodiscard]] std::vector<std::string_view> native_shape_names();
 
 }  // namespace alhazen

@@ -2,7 +2,8 @@
 /// Values and blocks as text of the native format.
 ///
 /// Conventions: numbers are the shortest decimals that read back to the same double, -0 included;
-/// strings are escaped so that any bytes come back. Numbers that are not finite cannot be written.
+/// strings are escaped so that all bytes are preserved. Numbers that are not finite cannot be
+/// written.
 
 #include <string>
 #include <string_view>
@@ -18,7 +19,7 @@ namespace alhazen {
 [[nodiscard]] std::string native_value(double number);
 [[nodiscard]] std::string native_value(int number);
 [[nodiscard]] std::string native_value(bool truth);
-std::string native_value(const char*) = delete;  // would become a bool
+std::string native_value(const char*) = delete;  // prevents a conversion to bool
 [[nodiscard]] std::string native_value(const Vec2& v);
 [[nodiscard]] std::string native_value(const Vec3& v);
 [[nodiscard]] std::string native_value(const Rgb& color);
@@ -40,14 +41,14 @@ template <class Values, class TextOf>
 /// One block: `head { key = value; ... }`.
 class NativeBlockText {
   public:
-    /// `type "label"`, or `type` alone when the label is empty; neither for a block that is a
+    /// `type "label"`, or `type` alone when the label is empty; neither for a block used as a
     /// value.
     explicit NativeBlockText(std::string_view type = {}, std::string_view label = {});
 
     void add(std::string_view key, std::string value) {
         pairs_.emplace_back(key, std::move(value));
     }
-    /// Leaves out what the reader assumes anyway.
+    /// Omits the reader's defaults.
     template <class T>
     void add_unless(std::string_view key, const T& value, const T& usual) {
         std::string text = native_value(value);
@@ -55,9 +56,9 @@ class NativeBlockText {
     }
 
     [[nodiscard]] bool empty() const { return pairs_.empty(); }
-    /// On one line when it is short. Ends without a line end.
+    /// On one line when it is short. Without a final line end.
     [[nodiscard]] std::string text(int indent = 0) const;
-    /// The same where the first line has begun already.
+    /// The same for a block whose first line is already begun.
     [[nodiscard]] std::string value(int indent) const {
         return text(indent).substr(static_cast<std::size_t>(indent));
     }

@@ -12,7 +12,7 @@ namespace alhazen {
 
 namespace {
 
-/// Exactly one of the keys must be there; returns the one that is.
+/// Requires exactly one of the keys; returns it.
 std::string_view require_one_of(BlockReader& reader, std::string_view a, std::string_view b) {
     if (reader.has(a) == reader.has(b)) {
         reader.error(reader.block(), "expected either '" + std::string(a) + " = ...' or '" +
@@ -98,7 +98,7 @@ void read_attenuation(BlockReader& reader, Attenuation& attenuation) {
     attenuation = {v[0], v[1], v[2]};
 }
 
-/// An angle in degrees or, to give it exactly, in radians; true when it is written.
+/// An angle in degrees or, for an exact value, in radians; true when it is present.
 bool read_angle(BlockReader& reader, std::string_view degrees_key, std::string_view radians_key,
                 double& radians) {
     double degrees = 0;

@@ -17,7 +17,7 @@ struct NativeTopBlock {
 /// The blocks of all alternatives of `Camera`, then of `Light`, in the order of the variants.
 [[nodiscard]] std::span<const NativeTopBlock> native_view_blocks();
 
-/// Gives cameras without an aspect the one of the picture. Call after the last block.
+/// Gives cameras without an aspect that of the image. Call after the last block.
 void complete_cameras(NativeContext& context);
 
 }  // namespace alhazen

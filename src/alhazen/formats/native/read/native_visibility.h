@@ -1,5 +1,5 @@
 #pragma once
-/// `visible_to` of parts: which kinds of rays see them.
+/// `visible_to` of parts: the kinds of rays that see them.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Asks for the key; kAllRays where it is not written.
+/// Reads the key; kAllRays when it is absent.
 [[nodiscard]] RayMask read_native_visibility(BlockReader& reader);
 
 /// The value that reads back to the same mask: `all`, `none` or a list of kinds.

@@ -1,5 +1,5 @@
 #pragma once
-/// What the parts of the native writer share while one scene is written.
+/// Shared state of the native writer while one scene is written.
 
 #include <string>
 #include <vector>
@@ -16,11 +16,11 @@ struct NativeWriteContext {
     const NativeFileSink& write_beside;
     std::string text = {};
 
-    // What blocks are called, one for each material and so on, unique.
+    // Unique labels of the blocks: one for each material, texture, geometry and so on.
     std::vector<std::string> material_labels = {}, texture_labels = {}, geometry_labels = {},
                              object_labels = {};
 
-    /// Hands over a file of the folder and returns how the scene names it.
+    /// Writes a file of the folder and returns its name in the scene.
     std::string write_file(const std::string& file_name, std::span<const std::byte> bytes) const {
         return write_beside(folder + "/" + file_name, bytes);
     }
@@ -30,7 +30,7 @@ struct NativeWriteContext {
     }
 };
 
-/// Adds the real name of a thing where its label had to differ.
+/// Adds the original name where the label differs from it.
 inline void add_name(NativeBlockText& block, const std::string& label, const std::string& name) {
     if (label != name) block.add("name", native_string(name));
 }

@@ -14,7 +14,7 @@ class MaterialText {
     MaterialText(const NativeWriteContext& context, NativeBlockText& block)
         : context_(context), block_(block) {}
 
-    /// Leaves out what equals `usual`.
+    /// Omits what equals `usual`.
     void add(std::string_view key, const ColorInput& input, const ColorInput& usual) {
         const std::string value = text_of(input);
         if (value != text_of(usual)) block_.add(key, value);
@@ -127,7 +127,7 @@ void write_native_materials(NativeWriteContext& context) {
         MaterialText inputs(context, block);
         inputs.add("emission", m.emission, usual.emission);
         inputs.add("diffuse", m.diffuse, usual.diffuse);
-        inputs.add("ambient", m.ambient, m.diffuse);  // what the reader takes it for
+        inputs.add("ambient", m.ambient, m.diffuse);  // the reader's default
         inputs.add("specular", m.specular, usual.specular);
         inputs.add("reflective", m.reflective, usual.reflective);
         inputs.add("transmissive", m.transmissive, usual.transmissive);

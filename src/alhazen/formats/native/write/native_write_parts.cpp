@@ -15,12 +15,12 @@ namespace {
 
 // Meshes.
 
-/// Meshes up to this size are written out where nothing speaks against it.
+/// Meshes up to this size are written inline where possible.
 constexpr std::size_t kInlineTriangles = 16;
 
 bool can_stand_in_text(const TriangleMesh& mesh) {
     const auto finite = [](const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); };
-    // Normals in the text are made unit again when they are read, which may change a last bit.
+    // Normals in the text are normalised again by the reader, which may change a last bit.
     return mesh.triangles.size() <= kInlineTriangles &&
            mesh.positions.size() <= 3 * kInlineTriangles && mesh.normals.empty() &&
            mesh.uvs2.empty() && mesh.colors.empty() && mesh.tangents.empty() &&
@@ -109,7 +109,7 @@ void write_part(NativeWriteContext& context, const Part& part, int indent) {
         std::get<AnyShape>(part.what));
 }
 
-/// How the object combines its parts, where it does not as usual.
+/// How the object combines its parts, where it differs from the default.
 std::vector<std::pair<std::string, std::string>> combination_of(const ObjectDescription& object) {
     std::vector<std::pair<std::string, std::string>> pairs;
     if (object.combine != Combine::Group) {
@@ -121,8 +121,8 @@ std::vector<std::pair<std::string, std::string>> combination_of(const ObjectDesc
     return pairs;
 }
 
-/// Without a list, objects are numbered as they are defined, after the scene itself, and must be
-/// defined before they are placed.
+/// Without a list, objects are numbered in the order of definition, after the scene itself, and
+/// must be defined before they are placed.
 bool needs_object_list(const SceneDescription& scene) {
     if (scene.root != ObjectIndex{0} || scene.objects.front().name != "scene") return true;
     if (!combination_of(scene.objects.front()).empty()) return true;

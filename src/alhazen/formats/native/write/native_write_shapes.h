@@ -6,7 +6,7 @@
 
 namespace alhazen {
 
-/// Adds the pairs from which read_native_shape makes the same shape.
+/// Adds the pairs from which read_native_shape restores the shape.
 void add_shape_fields(NativeBlockText& block, const AnyShape& shape);
 
 }  // namespace alhazen

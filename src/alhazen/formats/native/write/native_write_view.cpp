@@ -15,7 +15,7 @@ void add_light_colors(NativeBlockText& block, const Rgb& color, const Rgb& ambie
     block.add_unless("ambient", ambient, Rgb{});
 }
 
-/// What point and spot lights have in common.
+/// Common fields of point and spot lights.
 template <class L>
 void add_falloff(NativeBlockText& block, const L& light) {
     const auto [constant, linear, quadratic] = light.attenuation;
@@ -23,7 +23,7 @@ void add_falloff(NativeBlockText& block, const L& light) {
     if (light.range != kNoRange) block.add("range", native_value(light.range));
 }
 
-/// In degrees where they give the same radians, which not all do.
+/// In degrees where they convert to the same radians, else in radians.
 void add_angle(NativeBlockText& block, const std::string& key, double radians) {
     const double degrees = radians / kRadiansPerDegree;
     if (degrees * kRadiansPerDegree == radians) {
@@ -65,7 +65,7 @@ NativeBlockText block_of(const std::string& name, const SpotLight& light) {
     return block;
 }
 
-/// The forms without a field of view say everything that a camera can be.
+/// The forms without a field of view can express every camera.
 NativeBlockText block_of(const std::string& name, const PerspectiveCamera& camera) {
     NativeBlockText block("sheared_camera", name);
     block.add("eye", native_value(camera.eye));
