@@ -15,7 +15,7 @@ namespace alhazen {
 
 namespace {
 
-/// Distance in front of the eye along the normal of the picture plane.
+/// Distance in front of the eye along the normal of the image plane.
 class DepthScale {
   public:
     explicit DepthScale(const Camera& camera) {

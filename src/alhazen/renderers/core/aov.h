@@ -5,9 +5,9 @@
 /// Source: the channel names are those of OpenEXR's layer convention and of compositing programs.
 /// Differs: the geometry is found by casting the pixel's eye rays again, so that every renderer has
 /// the same layers and no count of a renderer changes.
-/// Conventions: geometry is the mean over the samples that hit something (N and Ng made unit
-/// again); ids are those of the first sample. Where nothing is hit, depth is infinite and all else
-/// 0. Values depend on the pixel alone, times excepted.
+/// Conventions: geometry is the mean over the samples that hit something (N and Ng normalised); ids
+/// are those of the first sample. Where nothing is hit, depth is infinite and all else 0. Values
+/// depend on the pixel alone, except times.
 /// To add one: an entry of AovKind, a line of the table in aov.cpp and its value there.
 
 #include <array>
@@ -46,7 +46,7 @@ enum class AovKind {
 
 struct AovEntry {
     AovKind kind;
-    const char* name;  ///< as in `--aov`; the channels begin with it
+    const char* name;  ///< as in `--aov`; prefix of the channels
     const char* description;
     std::vector<const char*> channels;
     SampleType type;
@@ -61,13 +61,13 @@ class AovSet {
     void add(AovKind kind) { bits_ |= bit(kind); }
     [[nodiscard]] bool has(AovKind kind) const { return (bits_ & bit(kind)) != 0; }
     [[nodiscard]] bool empty() const { return bits_ == 0; }
-    /// One of them needs the hits of the eye rays.
+    /// Whether a layer needs the hits of the eye rays.
     [[nodiscard]] bool has_geometry() const { return (bits_ & (bit(AovKind::Rays) - 1)) != 0; }
-    /// One of them needs RenderJob::count_tests.
+    /// Whether a layer needs RenderJob::count_tests.
     [[nodiscard]] bool has_tests() const {
         return has(AovKind::NodeVisits) || has(AovKind::BoxTests) || has(AovKind::PrimitiveTests);
     }
-    /// One of them needs the cost of each pixel.
+    /// Whether a layer needs the cost of each pixel.
     [[nodiscard]] bool has_costs() const {
         return has_tests() || has(AovKind::Rays) || has(AovKind::Time);
     }
@@ -93,7 +93,7 @@ class AovFilm {
     [[nodiscard]] FilmLayers& layers() { return layers_; }
     [[nodiscard]] const FilmLayers& layers() const { return layers_; }
 
-    /// Sets the channels of a layer, one number each; does nothing where it is not wanted.
+    /// Sets the channels of a layer, one number each; does nothing for an unselected layer.
     void set(AovKind kind, int x, int y, std::span<const double> values);
     void set_whole(AovKind kind, int x, int y, std::uint64_t value);
 

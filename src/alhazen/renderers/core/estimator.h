@@ -1,9 +1,9 @@
 #pragma once
 /// Estimators: the radiance along eye rays.
 ///
-/// An estimator is made for a job and belongs to one thread; it keeps its memory from batch to
-/// batch. PixelLoop calls it with batches of rays, never with one ray at a time, so that it can
-/// trace generations together (wavefront.h).
+/// An estimator is created for a job and belongs to one thread; it keeps its memory from batch to
+/// batch. PixelLoop calls it with batches of rays, so that it can trace whole generations
+/// (wavefront.h).
 
 #include <concepts>
 #include <cstddef>
@@ -14,8 +14,8 @@
 namespace alhazen {
 
 /// `E(job, rays_at_once, counters)`: for batches of at most `rays_at_once` eye rays; counts into
-/// `counters`. `trace(rays, radiance)`: writes the radiance along each ray of unit direction, which
-/// must not depend on the other rays. `radiance` is black before. After a stop the values are
+/// `counters`. `trace(rays, radiance)`: writes the radiance along each ray of unit direction,
+/// independent of the other rays. `radiance` is initially black. After a stop the values are
 /// undefined.
 template <class E>
 concept RadianceEstimator =

@@ -28,7 +28,7 @@ bool has_normal_map(const Scene& scene, const Surface& surface) {
     return material.normal_map.texture != kNoTexture;
 }
 
-/// The interpolated normal, bent by the material's normal map.
+/// The interpolated normal, modified by the material's normal map.
 Vec3 mapped_normal(const Scene& scene, const Surface& surface,
                    const std::array<UvFootprint, 2>& footprint) {
     const Material& material = scene.materials[static_cast<std::size_t>(surface.materials[0])];
@@ -49,7 +49,7 @@ Vec3 mapped_normal(const Scene& scene, const Surface& surface,
     return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
 }
 
-/// `n`, or the nearest direction that faces the viewer where a bent normal does not.
+/// `n`, or the nearest direction that faces the viewer where a mapped normal faces away.
 Vec3 turned_to_view(const Vec3& n, const Vec3& view) {
     constexpr double kLeastCosine = 1e-3;
     const double cosine = dot(n, view);
@@ -79,8 +79,8 @@ MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId 
 
 std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
                                         double width) {
-    // The circle across the ray, projected along it onto the plane: its radius stays across the
-    // plane of incidence and grows by 1 / cosine along it.
+    // The circle perpendicular to the ray, projected along it onto the plane: its radius is
+    // unchanged perpendicular to the plane of incidence and grows by 1 / cosine along it.
     const Vec3& n = surface.normal;
     const double cosine = std::fmax(std::abs(dot(direction, n)), 1e-6);
     const Vec3 in_plane = direction - dot(direction, n) * n;
@@ -96,7 +96,7 @@ std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& dire
 
 namespace {
 
-/// The point's own sample, to be changed.
+/// The point's own sample, to be modified.
 MaterialSample& own_material(ShadingPoint& point) {
     if (point.material != &point.own) {
         point.own = *point.material;
@@ -105,7 +105,7 @@ MaterialSample& own_material(ShadingPoint& point) {
     return point.own;
 }
 
-/// Looks the material up; false where it is one that many points share.
+/// Evaluates the material; false where it is shared by many points.
 bool set_material(const Scene& scene, const Vec3& direction, double width, MaterialCache* constant,
                   std::array<UvFootprint, 2>& footprint, ShadingPoint& point) {
     const Surface& surface = point.surface;
@@ -120,8 +120,7 @@ bool set_material(const Scene& scene, const Vec3& direction, double width, Mater
     return true;
 }
 
-/// What the ray came through and what it finds behind the surface, and the material as it is seen
-/// there.
+/// The media before and behind the surface, and the material as seen from there.
 void set_media(const Scene& scene, ShadingPoint& point) {
     const SurfaceMedia& media = point.surface.media;
     const double cosine = dot(point.view, point.normal);
@@ -143,7 +142,7 @@ void set_media(const Scene& scene, ShadingPoint& point) {
         here = before.index;
         point.medium = before.transmissive;
         point.medium_is_physical = before.physical;
-        // The wall's own material is that of what is entered.
+        // A wall's own material is that of the medium entered.
         if (media.after) before_passes = before.transmissive;
     }
     if (media.after) {
@@ -236,8 +235,7 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
         const Vec3 mirrored = 2.0 * cosine * point.normal - to_light;
         highlight_cosine = dot(mirrored, point.view);
     }
-    // 0^0 would light every point of a material without shininess from behind: only the lit side
-    // counts.
+    // Only the lit side: 0^0 would light every point of a material without shininess from behind.
     if (highlight_cosine > 0.0) {
         const double falloff = m.physical ? cosine : 1.0;
         fraction += (falloff * std::pow(highlight_cosine, m.shininess)) * m.specular;

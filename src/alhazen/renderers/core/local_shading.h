@@ -1,10 +1,10 @@
 #pragma once
-/// Local shading, shared by the renderers: the terms of the shading equation that need no rays but
-/// shadow rays.
+/// Local shading, shared by the renderers: the terms of the shading equation that need only shadow
+/// rays.
 ///
 /// Source: UW CSE 457, "Ray Tracing" lecture and Trace project: I = ke + sum_j [ ka ILa_j + Ashadow
-/// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977. Differs: what
-/// formats do otherwise is read from ShadingConventions.
+/// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977.
+/// Differs: differences between formats are read from ShadingConventions.
 
 #include <span>
 #include <vector>
@@ -30,13 +30,13 @@ struct ShadingPoint {
     ShadingPoint& operator=(const ShadingPoint&) = delete;
 
     Surface surface;
-    const MaterialSample* material = &own;  ///< `own`, or one that many points share
+    const MaterialSample* material = &own;  ///< `own`, or a shared sample
     MaterialSample own;
     bool inside = false;   ///< the ray came through the inside of something transparent
     bool entering = true;  ///< the ray hit the outside (by the geometric normal)
     BehindSurface behind;
-    Rgb passing;                      ///< kt of passing through; at a wall, of both media
-    Rgb medium;                       ///< kt of the medium the ray came through, where it is inside
+    Rgb passing;                      ///< kt of the surface; at a wall, of both media
+    Rgb medium;                       ///< kt of the medium along the ray, where it is inside
     bool medium_is_physical = false;  ///< it absorbs by its own law
     Vec3 geometric;                   ///< unit geometric normal towards the ray's origin
     Vec3 normal;                      ///< unit shading normal, turned towards the ray's origin
@@ -47,7 +47,7 @@ struct ShadingPoint {
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
                                          const std::array<UvFootprint, 2>& footprint = {});
 
-/// The medium on one side of the surface (`surface.media`), textures looked up at the surface.
+/// The medium on one side of the surface (`surface.media`), with textures evaluated at the surface.
 [[nodiscard]] MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id);
 
 /// The footprint of a cone of diameter `width` around `direction` on the surface, in both sets of
@@ -55,9 +55,9 @@ struct ShadingPoint {
 [[nodiscard]] std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
                                                       double width);
 
-/// How a ray arrives at a surface.
+/// The state of a ray at a surface.
 struct Arrival {
-    /// Through the inside of a solid. Known from the history of the ray, not from the normal: an
+    /// Whether the ray runs inside a solid. From the history of the ray, not from the normal: an
     /// open surface has a back but no inside.
     bool inside = false;
     double width = 0;  ///< of the ray's cone at the hit
@@ -69,9 +69,9 @@ struct PointNeeds {
     MaterialCache* constant = nullptr;  ///< shared samples; may be null
 };
 
-/// Fills in all of `point`, in place because it is large. `ray.direction` must be unit. The
-/// material is that for this ray: textures filtered, Fresnel's share for its angle, coverage 0 on
-/// the back of a single-sided surface.
+/// Sets all of `point`, in place because it is large. `ray.direction` must be unit. The material is
+/// that for this ray: textures filtered, Fresnel's share for its angle, coverage 0 on the back of a
+/// single-sided surface.
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point);
 
@@ -82,13 +82,13 @@ struct VisibleHit {
     double t = 0;  ///< from the origin of the ray; `hit.t` counts from the last surface passed
 };
 
-/// Finds the first surface along an eye ray with a coverage above 0. Others are passed straight
-/// through, at most kMaxPassedSurfaces of them.
+/// Finds the first surface along an eye ray with a coverage above 0. Passes straight through
+/// others, at most kMaxPassedSurfaces of them.
 [[nodiscard]] bool first_visible_hit(const Scene& scene, const Ray& ray, const RayCone& cone,
                                      bool inside, TraversalStats* stats, VisibleHit& found);
 inline constexpr int kMaxPassedSurfaces = 4096;
 
-/// Rays end behind partly covering surfaces where less than this share of them is left.
+/// Rays end behind partly covering surfaces where less than this fraction of them is left.
 inline constexpr double kLeastTransmittance = 1.0 / 4096;
 
 /// [light] Ambient terms for `unshadowed_terms`: the same at every point.

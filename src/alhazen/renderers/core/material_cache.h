@@ -2,7 +2,7 @@
 /// Samples of the materials that are the same at every point, each evaluated once.
 ///
 /// Conventions: for surfaces without vertex colours. The table is small: materials evict each
-/// other. Threads: belongs to one.
+/// other. Threads: used by one thread.
 
 #include <array>
 

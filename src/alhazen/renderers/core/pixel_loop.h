@@ -1,9 +1,9 @@
 #pragma once
-/// The loop over the pixels and samples of tiles: sampler, estimator and filter put together at
-/// compile time.
+/// The loop over the pixels and samples of tiles: sampler, estimator and filter combined at compile
+/// time.
 ///
 /// Conventions: eye rays are traced in batches; neighbours in a batch are neighbours in the film.
-/// All memory is kept from tile to tile. Threads: belongs to one.
+/// All memory is kept from tile to tile. Threads: used by one thread.
 
 #include <algorithm>
 #include <memory>
@@ -20,12 +20,11 @@
 
 namespace alhazen {
 
-/// Gathers the eye rays of a tile in batches, has them traced and filters their radiance into the
-/// film.
+/// Gathers the eye rays of a tile in batches, traces them and filters their radiance into the film.
 template <PixelSampler Sampler, PixelFilter Filter>
 class PixelLoop {
   public:
-    /// `at_once`: the most samples of a batch.
+    /// `at_once`: largest number of samples of a batch.
     PixelLoop(const RenderJob& job, std::size_t at_once, RayCounters& counters)
         : job_(job),
           counters_(counters),
@@ -35,12 +34,12 @@ class PixelLoop {
           rays_(at_once),
           radiance_(at_once) {}
 
-    /// Renders the tile with `estimator`. Returns early after a stop; no pixel is left half done.
+    /// Renders the tile with `estimator`. Returns early after a stop, with whole pixels only.
     template <class Estimator>
     void run(const PixelBox& tile, Film& film, Estimator& estimator) {
         begin_tile(tile, film);
         if (is_plain()) return run_plain(film, estimator);
-        // The cost of a pixel is known only if no other rays are traced with its own.
+        // The cost of a pixel is known only if its rays are traced separately.
         const bool alone = job_.aovs != nullptr && job_.aovs->wanted().has_costs();
         for (const Pixel& pixel : pixels_) {
             if (job_.aovs != nullptr) aovs_.begin_pixel();
@@ -139,7 +138,7 @@ class PixelLoop {
         const std::span<Rgb> found = std::span(radiance_).first(gathered_);
         std::fill(found.begin(), found.end(), Rgb{});
         estimator.trace(std::span<const Ray>(rays_).first(gathered_), found);
-        // A batch that was cut short is dropped.
+        // A truncated batch is dropped.
         if (job_.stop_requested()) return false;
         if (is_plain()) {
             take_pixels(film, found);
@@ -195,9 +194,9 @@ class PixelLoop {
     std::vector<Ray> rays_;
     std::vector<Rgb> radiance_;
     PixelBox tile_;
-    std::vector<Pixel> pixels_;  ///< of the tile, in the order in which they are done
+    std::vector<Pixel> pixels_;  ///< of the tile, in rendering order
     std::size_t done_ = 0;       ///< finished pixels
-    int samples_ = 0;            ///< of the pixel in work that the filter has seen
+    int samples_ = 0;            ///< of the current pixel, seen by the filter
     Filter filter_;
     std::vector<Vec2> places_;  ///< film coordinates of a pixel's samples
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Counts of rays by kind, as published counts have them.
+/// Counts of rays by kind, as in published counts.
 
 #include <array>
 #include <cstdint>

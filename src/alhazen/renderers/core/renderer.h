@@ -1,6 +1,6 @@
 #pragma once
-/// The interface of all renderers: a renderer fills the crop of a film. How it divides the work
-/// (tiles, scan lines, passes) is its own; `tiles.h` is the strategy for independent pixels.
+/// The interface of all renderers: a renderer fills the crop of a film. It divides the work (tiles,
+/// scan lines, passes) by its own strategy; `tiles.h` is the strategy for independent pixels.
 /// docs/design/renderers.md; to add one: CONTRIBUTING.md.
 ///
 /// Conventions: a pixel depends on the scene, the camera, the sampling and its own coordinates,
@@ -18,15 +18,15 @@
 
 namespace alhazen {
 
-/// How the work on a job is done. Changes no pixel and no count.
+/// Settings of the execution. Change no pixel and no count.
 struct RenderControl {
-    int threads = 0;                   ///< at most; 0 = all available cores
+    int threads = 0;                   ///< largest number; 0 = all available cores
     int tile_size = 32;                ///< side in pixels, at least 1; for renderers with tiles
     const StopFlag* stop = nullptr;    ///< read before each batch of rays; may be null
     ProgressSink* progress = nullptr;  ///< phase "render"; may be null
 };
 
-/// What to render, and how.
+/// The scene, the view and the settings of a render.
 struct RenderJob {
     const Scene& scene;
     Camera camera;              ///< fitted to the aspect ratio of the frame
@@ -35,8 +35,8 @@ struct RenderJob {
     bool count_tests = false;  ///< fill RayCounters::tests (rays are always counted)
     RayCone cone{};            ///< of each eye ray; zero: textures are not filtered by distance
     AovFilm* aovs = nullptr;   ///< filled besides the film; may be null
-    /// What `scene` was compiled from, with all shapes and meshes: the geometry for renderers that
-    /// need no aggregate. Null where unknown.
+    /// The source of `scene`, with all shapes and meshes: the geometry for renderers without an
+    /// aggregate. Null where unknown.
     const SceneDescription* description = nullptr;
     RenderControl control{};
 
@@ -48,8 +48,8 @@ struct RenderJob {
 /// The outcome of Renderer::render.
 struct RenderReport {
     RayCounters counters;
-    std::size_t done = 0, parts = 0;  ///< of the work, as told to RenderControl::progress
-    int threads = 1;                  ///< bound that was in force
+    std::size_t done = 0, parts = 0;  ///< of the work, as reported to RenderControl::progress
+    int threads = 1;                  ///< largest number in force
 
     /// False after a stop.
     [[nodiscard]] bool complete() const { return done == parts; }
@@ -59,8 +59,8 @@ class Renderer {
   public:
     virtual ~Renderer() = default;
     /// Renders the crop of `film`. Uses threads as `job.control` allows and returns early after a
-    /// stop; pixels that are not done stay as they were. May be called from many threads, with
-    /// different films.
+    /// stop; unfinished pixels are unchanged. May be called from many threads, with different
+    /// films.
     [[nodiscard]] virtual RenderReport render(const RenderJob& job, Film& film) const = 0;
     /// False: `render` takes a scene without an aggregate, so none is built for it; geometry is
     /// read from RenderJob::description.

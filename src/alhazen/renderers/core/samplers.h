@@ -1,10 +1,11 @@
 #pragma once
-/// Samplers: where in a pixel its eye rays go.
+/// Samplers: the positions of eye rays in a pixel.
 ///
-/// A sampler is a small value made for a job and a frame size; PixelSampler states the interface.
+/// A sampler is a small value created for a job and a frame size; PixelSampler states the
+/// interface.
 /// Conventions: film coordinates, x right and y up, both 0..1 over the frame; pixel (i, j) of the
-/// frame with j counted from the top row. A sample depends on the job, the pixel and its number
-/// alone.
+/// frame with j counted from the top row. A sample depends only on the job, the pixel and its
+/// number.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ concept PixelSampler = requires(const S& sampler, const RenderJob& job, int n) {
     { S::kSeparable } -> std::convertible_to<bool>;
 };
 
-/// One sample per pixel: the point that the scene's conventions name.
+/// One sample per pixel: the point given by the scene's conventions.
 class PointSampler {
   public:
     using PixelSample = SamplingConventions::PixelSample;
@@ -60,7 +61,8 @@ class PointSampler {
 /// Stratified jitter: one sample in each cell of a grid that is as square as the count allows.
 ///
 /// Source: Cook, "Stochastic Sampling in Computer Graphics", ACM TOG 5(1), 1986, section 4
-/// (jittering). Differs: for counts that are no product of the rows the last row has fewer, wider
+/// (jittering).
+/// Differs: where the count is not divisible by the number of rows, the last row has fewer, wider
 /// cells.
 class JitteredSampler {
   public:

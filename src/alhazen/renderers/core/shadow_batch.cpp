@@ -12,10 +12,10 @@ namespace {
 
 using ShadowTint = ShadingConventions::ShadowTint;
 
-/// Rays that are cast together: enough to keep the stream kernel busy, few enough to stay in the
-/// cache with their data.
+/// Rays per cast: enough to fill the stream kernel, few enough to stay in the cache with their
+/// data.
 constexpr std::size_t kMostRays = 512;
-/// Crossings of all rays are found at once where more than one of so many hits something.
+/// Crossings of all rays are found at once where more than one ray in `kFewMeet` hits something.
 constexpr std::uint64_t kFewMeet = 4;
 
 }  // namespace
@@ -59,8 +59,8 @@ void ShadowBatch::finish(Coherence coherence) {
     waiting_.clear();
 }
 
-/// True where it pays to find first which rays hit anything, and crossings for these only. Counted
-/// tests must not depend on earlier rays, so counting rules it out.
+/// Whether to find first which rays hit anything, and crossings only for these. False while
+/// counting: counted tests must not depend on earlier rays.
 bool ShadowBatch::asks_first() const {
     return opaque_ || (stats_ == nullptr && kFewMeet * count_.hit <= count_.cast);
 }
@@ -83,7 +83,7 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     media_.clear();
     if (path.inside) media_.push_back(path.absorption);
     double last = 0.0;
-    bool in_wall = false;  // past the first of the two crossings of a wall
+    bool in_wall = false;  // between the two crossings of a wall
     for (const Hit& crossing : crossings_) {
         const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
         MaterialSample material = material_at(scene_, surface);

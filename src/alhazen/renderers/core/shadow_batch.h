@@ -2,9 +2,9 @@
 /// Direct light of many points: shadow rays are gathered, then cast together.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (shadow rays); UW CSE
-/// 457, Trace project (light through transparent surfaces). Differs: where few rays hit
-/// anything, crossings are found for these only; ShadingConventions::ShadowTint defines the effect
-/// of a crossing.
+/// 457, Trace project (light through transparent surfaces).
+/// Differs: where few rays hit anything, crossings are found for these only;
+/// ShadingConventions::ShadowTint defines the effect of a crossing.
 
 #include <memory>
 #include <span>
@@ -21,7 +21,7 @@ class ShadowBatch {
   public:
     ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
-    /// Adds to `sum`, now or by `finish`, the arriving part of `light.intensity` times the
+    /// Adds to `sum`, now or in `finish`, the arriving part of `light.intensity` times the
     /// reflected `fraction`. Sums are added to in the order of the calls. `path`: that of the ray
     /// that hit `surface`. `path` and `sum` must stay valid until `finish`.
     void add(const Surface& surface, const LightSample& light, const Rgb& fraction,

@@ -29,7 +29,7 @@ class TileProgress {
     std::mutex mutex_;
 };
 
-/// Tile renderers, at most one per thread at work.
+/// Tile renderers, at most one per active thread.
 class TileRendererPool {
   public:
     explicit TileRendererPool(const MakeTileRenderer& make) : make_(make) {}
@@ -66,7 +66,7 @@ RenderReport render_tiles(const RenderJob& job, Film& film, const MakeTileRender
             for (std::size_t i = begin; i < end; ++i) {
                 if (job.stop_requested()) return;
                 own->render(tiles[i], film, counters[i]);
-                // A tile that was cut short keeps the pixels it has, but is not done.
+                // A truncated tile keeps its finished pixels, but is not done.
                 if (job.stop_requested()) return;
                 progress.tile_done();
             }

@@ -1,8 +1,8 @@
 #pragma once
-/// Rendering in tiles: the crop of the film is cut into squares, and all threads render them.
+/// Rendering in tiles: the crop of the film is divided into squares, which all threads render.
 ///
-/// For renderers whose pixels are independent of each other. Others (scan lines, beam trees, passes
-/// over the whole film) implement Renderer themselves, or call `render_tiles` once per pass.
+/// For renderers of independent pixels. Others (scan lines, beam trees, passes over the whole film)
+/// implement Renderer themselves, or call `render_tiles` once per pass.
 /// Conventions: pixels and counters depend neither on the tile size nor on the threads.
 
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace alhazen {
 
-/// Renders tiles of a job, one after the other; memory is kept from tile to tile. Threads: belongs
-/// to one at a time.
+/// Renders tiles of a job, one after the other; memory is kept from tile to tile. Threads: used by
+/// one at a time.
 class TileRenderer {
   public:
     virtual ~TileRenderer() = default;
@@ -21,7 +21,7 @@ class TileRenderer {
     virtual void render(const PixelBox& tile, Film& film, RayCounters& counters) = 0;
 };
 
-/// Makes the TileRenderer of one thread. Called from many threads.
+/// Creates the TileRenderer of one thread. Called from many threads.
 using MakeTileRenderer = std::function<std::unique_ptr<TileRenderer>()>;
 
 /// Renders the tiles of the film's crop with the threads, tile size, stop flag and progress sink of
@@ -30,7 +30,7 @@ using MakeTileRenderer = std::function<std::unique_ptr<TileRenderer>()>;
 [[nodiscard]] RenderReport render_tiles(const RenderJob& job, Film& film,
                                         const MakeTileRenderer& make);
 
-/// A renderer with no work but that of its tiles.
+/// A renderer whose only work is that of its tiles.
 class TiledRenderer : public Renderer {
   public:
     /// `job` must outlive the result. Called from many threads.

@@ -1,9 +1,9 @@
 #pragma once
-/// Unlit cache: colours of the materials that look the same at every point and from every
-/// direction, as unlit ones do. A hit on one needs no surface.
+/// Unlit cache: colours of the materials that are the same at every point and from every direction.
+/// A hit on one of them needs no surface.
 ///
-/// Conventions: for rays that come through air; the colour has the bits of shading the surface.
-/// Threads: belongs to one.
+/// Conventions: for rays through air; the colour has the bits of shading the surface. Threads: used
+/// by one thread.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace alhazen {
 
 class UnlitCache {
   public:
-    /// `ambient` as `unshadowed_terms` takes it. The scene must outlive it.
+    /// `ambient`: as for `unshadowed_terms`. The scene must outlive the cache.
     UnlitCache(const Scene& scene, std::span<const Rgb> ambient);
 
     /// Null where the colour depends on the surface.
@@ -34,7 +34,7 @@ class UnlitCache {
     }
 
   private:
-    /// The colour of a primitive inside of one instance at most.
+    /// The colour of a primitive inside at most one instance.
     struct Known {
         PrimitiveId primitive = kNoPrimitive, around = kNoPrimitive;
         const Rgb* color = nullptr;

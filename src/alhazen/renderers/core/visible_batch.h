@@ -18,15 +18,15 @@ class VisibleBatch {
     VisibleBatch(const Scene& scene, TraversalStats* stats)
         : scene_(scene), stats_(stats), constant_(scene) {}
 
-    /// `path(k)` gives `kind`, `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for
-    /// each ray: a null pointer where nothing is seen, else the point and its distance from the
-    /// origin of the ray. `tell` must not change rays or paths that have not been reported.
+    /// `path(k)` returns `kind`, `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for
+    /// each ray: with a null pointer where nothing is seen, else with the point and its distance
+    /// from the origin of the ray. `tell` must not change rays or paths that are not yet reported.
     template <class PathOf, class Tell>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
         find(rays, coherence, path, tell, [](std::size_t, const Hit&) { return false; });
     }
-    /// The same, but `take(k, hit)` sees the first hit of each ray before its surface is found;
-    /// where it returns true the ray is done.
+    /// The same, but `take(k, hit)` receives the first hit of each ray before its surface is found;
+    /// the ray is done where it returns true.
     template <class PathOf, class Tell, class Take>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell,
               Take&& take) {
@@ -70,7 +70,7 @@ class VisibleBatch {
     template <class KindOf>
     [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays, Coherence coherence,
                                                KindOf&& kind) {
-        // Hits are large: existing ones are used again.
+        // Hits are large: existing ones are reused.
         if (hits_.size() < rays.size()) hits_.resize(rays.size());
         if (!scene_.has_masks) {
             trace(rays, hits_, coherence, kAllRays);

@@ -1,13 +1,14 @@
 #pragma once
-/// Generations of rays (eye rays, or the rays sent on by the surfaces that another generation
+/// Generations of rays (eye rays, or the secondary rays of the surfaces that another generation
 /// hits) and the state kept until their radiance is known.
 ///
 /// Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980 (the tree of rays);
 /// Wald, Benthin and Boulos, "Getting Rid of Packets", RT 2008, and Laine, Karras and Aila,
 /// "Megakernels Considered Harmful: Wavefront Path Tracing on GPUs", HPG 2013 (a generation at a
-/// time). Differs: colours return from the last generation to the first, by the arithmetic of the
-/// recursion in its order, instead of throughputs being carried along; and a generation is bounded:
-/// further rays wait until those before them have their radiance.
+/// time).
+/// Differs: colours return from the last generation to the first, by the arithmetic of the
+/// recursion in its order, instead of carrying throughputs along; and a generation is bounded:
+/// further rays wait until the rays before them have their radiance.
 
 #include <cstdint>
 #include <limits>
@@ -25,7 +26,7 @@ namespace alhazen {
 struct Path {
     RayKind kind = RayKind::Eye;
     bool inside = false;        ///< it starts inside something transparent
-    Rgb contribution{1, 1, 1};  ///< product of the coefficients on the way
+    Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< of the medium it starts in
     RayCone cone;
 };
@@ -52,7 +53,7 @@ class Generation {
         return static_cast<std::uint32_t>(rays_.size() - 1);
     }
     [[nodiscard]] std::size_t size() const { return rays_.size(); }
-    /// Allocates the radiance of the rays, black. Call it after the last ray was added.
+    /// Allocates the radiance of the rays, black. Call after the last ray is added.
     void make_ready() { radiance_.assign(rays_.size(), Rgb{}); }
     [[nodiscard]] GenerationPart part(std::size_t first, std::size_t count) {
         return {std::span(rays_).subspan(first, count), std::span(paths_).subspan(first, count),
@@ -66,17 +67,17 @@ class Generation {
     std::vector<Rgb> radiance_;
 };
 
-/// A surface that a ray hit, while the rays it sends on are traced.
+/// A surface that a ray hit, while its secondary rays are traced.
 struct MetSurface {
     static constexpr std::uint32_t kNotSent = std::numeric_limits<std::uint32_t>::max();
 
     std::uint32_t ray = 0;                                     ///< that hit it
     std::uint32_t reflected = kNotSent, refracted = kNotSent;  ///< rays of the next generation
-    bool lit = false;       ///< else its colour is `own` and nothing more
+    bool lit = false;       ///< otherwise its colour is `own` only
     bool filtered = false;  ///< all its light is multiplied by `filter`
     Rgb share;              ///< of the ray's light
     Rgb own;                ///< emission and ambient light
-    Rgb direct;             ///< from unoccluded lights
+    Rgb direct;             ///< of unoccluded lights
     Rgb kr, kt;             ///< factors of the radiance of the two rays
     Rgb filter;
 };
@@ -84,7 +85,7 @@ struct MetSurface {
 /// The work on one generation: some of its rays at a time.
 struct Wavefront {
     std::vector<MetSurface> met;
-    Generation next;        ///< the rays that `met` sends on
+    Generation next;        ///< the secondary rays of `met`
     std::vector<Rgb> left;  ///< by ray: transmittance of the partly covering surfaces so far
     /// Rays that have not ended: numbers and, from the second surface on, the rest of each ray.
     std::vector<std::uint32_t> active;

@@ -2,8 +2,8 @@
 /// Visible surfaces only: eye rays, shaded by the lights without shadows.
 ///
 /// Source: Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968; Goldstein
-/// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971. Differs: no shadows; the shading is
-/// the local part of `whitted`.
+/// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971.
+/// Differs: no shadows; the shading is the local part of `whitted`.
 
 #include "alhazen/renderers/core/tiles.h"
 

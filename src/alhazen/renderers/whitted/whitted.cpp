@@ -63,8 +63,8 @@ class WhittedEstimator {
         }
     }
 
-    /// Traces some rays of a generation. Behind a partly covering surface a ray continues straight
-    /// on as the same ray.
+    /// Traces some rays of a generation. Behind a partly covering surface a ray continues straight,
+    /// as the same ray.
     void trace_part(const GenerationPart& part, int depth) {
         Wavefront& front = front_at(depth);
         front.begin(part.size());
@@ -143,8 +143,8 @@ class WhittedEstimator {
         int depth;
     };
 
-    /// Gathers the light that leaves the point towards the origin of the ray: at once, by queued
-    /// shadow rays, or by rays of the next generation.
+    /// Gathers the light from the point towards the origin of the ray: at once, by queued shadow
+    /// rays, or by rays of the next generation.
     void shade(const Seen& seen, MetSurface& met, Generation& next) {
         const ShadingPoint& point = seen.point;
         met.lit = !point.material->unlit;
@@ -191,7 +191,8 @@ class WhittedEstimator {
         onward.contribution = onward.contribution * kr;
         if (!cast || onward.contribution.max() < conventions_.min_contribution) return;
         Vec3 direction = mirror(seen.ray.direction, point.normal);
-        // Where an interpolated normal sends the ray into the surface, the geometric one is used.
+        // Where an interpolated normal reflects the ray into the surface, the geometric one is
+        // used.
         if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) < 0.0) {
             direction = mirror(seen.ray.direction, point.geometric);
         }
