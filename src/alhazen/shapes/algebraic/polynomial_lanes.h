@@ -37,14 +37,13 @@ struct alignas(64) PolynomialLanes {
     double u[kRayLanes], t[kRayLanes];  ///< the root, once refined
     int degree;
     // ---- results for the first crossing; nothing is known of lanes in no set
-    std::uint32_t unsure;    ///< not even the segment is known
-    std::uint32_t missed;    ///< there is none
-    std::uint32_t at_entry;  ///< it is at the start of the segment
-    std::uint32_t
-        bracketed;  ///< it is the only sign change between lo and hi, if within the ray's range
-    std::uint32_t last;     ///< it is the last one, with no cap behind it
-    std::uint32_t steep;    ///< t is accurate to about its rounding
-    std::uint32_t covered;  ///< t lies in the ray's range
+    std::uint32_t unsure;     ///< not even the segment is known
+    std::uint32_t missed;     ///< there is none
+    std::uint32_t at_entry;   ///< it is at the start of the segment
+    std::uint32_t bracketed;  ///< the only sign change in [lo, hi], if in the ray's range
+    std::uint32_t last;       ///< it is the last one, with no cap behind it
+    std::uint32_t steep;      ///< t is accurate to about its rounding
+    std::uint32_t covered;    ///< t lies in the ray's range
 
     [[nodiscard]] ClipSegment segment(std::size_t lane) const {
         ClipSegment s;

@@ -222,9 +222,8 @@ class CrossingSearch {
     const LocalLine& line_;
     double p_, q_;
     Vec3 o_, d_;
-    double coordinate_error_;  ///< error bound of x, y and z
-    std::array<double, 3>
-        rate_{};  ///< derivatives of |x|, |y| and |z| in the part that is searched
+    double coordinate_error_;       ///< error bound of x, y and z
+    std::array<double, 3> rate_{};  ///< derivatives of |x|, |y|, |z| in the searched part
     std::array<double, Superellipsoid::kMaxHits> t_{};
     int count_ = 0;
     int samples_ = 0;

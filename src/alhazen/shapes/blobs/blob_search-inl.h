@@ -27,9 +27,8 @@ namespace HWY_NAMESPACE {
 /// Bounds over all rows, and the rounding of their sums.
 struct RowTotals {
     Doubles first_in, last_out;
-    Doubles most;  ///< upper bound of the density
-    Doubles
-        error;  ///< rounding bound of the coefficients in a span: at least that of the scalar code
+    Doubles most;   ///< upper bound of the density
+    Doubles error;  ///< rounding bound of a span's coefficients, at least the scalar one
     std::uint32_t unknown = 0;  ///< lanes with a row that is no known bump, or that rounds too much
 };
 HWY_INLINE RowTotals totals_of(const Blob& blob, const BlobRayLanes& rays,
@@ -117,11 +116,10 @@ HWY_INLINE Doubles event_before(std::span<const BlobRow> rows, const Doubles& t)
 
 /// Result of the signs of the coefficients of a span.
 struct SpanSigns {
-    std::uint32_t outside = 0;  ///< all of the span is outside
-    std::uint32_t once = 0, twice = 0,
-                  oftener = 0;  ///< begins outside, with one, two or more sign changes
-    std::uint32_t inside = 0;   ///< all of the span is inside
-    std::uint32_t leaves = 0;   ///< begins inside, with one sign change
+    std::uint32_t outside = 0;                       ///< all of the span is outside
+    std::uint32_t once = 0, twice = 0, oftener = 0;  ///< begins outside; number of changes
+    std::uint32_t inside = 0;                        ///< all of the span is inside
+    std::uint32_t leaves = 0;                        ///< begins inside, with one sign change
 };
 HWY_INLINE SpanSigns span_signs(const Doubles* b, const Doubles& error) {
     Doubles total = abs(b[0]);

@@ -195,11 +195,10 @@ class NearLevelRay {
     const Lathe& lathe_;
     double height_, climb_;
     DoubleDouble nearest_;  ///< t
-    DoubleDouble
-        squared_;         ///< squared length of the direction's component perpendicular to the axis
-    DoubleDouble close_;  ///< squared least distance from the axis
-    double reach_;        ///< at this distance the ray is twice as far from the axis as the profile
-    double error_;        ///< error bound of the signs at points of the profile
+    DoubleDouble squared_;  ///< squared length of the direction across the axis
+    DoubleDouble close_;    ///< squared least distance from the axis
+    double reach_;          ///< change of t to twice the reach of the profile
+    double error_;          ///< error bound of the signs at points of the profile
 };
 
 }  // namespace
