@@ -13,12 +13,12 @@ namespace alhazen {
 namespace {
 
 constexpr std::size_t kMaxNameBytes = 64 * 1024;
-/// Keeps a few pixels interrupted by other programs from darkening the picture of times.
+/// Prevents a few pixels interrupted by other programs from darkening the picture of times.
 constexpr double kTimeQuantile = 0.99;
 
 using Channels = std::vector<const LayerChannel*>;
 
-/// A picture, and what its colours mean.
+/// A picture and the meaning of its colours.
 struct LayerPicture {
     EncodedImage image;
     std::string meaning;
@@ -33,7 +33,7 @@ std::vector<float> finite_values(const LayerChannel& channel) {
     return values;
 }
 
-/// Three functions of a pixel's numbers as 8-bit codes.
+/// Three functions of a pixel's values as 8-bit codes.
 template <class F>
 LayerPicture direct_picture(const PixelBox& crop, std::string meaning, F&& display) {
     LayerPicture picture;
@@ -43,7 +43,7 @@ LayerPicture direct_picture(const PixelBox& crop, std::string meaning, F&& displ
     picture.image.samples.reserve(3 * crop.area());
     for (std::size_t i = 0; i < crop.area(); ++i) {
         for (const double v : display(i)) {
-            const double clamped = v > 0.0 ? std::min(v, 1.0) : 0.0;  // NaN loses
+            const double clamped = v > 0.0 ? std::min(v, 1.0) : 0.0;  // NaN becomes 0
             picture.image.samples.push_back(
                 static_cast<std::uint16_t>(std::lround(255.0 * clamped)));
         }
@@ -102,7 +102,7 @@ LayerPicture normal_picture(const PixelBox& crop, const Channels& c) {
     });
 }
 
-/// All three numbers of a pixel are 0: the pixel is empty.
+/// True when all three values of a pixel are 0: the pixel is empty.
 bool is_empty(const Channels& c, std::size_t i) {
     return std::all_of(c.begin(), c.end(), [&](const auto* k) { return k->values[i] == 0.0f; });
 }
@@ -132,7 +132,7 @@ LayerPicture position_picture(const PixelBox& crop, const Channels& c) {
     return picture;
 }
 
-/// The part of a texture coordinate after the point, as textures repeat; 1 stays 1.
+/// The fractional part of a texture coordinate, as textures repeat; 1 stays 1.
 LayerPicture uv_picture(const PixelBox& crop, const Channels& c) {
     const auto wrapped = [](double x) { return x >= 0.0 && x <= 1.0 ? x : x - std::floor(x); };
     return direct_picture(crop, "u red, v green, repeating", [&](std::size_t i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The layers of a picture as PNG files for viewing, one each, and the names of their ids
+/// The layers of an image as PNG files for viewing, one each, and the names of their ids
 /// (docs/reference/layers.md).
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 
 namespace alhazen {
 
-/// OUT.NAME.png beside OUT.anything, in the order of the table.
+/// OUT.NAME.png for each layer, next to OUT.anything, in the order of the table.
 [[nodiscard]] std::vector<std::filesystem::path> aov_picture_paths(
     const std::filesystem::path& output, const AovSet& wanted);
 
-/// Writes the pictures, each with its scale in the text of the PNG, and returns a line about each.
-/// Throws Error (File).
+/// Writes the pictures, each with its scale in the text of the PNG, and returns one line per
+/// picture. Throws Error (File).
 std::vector<std::string> write_aov_pictures(const std::filesystem::path& output,
                                             const AovSet& wanted, const FilmLayers& layers,
                                             const ImageMetadata& metadata);

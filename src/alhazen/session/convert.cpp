@@ -66,7 +66,7 @@ void check_counts(const PlacedCounts& counts, const fs::path& path, const Conver
     }
 }
 
-/// Material names as single words, for other programs.
+/// Material names as single words, as other programs require.
 std::vector<std::string> material_words(const SceneDescription& description) {
     std::vector<std::string> names;
     for (const MaterialDescription& m : description.materials) {
@@ -80,7 +80,7 @@ std::vector<std::string> material_words(const SceneDescription& description) {
     return unique_labels(names, "material");
 }
 
-/// Pictures in the folder, materials in OUT.mtl; returns the name of that file.
+/// Writes pictures to the folder and materials to OUT.mtl; returns the name of that file.
 std::string write_materials(const SceneDescription& description,
                             const std::vector<std::string>& names, ConvertOutput& output) {
     std::map<const StoredImage*, std::string> files;

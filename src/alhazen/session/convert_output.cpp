@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Larger scene files are not searched: they may name anything.
+/// Larger scene files are not searched: they are assumed to name any file.
 constexpr std::uint64_t kMaxSceneText = std::uint64_t{64} << 20;
 
 bool is_scene_text(const fs::path& path) {
@@ -29,7 +29,7 @@ bool is_scene_text(const fs::path& path) {
     return std::find(kSuffixes.begin(), kSuffixes.end(), suffix) != kSuffixes.end();
 }
 
-/// Adds the names behind each "_files/" of a text, as far as conversions make such names.
+/// Adds the names after each "_files/" of a text, if a conversion can create them.
 void add_names(std::string_view text, std::set<std::string>& names) {
     constexpr std::string_view kFolder = "_files";
     for (std::size_t at = text.find(kFolder); at != std::string_view::npos;
@@ -102,8 +102,8 @@ ConvertReport ConvertOutput::finish(std::span<const std::byte> bytes) {
     if (fs::exists(path_) && !fs::is_regular_file(path_)) {
         throw Error(ErrorKind::File, "exists and is not a regular file", {path_.string(), 0, 0});
     }
-    // Whether there is room for OUT is known before anything is replaced; it is written anew for
-    // its permissions and links.
+    // Checks the disk space for OUT before anything is replaced; it is rewritten for its
+    // permissions and links.
     fs::path room = path_;
     room += ".new";
     staged_.push_back({room, path_, false});

@@ -1,9 +1,9 @@
 #pragma once
-/// Output files of a conversion: OUT, and the files beside it that OUT names.
+/// Output files of a conversion: OUT, and the files next to it that OUT names.
 ///
 /// Conventions: all files are written under temporary names and moved to their places in `finish`,
 /// OUT last: a failed or stopped conversion leaves an earlier one intact. Files of another scene
-/// are not replaced: where a file of OUT_files/ has other bytes and a scene file beside OUT names
+/// are not replaced: where a file of OUT_files/ has other bytes and a scene file next to OUT names
 /// it, the new file gets another name. Without `finish`, new files and folders are removed again.
 
 #include <filesystem>
@@ -36,9 +36,9 @@ class ConvertOutput {
     /// or lies in its folder.
     void check_inputs(const std::set<std::filesystem::path>& inputs) const;
 
-    /// Writes a file of the folder. Returns its name relative to OUT: `name`, or another one.
+    /// Writes a file to the folder. Returns its name relative to OUT: `name`, or another one.
     std::string write_beside(const std::string& name, std::span<const std::byte> bytes);
-    /// Writes a file of a fixed name beside OUT.
+    /// Writes a file of a fixed name next to OUT.
     void write_sibling(const std::filesystem::path& name, std::span<const std::byte> bytes);
     ConvertReport finish(std::span<const std::byte> bytes);
     ConvertReport& report() { return report_; }
@@ -49,7 +49,7 @@ class ConvertOutput {
     std::filesystem::path free_name(const std::filesystem::path& path,
                                     std::span<const std::byte> bytes);
     bool is_named_by_others(const std::string& file_name);
-    /// Writes it under a temporary name.
+    /// Writes the file under a temporary name.
     void stage(const std::filesystem::path& path, std::span<const std::byte> bytes);
     void move_staged();
     void count(const std::filesystem::path& path, std::size_t bytes);
@@ -63,10 +63,10 @@ class ConvertOutput {
     std::string suffix_;
     ConvertReport report_;
     std::vector<Staged> staged_;
-    std::vector<std::filesystem::path> made_;  ///< files that were not there before
+    std::vector<std::filesystem::path> made_;  ///< files that did not exist before
     std::optional<std::filesystem::path> made_folder_;
     bool finished_ = false;
-    /// Files in such folders that scene files beside OUT name; searched on demand.
+    /// Files in the folders of conversions that scene files next to OUT name; searched on demand.
     std::optional<std::set<std::string>> named_by_others_;
     bool may_name_anything_ = false;  ///< one of these scene files cannot be read
 };

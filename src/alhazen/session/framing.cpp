@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kFieldOfView = kPi / 4;
 constexpr double kMargin = 0.05;
-/// Boxes flatter than this share of their other sides are seen from the front.
+/// Boxes flatter than this fraction of their other sides are viewed from the front.
 constexpr double kFlat = 0.25;
 constexpr Rgb kHeadlight{0.75, 0.75, 0.75};
 constexpr Rgb kHeadlightAmbient{0.25, 0.25, 0.25};
@@ -40,7 +40,7 @@ Turn turn(double degrees) {
     return {std::cos(radians), std::sin(radians)};
 }
 
-/// Unit vectors of a view: from the scene to the eye, to the right and up in the picture.
+/// Unit vectors of a view: from the scene to the eye, to the right and up in the image.
 struct ViewFrame {
     Vec3 to_eye, right, up;
 };
@@ -48,8 +48,8 @@ struct ViewFrame {
 ViewFrame view_frame(UpAxis up_axis, const ViewAngles& view) {
     const Turn a = turn(view.azimuth_deg);
     const Turn e = turn(view.elevation_deg);
-    // In (front, side, height); `up` is the derivative of `to_eye` by elevation: it has a limit at
-    // the poles.
+    // In (front, side, height); `up` is the derivative of `to_eye` by elevation, which is also
+    // defined at the poles.
     const auto place = [&](double front, double side, double height) {
         return up_axis == UpAxis::Z ? Vec3{front, side, height} : Vec3{side, height, front};
     };
@@ -58,7 +58,7 @@ ViewFrame view_frame(UpAxis up_axis, const ViewAngles& view) {
 }
 
 /// Distance of the eye at which the two sides of its pyramid, of half-width `tangent` at distance
-/// 1, hold all points (across, towards the eye).
+/// 1, contain all points (across, towards the eye).
 double least_distance(const std::array<Vec2, 8>& points, double tangent) {
     double right = -std::numeric_limits<double>::infinity();
     double left = right;
@@ -69,8 +69,8 @@ double least_distance(const std::array<Vec2, 8>& points, double tangent) {
     return (right + left) / (2.0 * tangent);
 }
 
-/// How far aside an eye at that distance must stand for the outermost points to appear equally far
-/// from the middle: what appears farther to the right of it falls as the eye moves right.
+/// Lateral position of an eye at that distance at which the outermost points appear equally far
+/// from the centre: their apparent offset to the right decreases as the eye moves right.
 double centred_place(const std::array<Vec2, 8>& points, double distance) {
     double lo = points[0].x, hi = lo;
     for (const Vec2& p : points) {
@@ -197,7 +197,7 @@ PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngl
                                  double aspect) {
     const ViewFrame frame = view_frame(up_axis, view);
     const Vec3 center = box.center();
-    // In units of the scene's size, so that no product of lengths leaves the range of numbers.
+    // In units of the scene's size, so that products of lengths neither overflow nor underflow.
     const double reach = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
     double unit = largest_side(box.size());
     if (!(unit > 1e-12 * reach)) unit = reach > 0.0 ? 1e-6 * reach : 1.0;

@@ -1,7 +1,7 @@
 #pragma once
 /// Generated scenes of any size by name, for measurements and pictures: `alhazen generate`.
 ///
-/// Conventions: each generator defines what its size counts, and whether the size is exact or a
+/// Conventions: each generator defines the unit of its size, and whether the size is exact or a
 /// minimum. All scenes have a camera and lights. The same name and size give the same scene
 /// everywhere, up to the last bits of the sines of the C library.
 
@@ -18,10 +18,11 @@ namespace alhazen {
 struct GeneratorEntry {
     const char* name;
     const char* size;            ///< unit of the size, one word
-    std::uint64_t default_size;  ///< for a database the published one
+    std::uint64_t default_size;  ///< the published one for a database
     std::uint64_t max_size;
     const char* description;  ///< one line
-    /// Exactly one of the two is set: a description, or the text of an NFF file.
+    /// Exactly one of the two is set: a function that returns a description, or one that returns
+    /// the text of an NFF file.
     SceneDescription (*make)(std::uint64_t size);
     void (*write_nff)(std::uint64_t size, NffText& out);
 };
@@ -32,8 +33,8 @@ struct GeneratorEntry {
 /// Throws Error (Usage) with the valid names for an unknown one.
 [[nodiscard]] const GeneratorEntry& find_generator(const std::string& name);
 
-/// The scene, valid; for a database that of its NFF file with six digits. Throws Error: Usage as
-/// above, and for a size of 0 or above the generator's largest.
+/// The scene, valid; for a database the scene of its NFF file with six digits. Throws Error: Usage
+/// as above, and for a size of 0 or above the generator's largest.
 [[nodiscard]] SceneDescription generate(const std::string& name,
                                         std::optional<std::uint64_t> size = {});
 

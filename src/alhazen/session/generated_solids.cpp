@@ -61,7 +61,7 @@ SceneDescription menger_sponge(std::uint64_t leaves) {
     SceneDescription scene = begin_scene({2.1, -1.6, 1.7}, {0.5, 0.5, 0.45});
     ObjectDescription sponge{"sponge", {}, {}};
     sponge.parts.push_back(part_of(BoxShape{{0, 0, 0}, {1, 1, 1}}, kSkin));
-    // A hole in a carpet of side^2 cells is where no pair of digits to the base 3 is (1, 1).
+    // A carpet of side^2 cells has a hole where no pair of digits in base 3 is (1, 1).
     const auto is_there = [](std::uint64_t i, std::uint64_t j) {
         for (; i > 0 && j > 0; i /= 3, j /= 3) {
             if (i % 3 == 1 && j % 3 == 1) return false;

@@ -173,7 +173,7 @@ void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& opti
         vertices += figures.back().vertices;
         unused += figures.back().unused_vertices;
     }
-    // The accelerator's box has margins: it tells only whether there are bounds.
+    // The accelerator's box has margins: used only to test for bounds.
     const Box3 box = loaded.scene.aggregate->box();
     const bool unbounded = !box.empty() && !box.bounded();
     const json bounds = box.empty() ? nullptr : box_json(exact_bounds(*loaded.scene.aggregate));

@@ -60,7 +60,7 @@ class Report {
     void line(const char* key, const std::string& value) {
         text_ += fmt::format("{:<14}{}\n", key, value);
     }
-    /// One indented line an entry, "name: what `describe` says".
+    /// One indented line per entry: the name, a colon and the result of `describe`.
     template <class F>
     void list(const char* key, const json& entries, F&& describe) {
         if (entries.empty()) return line(key, "none");
@@ -184,7 +184,7 @@ void add_memory(Report& report, const json& info) {
     if (!memory.contains("per_triangle")) return;
     const json& each = memory["per_triangle"];
     std::string peaks;
-    // The memory of the process itself would hide that of a small mesh.
+    // The memory of the process itself would exceed that of a small mesh.
     if (info["triangles"].get<std::uint64_t>() >= kManyTriangles) {
         peaks = fmt::format(", peak {:.0f} after reading, {:.0f} after building",
                             each["peak_after_load"].get<double>(),

@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// Counts each object's parts once, however often it is placed.
+/// Counts each object's parts once, for any number of placements.
 [[nodiscard]] inline std::uint64_t masked_parts(const SceneDescription& description) {
     std::uint64_t count = 0;
     for (const ObjectDescription& object : description.objects) {

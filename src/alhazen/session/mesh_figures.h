@@ -1,8 +1,9 @@
 #pragma once
 /// Counts, area and volume of a mesh, and of all meshes as placed in a scene.
 ///
-/// Conventions: volumes are signed, positive where the surface is wound outward; a mirroring
-/// placement keeps the outside outside, hence the sign. The volume of an open mesh means little.
+/// Conventions: volumes are signed, positive where the surface is wound outward; the sign is kept
+/// under a mirroring placement, because the outside stays outside. The volume of an open mesh is
+/// not meaningful.
 
 #include <cstdint>
 #include <optional>
@@ -19,7 +20,7 @@ struct MeshFigures {
     std::optional<bool> closed;  ///< none: not tested
 };
 
-/// `look_if_closed` takes a sort of all edges: O(n log n), else O(n).
+/// `look_if_closed` sorts all edges: O(n log n), otherwise O(n).
 [[nodiscard]] MeshFigures figures_of(const TriangleMesh& mesh, bool look_if_closed);
 
 struct PlacedFigures {
@@ -27,7 +28,7 @@ struct PlacedFigures {
 };
 
 /// Sums over all meshes as placed, instances expanded. `meshes` [MeshIndex] are their own figures.
-/// None when it would take too long: many nested uneven scalings.
+/// None beyond the limit of steps: many nested non-uniform scalings.
 [[nodiscard]] std::optional<PlacedFigures> placed_figures(const SceneDescription& description,
                                                           const std::vector<MeshFigures>& meshes);
 

@@ -16,7 +16,7 @@ struct PictureOptions {
     int bits = 8;
     bool full_float = false;
     ImageMetadata metadata;
-    const FilmLayers* layers = nullptr;  ///< written with the colours where the suffix is .exr
+    const FilmLayers* layers = nullptr;  ///< written with the colours for the suffix .exr
 };
 
 /// Whether the format holds layers (EXR only).

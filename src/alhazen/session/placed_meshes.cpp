@@ -13,7 +13,7 @@ void add_saturating(std::uint64_t& sum, std::uint64_t more) {
     sum = more > kMost - sum ? kMost : sum + more;
 }
 
-/// Each object is counted once, however often it is placed. Valid scenes are not nested deeply.
+/// Counts each object once, for any number of placements. The nesting of valid scenes is bounded.
 class Counter {
   public:
     explicit Counter(const SceneDescription& description)
@@ -63,7 +63,7 @@ class Collector {
             if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
                 add_mesh(part, d_.meshes[static_cast<std::size_t>(*mesh)], world_from_part, out);
             } else if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
-                // Objects without meshes take no time, however often they are placed.
+                // Skips objects without meshes.
                 const std::size_t index = static_cast<std::size_t>(*child);
                 if (counter_.of(index).meshes > 0) add_object(index, world_from_part, out);
             }

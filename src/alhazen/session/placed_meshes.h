@@ -22,7 +22,7 @@ struct PlacedCounts {
 /// "2 spheres, 1 plane"; empty without shapes.
 [[nodiscard]] std::string shapes_in_words(const PlacedCounts& counts);
 
-/// In the order of the parts; meshes without triangles are left out. `material_names` [MaterialId].
+/// In the order of the parts; meshes without triangles are omitted. `material_names` [MaterialId].
 /// Precondition: the counts fit in memory.
 [[nodiscard]] std::vector<NamedMesh> placed_meshes(const SceneDescription& description,
                                                    const std::vector<std::string>& material_names);

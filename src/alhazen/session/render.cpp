@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kDefaultHeight = 512;
 constexpr int kSpdRays = 513;
-/// Bounds the recursion over generations to the stack that every thread has.
+/// Bounds the recursion over generations to the stack size available in every thread.
 constexpr int kMaxDepth = 1000;
 
 struct FrameSize {

@@ -1,5 +1,5 @@
 #pragma once
-/// Rendering one picture of a scene with the options of a person.
+/// Renders one image of a scene with options from the command line.
 
 #include <optional>
 #include <string>
@@ -38,7 +38,7 @@ struct RenderOptions {
     std::uint64_t seed = 0;
     Protocol protocol = Protocol::None;
     bool count_tests = false;
-    AovSet aovs;  ///< layers to make besides the picture
+    AovSet aovs;  ///< layers to render in addition to the image
     ProgressSink* progress = nullptr;
     const StopFlag* stop = nullptr;
 };
@@ -53,17 +53,17 @@ struct RenderResult {
     double processor_seconds = 0;  ///< of all threads together
     int threads = 0;
     bool complete = true;                   ///< false after a stop; tiles not done are black
-    std::size_t tiles_done = 0, tiles = 0;  ///< or the other parts that the renderer counts
+    std::size_t tiles_done = 0, tiles = 0;  ///< or parts, as counted by the renderer
 };
 
-/// Width / height of a picture without a camera: that of the options, of the file, or 4 / 3.
+/// Width / height of an image without a camera: that of the options, of the file, or 4 / 3.
 [[nodiscard]] double free_aspect(const PictureSettings& picture, const RenderOptions& options);
 
-/// Renders a picture. Throws Error (Usage) for options that make no picture, and where the renderer
-/// needs an aggregate that the scene does not have.
+/// Renders an image. Throws Error (Usage) for invalid options, and where the renderer needs an
+/// aggregate that the scene does not have.
 [[nodiscard]] RenderResult render(const Scene& scene, const PictureSettings& picture,
                                   const RenderOptions& options);
-/// The same with the description, for renderers that read geometry from it.
+/// Renders with the description, for renderers that read geometry from it.
 [[nodiscard]] RenderResult render(const LoadedScene& loaded, const RenderOptions& options);
 
 }  // namespace alhazen

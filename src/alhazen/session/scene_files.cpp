@@ -13,7 +13,7 @@ std::set<std::filesystem::path> files_of_scene(const SceneDescription& descripti
 }
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code failed;  // one of them does not exist: they differ
+    std::error_code failed;  // a file that does not exist differs from any other
     return std::filesystem::equivalent(a, b, failed) && !failed;
 }
 

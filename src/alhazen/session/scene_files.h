@@ -9,7 +9,7 @@
 
 namespace alhazen {
 
-/// The scene file and all other files that were read, or that it names.
+/// The scene file and all other files that were read or that it names.
 [[nodiscard]] std::set<std::filesystem::path> files_of_scene(const SceneDescription& description);
 
 /// Whether both names denote one existing file.

@@ -45,7 +45,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
     }
     SceneCensus census = loaded.scene.census;
     const bool has_aggregate = loaded.scene.aggregate != nullptr;
-    // Some accelerators make their lists while rays are traced.
+    // Some accelerators build their lists while rays are traced.
     if (has_aggregate) census.accelerator_bytes = accelerator_bytes(*loaded.scene.aggregate);
     const std::optional<double> each = bytes_per_effective_primitive(census);
     const json bytes_each = each ? json(*each) : json(nullptr);

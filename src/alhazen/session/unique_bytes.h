@@ -8,7 +8,7 @@
 
 namespace alhazen {
 
-/// All memory for ray tracing, every object once.
+/// All memory for ray tracing, with every object counted once.
 [[nodiscard]] inline std::uint64_t unique_bytes(const SceneCensus& census) {
     return census.scene_bytes + census.accelerator_bytes;
 }

@@ -134,7 +134,8 @@ void lay_out(SceneDescription& scene, ObjectIndex object, const Rows& rows, cons
     }
 }
 
-/// Puts the rows into an object of their own beside the ground, so that they can have a grid.
+/// Puts the rows into an object of their own, separate from the ground, so that they can have a
+/// grid.
 Rows make_field(std::uint64_t triangles, SceneDescription& scene) {
     scene = generated_scene({{0.3, -1.0, 1.1}, {0, 5, 0.25}, 40});
     scene.picture.background = Rgb{0.55, 0.7, 0.9};

@@ -1,11 +1,13 @@
 #pragma once
 /// A meadow of any number of grass blades, built by instancing a few thousand stored ones.
+///
+/// Source: Snyder and Barr, "Ray Tracing Complex Models Containing Surface Tessellations", SIGGRAPH
+/// 1987: a field of 2 * 10^9 primitives by instances of lists and grids of instances.
+/// Differs: their objects are not published; these are modelled here. `field` leaves the choice of
+/// the accelerator to the user.
 /// Conventions: metres. A tuft has 1000 triangles. 10 x 10 tufts, randomly rotated, scaled and
 /// moved, form a patch, 10 x 10 patches a plot, and so on; the largest units are laid out in rows.
 /// Every level has four variants.
-/// Source: Snyder and Barr, "Ray Tracing Complex Models Containing Surface Tessellations", SIGGRAPH
-/// 1987: a field of 2 * 10^9 primitives by instances of lists and grids of instances. Their objects
-/// are not published; these are modelled here. `field` leaves the accelerator to the user.
 
 #include <cstdint>
 

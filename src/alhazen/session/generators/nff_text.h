@@ -1,9 +1,10 @@
 #pragma once
 /// Writes an NFF file statement by statement, for the generators of the Standard Procedural
 /// Databases.
+///
+/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987.
 /// Conventions: numbers have at most `digits` significant digits, as by "%g" of C; the published
 /// files have six. Angles are in degrees, as in the file.
-/// Source: Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987.
 
 #include <cstdint>
 #include <span>

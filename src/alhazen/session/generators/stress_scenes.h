@@ -1,6 +1,7 @@
 #pragma once
 /// Scenes that are hard for some accelerators: a teapot in a stadium, long thin objects across the
 /// axes, many objects in one place. Sizes are stated with each function.
+///
 /// Source: teapot in a stadium: Haines, Ray Tracing News, 1988. The shapes are modelled here.
 
 #include <cstdint>
