@@ -2,8 +2,8 @@
 /// Mirror and refracted directions.
 ///
 /// Source: Heckbert, "Writing a Ray Tracer", in Glassner (ed.), An Introduction to Ray Tracing,
-/// 1989. Conventions: `d` and `n` unit, dot(d, n) <= 0 for the side the ray comes
-/// from; results unit.
+/// 1989.
+/// Conventions: `d` and `n` unit, dot(d, n) <= 0 for the side the ray comes from; results unit.
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
-/// The grammar of polynomial expressions.
+/// The grammar of polynomial expressions, read by recursive descent.
 ///
-/// Source: recursive descent. Conventions: internal to this folder.
+/// Conventions: internal to this folder.
 ///   sum := product { ("+" | "-") product }       product := factor { ("*" | "/") factor }
 ///   factor := "-" factor | "+" factor | atom ["^" WHOLE NUMBER]
 ///   atom := NUMBER | "x" | "y" | "z" | "(" sum ")" | "sqrt" "(" sum ")"
