@@ -4,7 +4,7 @@
 /// Source: polynomial_solid.h, the same operations in the same order. Differs: a kernel computes
 /// the segments and the coefficients of eight rays, says which of them miss, begin inside, or have
 /// a bracket around their first root from the signs of the coefficients alone, and refines the
-/// brackets; what is rarer is left to the scalar text. Conventions: internal to this folder. Bit i
+/// brackets; what is rarer is left to the scalar text. Conventions: internal to shapes/. Bit i
 /// of a set of lanes stands for lane i. Every target gives the bits of the scalar text.
 
 #include <cstddef>

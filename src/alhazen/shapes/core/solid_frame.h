@@ -5,7 +5,7 @@
 /// Source: Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18,
 /// 1982 (a solid as the intersection of intervals). Differs: whether the line is inside where it
 /// enters the clip determines the caps, so the count of crossings is even by construction.
-/// Conventions: internal to this folder. Numbers may be double or double-double: in the latter the
+/// Conventions: internal to shapes/. Numbers may be double or double-double: in the latter the
 /// transform of a ray is exact to 30 digits, and the doubles of `SolidFrame` define the shape.
 
 #include "alhazen/geometry/bounds_source.h"

@@ -2,7 +2,7 @@
 /// The first crossings of eight rays with a sphere, side by side in lanes.
 ///
 /// Source: geometry/sphere_roots.h, the same formulas. Differs: what is not plain
-/// (plain_double-inl.h) is left to the scalar text. Conventions: internal to this folder. Bit i of
+/// (fast_min_max-inl.h) is left to the scalar text. Conventions: internal to this folder. Bit i of
 /// a set stands for lane i. Every target gives the bits of the scalar text.
 
 #include <cstdint>
