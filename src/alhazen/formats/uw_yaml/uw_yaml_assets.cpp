@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "alhazen/base/file.h"
+#include "alhazen/formats/mesh/mesh_normals.h"
 #include "alhazen/formats/mesh_files/mesh_io.h"
 
 namespace alhazen {
@@ -209,6 +210,7 @@ std::optional<MeshIndex> UwAssets::mesh(const std::string& name, const YAML::Nod
         values_.error(found->second, "the mesh '" + name + "' cannot be read: " + e.what());
     }
     if (diagnostics_.error_count() != errors_before) return id;
+    if (mesh.normals.empty()) make_smooth_normals(mesh);
     id = MeshIndex(scene_.meshes.size());
     scene_.meshes.push_back(
         {name, std::make_shared<TriangleMesh>(std::move(mesh)), values_.location(found->second)});

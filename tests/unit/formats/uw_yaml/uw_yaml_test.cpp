@@ -375,6 +375,41 @@ TEST(UwYaml, ASphereHasTheCoordinatesOfTheCoursesExportedSpheres) {
     EXPECT_NEAR(c.y, 0.4, 1e-5);
 }
 
+TEST(UwYaml, AMeshWithoutNormalsIsSmoothByAreaAndPosition) {
+    const testing::TemporaryFolder folder;
+    // A roof: the ridge is shared by a large and a small slope. Once with shared vertices, once
+    // with vertices repeated for every triangle.
+    const std::string corners = "v 0 0 0\nv 0 0 1\nv 2 -2 0\nv -1 -1 0\n";
+    folder.write("assets/shared.obj", corners + "f 1 2 3\nf 1 4 2\n");
+    folder.write("assets/repeated.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                 "end_header\n0 0 0\n0 0 1\n2 -2 0\n0 0 0\n-1 -1 0\n-0 0 1\n3 0 1 2\n3 3 4 5\n");
+    folder.write("assets/own.obj", corners + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1//1 4//1 2//1\n");
+    const auto normals_of = [&](const std::string& file) {
+        const std::string text = "Meshes: {one: {Path: assets/" + file + "}}\n" +
+                                 scene_of("        TriangleMesh: {Material: Red One, Mesh: one}\n");
+        Diagnostics found;
+        const SceneDescription scene =
+            import_text(text, folder.write("assets/a.yaml", text), found);
+        EXPECT_EQ(text_of(found), "");
+        return scene.meshes.at(0).mesh->normals;
+    };
+    const Vec3 ridge = normalize(Vec3{2, 2, 0} + Vec3{-1, 1, 0});
+    const std::vector<Vec3> shared = normals_of("shared.obj");
+    ASSERT_EQ(shared.size(), 4u);
+    expect_point(shared[0], ridge);
+    expect_point(shared[1], ridge);
+    expect_point(shared[2], normalize(Vec3{1, 1, 0}));
+    expect_point(shared[3], normalize(Vec3{-1, 1, 0}));
+    const std::vector<Vec3> repeated = normals_of("repeated.ply");
+    ASSERT_EQ(repeated.size(), 6u);
+    for (const int i : {0, 1, 3, 5}) expect_point(repeated[std::size_t(i)], ridge);
+    expect_point(repeated[2], shared[2]);
+    expect_point(repeated[4], shared[3]);
+    for (const Vec3& normal : normals_of("own.obj")) expect_point(normal, {0, 0, 1});
+}
+
 TEST(UwYaml, RandomDamageNeverDoesMoreThanFindings) {
     const std::string good = scene_of(
         "        Sphere: {Material: Red One}\n" + kCamera,
