@@ -225,6 +225,17 @@ class CommandLine(CommandLineCase):
         self.assertGreater(json.loads(result.stdout)["different"], 0.1)
         self.assertTrue(self.read("d.png").startswith(b"\x89PNG"))
 
+    def test_a_picture_that_cannot_be_used_has_one_exit_status(self):
+        for content, status in ((b"no picture", 3), (b"PF\n8 8\n-1.0\n1234", 3), (b"PF\n-1 4\n-1.0\n", 3),
+                                (b"PF\n100000 100000\n-1.0\n", 5)):
+            with open(self.path("p.pfm"), "wb") as file:
+                file.write(content)
+            scene = self.write("textured.alhazen", 'alhazen 1\ntexture "t" { file = "p.pfm" }\nsphere {}\n')
+            told = run("diff", self.path("p.pfm"), self.path("p.pfm"))
+            rendered = run("render", scene, "-o", self.path("out.png"), "--size", "8x8", "-q")
+            self.assertEqual((told.returncode, rendered.returncode), (status, status), content)
+            self.assertIn("textured.alhazen:2:1: error: texture: ", rendered.stderr)
+
     def test_statistics_have_what_is_promised(self):
         result = self.render("--stats", "-", "-q")
         stats = json.loads(result.stdout)
