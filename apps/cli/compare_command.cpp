@@ -31,7 +31,7 @@ struct CompareArguments {
                 along;
     CompareOptions compare;
     int depth = -1;
-    bool no_tuning = false, quiet = false;
+    bool no_tuning = false, quiet = false, strict = false;
     bool of_scenes = false;  ///< an option was given that --claim does not use
 };
 
@@ -79,6 +79,7 @@ SceneDescription read_scene(const CompareArguments& args, const std::string& sce
                             std::span<const std::filesystem::path> outputs) {
     LoadOptions options;
     options.import.allowed_folders.assign(args.allow_paths.begin(), args.allow_paths.end());
+    options.strict = args.strict;
     Diagnostics diagnostics;
     SceneDescription description = load_description(scene, options, diagnostics);
     check_spares_scene(description, outputs);
@@ -251,6 +252,7 @@ void add_compare(CLI::App& app, int& exit_status) {
         ->type_name("DIR")
         ->expected(1)
         ->take_all();
+    add_strict(*command, args->strict);
     command->add_option("--json", args->json, "Write the report as JSON; - for stdout")
         ->type_name("FILE");
     command->add_option("--html", args->html, "Write the report as one HTML page")
@@ -268,7 +270,7 @@ void add_compare(CLI::App& app, int& exit_status) {
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, command, &exit_status] {
         for (const char* name : {"--accelerators", "--no-tuning", "--size", "--depth", "--camera",
-                                 "--protocol", "--allow-path"}) {
+                                 "--protocol", "--allow-path", "--strict"}) {
             args->of_scenes = args->of_scenes || command->count(name) > 0;
         }
         exit_status = run(*args);

@@ -45,8 +45,8 @@ int run(int argc, char** argv) {
     app.footer(
         "Exit status: 0 done; 1 a check did not hold or the render failed; 2 wrong usage; 3 bad "
         "scene;\n"
-        "4 a file could not be read or written; 5 out of a resource; 6 finished, but not "
-        "--strict;\n"
+        "4 a file could not be read or written; 5 out of a resource; 6 --strict, and samples were "
+        "not finite;\n"
         "75 stopped by a signal, what was done is written.");
     int exit_status = kDone;
     add_render(app, exit_status);

@@ -68,6 +68,11 @@ CLI::Validator number_in(double lo, double hi) {
             range};
 }
 
+void add_strict(CLI::App& command, bool& strict) {
+    command.add_flag("--strict", strict,
+                     "Warnings about the scene are errors: exit 3, and nothing is done");
+}
+
 void ImageLimitArguments::add_to(CLI::App& command) {
     command
         .add_option("--max-image-pixels", max_pixels,
@@ -156,6 +161,7 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
                     "BRL-CAD: a file with the view commands of `rt`; the first frame becomes the "
                     "default camera")
         ->type_name("FILE");
+    add_strict(command, strict);
     image_limits.add_to(command);
     command
         .add_option("--max-import-mib", max_import_mib,
@@ -197,6 +203,7 @@ LoadOptions SceneArguments::load_options() const {
     options.compile.build = build_options();
     options.compile.csg = csg;
     options.threads = threads;
+    options.strict = strict;
     return options;
 }
 

@@ -23,6 +23,9 @@ struct Size {
 /// A number from lo to hi. Unlike CLI::Range it refuses nan, which passes every comparison.
 [[nodiscard]] CLI::Validator number_in(double lo, double hi);
 
+/// The option --strict, whose meaning is that of `LoadOptions::strict`.
+void add_strict(CLI::App& command, bool& strict);
+
 /// Size limits of pictures that are read.
 struct ImageLimitArguments {
     std::uint64_t max_pixels = ImageLimits{}.max_pixels;
@@ -40,7 +43,7 @@ struct SceneArguments {
     std::string build_quality = "default";
     std::uint32_t width = BuildOptions{}.width;
     std::string csg;
-    bool compact = false;
+    bool compact = false, strict = false;
     std::vector<std::string> allow_paths;
     std::optional<double> time;
     std::string animation;

@@ -32,7 +32,7 @@ struct RenderArguments {
     std::string size, crop, encoding, protocol, stats, aovs, view;
     int depth = -1;
     int bits = 8;
-    bool full_float = false, aov_png = false, quiet = false, strict = false, no_counts = false;
+    bool full_float = false, aov_png = false, quiet = false, no_counts = false;
     RenderOptions render;
 };
 
@@ -201,9 +201,7 @@ int run(const RenderArguments& args) {
              1e-6 * static_cast<double>(result.counters.total_cast()), result.seconds,
              result.threads, result.threads == 1 ? "" : "s");
     }
-    const bool spotless =
-        result.counters.non_finite == 0 && loaded.diagnostics.warning_count() == 0;
-    return args.strict && !spotless ? kNotStrict : kDone;
+    return args.scene.strict && result.counters.non_finite > 0 ? kNotStrict : kDone;
 }
 
 }  // namespace
@@ -267,8 +265,6 @@ void add_render(CLI::App& app, int& exit_status) {
                       "With --stats: count no tests, which takes time");
     command->add_option("--stats", args->stats, "Write statistics as JSON; - for stdout")
         ->type_name("FILE");
-    command->add_flag("--strict", args->strict,
-                      "Exit 6 when there were warnings or non-finite samples");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }

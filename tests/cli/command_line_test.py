@@ -116,6 +116,23 @@ class CommandLine(CommandLineCase):
         for place in (":2:", ":3:", ":4:"):
             self.assertIn(bad + place, result.stderr)
 
+    def test_strict_turns_warnings_of_every_command_into_errors(self):
+        scene = self.write("bare.obj", "mtllib absent.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        picture = self.path("out.png")
+        size = ("--size", "8x8")
+        for arguments in (("render", scene, "-o", picture, *size), ("info", scene),
+                          ("convert", scene, self.path("out.ply")), ("verify", scene, "--rays", "8"),
+                          ("measure", scene, "--budget", "1"), ("spans", scene, "--ray", "0,0,1,0,0,-1"),
+                          ("section", scene, "--plane", "0,0,1,0", "-o", picture, *size),
+                          ("compare", scene, "--accelerators", "kd_tree", "--no-tuning", *size)):
+            result = run(*arguments, "--strict")
+            self.assertEqual(result.returncode, 3, (arguments, result.stderr))
+            self.assertIn(scene + ":1:", result.stderr)
+            self.assertIn(": error: ", result.stderr)
+            self.assertFalse(os.path.exists(picture))
+        self.assertEqual(run("info", scene).returncode, 0)
+        self.assertEqual(run("info", self.scene, "--strict").returncode, 0)
+
     def test_files_that_are_missing_or_no_files_exit_4(self):
         for name in (self.path("absent.alhazen"), self.folder.name):
             self.assertEqual(run("info", name).returncode, 4, name)
@@ -207,6 +224,17 @@ class CommandLine(CommandLineCase):
         self.assertEqual(result.returncode, 1)
         self.assertGreater(json.loads(result.stdout)["different"], 0.1)
         self.assertTrue(self.read("d.png").startswith(b"\x89PNG"))
+
+    def test_a_picture_that_cannot_be_used_has_one_exit_status(self):
+        for content, status in ((b"no picture", 3), (b"PF\n8 8\n-1.0\n1234", 3), (b"PF\n-1 4\n-1.0\n", 3),
+                                (b"PF\n100000 100000\n-1.0\n", 5)):
+            with open(self.path("p.pfm"), "wb") as file:
+                file.write(content)
+            scene = self.write("textured.alhazen", 'alhazen 1\ntexture "t" { file = "p.pfm" }\nsphere {}\n')
+            told = run("diff", self.path("p.pfm"), self.path("p.pfm"))
+            rendered = run("render", scene, "-o", self.path("out.png"), "--size", "8x8", "-q")
+            self.assertEqual((told.returncode, rendered.returncode), (status, status), content)
+            self.assertIn("textured.alhazen:2:1: error: texture: ", rendered.stderr)
 
     def test_statistics_have_what_is_promised(self):
         result = self.render("--stats", "-", "-q")

@@ -27,18 +27,24 @@ void Diagnostics::add(Severity severity, FileLocation location, std::string mess
 }
 
 void Diagnostics::throw_if_errors() const {
-    if (error_count_ == 0) return;
+    throw_all(Severity::Error, error_count_);
+}
+
+void Diagnostics::throw_if_warnings() const {
+    throw_all(Severity::Warning, warning_count_);
+}
+
+void Diagnostics::throw_all(Severity severity, std::size_t count) const {
+    if (count == 0) return;
     std::string text;
     std::size_t listed = 0;
     for (const Diagnostic& diagnostic : kept_) {
-        if (diagnostic.severity != Severity::Error) continue;
+        if (diagnostic.severity != severity) continue;
         if (!text.empty()) text += '\n';
-        text += to_string(diagnostic);
+        text += to_string({Severity::Error, diagnostic.location, diagnostic.message});
         ++listed;
     }
-    if (listed < error_count_) {
-        text += "\n(and " + std::to_string(error_count_ - listed) + " more errors)";
-    }
+    if (listed < count) text += "\n(and " + std::to_string(count - listed) + " more errors)";
     throw Error(ErrorKind::Scene, text);
 }
 

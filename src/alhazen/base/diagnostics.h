@@ -44,8 +44,11 @@ class Diagnostics {
 
     /// Throws `Error` (kind Scene) whose message lists all errors, one a line, when there is any.
     void throw_if_errors() const;
+    /// The same for warnings, which are then listed as errors.
+    void throw_if_warnings() const;
 
   private:
+    void throw_all(Severity severity, std::size_t count) const;
     void add(Severity severity, FileLocation location, std::string message);
 
     std::vector<Diagnostic> kept_;

@@ -78,17 +78,6 @@ inline int resolved_edge_sign(const ShearedVertex<double>& a, const ShearedVerte
     return sign(b.x - a.x);
 }
 
-/// True when the edge functions with sum `det` cancelled so much that the weights, and with them
-/// the hit point, could be off by more than 2^-40 of the triangle.
-inline bool seen_nearly_edge_on(double det, const ShearedVertex<double>& a,
-                                const ShearedVertex<double>& b, const ShearedVertex<double>& c) {
-    const auto reach_of = [](const ShearedVertex<double>& v) {
-        return std::max(std::abs(v.x), std::abs(v.y));
-    };
-    const double reach = std::max(reach_of(a), std::max(reach_of(b), reach_of(c)));
-    return !(std::abs(det) > 0x1p-8 * reach * reach);
-}
-
 /// The power of two that scales the largest of three magnitudes to about 1; 1 where all are 0.
 inline double to_unit_size(double a, double b, double c) {
     const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
@@ -120,10 +109,9 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
     const ShearedVertex<double> va = shear_vertex(a);
     const ShearedVertex<double> vb = shear_vertex(b);
     const ShearedVertex<double> vc = shear_vertex(c);
-    double eu = edge_function(vb, vc);
-    double ev = edge_function(vc, va);
-    double ew = edge_function(va, vb);
-    if ((eu < 0.0 || ev < 0.0 || ew < 0.0) && (eu > 0.0 || ev > 0.0 || ew > 0.0)) return false;
+    const TriangleEdges<double> edges(va, vb, vc);
+    if (edges.missed()) return false;
+    double eu = edges.u, ev = edges.v, ew = edges.w;
     if (eu == 0.0 || ev == 0.0 || ew == 0.0) {
         const int su = resolved_edge_sign(vb, vc);
         if (su == 0 || su != resolved_edge_sign(vc, va) || su != resolved_edge_sign(va, vb)) {
@@ -131,7 +119,7 @@ inline bool intersect_triangle(const Ray& ray, const RayShear& shear, const Vec3
         }
     }
     // Includes three false zeros; three true zeros cannot occur here.
-    if (seen_nearly_edge_on(eu + ev + ew, va, vb, vc)) {
+    if (!edges.well_conditioned()) {
         precise_edge_functions(va, vb, vc, 1.0, 1.0, eu, ev, ew);
         // Only the ratios matter; neither the values nor their products with lengths may underflow.
         if (std::max({std::abs(eu), std::abs(ev), std::abs(ew)}) < 0x1p-300) {

@@ -1,5 +1,6 @@
 /// The arithmetic of the ray-triangle test, for double and lanes of double alike: `Real` needs + -
-/// * /.
+/// * /, comparisons, and min_lanes, max_lanes, abs by argument-dependent look-up. A double is the
+/// case of one lane.
 ///
 /// A fragment without a guard: watertight_triangle.h includes it in namespace alhazen; code for an
 /// instruction set includes it again in its own namespace, because a compiler compiles a template
@@ -25,6 +26,48 @@ template <class Real>
 inline Real edge_function(const ShearedVertex<Real>& a, const ShearedVertex<Real>& b) {
     return a.x * b.y - a.y * b.x;
 }
+
+/// As one lane: the second operand where one is a NaN.
+inline double min_lanes(double a, double b) {
+    return a < b ? a : b;
+}
+inline double max_lanes(double a, double b) {
+    return a > b ? a : b;
+}
+
+/// The edge functions of a triangle: the weights of its vertices, but for a factor.
+template <class Real>
+struct TriangleEdges {
+    Real u, v, w;
+    Real least, most;  ///< of them
+    Real reach;        ///< largest |x|, |y| of a vertex
+
+    TriangleEdges(const ShearedVertex<Real>& a, const ShearedVertex<Real>& b,
+                  const ShearedVertex<Real>& c)
+        : u(edge_function(b, c)),
+          v(edge_function(c, a)),
+          w(edge_function(a, b)),
+          least(min_lanes(min_lanes(u, v), w)),
+          most(max_lanes(max_lanes(u, v), w)),
+          reach(max_lanes(max_lanes(reach_of(a), reach_of(b)), reach_of(c))) {}
+
+    /// The ray passes outside.
+    [[nodiscard]] auto missed() const { return (least < Real(0.0)) & (most > Real(0.0)); }
+    /// No edge function is zero or NaN.
+    [[nodiscard]] auto nonzero() const { return (least > Real(0.0)) | (most < Real(0.0)); }
+    /// Their sum has not cancelled so much that the weights, and with them the hit point, could be
+    /// off by more than 2^-40 of the triangle: it is not seen nearly edge on. False for a NaN.
+    [[nodiscard]] auto well_conditioned() const {
+        using std::abs;
+        return abs(u + v + w) > Real(0x1p-8) * reach * reach;
+    }
+
+  private:
+    static Real reach_of(const ShearedVertex<Real>& a) {
+        using std::abs;
+        return max_lanes(abs(a.x), abs(a.y));
+    }
+};
 
 /// t and barycentrics (weights of the second and third vertex) from the edge functions.
 template <class Real>

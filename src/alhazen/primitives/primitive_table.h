@@ -16,6 +16,7 @@
 #include "alhazen/geometry/ray_mask.h"
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/primitives/aggregate.h"
+#include "alhazen/primitives/nearest_hit.h"
 #include "alhazen/shading/materials/material.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "alhazen/shapes/shape_list.h"
@@ -211,15 +212,5 @@ class PrimitiveTable final : public BoundsSource {
         masks_;  ///< ascending; empty where all primitives are visible to all rays
     RayMask common_mask_ = kAllRays;  ///< bits common to all masks
 };
-
-/// Offers a crossing as the new best: it wins when it is nearer, or equally near with a lower id.
-inline void offer(const ShapeHit& crossing, PrimitiveId id, Ray& ray, Hit& best) {
-    if (crossing.t < best.t || (crossing.t == best.t && id < best.top())) {
-        static_cast<ShapeHit&>(best) = crossing;
-        best.primitive = id;
-        best.path.clear();
-        ray.t_max = crossing.t;
-    }
-}
 
 }  // namespace alhazen

@@ -36,7 +36,9 @@ void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
 
 SceneDescription load_description(const std::filesystem::path& path, const LoadOptions& options,
                                   Diagnostics& diagnostics) {
-    return import_scene(path, options.import, diagnostics);
+    SceneDescription description = import_scene(path, options.import, diagnostics);
+    if (options.strict) diagnostics.throw_if_warnings();
+    return description;
 }
 
 LoadedScene load(const std::filesystem::path& path, const LoadOptions& options) {

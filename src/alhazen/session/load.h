@@ -14,6 +14,8 @@ struct LoadOptions {
     ImportOptions import;
     CompileOptions compile;
     int threads = 0;  ///< for the build; 0 = all available cores
+    /// True: warnings are errors. A scene that is not read whole and as it says is refused.
+    bool strict = false;
     /// False: meshes that are placed once may be moved into the scene and are then null in the
     /// description.
     bool keep_meshes = true;
@@ -32,7 +34,7 @@ struct LoadedScene {
     double build_seconds = 0;
 };
 
-/// Reads and validates a scene file without building anything.
+/// Reads and validates a scene file without building anything. Throws Error.
 [[nodiscard]] SceneDescription load_description(const std::filesystem::path& path,
                                                 const LoadOptions& options,
                                                 Diagnostics& diagnostics);

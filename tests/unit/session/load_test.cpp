@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
 #include "alhazen/session/statistics.h"
 #include "support/test_data.h"
 
@@ -50,6 +51,24 @@ TEST(Load, TheAggregateIsBuiltWhenItIsAskedFor) {
     EXPECT_EQ(loaded.scene.aggregate.get(), built);
     EXPECT_EQ(render(loaded, render_options).film.to_image().samples,
               render(whole, render_options).film.to_image().samples);
+}
+
+TEST(Load, StrictTurnsWarningsIntoErrors) {
+    const std::filesystem::path path =
+        std::filesystem::path(::testing::TempDir()) / "load_strict.obj";
+    write_file_atomically(path, "mtllib absent.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    LoadOptions options;
+    EXPECT_EQ(load(path, options).diagnostics.warning_count(), 1);
+    options.strict = true;
+    try {
+        (void)load(path, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Scene);
+        EXPECT_NE(std::string(error.what()).find("load_strict.obj:1:8: error: "), std::string::npos)
+            << error.what();
+    }
+    EXPECT_NO_THROW((void)load(testing::source_folder() / "scenes/one_plane.alhazen", options));
 }
 
 }  // namespace

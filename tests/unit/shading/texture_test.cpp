@@ -46,13 +46,15 @@ TEST(Texture, WrapModesDifferBeyondTheEdge) {
     EXPECT_EQ(evaluate(t, {1.75, 0.25}).r, 2.0);
 }
 
-TEST(Texture, CornerTexelsStandAtTheEnds) {
+TEST(Texture, CornerTexelsStandAtIOverWidthFromTheTopLeftAndRepeat) {
     Texture t = small_texture();
     t.corner_texels = true;
-    t.wrap_u = t.wrap_v = Wrap::Clamp;
-    EXPECT_EQ(evaluate(t, {0.0, 0.0}).r, 2.0);
-    EXPECT_EQ(evaluate(t, {1.0, 1.0}).r, 1.0);
-    EXPECT_EQ(evaluate(t, {0.5, 1.0}).r, 0.5);
+    EXPECT_EQ(evaluate(t, {0.0, 1.0}).r, 0.0);
+    EXPECT_EQ(evaluate(t, {0.5, 1.0}).r, 1.0);
+    EXPECT_EQ(evaluate(t, {0.0, 0.5}).r, 2.0);
+    EXPECT_EQ(evaluate(t, {0.25, 1.0}).r, 0.5);
+    EXPECT_EQ(evaluate(t, {0.75, 1.0}).r, 0.5);  // between the last texel and the first
+    EXPECT_EQ(evaluate(t, {0.5, 0.25}).r, 2.0);
 }
 
 TEST(Texture, SrgbIsMadeLinearBeforeItIsInterpolated) {

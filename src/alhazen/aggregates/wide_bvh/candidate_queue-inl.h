@@ -1,4 +1,6 @@
-/// The candidate queue of a packet.
+/// Candidate queues: triangles that pass the filter wait for exact resolution until their ray is
+/// done. Most lie behind a sure hit by then. `add` is false when the queue is full, `take_all`
+/// gives the candidates that still begin before the end of their ray to exact resolution.
 ///
 /// Conventions: included once per target (see simd/lanes-inl.h).
 
@@ -19,13 +21,42 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Triangles that rays of a packet may hit, until exact resolution. Most rays have one: it is kept
-/// in lanes, further ones in a list.
-class CandidateQueue {
+/// The candidates of one ray.
+class RayCandidates {
+  public:
+    HWY_INLINE bool add(const TriangleBlock& block, std::size_t lane, float begin) {
+        if (HWY_UNLIKELY(count_ == kMaxCount)) return false;
+        candidates_[count_++] = {&block, static_cast<std::uint32_t>(lane), begin};
+        return true;
+    }
+    /// Calls `resolve(block, lane)`, which may lower `s_max`.
+    template <class Resolve>
+    HWY_INLINE void take_all(const float& s_max, Resolve&& resolve) {
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            // Written so that a NaN is not passed over.
+            if (candidates_[i].lo > s_max) continue;
+            resolve(*candidates_[i].block, candidates_[i].lane);
+        }
+        count_ = 0;
+    }
+
+  private:
+    static constexpr std::uint32_t kMaxCount = 8;
+    std::uint32_t count_ = 0;
+    struct {
+        const TriangleBlock* block;
+        std::uint32_t lane;
+        float lo;
+    } candidates_[kMaxCount];
+};
+
+/// The candidates of the rays of a packet. Most rays have one: it is kept in lanes, further ones in
+/// a list.
+class PacketCandidates {
   public:
     static constexpr float kNone = std::numeric_limits<float>::infinity();
 
-    HWY_INLINE explicit CandidateQueue(const RayPacket& packet) : packet_(packet) {
+    HWY_INLINE explicit PacketCandidates(const RayPacket& packet) : packet_(packet) {
         const GroupFloats none(kNone);
         for (std::size_t g = 0; g < packet.group_count; ++g) store_lanes(none, kept_[g].lo);
     }

@@ -17,7 +17,7 @@
 
 #include "alhazen/accel/wide_bvh/trace/stream-inl.h"
 #include "alhazen/accel/wide_bvh/trace/traverse-inl.h"
-#include "alhazen/aggregates/wide_bvh/triangle_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -87,7 +87,7 @@ class BatchSource {
     std::span<const Ray> rays_;
     std::span<Result> results_;
     std::size_t next_ = 0;
-    TriangleResolution resolution_;
+    BatchResolution resolution_;
 };
 
 template <class Query, std::size_t W, class Result>

@@ -15,32 +15,17 @@
 // After foreach_target.h.
 #include "alhazen/aggregates/wide_bvh/coherent_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/dispatch-inl.h"
-#include "alhazen/aggregates/wide_bvh/fast_queries-inl.h"
 #include "alhazen/aggregates/wide_bvh/leaf_queries-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// Exact hits: a filter in float, then exact resolution in double.
-struct FilteredTriangleTest {
-    using Closest = ClosestQuery;
-    using Occluded = OccludedQuery;
-    static constexpr bool kExact = true;
-};
-
-/// Single-precision hits: faster, may err at edges.
-struct FloatTriangleTest {
-    using Closest = FastClosestQuery;
-    using Occluded = FastOccludedQuery;
-    static constexpr bool kExact = false;
-};
-
 /// `W` children a node.
 template <std::size_t W, class TriangleTest>
 struct Kernels {
-    using Closest = typename TriangleTest::Closest;
-    using Occluded = typename TriangleTest::Occluded;
+    using Closest = ClosestQuery<TriangleTest>;
+    using Occluded = OccludedQuery<TriangleTest>;
 
     static void closest(const WideBvhScene& scene, const Ray& ray, Hit& best,
                         TraversalStats* stats) {

@@ -14,10 +14,12 @@
 #include <bit>
 #include <type_traits>
 
+#include "alhazen/aggregates/wide_bvh/batch_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/candidate_queue-inl.h"
+#include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/leaves/leaf_bounds.h"
 #include "alhazen/aggregates/wide_bvh/leaves/shape_filters-inl.h"
-#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
-#include "alhazen/aggregates/wide_bvh/sphere_resolution-inl.h"
-#include "alhazen/aggregates/wide_bvh/triangle_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/triangle_tests-inl.h"
 #include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
 #include "alhazen/primitives/unused_shear.h"
 
@@ -25,11 +27,14 @@ HWY_BEFORE_NAMESPACE();
 namespace alhazen {
 namespace HWY_NAMESPACE {
 
-/// The common part of queries on one ray. `Derived` offers
-/// `bool block(triangle_block, stats)`, `bool other(id, stats)` and `bool crossing(id, hit)`, for a
-/// primitive that is hit, true to stop; `DistanceBound slab_slack(frame)`, the slack of
-/// its slab test; and `kFirstCrossings`: the first crossing with a shape suffices.
-template <class Derived>
+/// A query of one ray. `Query`, its kind, derives from it (CRTP) and offers:
+/// - `kOrdered`: children are visited nearest first, else in the order of the tree
+/// - `kFirstOnly`: the first crossing with a shape suffices
+/// - `bool triangles(block, found, stats)`: what the test finds in a block
+/// - `bool shape(id, stats)`: asks the table about any other primitive
+/// - `bool accept(id, hit)`: a primitive is hit
+/// each true to stop. `Test` is a triangle test (triangle_tests-inl.h).
+template <class Query, class Test>
 struct LeafQuery {
     SlabRay slabs;
     TriangleFilterRay filter;
@@ -43,17 +48,16 @@ struct LeafQuery {
     HWY_INLINE LeafQuery(const WideBvhScene& s, const Ray& r) : ray(r), source(&r), scene(s) {
         // From the caller's ray: loading lanes of the copy would stall until its stores complete.
         const LocalFrame& frame = s.layout->frame;
-        valid = make_ray(frame, Derived::slab_slack(frame), r, slabs,
-                         [&](const LocalRay& local) HWY_ATTR {
-                             make_triangle_filter_ray(slabs, local, filter);
-                             parameter = local.parameter;
-                         });
+        valid =
+            make_ray(frame, Test::slab_slack(frame), r, slabs, [&](const LocalRay& local) HWY_ATTR {
+                make_triangle_filter_ray(slabs, local, filter);
+                parameter = local.parameter;
+            });
         s_max = slabs.s_max;
     }
 
     template <class Stats>
     HWY_INLINE bool visit(NodeRef ref, Stats stats) {
-        Derived& query = static_cast<Derived&>(*this);
         const std::uint32_t count = ref.count();
         switch (static_cast<LeafType>(ref.kind())) {
             case LeafType::Triangles: {
@@ -61,7 +65,7 @@ struct LeafQuery {
                 const TriangleBlock* blocks = &scene.layout->triangles[ref.offset()];
                 for (std::uint32_t i = 0; i < count; ++i) {
                     stats.primitives(used_lanes(blocks[i]));
-                    if (query.block(blocks[i], stats)) return true;
+                    if (visit_block(blocks[i], stats)) return true;
                 }
                 return false;
             }
@@ -81,7 +85,59 @@ struct LeafQuery {
         return static_cast<std::uint32_t>(id) - scene.table->first(kTriangleKind);
     }
 
+    /// The exact test of a lane in use.
+    HWY_INLINE bool hits_triangle(const TriangleBlock& block, std::size_t lane,
+                                  ShapeHit& hit) const {
+        const BlockId id = block.ids[lane];
+        if (HWY_LIKELY(id.exact())) {
+            const LocalFrame& frame = scene.layout->frame;
+            const std::uint32_t axis[3] = {filter.kx, filter.ky, filter.kz};
+            double corner[3][3];
+            HWY_UNROLL(3)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double center = (&frame.center.x)[axis[k]];
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const auto x = static_cast<double>(block.vertex[i][axis[k]][lane]);
+                    corner[i][k] = frame.inverse_scale * x + center;
+                }
+            }
+            const Verdict verdict = resolve_triangle(ray, axis, corner, hit);
+            if (HWY_LIKELY(verdict != Verdict::Unsure)) return verdict == Verdict::Hit;
+        }
+        return hits_triangle_scalar(id.id(), hit);
+    }
+
   private:
+    HWY_INLINE Query& query() { return static_cast<Query&>(*this); }
+
+    HWY_NOINLINE bool hits_triangle_scalar(PrimitiveId id, ShapeHit& hit) const {
+        const auto [a, b, c] = scene.table->triangle_vertices(triangle(id));
+        return intersect_triangle(ray, shear(), a, b, c, hit);
+    }
+
+    template <class Stats>
+    HWY_INLINE bool visit_block(const TriangleBlock& block, Stats stats) {
+        // The ray does not fit into float (LocalRay::regular).
+        if (!Test::kExact && HWY_UNLIKELY(parameter.scale == 0)) {
+            return visit_block_in_double(block, stats);
+        }
+        typename Test::Found found;
+        return Test::find(block, filter, slabs.s_min, s_max, found) &&
+               query().triangles(block, found, stats);
+    }
+    template <class Stats>
+    HWY_NOINLINE bool visit_block_in_double(const TriangleBlock& block, Stats stats) {
+        const std::uint32_t used = used_lanes(block);
+        for (std::size_t lane = 0; lane < used; ++lane) {
+            const PrimitiveId id = block.ids[lane].id();
+            ShapeHit hit;
+            if (!scene.sees(id) || !hits_triangle_scalar(id, hit)) continue;
+            stats.primitive_hits(1);
+            if (query().accept(block.ids[lane], hit)) return true;
+        }
+        return false;
+    }
+
     template <class Block, class Stats>
     HWY_INLINE bool visit_shapes(const Block* blocks, std::uint32_t count, Stats stats) {
         for (const Block* end = blocks + count; blocks < end; ++blocks) {
@@ -99,7 +155,7 @@ struct LeafQuery {
                 if constexpr (std::is_same_v<Block, SphereBlock>) {
                     if (visit_sphere(id, stats)) return true;
                 } else {
-                    if (static_cast<Derived&>(*this).other(id, stats)) return true;
+                    if (query().shape(id, stats)) return true;
                 }
             }
         }
@@ -109,19 +165,18 @@ struct LeafQuery {
     /// Most queries need only the first crossing with a sphere.
     template <class Stats>
     HWY_NOINLINE bool visit_sphere(BlockId id, Stats stats) {
-        Derived& query = static_cast<Derived&>(*this);
-        if constexpr (!Derived::kFirstCrossings) return query.other(id, stats);
+        if constexpr (!Query::kFirstOnly) return query().shape(id, stats);
         if (!scene.sees(id.id())) return false;
         const auto& spheres = std::get<ShapeColumn<Sphere>>(scene.table->columns).shapes;
         ShapeHit hit;
         const std::uint32_t place =
             static_cast<std::uint32_t>(id.id()) - scene.table->first(column_of<Sphere>());
-        const PlainVerdict verdict = intersect_plain(ray, spheres[place], hit);
-        if (HWY_UNLIKELY(verdict == PlainVerdict::Unsure)) return query.other(id, stats);
+        const Verdict verdict = resolve_sphere(ray, spheres[place], hit);
+        if (HWY_UNLIKELY(verdict == Verdict::Unsure)) return query().shape(id, stats);
         stats.primitives(1);
-        if (verdict == PlainVerdict::Missed) return false;
+        if (verdict == Verdict::Missed) return false;
         stats.primitive_hits(1);
-        return query.crossing(id, hit);
+        return query().accept(id, hit);
     }
 
     /// Indexed triangles: all are tested in double, eight at a time.
@@ -142,91 +197,34 @@ struct LeafQuery {
             const auto [a, b, c] = scene.table->triangle_vertices(triangle(block.ids[lane].id()));
             pairs.set(lane, ray, {a, b, c});
         }
-        const TrianglePairs::Verdict verdict = pairs.resolve();
-        for (std::uint32_t rest = (verdict.hit | verdict.unsure) & ((1u << used) - 1); rest != 0;
-             rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            const BlockId id = block.ids[lane];
-            if (!scene.sees(id.id())) continue;
-            ShapeHit hit = pairs.hit(lane);
-            if ((verdict.unsure >> lane & 1) != 0) {
-                const auto [a, b, c] = scene.table->triangle_vertices(triangle(id.id()));
-                if (!intersect_triangle(ray, shear(), a, b, c, hit)) continue;
-            }
-            stats.primitive_hits(1);
-            if (static_cast<Derived&>(*this).crossing(id, hit)) return true;
-        }
-        return false;
+        return pairs.resolve((1u << used) - 1, kAllLanes,
+                             [&](std::size_t lane, ShapeHit& hit) HWY_ATTR {
+                                 return hits_triangle_scalar(block.ids[lane].id(), hit);
+                             },
+                             [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
+                                 const BlockId id = block.ids[lane];
+                                 if (!scene.sees(id.id())) return false;
+                                 stats.primitive_hits(1);
+                                 return query().accept(id, hit);
+                             });
     }
 };
 
-/// Queries with exact hits: the filter, then exact resolution. `Derived` offers `bool
-/// triangles(block, found, stats)`.
-template <class Derived>
-struct RobustQuery : LeafQuery<Derived> {
-    using Base = LeafQuery<Derived>;
-    using Base::filter, Base::ray, Base::s_max, Base::scene, Base::slabs;
-
-    HWY_INLINE RobustQuery(const WideBvhScene& s, const Ray& r) : Base(s, r) {}
-
-    static HWY_INLINE const DistanceBound& slab_slack(const LocalFrame& frame) {
-        return frame.slack.slab;
-    }
-    template <class Stats>
-    HWY_INLINE bool block(const TriangleBlock& triangles, Stats stats) {
-        FilteredTriangles found;
-        return filter_triangles(triangles, filter, slabs.s_min, s_max, found) &&
-               static_cast<Derived&>(*this).triangles(triangles, found, stats);
-    }
-    /// The test in double of a lane in use.
-    HWY_INLINE bool hits_triangle(const TriangleBlock& block, std::size_t lane,
-                                  ShapeHit& hit) const {
-        const BlockId id = block.ids[lane];
-        if (HWY_LIKELY(id.exact())) {
-            const LocalFrame& frame = scene.layout->frame;
-            const std::uint32_t axis[3] = {filter.kx, filter.ky, filter.kz};
-            double corner[3][3];
-            HWY_UNROLL(3)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double center = (&frame.center.x)[axis[k]];
-                for (std::size_t i = 0; i < 3; ++i) {
-                    const auto x = static_cast<double>(block.vertex[i][axis[k]][lane]);
-                    corner[i][k] = frame.inverse_scale * x + center;
-                }
-            }
-            const PlainVerdict verdict = intersect_plain(ray, axis, corner, hit);
-            if (HWY_LIKELY(verdict != PlainVerdict::Unsure)) return verdict == PlainVerdict::Hit;
-        }
-        return hits_triangle_scalar(id, hit);
-    }
-
-  private:
-    HWY_NOINLINE bool hits_triangle_scalar(BlockId id, ShapeHit& hit) const {
-        const auto [a, b, c] = scene.table->triangle_vertices(this->triangle(id.id()));
-        return intersect_triangle(ray, this->shear(), a, b, c, hit);
-    }
-};
-
-/// The closest hit. Triangles that pass the filter go to a candidate queue; each sure one ends the
-/// search behind it; exact resolution of the few that remain follows at the end. Triangles in doubt
-/// are mostly the one that the ray leaves, which is missed: not worth an interruption.
-struct ClosestQuery : RobustQuery<ClosestQuery> {
+/// The closest hit. Each sure triangle ends the search behind it. Candidates wait: most of those
+/// that are not sure are the triangle that the ray leaves, which is missed.
+template <class Test>
+struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
+    using Base = LeafQuery<ClosestQuery<Test>, Test>;
+    using Base::ray, Base::s_max, Base::scene, Base::parameter;
     static constexpr bool kOrdered = true;
-    static constexpr bool kFirstCrossings = true;
-    static constexpr std::uint32_t kMaxCandidates = 8;
+    static constexpr bool kFirstOnly = true;
 
     Hit& best;
-    std::uint32_t candidate_count = 0;
-    struct {
-        const TriangleBlock* block;
-        std::uint32_t lane;
-        float lo;
-        [[nodiscard]] BlockId id() const { return block->ids[lane]; }
-    } candidates[kMaxCandidates];
+    RayCandidates candidates;
 
     /// `found` may hold an earlier hit.
     HWY_INLINE ClosestQuery(const WideBvhScene& s, const Ray& r, Hit& found)
-        : RobustQuery(s, r), best(found) {
+        : Base(s, r), best(found) {
         if (!best.found()) return;
         ray.t_max = best.t;
         shrink();
@@ -236,25 +234,51 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
     HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
                               Stats stats) {
         for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
             // Written so that a NaN is not passed over.
             if (!block.ids[lane].used() || found.lo[lane] > s_max) continue;
             if (!scene.sees(block.ids[lane].id())) continue;
-            if (candidate_count == kMaxCandidates) finish(stats);
-            candidates[candidate_count++] = {&block, lane, found.lo[lane]};
+            while (HWY_UNLIKELY(!candidates.add(block, lane, found.lo[lane]))) finish(stats);
             if ((found.sure >> lane & 1) != 0 && found.hi[lane] < s_max) s_max = found.hi[lane];
         }
         return false;
     }
+    /// The nearest is the hit.
     template <class Stats>
-    HWY_INLINE bool other(BlockId id, Stats stats) {
+    HWY_INLINE bool triangles(const TriangleBlock& block, const FloatTriangles& found,
+                              Stats stats) {
+        HWY_ALIGN float s[kLaneCount], v[kLaneCount], w[kLaneCount], det[kLaneCount];
+        store_lanes(found.s, s);
+        std::size_t nearest = kLaneCount;
+        for (std::uint32_t rest = found.sure; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            if (!block.ids[lane].used() || !(s[lane] <= s_max)) continue;
+            if (!scene.sees(block.ids[lane].id())) continue;
+            s_max = s[lane];
+            nearest = lane;
+        }
+        if (nearest == kLaneCount) return false;
+        stats.primitive_hits(1);
+        store_lanes(found.ev, v);
+        store_lanes(found.ew, w);
+        store_lanes(found.det, det);
+        best = Hit{};
+        best.t = (static_cast<double>(s_max) + parameter.shift) / parameter.scale;
+        best.u = static_cast<double>(v[nearest] / det[nearest]);
+        best.v = static_cast<double>(w[nearest] / det[nearest]);
+        best.primitive = block.ids[nearest].id();
+        ray.t_max = best.t;
+        return false;
+    }
+    template <class Stats>
+    HWY_INLINE bool shape(BlockId id, Stats stats) {
         const double last = ray.t_max;
         scene.table->closest(id.id(), ray, kUnusedShear, best, stats, scene.mask);
         // Most are missed, and converting t to the float parameter is slow.
         if (ray.t_max != last) shrink();
         return false;
     }
-    HWY_INLINE bool crossing(BlockId id, const ShapeHit& hit) {
+    HWY_INLINE bool accept(BlockId id, const ShapeHit& hit) {
         offer(hit, id.id(), ray, best);
         shrink();
         return false;
@@ -262,29 +286,24 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
     /// Resolves the candidates.
     template <class Stats>
     HWY_INLINE void finish(Stats stats) {
-        for (std::uint32_t i = 0; i < candidate_count; ++i) {
-            if (candidates[i].lo > s_max) continue;
-            resolve(*candidates[i].block, candidates[i].lane, stats);
-        }
-        candidate_count = 0;
+        candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane)
+                                       HWY_ATTR { resolve(block, lane, stats); });
     }
     /// As `finish`, in lanes with candidates of other rays.
     template <class Stats>
-    HWY_INLINE void finish_later(TriangleResolution& resolution, Stats stats) {
-        for (std::uint32_t i = 0; i < candidate_count; ++i) {
-            if (candidates[i].lo > s_max) continue;
-            resolution.add(*source, best, *candidates[i].block, candidates[i].lane, stats);
-        }
+    HWY_INLINE void finish_later(BatchResolution& resolution, Stats stats) {
+        candidates.take_all(s_max, [&](const TriangleBlock& block, std::size_t lane) HWY_ATTR {
+            resolution.add(*this->source, best, block, lane, stats);
+        });
     }
 
   private:
-    /// Exact resolution.
     template <class Stats>
     HWY_NOINLINE void resolve(const TriangleBlock& block, std::size_t lane, Stats stats) {
         ShapeHit hit;
         if (!this->hits_triangle(block, lane, hit)) return;
         stats.primitive_hits(1);
-        crossing(block.ids[lane], hit);
+        accept(block.ids[lane], hit);
     }
     HWY_INLINE void shrink() {
         const float s = parameter.above(ray.t_max);
@@ -293,16 +312,19 @@ struct ClosestQuery : RobustQuery<ClosestQuery> {
 };
 
 /// Whether there is any hit.
-struct OccludedQuery : RobustQuery<OccludedQuery> {
+template <class Test>
+struct OccludedQuery : LeafQuery<OccludedQuery<Test>, Test> {
+    using Base = LeafQuery<OccludedQuery<Test>, Test>;
+    using Base::ray, Base::scene;
     static constexpr bool kOrdered = false;
-    static constexpr bool kFirstCrossings = true;
+    static constexpr bool kFirstOnly = true;
     bool& occluded;
 
     HWY_INLINE OccludedQuery(const WideBvhScene& s, const Ray& r, bool& result)
-        : RobustQuery(s, r), occluded(result) {}
+        : Base(s, r), occluded(result) {}
 
     template <class Stats>
-    HWY_INLINE bool triangles(const TriangleBlock& block, const FilteredTriangles& found,
+    HWY_INLINE bool triangles(const TriangleBlock& block, const typename Test::Found& found,
                               Stats stats) {
         for (std::uint32_t rest = found.sure; rest != 0; rest &= rest - 1) {
             const BlockId id = block.ids[static_cast<std::size_t>(std::countr_zero(rest))];
@@ -310,30 +332,32 @@ struct OccludedQuery : RobustQuery<OccludedQuery> {
             stats.primitive_hits(1);
             return occluded = true;
         }
-        for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            ShapeHit hit;
-            if (!block.ids[lane].used() || !scene.sees(block.ids[lane].id())) continue;
-            if (!this->hits_triangle(block, lane, hit)) continue;
-            stats.primitive_hits(1);
-            return occluded = true;
+        if constexpr (Test::kExact) {
+            for (std::uint32_t rest = found.candidates; rest != 0; rest &= rest - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+                ShapeHit hit;
+                if (!block.ids[lane].used() || !scene.sees(block.ids[lane].id())) continue;
+                if (!this->hits_triangle(block, lane, hit)) continue;
+                stats.primitive_hits(1);
+                return occluded = true;
+            }
         }
         return false;
     }
-    HWY_INLINE bool crossing(BlockId, const ShapeHit&) { return occluded = true; }
+    HWY_INLINE bool accept(BlockId, const ShapeHit&) { return occluded = true; }
     template <class Stats>
-    HWY_INLINE bool other(BlockId id, Stats stats) {
+    HWY_INLINE bool shape(BlockId id, Stats stats) {
         return occluded = scene.table->occluded(id.id(), ray, kUnusedShear, stats, scene.mask);
     }
 };
 
 /// All hits; with `kStopAtOpaque` up to the first opaque one.
 template <bool kStopAtOpaque>
-struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
-    using Base = RobustQuery<CollectQuery<kStopAtOpaque>>;
+struct CollectQuery : LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTest> {
+    using Base = LeafQuery<CollectQuery<kStopAtOpaque>, FilteredTriangleTest>;
     using Base::ray, Base::scene, Base::shear;
     static constexpr bool kOrdered = false;
-    static constexpr bool kFirstCrossings = false;
+    static constexpr bool kFirstOnly = false;
     std::vector<Hit>& hits;
 
     HWY_INLINE CollectQuery(const WideBvhScene& s, const Ray& r, std::vector<Hit>& found)
@@ -349,11 +373,11 @@ struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
             if (!id.used() || !scene.sees(id.id())) continue;
             if (!this->hits_triangle(block, lane, hit)) continue;
             stats.primitive_hits(1);
-            if (crossing(id, hit)) return true;
+            if (accept(id, hit)) return true;
         }
         return false;
     }
-    HWY_INLINE bool crossing(BlockId id, const ShapeHit& hit) {
+    HWY_INLINE bool accept(BlockId id, const ShapeHit& hit) {
         if (kStopAtOpaque) {
             if (id.opaque()) return true;
             const auto effect = scene.table->shadow_effect(id.id(), ray);
@@ -364,7 +388,7 @@ struct CollectQuery : RobustQuery<CollectQuery<kStopAtOpaque>> {
         return false;
     }
     template <class Stats>
-    HWY_INLINE bool other(BlockId id, Stats stats) {
+    HWY_INLINE bool shape(BlockId id, Stats stats) {
         if (kStopAtOpaque && id.opaque()) {
             return scene.table->occluded(id.id(), ray, this->shear(), stats, scene.mask);
         }

@@ -277,7 +277,7 @@ class PacketLeaves {
     std::span<const Ray> rays_;
     std::span<Hit> results_;
     RayPacket& packet_;
-    CandidateQueue candidates_;
+    PacketCandidates candidates_;
     PacketResolution resolution_;
 
   private:

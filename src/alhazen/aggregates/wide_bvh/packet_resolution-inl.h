@@ -14,7 +14,7 @@
 #include <span>
 
 #include "alhazen/accel/wide_bvh/trace/packet-inl.h"
-#include "alhazen/aggregates/wide_bvh/triangle_resolution-inl.h"
+#include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace alhazen {
@@ -44,17 +44,15 @@ class PacketResolution {
             ray_[i] = ray_[0];
             place_[i] = place_[0];
         }
-        const std::uint32_t plain = fill();
-        const TrianglePairs::Verdict verdict = pairs_.resolve();
-        const std::uint32_t used = (1u << count_) - 1;
-        const std::uint32_t alone = (verdict.unsure | ~plain) & used;
-        for (std::uint32_t rest = (verdict.hit & used) | alone; rest != 0; rest &= rest - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
-            ShapeHit hit{pairs_.t[lane], pairs_.u[lane], pairs_.v[lane], 0};
-            if ((alone >> lane & 1) != 0 && !resolve_scalar(lane, hit)) continue;
-            stats.primitive_hits(1);
-            hits(ray_[lane], id(lane).id(), hit);
-        }
+        const std::uint32_t set_up = fill();
+        pairs_.resolve((1u << count_) - 1, set_up,
+                       [&](std::size_t lane, ShapeHit& hit)
+                           HWY_ATTR { return resolve_scalar(lane, hit); },
+                       [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
+                           stats.primitive_hits(1);
+                           hits(ray_[lane], id(lane).id(), hit);
+                           return false;
+                       });
         count_ = 0;
     }
 

@@ -1,7 +1,8 @@
 #pragma once
-/// The schedule of a batch of rays in the wide BVH, and every threshold that it depends on.
+/// The schedule of a batch of rays in the wide BVH, and the thresholds of its choice. Which rays
+/// fit into one packet is geometry: accel/wide_bvh/trace/packet-inl.h.
 ///
-/// The schedule never changes a hit. Measurements: docs/benchmarks.md.
+/// The schedule never changes a hit. Measurements: docs/benchmarks.md, docs/log/wide_bvh.md.
 /// Complexity and threads: chosen once per tree; const functions may be called from many threads.
 
 #include <array>

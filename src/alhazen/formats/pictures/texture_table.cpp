@@ -10,7 +10,7 @@ namespace alhazen {
 
 namespace {
 
-/// The limit of all images together. Ends the import; an unusable single image does not.
+/// The limit of all images together.
 class TotalExceeded : public Error {
   public:
     TotalExceeded(const ImageLimits& limits, const std::string& name)
@@ -67,9 +67,17 @@ std::optional<TextureId> TextureTable::load(const std::string& file,
     } catch (const ImageMemoryExceeded&) {
         throw TotalExceeded(limits_, file);
     } catch (const Error& error) {
-        diagnostics_.error(where, std::string("texture: ") + error.what());
+        report(where, error);
     }
     return use(*picture, settings, std::move(name), where);
+}
+
+void TextureTable::report(const FileLocation& where, const Error& error) {
+    const std::string message = std::string("texture: ") + error.what();
+    if (error.kind() == ErrorKind::Resource) {
+        throw Error(ErrorKind::Resource, to_string({Severity::Error, where, message}));
+    }
+    diagnostics_.error(where, message);
 }
 
 std::optional<TextureId> TextureTable::add(std::string_view encoded, const Texture& settings,
@@ -88,7 +96,7 @@ std::optional<TextureId> TextureTable::add(std::string_view encoded, const Textu
     } catch (const TotalExceeded&) {
         throw;
     } catch (const Error& error) {
-        diagnostics_.error(where, std::string("texture: ") + error.what());
+        report(where, error);
     }
     return use(entry->second, settings, std::move(name), where);
 }

@@ -52,6 +52,8 @@ class TextureTable {
                 const std::function<StoredImage(const StoredImage&)>& make);
 
   private:
+    /// A picture that cannot be read is a finding; one beyond a limit ends the import (exit 5).
+    void report(const FileLocation& where, const Error& error);
     struct Picture {
         std::shared_ptr<const StoredImage> image;  ///< null when unreadable
         /// True when the mip levels are counted: of the stored samples, and decoded.

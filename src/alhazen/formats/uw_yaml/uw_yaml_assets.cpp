@@ -1,14 +1,35 @@
 #include "alhazen/formats/uw_yaml/uw_yaml_assets.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "alhazen/base/file.h"
+#include "alhazen/formats/mesh/mesh_normals.h"
 #include "alhazen/formats/mesh_files/mesh_io.h"
 
 namespace alhazen {
 
 namespace {
+
+/// The course's v counts rows from the top of the picture, as its exported spheres do (v = 0 at the
+/// north pole).
+constexpr UvTransform kRowsFromTheTop{1, 0, 0, -1, {0, 1}};
+
+/// A face of the cube, by the directions of its texture coordinates; its normal is u x v.
+struct CubeFace {
+    Vec3 u, v;
+};
+/// Seen from outside, u runs to the right; v runs up the four sides, and the top and the bottom
+/// continue the front.
+constexpr std::array<CubeFace, 6> kCubeFaces{{
+    {{1, 0, 0}, {0, 1, 0}},   // front, +z
+    {{0, 0, -1}, {0, 1, 0}},  // right, +x
+    {{-1, 0, 0}, {0, 1, 0}},  // back, -z
+    {{0, 0, 1}, {0, 1, 0}},   // left, -x
+    {{1, 0, 0}, {0, 0, -1}},  // top, +y
+    {{1, 0, 0}, {0, 0, 1}},   // bottom, -y
+}};
 
 /// The keys in order, for messages: "a, b, c".
 template <class Map>
@@ -80,6 +101,15 @@ MaterialId UwAssets::material(const YAML::Node& component) {
     return id;
 }
 
+bool UwAssets::is_textured(MaterialId material) const {
+    const Material& m = scene_.materials[std::size_t(material)].material;
+    for (const ColorInput* input :
+         {&m.emission, &m.diffuse, &m.specular, &m.reflective, &m.transmissive}) {
+        if (input->texture != kNoTexture) return true;
+    }
+    return false;
+}
+
 MaterialId UwAssets::make_material(const std::string& name, const YAML::Node& node) {
     const std::string shader = values_.text(node, "Shader");
     const auto program = shaders_.find(shader);
@@ -128,8 +158,11 @@ std::optional<TextureId> UwAssets::texture(const std::string& name, const YAML::
     std::optional<TextureId> id;
     if (const auto found = textures_.find(name); found != textures_.end()) {
         Texture settings;
-        settings.filter = values_.flag(found->second, "Bilinear", true) ? TextureFilter::Bilinear
-                                                                        : TextureFilter::Nearest;
+        const bool bilinear = values_.flag(found->second, "Bilinear", true);
+        settings.filter = bilinear ? TextureFilter::Bilinear : TextureFilter::Nearest;
+        // Texel i lies at i / width; without interpolation it fills i to i + 1 all the same.
+        settings.corner_texels = bilinear;
+        settings.uv_transform = kRowsFromTheTop;
         id = texture_files_.load(values_.text(found->second, "Path"), root_, settings, name,
                                  values_.location(found->second));
     } else {
@@ -137,6 +170,25 @@ std::optional<TextureId> UwAssets::texture(const std::string& name, const YAML::
     }
     made_textures_.emplace(name, id);
     return id;
+}
+
+MeshIndex UwAssets::textured_cube(const YAML::Node& component) {
+    if (textured_cube_) return *textured_cube_;
+    TriangleMesh mesh;
+    for (const CubeFace& face : kCubeFaces) {
+        const std::uint32_t first = std::uint32_t(mesh.positions.size());
+        for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) {
+            mesh.positions.push_back(0.5 * cross(face.u, face.v) + (uv.x - 0.5) * face.u +
+                                     (uv.y - 0.5) * face.v);
+            mesh.uvs.push_back(uv);
+        }
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+    textured_cube_ = MeshIndex(scene_.meshes.size());
+    scene_.meshes.push_back(
+        {"Cube", std::make_shared<TriangleMesh>(std::move(mesh)), values_.location(component)});
+    return *textured_cube_;
 }
 
 std::optional<MeshIndex> UwAssets::mesh(const std::string& name, const YAML::Node& component) {
@@ -158,6 +210,7 @@ std::optional<MeshIndex> UwAssets::mesh(const std::string& name, const YAML::Nod
         values_.error(found->second, "the mesh '" + name + "' cannot be read: " + e.what());
     }
     if (diagnostics_.error_count() != errors_before) return id;
+    if (mesh.normals.empty()) make_smooth_normals(mesh);
     id = MeshIndex(scene_.meshes.size());
     scene_.meshes.push_back(
         {name, std::make_shared<TriangleMesh>(std::move(mesh)), values_.location(found->second)});

@@ -27,6 +27,9 @@ class UwAssets {
 
     /// The material that `component` names; a grey one, with a report, when it is unavailable.
     MaterialId material(const YAML::Node& component);
+    [[nodiscard]] bool is_textured(MaterialId material) const;
+    /// The cube of side 1 as twelve triangles with the course's texture coordinates.
+    MeshIndex textured_cube(const YAML::Node& component);
     /// The mesh of that name, read from its file. Reports and returns none when it is unavailable.
     std::optional<MeshIndex> mesh(const std::string& name, const YAML::Node& component);
     [[nodiscard]] bool has_mesh(const std::string& name) const { return meshes_.contains(name); }
@@ -48,6 +51,7 @@ class UwAssets {
     std::unordered_map<std::string, MaterialId> made_materials_;
     std::unordered_map<std::string, std::optional<TextureId>> made_textures_;
     std::unordered_map<std::string, std::optional<MeshIndex>> made_meshes_;
+    std::optional<MeshIndex> textured_cube_;
 };
 
 }  // namespace alhazen

@@ -125,9 +125,9 @@ void UwSceneReader::add_part(const Place& place, const YAML::Node& component,
 void UwSceneReader::sphere(const Place& place, const YAML::Node& component) {
     Sphere sphere;
     sphere.radius = 0.5;
-    // Poles lie on z in this library, on y in the course, with u = 0 on +z (as in its exported
-    // spheres).
-    const Affine poles_on_y{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {}};
+    // Poles lie on z in this library, on y in the course. As in its exported spheres, u = 0 lies on
+    // -z, u = 1/4 on -x, and v runs from the top down.
+    const Affine poles_on_y{{{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}, {}};
     add_part(place, component, sphere, poles_on_y);
 }
 
@@ -172,7 +172,13 @@ void UwSceneReader::triangle_mesh(const Place& place, const YAML::Node& componen
     if (values_.number(component, "LoopSubdivision", 0.0) > 0.0) {
         values_.warning(component, "'LoopSubdivision' of '" + place.name + "' is ignored");
     }
-    if (name == "Cube" && !assets_.has_mesh(name)) return add_part(place, component, BoxShape{});
+    if (name == "Cube" && !assets_.has_mesh(name)) {
+        // A box has texture coordinates of its own; without a texture none are needed.
+        if (!assets_.is_textured(assets_.material(component))) {
+            return add_part(place, component, BoxShape{});
+        }
+        return add_part(place, component, assets_.textured_cube(component));
+    }
     if (name.empty()) {
         return values_.warning(component, "'" + place.name + "' names no mesh and is not drawn");
     }

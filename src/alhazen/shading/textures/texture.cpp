@@ -128,14 +128,9 @@ Rgba evaluate(const Texture& texture, const Vec2& uv, const UvFootprint& footpri
     const StoredImage& image = *texture.image;
     const double u = bounded(uv.x);
     const double v = 1.0 - bounded(uv.y);  // rows run downward
-    double x, y;
-    if (texture.corner_texels) {
-        x = u * (image.width - 1);
-        y = v * (image.height - 1);
-    } else {
-        x = u * image.width - 0.5;
-        y = v * image.height - 0.5;
-    }
+    const double corner = texture.corner_texels ? 0.0 : 0.5;
+    const double x = u * image.width - corner;
+    const double y = v * image.height - corner;
     if (texture.filter == TextureFilter::Nearest) {
         const auto nearest = [](double at, int n, Wrap wrap) {
             return wrapped(static_cast<long long>(std::floor(at + 0.5)), n, wrap);

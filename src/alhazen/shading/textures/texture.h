@@ -63,7 +63,7 @@ struct Texture {
     Wrap wrap_v = Wrap::Repeat;
     TextureFilter filter = TextureFilter::Bilinear;
     /// Texel positions: false = texel centres at (i + 0.5) / width (the usual rule); true = the
-    /// course's rule, texel i at i / (width - 1).
+    /// course's rule, texel i at i / width, counted in rows from the top.
     bool corner_texels = false;
     bool decode_srgb = false;  ///< samples are sRGB encoded and must be made linear
     int uv_set = 0;            ///< which texture coordinates of a mesh: 0 or 1

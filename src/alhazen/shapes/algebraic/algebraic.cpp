@@ -38,8 +38,6 @@ constexpr int kMostDegree = PolynomialExpression::kMaxDegree;
 template <class F>
 auto with_polynomial(const Algebraic& shape, F&& f) {
     switch (shape.polynomial->degree()) {
-        case 3:
-            return f(AlgebraicPolynomial<3>{shape});
         case 4:
             return f(AlgebraicPolynomial<4>{shape});
         case 6:

@@ -5,7 +5,7 @@
 /// Differs: a kernel computes the segments and the coefficients of eight rays; finds, from the
 /// signs of the coefficients alone, which of them miss, begin inside, or have a bracket around
 /// their first root; and refines the brackets. Rarer cases are left to the scalar code.
-/// Conventions: internal to this folder. Bit i of a set of lanes stands for lane i. Every target
+/// Conventions: internal to shapes/. Bit i of a set of lanes stands for lane i. Every target
 /// returns the bits of the scalar code.
 
 #include <cstddef>

@@ -172,6 +172,16 @@ double improved_root(const Polynomial& f, const SolidFrame& frame, const Ray& ra
     return best;
 }
 
+template <class Polynomial, int N, class Wanted>
+[[gnu::noinline]] void find_precisely(const Polynomial& f, const SolidFrame& frame, const Ray& ray,
+                                      const ClipSegment& s, SignChanges<N>& changes,
+                                      Wanted& wanted) {
+    wanted.begin();
+    BernsteinPolynomial<DoubleDouble, N> precise;
+    restrict_to_segment(f, frame, ray, s, precise);
+    find_sign_changes(precise, changes, wanted);
+}
+
 /// The sign changes on the segment, those that `wanted` asks for: found in double, true, or where
 /// that is not certain in double-double, false.
 template <class Polynomial, int N, class Wanted>
@@ -179,10 +189,7 @@ bool find_on_segment(const Polynomial& f, const SolidFrame& frame, const Ray& ra
                      const ClipSegment& s, const BernsteinPolynomial<double, N>& p,
                      SignChanges<N>& changes, Wanted& wanted) {
     if (find_sign_changes(p, changes, wanted)) return true;
-    wanted.begin();
-    BernsteinPolynomial<DoubleDouble, N> precise;
-    restrict_to_segment(f, frame, ray, s, precise);
-    find_sign_changes(precise, changes, wanted);
+    find_precisely(f, frame, ray, s, changes, wanted);
     return false;
 }
 

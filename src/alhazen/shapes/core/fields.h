@@ -10,6 +10,9 @@
 
 #include <cstdint>
 #include <tuple>
+#include <type_traits>
+
+#include "alhazen/math/vec.h"
 
 namespace alhazen {
 
@@ -46,13 +49,34 @@ struct Field {
     bool optional;
 };
 
+/// Whether the check tests values of type T.
+template <class T>
+constexpr bool applies_to(Check check) {
+    switch (check) {
+        case Check::Point:
+        case Check::Vector:
+            return std::is_same_v<T, Vec3>;
+        case Check::Length:
+        case Check::LengthOrZero:
+            return std::is_same_v<T, double>;
+        case Check::None:
+        case Check::Shape:
+            return true;
+    }
+    return false;
+}
+
+/// A check that does not apply to the member's type does not compile.
 template <class S, class T>
-constexpr Field<S, T> field(const char* name, T S::*member, Unit unit, Check check) {
+consteval Field<S, T> field(const char* name, T S::*member, Unit unit, Check check) {
+    if (!applies_to<T>(check)) throw "the check does not apply to the type of the field";
     return {name, member, unit, check, false};
 }
 template <class S, class T>
-constexpr Field<S, T> optional_field(const char* name, T S::*member, Unit unit, Check check) {
-    return {name, member, unit, check, true};
+consteval Field<S, T> optional_field(const char* name, T S::*member, Unit unit, Check check) {
+    Field<S, T> optional = field(name, member, unit, check);
+    optional.optional = true;
+    return optional;
 }
 
 /// Calls `visit(field)` for each field of S, in order.

@@ -5,7 +5,7 @@
 /// Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., SIAM, 2002, section
 /// 3.1 (gamma); Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8
 /// (error bounds of surface points).
-/// Conventions: internal to this folder.
+/// Conventions: internal to shapes/.
 
 #include <cmath>
 #include <limits>

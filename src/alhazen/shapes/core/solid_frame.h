@@ -6,7 +6,7 @@
 /// (a solid as the intersection of intervals).
 /// Differs: whether the line is inside where it enters the clip determines the caps, so the number
 /// of crossings is even by construction.
-/// Conventions: internal to this folder. Numbers are double or double-double: in double-double the
+/// Conventions: internal to shapes/. Numbers are double or double-double: in double-double the
 /// transform of a ray is exact to 30 digits, and the doubles of `SolidFrame` define the shape.
 
 #include "alhazen/geometry/bounds_source.h"

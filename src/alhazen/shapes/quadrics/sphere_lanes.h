@@ -2,7 +2,7 @@
 /// The first crossings of eight rays with a sphere, in lanes.
 ///
 /// Source: geometry/sphere_roots.h, the same formulas.
-/// Differs: values outside the fast min/max range (plain_double-inl.h) are left to the scalar code.
+/// Differs: values outside the fast min/max range (fast_min_max-inl.h) are left to the scalar code.
 /// Conventions: internal to this folder. Bit i of a set stands for lane i. Every target returns the
 /// bits of the scalar code.
 

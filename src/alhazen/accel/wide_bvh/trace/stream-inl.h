@@ -11,10 +11,9 @@
 ///
 /// What a turn of a ray decides was stored the turn before, so that a wrongly predicted branch is
 /// found out at once and throws little of the other rays' work away.
-/// `Query`: `visit(NodeRef, stats)` tests a leaf, true to stop, as for NodeRef::none();
-/// `finish_step(stats)` after the last, again and again until it is true; `slabs`, the ray;
-/// `s_max`, how far it still needs to go. `Source`: `start(void* place)` makes the query of the
-/// next ray there, false when there is none.
+/// `Query`: `visit(NodeRef, stats)` tests a leaf, true to stop, as for NodeRef::none(); `slabs`,
+/// the ray; `s_max`, how far it still needs to go. `Source`: `start(void* place)` makes the query
+/// of the next ray there, false when there is none; `finish(query, stats)` follows its last leaf.
 
 #if defined(ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALHAZEN_ACCEL_WIDE_BVH_TRACE_STREAM_INL_H_

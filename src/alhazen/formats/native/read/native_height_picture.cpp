@@ -47,6 +47,7 @@ void read_native_height_picture(BlockReader& reader, const NativeContext& contex
         context.diagnostics.note_file(path);
         fill(read_stored_image(path, context.options.image_limits), low, high, *field);
     } catch (const Error& error) {
+        if (error.kind() == ErrorKind::Resource) throw;
         reader.error(*reader.find("file"), error.what());
     }
 }

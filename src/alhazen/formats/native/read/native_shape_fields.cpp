@@ -1,5 +1,5 @@
 // Fields of basic types, clips and polygons; outlines are in native_profiles.cpp, other lists in
-// native_solids.cpp.
+// native_list_fields.cpp.
 
 #include "alhazen/formats/native/read/native_shape_fields.h"
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The analytic shapes of the native format: all of shapes/shape_list.h, by name and fields.
+/// The analytic shapes of the native format: all of shapes/shape_list.h. The keys of a shape are
+/// the names in its kFields (torus: shapes/algebraic/torus.h).
 
 #include <string_view>
 #include <vector>

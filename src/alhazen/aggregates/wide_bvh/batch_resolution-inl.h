@@ -1,0 +1,114 @@
+/// Exact resolution of the candidates of a batch: eight pairs of any of its rays and a triangle.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_BATCH_RESOLUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_BATCH_RESOLUTION_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_BATCH_RESOLUTION_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_BATCH_RESOLUTION_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include "alhazen/aggregates/wide_bvh/exact_resolution-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Collects pairs of a ray and a triangle, and offers hits to the best of the ray. Vertices that
+/// are not in the block are fetched from the mesh in two steps, eight triangles at a time.
+class BatchResolution {
+  public:
+    HWY_INLINE explicit BatchResolution(const WideBvhScene& scene) : scene_(scene) {}
+
+    template <class Stats>
+    HWY_INLINE void add(const Ray& ray, Hit& best, const TriangleBlock& block, std::size_t lane,
+                        Stats stats) {
+        const BlockId id = block.ids[lane];
+        if (HWY_LIKELY(id.exact())) {
+            const LocalFrame& frame = scene_.layout->frame;
+            const Vec3 corners[3] = {frame.world(block.corner(0, lane)),
+                                     frame.world(block.corner(1, lane)),
+                                     frame.world(block.corner(2, lane))};
+            return place({&ray, &best, id.id()}, corners, stats);
+        }
+        hwy::Prefetch(scene_.table->triangle_corners(triangle(id.id())));
+        fetching_[fetching_count_++] = {&ray, &best, id.id()};
+        if (fetching_count_ == kLaneCount) fetch(stats);
+    }
+    /// Resolves the pairs added so far.
+    template <class Stats>
+    HWY_NOINLINE void flush(Stats stats) {
+        fetch(stats);
+        fetch(stats);
+        if (count_ > 0) resolve(stats);
+    }
+
+  private:
+    struct Pair {
+        const Ray* ray;
+        Hit* best;
+        PrimitiveId id;
+    };
+
+    [[nodiscard]] HWY_INLINE std::uint32_t triangle(PrimitiveId id) const {
+        return static_cast<std::uint32_t>(id) - scene_.table->first(kTriangleKind);
+    }
+
+    /// Places the triangles whose vertices have been fetched, and fetches the next ones.
+    template <class Stats>
+    HWY_NOINLINE void fetch(Stats stats) {
+        for (std::size_t i = 0; i < fetched_count_; ++i) {
+            const auto [a, b, c] = scene_.table->triangle_vertices(triangle(fetched_[i].id));
+            place(fetched_[i], {a, b, c}, stats);
+        }
+        for (std::size_t i = 0; i < fetching_count_; ++i) {
+            fetched_[i] = fetching_[i];
+            for (const Vec3* corner : scene_.table->corner_positions(triangle(fetching_[i].id))) {
+                hwy::Prefetch(corner);
+                hwy::Prefetch(&corner->z);
+            }
+        }
+        fetched_count_ = fetching_count_;
+        fetching_count_ = 0;
+    }
+
+    template <class Stats>
+    HWY_INLINE void place(const Pair& pair, const Vec3 (&corners)[3], Stats stats) {
+        pairs_.set(count_, *pair.ray, corners);
+        pair_[count_] = pair;
+        if (++count_ == kLaneCount) resolve(stats);
+    }
+
+    template <class Stats>
+    HWY_NOINLINE void resolve(Stats stats) {
+        // Lanes beyond the count hold what was there before, or zeros.
+        pairs_.resolve((1u << count_) - 1, kAllLanes,
+                       [&](std::size_t lane, ShapeHit& hit)
+                           HWY_ATTR { return resolve_scalar(pair_[lane], hit); },
+                       [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
+                           stats.primitive_hits(1);
+                           Ray ray = *pair_[lane].ray;
+                           offer(hit, pair_[lane].id, ray, *pair_[lane].best);
+                           return false;
+                       });
+        count_ = 0;
+    }
+    HWY_NOINLINE bool resolve_scalar(const Pair& pair, ShapeHit& hit) const {
+        const auto [a, b, c] = scene_.table->triangle_vertices(triangle(pair.id));
+        return intersect_triangle(*pair.ray, RayShear(pair.ray->direction), a, b, c, hit);
+    }
+
+    const WideBvhScene& scene_;
+    std::size_t count_ = 0, fetching_count_ = 0, fetched_count_ = 0;
+    TrianglePairs pairs_{};
+    Pair pair_[kLaneCount], fetching_[kLaneCount], fetched_[kLaneCount];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

@@ -1,0 +1,154 @@
+/// Exact resolution of the primitives that pass a filter: the test in double, one pair of a ray and
+/// a primitive or eight pairs in lanes, without a call into code for another instruction set.
+///
+/// Formulas and their order are those of geometry/watertight_triangle.h and
+/// geometry/sphere_roots.h: the bits are those of the scalar tests. Cases in doubt (a zero among
+/// the edge functions, a triangle seen nearly edge on, a root that is zero) are left to those.
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_EXACT_RESOLUTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_EXACT_RESOLUTION_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_EXACT_RESOLUTION_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_EXACT_RESOLUTION_INL_H_
+#endif
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "alhazen/aggregates/wide_bvh/wide_bvh_kernels.h"
+#include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/watertight_triangle.h"
+#include "alhazen/shapes/quadrics/sphere.h"
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+namespace exact {
+
+#include "alhazen/geometry/fast_min_max-inl.h"
+#include "alhazen/geometry/sphere_roots_formula-inl.h"
+#include "alhazen/geometry/watertight_triangle_formulas-inl.h"
+
+}  // namespace exact
+
+enum class Verdict { Missed, Hit, Unsure };
+
+/// `intersect_triangle` for one ray. `axis` is the order of axes of RayShear for a direction whose
+/// largest component is the third of them and no other; corners are [corner][axis in that order].
+HWY_INLINE Verdict resolve_triangle(const Ray& ray, const std::uint32_t (&axis)[3],
+                                    const double (&corner)[3][3], ShapeHit& hit) {
+    const auto at = [&](const Vec3& v, std::size_t k) { return (&v.x)[axis[k]]; };
+    const double dx = at(ray.direction, 0), dy = at(ray.direction, 1), dz = at(ray.direction, 2);
+    if (!(std::abs(dz) > std::abs(dx) && std::abs(dz) > std::abs(dy))) return Verdict::Unsure;
+    const double ox = at(ray.origin, 0), oy = at(ray.origin, 1), oz = at(ray.origin, 2);
+    const double sx = dx / dz, sy = dy / dz, sz = 1.0 / dz;
+    exact::ShearedVertex<double> p[3];
+    HWY_UNROLL(3)
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = exact::sheared<double>(corner[i][0], corner[i][1], corner[i][2], ox, oy, oz, sx, sy);
+    }
+    const exact::TriangleEdges<double> edges(p[0], p[1], p[2]);
+    if (!edges.nonzero()) return edges.missed() ? Verdict::Missed : Verdict::Unsure;
+    if (!edges.well_conditioned()) return Verdict::Unsure;
+    const auto s = exact::solve_triangle(edges.u, edges.v, edges.w, p[0].z, p[1].z, p[2].z, sz);
+    if (!ray.covers(s.t)) return Verdict::Missed;
+    hit = {s.t, s.u, s.v, 0};
+    return Verdict::Hit;
+}
+
+/// The first crossing of a ray with a sphere, as Sphere::intersect finds it.
+HWY_INLINE Verdict resolve_sphere(const Ray& ray, const Sphere& sphere, ShapeHit& hit) {
+    using exact::FastMinMaxDouble;
+    const Vec3& d = ray.direction;
+    const Vec3 f = ray.origin - sphere.center;
+    const FastMinMaxDouble dx{d.x}, dy{d.y}, dz{d.z}, fx{f.x}, fy{f.y}, fz{f.z};
+    const FastMinMaxDouble a{length_squared(d)}, radius{sphere.radius};
+    const auto line = exact::sphere_line(dx, dy, dz, a, fx, fy, fz, radius);
+    if (!(line.discriminant.x >= 0.0)) return Verdict::Missed;
+    const auto roots = exact::sphere_roots(line, a, fx, fy, fz, radius);
+    const double entry = roots.t_near.x, exit = roots.t_far.x;
+    if (!exact::are_plain_roots(entry, exit)) return Verdict::Unsure;
+    if (ray.covers(entry)) {
+        hit = {entry, 0, 0, 0};
+    } else if (ray.covers(exit)) {
+        hit = {exit, 0, 0, 0};
+    } else {
+        return Verdict::Missed;
+    }
+    return Verdict::Hit;
+}
+
+/// Eight rays, each with a triangle of its own; [..][lane].
+struct TrianglePairs {
+    alignas(64) double vertex[3][3][kLaneCount];  ///< [corner][axis], axes as in RayShear
+    alignas(64) double origin[3][kLaneCount], direction[3][kLaneCount];
+    alignas(64) double t_min[kLaneCount], t_max[kLaneCount];
+    alignas(64) double t[kLaneCount], u[kLaneCount], v[kLaneCount];  ///< results
+
+    HWY_INLINE void set(std::size_t lane, const Ray& ray, const Vec3 (&corners)[3]) {
+        const int kz = dominant_axis(ray.direction);
+        const int axis[3] = {kz == 2 ? 0 : kz + 1, kz == 0 ? 2 : kz - 1, kz};
+        HWY_UNROLL(3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            origin[k][lane] = ray.origin[axis[k]];
+            direction[k][lane] = ray.direction[axis[k]];
+            for (std::size_t i = 0; i < 3; ++i) vertex[i][k][lane] = corners[i][axis[k]];
+        }
+        t_min[lane] = ray.t_min;
+        t_max[lane] = ray.t_max;
+    }
+
+    /// Tests the lanes of `used`; those not in `set_up` do not hold their ray along its dominant
+    /// axis. Calls `accept(lane, hit)` for those that hit until it returns true, and returns
+    /// whether it did; `scalar(lane, hit)` is the scalar test, for lanes in doubt.
+    template <class Scalar, class Accept>
+    HWY_INLINE bool resolve(std::uint32_t used, std::uint32_t set_up, Scalar&& scalar,
+                            Accept&& accept) {
+        const Verdicts verdicts = test();
+        const std::uint32_t alone = (verdicts.unsure | ~set_up) & used;
+        for (std::uint32_t rest = (verdicts.hit & used) | alone; rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+            ShapeHit hit{t[lane], u[lane], v[lane], 0};
+            if ((alone >> lane & 1) != 0 && !scalar(lane, hit)) continue;
+            if (accept(lane, hit)) return true;
+        }
+        return false;
+    }
+
+  private:
+    struct Verdicts {
+        std::uint32_t hit, unsure;
+    };
+    HWY_INLINE Verdicts test() {
+        using D = Doubles;
+        const D dz = load_lanes(direction[2]);
+        const D sx = load_lanes(direction[0]) / dz, sy = load_lanes(direction[1]) / dz;
+        const D sz = D(1.0) / dz;
+        exact::ShearedVertex<D> p[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i] = exact::sheared(load_lanes(vertex[i][0]), load_lanes(vertex[i][1]),
+                                  load_lanes(vertex[i][2]), load_lanes(origin[0]),
+                                  load_lanes(origin[1]), load_lanes(origin[2]), sx, sy);
+        }
+        const exact::TriangleEdges<D> edges(p[0], p[1], p[2]);
+        const std::uint32_t missed = bits_of(edges.missed());
+        const std::uint32_t plain = bits_of(edges.nonzero() & edges.well_conditioned());
+        const auto s = exact::solve_triangle(edges.u, edges.v, edges.w, p[0].z, p[1].z, p[2].z, sz);
+        const std::uint32_t covered =
+            bits_of((load_lanes(t_min) <= s.t) & (s.t <= load_lanes(t_max)));
+        store_lanes(s.t, t);
+        store_lanes(s.u, u);
+        store_lanes(s.v, v);
+        return {plain & covered & ~missed, ~plain & ~missed & kAllLanes};
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target

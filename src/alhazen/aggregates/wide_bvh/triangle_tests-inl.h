@@ -1,0 +1,79 @@
+/// The triangle tests of leaves: policies of a query. A test names what it finds in a block
+/// (`Found`), finds it, and says how much slack boxes need.
+///
+/// Conventions: included once per target (see simd/lanes-inl.h).
+
+#if defined(ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_TESTS_INL_H_
+#undef ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_TESTS_INL_H_
+#else
+#define ALHAZEN_AGGREGATES_WIDE_BVH_TRIANGLE_TESTS_INL_H_
+#endif
+
+#include "alhazen/aggregates/wide_bvh/leaves/triangle_filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+
+/// Exact hits: a filter in float, then exact resolution in double of the candidates.
+struct FilteredTriangleTest {
+    using Found = FilteredTriangles;
+    static constexpr bool kExact = true;
+
+    static HWY_INLINE const DistanceBound& slab_slack(const LocalFrame& frame) {
+        return frame.slack.slab;
+    }
+    /// False when nothing is found; then `found` is not set.
+    static HWY_INLINE bool find(const TriangleBlock& block, const TriangleFilterRay& ray,
+                                float s_min, float s_max, Found& found) {
+        return filter_triangles(block, ray, s_min, s_max, found);
+    }
+};
+
+/// Triangles of a block that are hit, in single precision: edge functions, their sum, parameters.
+struct FloatTriangles {
+    Floats ev, ew, det, s;
+    std::uint32_t sure;  ///< bits of the lanes that are hit
+
+    // As that of LaneMask: not defaulted, because of the target.
+    HWY_INLINE FloatTriangles() {}
+};
+
+/// Single-precision hits: faster, may err at edges. Parameters carry the rounding of float; boxes
+/// have no slack.
+///
+/// Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013, without
+/// the fallback that makes it watertight at vertices.
+struct FloatTriangleTest {
+    using Found = FloatTriangles;
+    static constexpr bool kExact = false;
+
+    static HWY_INLINE DistanceBound slab_slack(const LocalFrame&) { return {0.0f, 0.0f}; }
+
+    static HWY_INLINE bool find(const TriangleBlock& block, const TriangleFilterRay& ray,
+                                float s_min, float s_max, Found& found) {
+        const ShearedCorners v = sheared_corners(block, ray);
+        const Floats eu = edge_of(v.corner[1], v.corner[2]);
+        found.ev = edge_of(v.corner[2], v.corner[0]);
+        found.ew = edge_of(v.corner[0], v.corner[1]);
+        const Floats zero(0.0f);
+        const Floats least = min_lanes(min_lanes(eu, found.ev), found.ew);
+        const Floats most = max_lanes(max_lanes(eu, found.ev), found.ew);
+        const std::uint32_t inside = bits_of((least >= zero) | (most <= zero));
+        if (inside == 0) return false;
+        found.det = eu + found.ev + found.ew;
+        found.s =
+            mul_add(eu, v.corner[0].z, mul_add(found.ev, v.corner[1].z, found.ew * v.corner[2].z)) *
+            Floats(ray.sz) / found.det;
+        // A NaN (a triangle seen edge on) is not a hit.
+        found.sure = inside & bits_of((found.s >= Floats(s_min)) & (found.s <= Floats(s_max)));
+        return found.sure != 0;
+    }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that opens again for every target
