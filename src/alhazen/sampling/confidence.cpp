@@ -1,8 +1,16 @@
 #include "alhazen/sampling/confidence.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace alhazen {
+
+namespace {
+
+/// Beyond this, Student's distribution is the normal one to half a percent.
+constexpr double kMostDegrees = 200;
+
+}  // namespace
 
 double student_two_sided(double t, int degrees) {
     const double angle = std::atan(t / std::sqrt(static_cast<double>(degrees)));
@@ -28,6 +36,33 @@ double student_quantile(double probability, int degrees) {
         (student_two_sided(middle, degrees) < probability ? lo : hi) = middle;
     }
     return 0.5 * (lo + hi);
+}
+
+Spread spread_of_differences(double squares, double fourths) {
+    if (!(squares > 0.0) || !(fourths > 0.0)) return {std::sqrt(squares), kMostDegrees};
+    // For normally distributed d_i the mean of d_i^4 is three times the squared variance; the 2 is
+    // the bias of the ratio.
+    return {std::sqrt(squares),
+            std::clamp(3 * squares * (squares / fourths) - 2, 1.0, kMostDegrees)};
+}
+
+Spread sum_of(std::span<const Spread> independent) {
+    double largest = 0;
+    for (const Spread& s : independent) largest = std::fmax(largest, s.deviation);
+    if (!(largest > 0.0)) return {0, kMostDegrees};
+    double sum = 0, weighted = 0;
+    for (const Spread& s : independent) {
+        const double ratio = s.deviation / largest;
+        const double variance = ratio * ratio;
+        sum += variance;
+        weighted += variance * variance / s.degrees;
+    }
+    return {largest * std::sqrt(sum), std::clamp(sum * sum / weighted, 1.0, kMostDegrees)};
+}
+
+Estimate estimate_of(double value, const Spread& spread, double probability) {
+    const int degrees = static_cast<int>(spread.degrees);
+    return {value, student_quantile(probability, degrees) * spread.deviation};
 }
 
 Estimate mean_of(std::span<const double> independent, double probability) {

@@ -1,6 +1,7 @@
 #include "alhazen/solids/isolated_solid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "alhazen/aggregates/accelerator_table.h"
@@ -42,6 +43,16 @@ Ray whole_line(const Affine& inner_from_outer, const Ray& ray) {
     return line;
 }
 
+double largest_coordinate(const Box3& box) {
+    return std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+}
+
+/// Bound of the coordinates of m p for |p| <= `p`, without cancellation.
+Vec3 magnitude_of(const Affine& m, const Vec3& p) {
+    return p.x * abs(m.linear.x_axis) + p.y * abs(m.linear.y_axis) + p.z * abs(m.linear.z_axis) +
+           abs(m.translation);
+}
+
 }  // namespace
 
 IsolatedSolid::IsolatedSolid(const SolidList& solids, SolidId id)
@@ -75,6 +86,34 @@ IsolatedSolid::IsolatedSolid(const SolidList& solids, SolidId id)
         has_walls_ = csg->solid().has_media();
     }
     box_ = transformed(world_.outer_from_inner, aggregate_->box());
+}
+
+double Measurable::magnitude() const {
+    return largest_coordinate(box());
+}
+
+double IsolatedSolid::magnitude() const {
+    const Box3 box = aggregate_->box();
+    Vec3 inner;
+    for (int k = 0; k < 3; ++k) inner[k] = std::max(std::abs(box.lo[k]), std::abs(box.hi[k]));
+    if (csg_ != nullptr) {
+        const PrimitiveTable& table = aggregate_->primitives();
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            for (int k = 0; k < 3; ++k) {
+                Vec3 axis;
+                axis[k] = 1;
+                const Interval extent = table.extent(i, axis);
+                for (const double end : {std::abs(extent.lo), std::abs(extent.hi)}) {
+                    if (std::isfinite(end)) inner[k] = std::max(inner[k], end);
+                }
+            }
+        }
+    }
+    // Lines go into the frame of the solid and come back: the numbers on the way, without signs.
+    const Affine& out = world_.outer_from_inner;
+    const Affine& in = world_.inner_from_outer;
+    const Vec3 world = magnitude_of(out, inner);
+    return max_component(magnitude_of(out, magnitude_of(in, world)));
 }
 
 Interval IsolatedSolid::extent(const Vec3& axis) const {
@@ -161,6 +200,10 @@ Box3 Overlap::box() const {
         both.hi[k] = std::min(a.hi[k], b.hi[k]);
     }
     return both;
+}
+
+double Overlap::magnitude() const {
+    return std::max(a_.magnitude(), b_.magnitude());
 }
 
 Interval Overlap::extent(const Vec3& axis) const {

@@ -33,6 +33,9 @@ class Measurable {
     [[nodiscard]] virtual Box3 box() const = 0;
     /// Range of dot(axis, p), rounded outward.
     [[nodiscard]] virtual Interval extent(const Vec3& axis) const = 0;
+    /// Bound of the numbers that crossings are computed from: surfaces lie where they are said to
+    /// be within a few roundings of it. By default the largest coordinate of the box.
+    [[nodiscard]] virtual double magnitude() const;
     /// `want_cosines`: computes the normals too.
     virtual void cross(const Ray& line, bool want_cosines, LineSpans& found) const = 0;
 };
@@ -45,6 +48,8 @@ class IsolatedSolid final : public Measurable {
 
     [[nodiscard]] Box3 box() const override { return box_; }
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
+    /// Includes the frame of the solid and, for a CSG object, its parts.
+    [[nodiscard]] double magnitude() const override;
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;
 
     /// A crossing: the point on the surface, the bound of its error, and the outward normal.
@@ -78,6 +83,7 @@ class Overlap final : public Measurable {
 
     [[nodiscard]] Box3 box() const override;
     [[nodiscard]] Interval extent(const Vec3& axis) const override;
+    [[nodiscard]] double magnitude() const override;
     /// Computes no cosines: the surface of the intersection is not needed.
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;
 

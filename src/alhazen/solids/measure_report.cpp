@@ -21,12 +21,15 @@ json to_json(const Vec3& v) {
 }
 
 Estimate scaled(double factor, const Estimate& e) {
-    return {factor * e.value, std::abs(factor) * e.half_width};
+    const double size = std::abs(factor);
+    return {factor * e.value, size * e.half_width, size * e.rounding};
 }
 
-/// The sum of independent numbers.
+/// The sum of independent numbers. Their rounding is not independent: it adds up.
 Estimate sum(const Estimate& a, const Estimate& b) {
-    return {a.value + b.value, std::hypot(a.half_width, b.half_width)};
+    const double rounding = a.rounding + b.rounding;
+    const double scatter = std::hypot(a.half_width - a.rounding, b.half_width - b.rounding);
+    return {a.value + b.value, scatter + rounding, rounding};
 }
 
 json solid_json(const SolidReport& r) {

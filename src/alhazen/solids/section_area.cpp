@@ -43,6 +43,7 @@ class LineRow {
         });
         for (std::size_t task = 0; task < parts.size(); ++task) {
             sums_[task / tasks].lengths += parts[task].lengths;
+            sums_[task / tasks].ends += parts[task].ends;
             sums_[task / tasks].inconsistent += parts[task].inconsistent;
         }
         lines_ = lines;
@@ -55,6 +56,13 @@ class LineRow {
         }
         return mean_of(area);
     }
+    [[nodiscard]] double width() const { return range_.width(); }
+    /// Ends of spans on a line, on average.
+    [[nodiscard]] double ends() const {
+        double sum = 0;
+        for (const Sum& s : sums_) sum += s.ends;
+        return sum / (double{kReplicates} * lines_);
+    }
     [[nodiscard]] std::uint64_t inconsistent() const {
         std::uint64_t sum = 0;
         for (const Sum& s : sums_) sum += s.inconsistent;
@@ -64,6 +72,7 @@ class LineRow {
   private:
     struct Sum {
         double lengths = 0;
+        double ends = 0;
         std::uint64_t inconsistent = 0;
     };
 
@@ -74,6 +83,7 @@ class LineRow {
             const double s = range_.lo + range_.width() * scrambled_sobol(key_ + replicate, i, 0);
             solid_.cross({origin_ + s * aside_, along_}, false, found);
             sum.inconsistent += found.consistent ? 0 : 1;
+            sum.ends += 2.0 * static_cast<double>(found.spans.size());
             for (const Interval& span : found.spans) sum.lengths += span.hi - span.lo;
         }
         return sum;
@@ -137,10 +147,15 @@ SectionArea section_area(const Measurable& solid, const SectionPlane& plane,
     }
     LineRow row(solid, origin, best, cross(frame.normal, best), mix64(options.seed) + 5);
     row.grow_to(kFirstLinesInPlane);
-    const double reach = 1 + length(center) / length(box.size());
+    const double slack =
+        kRounding * (solid.magnitude() + std::abs(plane.offset) / length(plane.normal));
+    const double length_of_rows = solid.extent(best).width();
     for (;;) {
         const Estimate area = row.area();
-        found.area = with_rounding(area, reach * area.value);
+        // An outline that lies elsewhere by the slack. Its length: as often as a line crosses it,
+        // at most about both extents.
+        const double outline = row.ends() * (length_of_rows + row.width());
+        found.area = with_rounding(area, slack * outline + kSumming * area.value);
         found.reached = found.area.half_width <= options.relative_error * found.area.value;
         const double lines = static_cast<double>(kReplicates) * row.lines();
         done += lines;

@@ -58,10 +58,6 @@ std::array<std::array<BundleFrame, 3>, 2> frames() {
     return all;
 }
 
-double spread(const Replicates& r) {
-    return half_sample_estimate(r).half_width;
-}
-
 bool agree(const Estimate& a, const Estimate& b) {
     return std::abs(a.value - b.value) <= kAgreement * std::hypot(a.half_width, b.half_width);
 }
@@ -87,8 +83,7 @@ class Measurer {
             throw Error(ErrorKind::Usage, "the solid is not bounded: it has no volume");
         }
         center_ = box_.center();
-        // Magnitude of the numbers that spans are computed from, as a multiple of the solid's size.
-        reach_ = 1 + length(center_) / length(box_.size());
+        slack_ = kRounding * solid_.magnitude();
         choose_frame();
         grow();
         fill(found);
@@ -118,7 +113,7 @@ class Measurer {
                 if (!options_.area) continue;
                 StratifiedChords area_pilot(solid_, all[f][k], center_, key + 1000, kArea);
                 grow_bundle(area_pilot, affordable(kPilotLines, kShareOfPilot));
-                area_spread += spread(area_pilot.areas());
+                area_spread += area_pilot.spread().deviation;
             }
             const bool better =
                 best_work < least || (best_work == least && area_spread < least_area);
@@ -147,8 +142,9 @@ class Measurer {
 
     /// Estimated number of lines for the wanted error along the direction of a pilot.
     [[nodiscard]] double work_ahead(const StratifiedChords& pilot) const {
-        const Estimate e = half_sample_estimate(pilot.volumes());
-        const Estimate widened = with_rare_misses(e, pilot.misses(), pilot.sparsest());
+        const Estimate e = pilot.estimate();
+        const double rounding = slack_ * pilot.projected_area() + kSumming * std::abs(e.value);
+        const Estimate widened = with_rare_misses(e, pilot.misses(), pilot.sparsest(), rounding);
         const double wanted = options_.relative_error * std::abs(e.value);
         const double lines = static_cast<double>(pilot.lines());
         if (!(wanted > 0)) return 0;
@@ -206,7 +202,7 @@ class Measurer {
     [[nodiscard]] std::size_t widest_area() const {
         std::size_t widest = 0;
         for (std::size_t k = 1; k < 3; ++k) {
-            if (spread(area_bundles_[k].areas()) > spread(area_bundles_[widest].areas()))
+            if (area_bundles_[k].spread().deviation > area_bundles_[widest].spread().deviation)
                 widest = k;
         }
         return widest;
@@ -214,19 +210,34 @@ class Measurer {
 
     [[nodiscard]] Estimate volume_along(std::size_t k) const {
         const StratifiedChords& bundle = bundles_[k];
-        const Estimate e = with_rare_misses(half_sample_estimate(bundle.volumes()), bundle.misses(),
-                                            bundle.sparsest());
-        return with_rounding(e, reach_ * std::abs(e.value));
+        const Estimate e = bundle.estimate();
+        const double rounding = volume_rounding(e.value);
+        return with_rounding(with_rare_misses(e, bundle.misses(), bundle.sparsest(), rounding),
+                             rounding);
     }
     [[nodiscard]] Estimate volume() const { return volume_along(best_); }
+
+    /// A surface that lies elsewhere by up to the slack: that much times its area, which is at most
+    /// the sum of its projections along the three directions.
+    [[nodiscard]] double volume_rounding(double volume) const {
+        double surface = 0;
+        for (const StratifiedChords& bundle : bundles_) surface += bundle.projected_area();
+        return slack_ * surface + kSumming * std::abs(volume);
+    }
+
     [[nodiscard]] Estimate area() const {
-        Replicates sum{};
-        for (const StratifiedChords& bundle : area_bundles_) {
-            const Replicates share = bundle.areas();
-            for (std::size_t r = 0; r < kReplicates; ++r) sum[r] += share[r];
+        double value = 0, rounding = 0;
+        std::array<Spread, 3> spreads;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const StratifiedChords& bundle = area_bundles_[k];
+            const double share = bundle.value();
+            value += share;
+            spreads[k] = bundle.spread();
+            // Silhouettes whose every side lies elsewhere by the slack, and sums of cosines.
+            const double edges = 1 / bundle.right_width() + 1 / bundle.up_width();
+            rounding += std::abs(share) * (2 * slack_ * edges + kSumming);
         }
-        const Estimate e = half_sample_estimate(sum);
-        return with_rounding(e, reach_ * std::abs(e.value));
+        return with_rounding(estimate_of(value, sum_of(spreads)), rounding);
     }
 
     /// Isotropic lines through the ball around the box: the mean number of crossings times the
@@ -243,7 +254,8 @@ class Measurer {
             }
         });
         lines_ += static_cast<double>(kCroftonSets * lines);
-        return mean_of(area);
+        const Estimate e = mean_of(area);
+        return with_rounding(e, std::abs(e.value) * (slack_ / radius + kSumming));
     }
 
     [[nodiscard]] double mean_crossings(std::size_t replicate, double radius,
@@ -310,13 +322,16 @@ class Measurer {
             for (std::size_t k = 0; k < 6; ++k) inertia[k][r] = tensor[k];
         }
         const double size = length(box_.size());
+        const double rounding = volume_rounding(found.volume.value);
+        const double shift = slack_ + rounding / found.volume.value * size;
         found.has_moments = true;
         for (std::size_t k = 0; k < 3; ++k) {
-            found.centroid[k] = with_rounding(half_sample_estimate(centroid[k]), reach_ * size);
+            found.centroid[k] = with_rounding(half_sample_estimate(centroid[k]), shift);
         }
         const double moment = found.volume.value * size * size;
         for (std::size_t k = 0; k < 6; ++k) {
-            found.inertia[k] = with_rounding(half_sample_estimate(inertia[k]), reach_ * moment);
+            found.inertia[k] =
+                with_rounding(half_sample_estimate(inertia[k]), 2 * rounding * size * size);
         }
         found.in_range = found.in_range && kLeastMoment <= moment && moment <= kMostMoment;
     }
@@ -326,7 +341,7 @@ class Measurer {
     Deadline deadline_, volume_deadline_;
     Box3 box_;
     Vec3 center_;
-    double reach_ = 1;
+    double slack_ = 0;  ///< how far a surface may lie from where it is, by rounding
     std::size_t frame_ = 0, best_ = 0;
     std::vector<StratifiedChords> bundles_, area_bundles_;
     double lines_ = 0;

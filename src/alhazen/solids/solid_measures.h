@@ -17,17 +17,21 @@
 /// subtracted from the lines that count. (3) Area is the sum over the three directions of a frame
 /// of |cosine| per crossing. It is exact, since the squares of the three cosines sum to one, and
 /// stays bounded at grazing lines. Crofton's count of isotropic lines is made as a check. (4)
-/// Intervals come from sixteen balanced half samples (McCarthy, "Pseudo-Replication: Half Samples",
-/// Review of the International Statistical Institute 37, 1969; cells share rows of a Hadamard
-/// matrix at random), by Student's distribution. Their coverage is as stated where many cells share
-/// the variance; a part smaller than a cell that no line has hit is not covered. The rounding of
-/// the spans is added. (5) Where hardly a line misses the solid within the rectangle of its shadow,
-/// the missing corners are too rare to show in the variance: the share of three lines is added
-/// (Hanley and Lippman-Hand, "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249, 1983).
-/// Conventions: world units. Moments are for density 1.
-/// Complexity and threads: errors fall as about N^-1 to N^-1.5 in the number of lines N while cells
-/// are cut, then as N^-0.5. Uses all threads; the result is independent of their number unless time
-/// ends the work.
+/// Intervals of volume and area come from the differences of the two pairs of lines of every cell,
+/// by Student's distribution with as many degrees of freedom as the differences are evenly large
+/// (Satterthwaite, "An Approximate Distribution of Estimates of Variance Components", Biometrics
+/// Bulletin 2, 1946). They scatter little, so that work may end when they are narrow enough: what
+/// scatters would be believed when it happens to be too narrow. Those of centroid and moments come
+/// from sixteen balanced half samples (McCarthy, "Pseudo-Replication: Half Samples", Review of the
+/// International Statistical Institute 37, 1969; cells share rows of a Hadamard matrix at random).
+/// A part smaller than a cell that no line has hit is not covered. Every interval has a term for
+/// rounding: surfaces may lie elsewhere by 64 roundings of the largest number that they are
+/// computed from, times their area. (5) Where hardly a line misses the solid within the rectangle
+/// of its shadow, the missing corners are too rare to show in the variance: the share of three
+/// lines is added (Hanley and Lippman-Hand, "If Nothing Goes Wrong, Is Everything All Right?", JAMA
+/// 249, 1983). Conventions: world units. Moments are for density 1. Complexity and threads: errors
+/// fall as about N^-1 to N^-1.5 in the number of lines N while cells are cut, then as N^-0.5. Uses
+/// all threads; the result is independent of their number unless time ends the work.
 
 #include <array>
 #include <cstdint>

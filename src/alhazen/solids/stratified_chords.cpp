@@ -4,7 +4,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "alhazen/parallel/parallel.h"
@@ -33,8 +32,6 @@ constexpr float kRimShare = 1.0f / 32;
 /// Weight of that guess where the quarter itself was surveyed: seven lines may have missed a
 /// feature.
 constexpr float kWeightOfGuess = 0.1f;
-/// Ends of spans are exact within a few roundings of the numbers they are computed from.
-constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -47,6 +44,7 @@ void add_span(const Vec3& o, const Vec3& d, double a, double b, double weight, M
     const double l1 = l0 * (0.5 * (a + b));
     const double l2 = l0 * (a * a + a * b + b * b) / 3.0;
     m.volume += l0;
+    m.ends += 2 * weight;
     m.first += l0 * o + l1 * d;
     const auto second = [&](int i, int k) {
         return l0 * o[i] * o[k] + l1 * (o[i] * d[k] + d[i] * o[k]) + l2 * d[i] * d[k];
@@ -66,6 +64,7 @@ Moments& Moments::operator+=(const Moments& other) {
     first += other.first;
     for (std::size_t i = 0; i < second.size(); ++i) second[i] += other.second[i];
     cosines += other.cosines;
+    ends += other.ends;
     measured += other.measured;
     return *this;
 }
@@ -76,6 +75,7 @@ Moments Moments::operator*(double factor) const {
     m.first = factor * m.first;
     for (double& x : m.second) x *= factor;
     m.cosines *= factor;
+    m.ends *= factor;
     m.measured *= factor;
     return m;
 }
@@ -83,6 +83,8 @@ Moments Moments::operator*(double factor) const {
 StratifiedChords::Sums& StratifiedChords::Sums::operator+=(const Sums& other) {
     all += other.all;
     for (std::size_t i = 0; i < differences.size(); ++i) differences[i] += other.differences[i];
+    squares += other.squares;
+    fourths += other.fourths;
     inconsistent += other.inconsistent;
     misses += other.misses;
     lines += other.lines;
@@ -192,8 +194,11 @@ StratifiedChords::Sums StratifiedChords::over_cells(F&& f) {
             for (std::size_t i = first; i < last; ++i) f(cells_[i], i, found, parts[task]);
         }
     });
-    Sums sums;
-    for (const Sums& part : parts) sums += part;
+    // In pairs: the rounding grows with the logarithm of the number of parts.
+    for (std::size_t step = 1; step < tasks; step *= 2) {
+        for (std::size_t i = 0; i + step < tasks; i += 2 * step) parts[i] += parts[i + step];
+    }
+    const Sums sums = parts.empty() ? Sums{} : parts.front();
     inconsistent_ += sums.inconsistent;
     missed_ += sums.misses;
     ++rounds_;
@@ -285,6 +290,10 @@ void StratifiedChords::cast_in(Cell& cell, std::uint64_t number, LineSpans& foun
     sums.all += pairs[1];
     sums.differences[row] += pairs[0];
     sums.differences[row] += pairs[1] * -1.0;
+    const double difference = (pairs[0].measured - pairs[1].measured) / scale_;
+    const double square = difference * difference;
+    sums.squares += square;
+    sums.fourths += square * square;
 }
 
 /// Two lines opposite each other about the middle of the cell.
@@ -337,16 +346,10 @@ Moments StratifiedChords::moments(std::size_t replicate) const {
     return m * share();
 }
 
-Replicates StratifiedChords::volumes() const {
-    Replicates v{};
-    for (std::size_t r = 0; r < kReplicates; ++r) v[r] = moments(r).measured;
-    return v;
-}
-
-Replicates StratifiedChords::areas() const {
-    Replicates v{};
-    for (std::size_t r = 0; r < kReplicates; ++r) v[r] = moments(r).measured;
-    return v;
+Spread StratifiedChords::spread() const {
+    Spread spread = spread_of_differences(sums_.squares, sums_.fourths);
+    spread.deviation *= share() * scale_;
+    return spread;
 }
 
 Deadline::Deadline(double seconds, const StopFlag* stop)
@@ -358,17 +361,17 @@ double Deadline::room(double lines_done) const {
     return lines_done * (seconds_ / elapsed - 1);
 }
 
-Estimate with_rounding(Estimate estimate, double magnitude) {
-    estimate.half_width += kRounding * magnitude;
+Estimate with_rounding(Estimate estimate, double rounding) {
+    estimate.half_width += rounding;
+    estimate.rounding += rounding;
     return estimate;
 }
 
-Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines) {
+Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines, double rounding) {
     // Rule of three: the share of an event that never came in n trials is below 3/n in 95 of 100
     // cases.
     constexpr double kRuleOfThree = 3.0;
-    const bool all_alike = volume.half_width <= kRounding * std::abs(volume.value);
-    if (misses >= kEnoughMisses || all_alike) return volume;
+    if (misses >= kEnoughMisses || volume.half_width <= rounding) return volume;
     volume.half_width += kRuleOfThree / lines * std::abs(volume.value);
     return volume;
 }

@@ -4,6 +4,7 @@
 /// Source, Differs, Conventions: see solid_measures.h, whose implementation this is.
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "alhazen/base/progress.h"
@@ -14,6 +15,11 @@ namespace alhazen {
 
 /// Number of half samples of every estimate; a power of two.
 inline constexpr std::size_t kReplicates = 16;
+/// Ends of spans lie within this many times the magnitude of the numbers they are computed from.
+inline constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
+/// Rounding of the sums themselves, as a share of the sum of absolute values.
+inline constexpr double kSumming = 300 * std::numeric_limits<double>::epsilon();
+
 /// An estimate per half sample, or per independent set of lines.
 using Replicates = std::array<double, kReplicates>;
 
@@ -23,6 +29,7 @@ struct Moments {
     Vec3 first;
     std::array<double, 6> second{};  ///< xx, yy, zz, xy, yz, zx
     double cosines = 0;
+    double ends = 0;      ///< ends of spans, counted
     double measured = 0;  ///< volume or cosines minus their model, for precision
 
     Moments& operator+=(const Moments& other);
@@ -41,7 +48,6 @@ struct BundleFrame {
 /// A survey chooses the cells to cut: seven lines per cell that are not part of the estimate. They
 /// reach beyond the cell on all sides, so that a rim that only touches a corner is seen. They also
 /// give the curvature of the measured quantity: a model that is subtracted from the lines of the
-/// cell and added as its integral.
 /// cell and added as its integral.
 class StratifiedChords {
   public:
@@ -65,8 +71,16 @@ class StratifiedChords {
     /// Moments of a half sample. Cosines sum to this direction's share of the area, for bundles
     /// that measure the area only.
     [[nodiscard]] Moments moments(std::size_t replicate) const;
-    [[nodiscard]] Replicates volumes() const;
-    [[nodiscard]] Replicates areas() const;
+    /// The measured volume, or this direction's share of the area, and how far it scatters: by the
+    /// differences of the pairs of all cells. Rounding is not included.
+    [[nodiscard]] double value() const { return share() * sums_.all.measured; }
+    [[nodiscard]] Spread spread() const;
+    [[nodiscard]] Estimate estimate() const { return estimate_of(value(), spread()); }
+    /// Area of the surface as projected along this direction, every layer counted.
+    [[nodiscard]] double projected_area() const { return share() * sums_.all.ends; }
+    /// Extents of the rectangle that the lines fill.
+    [[nodiscard]] double right_width() const { return right_.width(); }
+    [[nodiscard]] double up_width() const { return up_.width(); }
     /// Lines ever cast whose crossings did not come in pairs.
     [[nodiscard]] std::uint64_t inconsistent() const { return inconsistent_; }
     /// Number of lines in one round.
@@ -95,6 +109,8 @@ class StratifiedChords {
         Moments all;
         /// First pair minus second, for the cells of each row of the Hadamard matrix.
         std::array<Moments, kReplicates> differences;
+        /// Second and fourth powers of these differences, in units of scale_.
+        double squares = 0, fourths = 0;
         std::uint64_t inconsistent = 0, misses = 0, lines = 0;  ///< lines: of surveys
 
         Sums& operator+=(const Sums& other);
@@ -146,13 +162,15 @@ class Deadline {
     double begin_;
 };
 
-/// Widens an interval by the rounding of the spans, relative to the magnitude of the numbers.
-[[nodiscard]] Estimate with_rounding(Estimate estimate, double magnitude);
+/// Widens an interval by a bound of what is rounding.
+[[nodiscard]] Estimate with_rounding(Estimate estimate, double rounding);
 
 /// Widens the interval of a volume where the solid fills the rectangle of its shadow so well that
 /// hardly a line missed it, yet lines differ: empty corners are too rare to show in the variance,
-/// and bounded only by the number of misses. `lines`: see StratifiedChords::sparsest.
-[[nodiscard]] Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines);
+/// and bounded only by the number of misses. `lines`: see StratifiedChords::sparsest. Lines that
+/// differ by no more than `rounding` are alike.
+[[nodiscard]] Estimate with_rare_misses(Estimate volume, std::uint64_t misses, double lines,
+                                        double rounding);
 
 /// The estimate of these half samples, with its interval.
 [[nodiscard]] Estimate half_sample_estimate(const Replicates& half_samples);

@@ -37,5 +37,36 @@ TEST(Confidence, IntervalsOfNormalNumbersHoldTheTruthAsOftenAsTheySay) {
     EXPECT_NEAR(held / double{kRuns}, 0.95, 0.006);
 }
 
+TEST(Confidence, DegreesOfFreedomFollowFromHowEvenlyThePartsScatter) {
+    // Sums of parts of unequal scatter, each with one difference to tell it by.
+    RandomStream random(11);
+    constexpr int kRuns = 20000;
+    for (const double ratio : {1.0, 0.8, 0.5}) {
+        int held = 0;
+        for (int run = 0; run < kRuns; ++run) {
+            double sum = 0, squares = 0, fourths = 0, deviation = 1;
+            for (int part = 0; part < 40; ++part, deviation *= ratio) {
+                const auto normal = [&] {
+                    const double radius = std::sqrt(-2 * std::log(1 - random.uniform()));
+                    return deviation * radius * std::cos(6.283185307179586 * random.uniform());
+                };
+                sum += normal();
+                const double square = std::pow(normal(), 2);
+                squares += square;
+                fourths += square * square;
+            }
+            held += estimate_of(sum, spread_of_differences(squares, fourths)).holds(0);
+        }
+        EXPECT_GE(held / double{kRuns}, 0.94) << ratio;
+        EXPECT_LE(held / double{kRuns}, 0.99) << ratio;
+    }
+    // Nothing scatters: certain.
+    EXPECT_EQ(estimate_of(3, spread_of_differences(0, 0)).half_width, 0);
+    // Of independent numbers the variances add up.
+    const std::array<Spread, 2> two{Spread{3, 10}, Spread{4, 10}};
+    EXPECT_NEAR(sum_of(two).deviation, 5, 1e-12);
+    EXPECT_NEAR(sum_of(two).degrees, 625.0 / (81 / 10.0 + 256 / 10.0), 1e-9);
+}
+
 }  // namespace
 }  // namespace alhazen

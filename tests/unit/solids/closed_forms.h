@@ -67,6 +67,15 @@ inline std::vector<KnownSolid> known_solids() {
                    pi * (1 + std::sqrt(17.0)),
                    {0, 0, 1},
                    {cone_x, cone_x, 0.3 * cone_volume}});
+    // Far from the origin: rounding is larger than a relative one of the volume.
+    const Vec3 far{1000, -2000, 3000};
+    all.push_back({"plate",
+                   BoxShape{far, far + Vec3{0.5, 0.25, 0.0078125}},
+                   {},
+                   0.0009765625,
+                   2 * (0.125 + 0.00390625 + 0.001953125),
+                   far + Vec3{0.25, 0.125, 0.00390625},
+                   {}});
     return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace alhazen {
@@ -25,6 +26,17 @@ TEST(MeasureReport, NumbersOutOfRangeAreACheckThatFails) {
     report.solids[0].measures.in_range = false;
     EXPECT_FALSE(report.holds());
     EXPECT_NE(measure_text(report).find("overflow"), std::string::npos);
+}
+
+TEST(MeasureReport, TheRoundingOfATotalAddsUp) {
+    MeasureReport report;
+    for (int i = 0; i < 3; ++i) {
+        report.solids.emplace_back();
+        report.solids.back().measures.volume = {1, 0.5, 0.25};
+    }
+    // Rounding 3/4, and scatter of 1/4 three times.
+    const auto interval = measure_json(report)["total"]["volume"]["interval"];
+    EXPECT_NEAR(interval[1].get<double>(), 3 + 0.75 + 0.25 * std::sqrt(3.0), 1e-12);
 }
 
 }  // namespace
