@@ -165,7 +165,7 @@ int run(const RenderArguments& args) {
     progress.finish();
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
-    // Framing reads the bounds of the aggregate.
+    // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
     complete(args, options, loaded);
 

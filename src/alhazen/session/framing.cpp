@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <span>
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/overloaded.h"
 #include "alhazen/math/constants.h"
-#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/session/seen_parts.h"
 
 namespace alhazen {
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kFieldOfView = kPi / 4;
 constexpr double kMargin = 0.05;
-/// Boxes flatter than this fraction of their other sides are viewed from the front.
+/// Boxes flatter than this share of their other sides are seen from the front.
 constexpr double kFlat = 0.25;
 constexpr Rgb kHeadlight{0.75, 0.75, 0.75};
 constexpr Rgb kHeadlightAmbient{0.25, 0.25, 0.25};
@@ -40,7 +41,7 @@ Turn turn(double degrees) {
     return {std::cos(radians), std::sin(radians)};
 }
 
-/// Unit vectors of a view: from the scene to the eye, to the right and up in the image.
+/// Unit vectors of a view: from the scene to the eye, to the right and up in the picture.
 struct ViewFrame {
     Vec3 to_eye, right, up;
 };
@@ -48,8 +49,8 @@ struct ViewFrame {
 ViewFrame view_frame(UpAxis up_axis, const ViewAngles& view) {
     const Turn a = turn(view.azimuth_deg);
     const Turn e = turn(view.elevation_deg);
-    // In (front, side, height); `up` is the derivative of `to_eye` by elevation, which is also
-    // defined at the poles.
+    // In (front, side, height); `up` is the derivative of `to_eye` by elevation: it has a limit at
+    // the poles.
     const auto place = [&](double front, double side, double height) {
         return up_axis == UpAxis::Z ? Vec3{front, side, height} : Vec3{side, height, front};
     };
@@ -58,8 +59,8 @@ ViewFrame view_frame(UpAxis up_axis, const ViewAngles& view) {
 }
 
 /// Distance of the eye at which the two sides of its pyramid, of half-width `tangent` at distance
-/// 1, contain all points (across, towards the eye).
-double least_distance(const std::array<Vec2, 8>& points, double tangent) {
+/// 1, hold all points (across, towards the eye).
+double least_distance(std::span<const Vec2> points, double tangent) {
     double right = -std::numeric_limits<double>::infinity();
     double left = right;
     for (const Vec2& p : points) {
@@ -69,9 +70,9 @@ double least_distance(const std::array<Vec2, 8>& points, double tangent) {
     return (right + left) / (2.0 * tangent);
 }
 
-/// Lateral position of an eye at that distance at which the outermost points appear equally far
-/// from the centre: their apparent offset to the right decreases as the eye moves right.
-double centred_place(const std::array<Vec2, 8>& points, double distance) {
+/// How far aside an eye at that distance must stand for the outermost points to appear equally far
+/// from the middle: what appears farther to the right of it falls as the eye moves right.
+double centred_place(std::span<const Vec2> points, double distance) {
     double lo = points[0].x, hi = lo;
     for (const Vec2& p : points) {
         lo = std::min(lo, p.x);
@@ -93,39 +94,87 @@ double largest_side(const Vec3& size) {
     return std::max({size.x, size.y, size.z});
 }
 
-class BoundedBoxes {
+/// Points of the scene, about the middle of its box and in units of its size, so that no product
+/// of lengths leaves the range of numbers.
+class Cloud {
   public:
-    Box3 of(const Aggregate& aggregate) {
-        const Box3 whole = aggregate.box();
-        if (whole.empty() || whole.bounded()) return whole;
-        const auto known = boxes_.find(&aggregate);
-        if (known != boxes_.end()) return known->second;
-        const PrimitiveTable& table = aggregate.primitives();
-        Box3 sum;
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            Box3 box = table.box(i);
-            if (!box.bounded() && i >= table.first(kInstanceKind)) {
-                // Nesting is bounded: compile refuses more than kMaxInstanceDepth.
-                const Instance& instance = table.instances[i - table.first(kInstanceKind)];
-                box = transformed(instance.placement.outer_from_inner, of(*instance.aggregate));
-            }
-            if (!box.empty() && box.bounded()) sum.include(box);
-        }
-        return boxes_[&aggregate] = sum;
+    Cloud(const Box3& box, const ViewFrame& frame) : frame_(frame), center_(box.center()) {
+        const double reach = max_component(abs(center_));
+        unit_ = largest_side(box.size());
+        if (!(unit_ > 1e-12 * reach)) unit_ = reach > 0.0 ? 1e-6 * reach : 1.0;
     }
 
+    void add(const Vec3& point) {
+        const Vec3 p = (1.0 / unit_) * (point - center_);
+        const double towards_eye = dot(frame_.to_eye, p);
+        across_.push_back({dot(frame_.right, p), towards_eye});
+        along_.push_back({dot(frame_.up, p), towards_eye});
+    }
+    /// Adds the farthest point in a direction if it is farther than all so far.
+    bool add_farthest(const Vec3& direction, const FarthestPoint& farthest) {
+        const double shift = dot(direction, center_);
+        double known = -std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < across_.size(); ++i) {
+            const Vec3 p = across_[i].x * frame_.right + along_[i].x * frame_.up +
+                           across_[i].y * frame_.to_eye;
+            known = std::max(known, dot(direction, p));
+        }
+        // A point that is hardly farther changes nothing.
+        constexpr double kHardly = 1e-5;
+        const auto point = farthest(direction, shift + unit_ * (known + kHardly));
+        if (point) add(*point);
+        return point.has_value();
+    }
+
+    [[nodiscard]] std::span<const Vec2> across() const { return across_; }
+    [[nodiscard]] std::span<const Vec2> along() const { return along_; }
+    [[nodiscard]] double unit() const { return unit_; }
+    [[nodiscard]] const Vec3& center() const { return center_; }
+
   private:
-    std::map<const Aggregate*, Box3> boxes_;
+    ViewFrame frame_;
+    Vec3 center_;
+    double unit_;
+    std::vector<Vec2> across_, along_;
 };
+
+/// Where the eye stands in the cloud's frame, and how far the points reach to both sides of it at
+/// distance 1.
+struct EyePlace {
+    double back, aside, above;
+    double across, along;
+};
+
+double widest(std::span<const Vec2> points, double place, double back) {
+    double most = 0.0;
+    for (const Vec2& p : points) most = std::max(most, std::abs(p.x - place) / (back - p.y));
+    return most;
+}
+
+EyePlace place_eye(const Cloud& cloud, double aspect) {
+    const double tangent = (1.0 - 2.0 * kMargin) * std::tan(0.5 * kFieldOfView);
+    double nearest = -std::numeric_limits<double>::infinity();
+    for (const Vec2& p : cloud.across()) nearest = std::max(nearest, p.y);
+    EyePlace eye{};
+    // Points without width across the view would contain the eye.
+    eye.back = std::max({least_distance(cloud.across(), tangent * aspect),
+                         least_distance(cloud.along(), tangent), nearest + 1e-3});
+    eye.aside = centred_place(cloud.across(), eye.back);
+    eye.above = centred_place(cloud.along(), eye.back);
+    eye.across = widest(cloud.across(), eye.aside, eye.back);
+    eye.along = widest(cloud.along(), eye.above, eye.back);
+    return eye;
+}
 
 CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const FramingOptions& options,
                                 ViewAngles& view) {
-    const Box3 box = bounded_part(*scene.aggregate);
+    const SeenParts seen(*scene.aggregate);
+    const Box3& box = seen.box();
     if (box.empty()) {
         throw Error(ErrorKind::Scene,
                     scene.aggregate->box().empty()
                         ? "the scene has nothing that could be seen, and no camera"
-                        : "the scene has no camera, and nothing of finite size to point one at");
+                        : "the scene has no camera, and nothing of finite size that one would see");
     }
     if (!is_finite(box.size())) {
         throw Error(ErrorKind::Scene, "the scene has no camera and is too large to be framed");
@@ -133,7 +182,9 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
     view = options.view.value_or(default_view(box, up_axis));
     CameraDescription camera;
     camera.name = "framed";
-    camera.camera = framing_camera(box, up_axis, view, options.aspect);
+    camera.camera = framing_camera(
+        box, up_axis, view, options.aspect,
+        [&](const Vec3& direction, double least) { return seen.farthest(direction, least); });
     camera.aspect = options.aspect;
     return camera;
 }
@@ -180,10 +231,6 @@ ViewAngles parse_view(const std::string& text) {
     return view;
 }
 
-Box3 bounded_part(const Aggregate& aggregate) {
-    return BoundedBoxes().of(aggregate);
-}
-
 ViewAngles default_view(const Box3& box, UpAxis up_axis) {
     const Vec3 size = box.size();
     const double depth = up_axis == UpAxis::Z ? size.x : size.z;
@@ -194,29 +241,45 @@ ViewAngles default_view(const Box3& box, UpAxis up_axis) {
 }
 
 PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngles& view,
-                                 double aspect) {
+                                 double aspect, const FarthestPoint& farthest) {
     const ViewFrame frame = view_frame(up_axis, view);
-    const Vec3 center = box.center();
-    // In units of the scene's size, so that products of lengths neither overflow nor underflow.
-    const double reach = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-    double unit = largest_side(box.size());
-    if (!(unit > 1e-12 * reach)) unit = reach > 0.0 ? 1e-6 * reach : 1.0;
-    std::array<Vec2, 8> across{}, along{};
-    for (int i = 0; i < 8; ++i) {
-        const Vec3 p = (1.0 / unit) * (box.corner(i) - center);
-        across[static_cast<std::size_t>(i)] = {dot(frame.right, p), dot(frame.to_eye, p)};
-        along[static_cast<std::size_t>(i)] = {dot(frame.up, p), dot(frame.to_eye, p)};
+    Cloud cloud(box, frame);
+    for (const Vec3& side : {frame.to_eye, frame.right, -frame.right, frame.up, -frame.up}) {
+        (void)cloud.add_farthest(side, farthest);
     }
-    const double tangent = (1.0 - 2.0 * kMargin) * std::tan(0.5 * kFieldOfView);
-    double nearest = 0.0;
-    for (const Vec2& p : across) nearest = std::max(nearest, p.y);
-    // A box without width across the view would contain the eye.
-    const double back = std::max(
-        {least_distance(across, tangent * aspect), least_distance(along, tangent), nearest + 1e-3});
-    const Vec3 eye =
-        center + unit * (back * frame.to_eye + centred_place(across, back) * frame.right +
-                         centred_place(along, back) * frame.up);
-    return look_along(eye, -frame.to_eye, frame.up, kFieldOfView, aspect);
+    // What rays alone could find, they did not.
+    if (cloud.across().empty()) {
+        for (int i = 0; i < 8; ++i) cloud.add(box.corner(i));
+    }
+    constexpr int kMostSteps = 64;
+    EyePlace eye = place_eye(cloud, aspect);
+    for (int step = 0; step < kMostSteps; ++step) {
+        bool more = false;
+        for (const double sign : {1.0, -1.0}) {
+            more |= cloud.add_farthest(sign * frame.right + eye.across * frame.to_eye, farthest);
+            more |= cloud.add_farthest(sign * frame.up + eye.along * frame.to_eye, farthest);
+        }
+        if (!more) break;
+        eye = place_eye(cloud, aspect);
+    }
+    const Vec3 place =
+        cloud.center() +
+        cloud.unit() * (eye.back * frame.to_eye + eye.aside * frame.right + eye.above * frame.up);
+    return look_along(place, -frame.to_eye, frame.up, kFieldOfView, aspect);
+}
+
+PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngles& view,
+                                 double aspect) {
+    return framing_camera(box, up_axis, view, aspect,
+                          [&](const Vec3& direction, double least) -> std::optional<Vec3> {
+                              std::optional<Vec3> best;
+                              for (int i = 0; i < 8; ++i) {
+                                  if (!(dot(direction, box.corner(i)) > least)) continue;
+                                  best = box.corner(i);
+                                  least = dot(direction, *best);
+                              }
+                              return best;
+                          });
 }
 
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "alhazen/base/error.h"
+#include "alhazen/session/seen_parts.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {
@@ -170,10 +171,129 @@ TEST(Framing, PlanesAreLeftOutOfTheBoxAlsoInsideInstances) {
     maker.add(both, MaterialId{0}, Affine::translate({-10, 0, 0}));
     const Scene scene = maker.compile();
     EXPECT_FALSE(scene.aggregate->box().bounded());
-    const Box3 box = bounded_part(*scene.aggregate);
+    const Box3 box = SeenParts(*scene.aggregate).box();
     EXPECT_NEAR(box.lo.x, -11, 1e-9);
     EXPECT_NEAR(box.hi.x, 11, 1e-9);
     EXPECT_NEAR(box.hi.y, 1, 1e-9);
+}
+
+/// Gaps between what eye rays see and the sides of the picture, in shares of its width and height.
+Gaps seen_gaps(const Scene& scene, double aspect) {
+    constexpr int kHeight = 250;
+    const int width = static_cast<int>(kHeight * aspect);
+    const Camera& camera = scene.cameras[0].camera;
+    Gaps g;
+    for (int j = 0; j < kHeight; ++j) {
+        for (int i = 0; i < width; ++i) {
+            const double x = (i + 0.5) / width, y = (j + 0.5) / kHeight;
+            if (!scene.aggregate->occluded(eye_ray(camera, x, y),
+                                           {nullptr, mask_of(RayKind::Eye)})) {
+                continue;
+            }
+            g.left = std::min(g.left, x);
+            g.right = std::min(g.right, 1 - x);
+            g.bottom = std::min(g.bottom, y);
+            g.top = std::min(g.top, 1 - y);
+        }
+    }
+    return g;
+}
+
+/// Frames from three sides in two shapes of picture.
+void expect_centred(SceneMaker& maker, const std::string& what) {
+    Scene scene = maker.compile("wide_bvh");
+    for (const double aspect : {0.6, 1.5}) {
+        for (const ViewAngles view : {ViewAngles{30, 20}, ViewAngles{0, 0}, ViewAngles{-100, 70}}) {
+            scene.cameras.clear();
+            SceneDescription description = maker.description();
+            (void)complete_view(description, scene, {.view = view, .aspect = aspect});
+            const Gaps g = seen_gaps(scene, aspect);
+            const std::string where = what + " from " + std::to_string(view.azimuth_deg) +
+                                      ", aspect " + std::to_string(aspect);
+            constexpr double kPixels = 0.009;
+            EXPECT_NEAR(g.left, g.right, kPixels) << where;
+            EXPECT_NEAR(g.bottom, g.top, kPixels) << where;
+            EXPECT_NEAR(std::min(g.left, g.bottom), 0.05, kPixels) << where;
+        }
+    }
+}
+
+/// A ball; one vertex, far outside, is in no triangle.
+TriangleMesh ball(int rows) {
+    TriangleMesh mesh;
+    const int columns = 2 * rows;
+    for (int j = 0; j <= rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            const double a = 2 * std::numbers::pi * i / columns, b = std::numbers::pi * j / rows;
+            mesh.positions.push_back(
+                {std::cos(a) * std::sin(b), std::cos(b), std::sin(a) * std::sin(b)});
+        }
+    }
+    const auto vertex = [&](int i, int j) {
+        return static_cast<std::uint32_t>(j * columns + i % columns);
+    };
+    for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+            mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    }
+    mesh.positions.push_back({50, 60, 70});
+    return mesh;
+}
+
+TEST(Framing, ASphereIsCentredNotItsBox) {
+    SceneMaker maker = sphere_without_view();
+    expect_centred(maker, "sphere");
+}
+
+TEST(Framing, TheVerticesOfMeshesAreCentred) {
+    SceneMaker maker;
+    maker.add(maker.mesh(ball(40)), MaterialId{0}, Affine::translate({3, 4, 5}));
+    expect_centred(maker, "ball");
+}
+
+TEST(Framing, WhatInstancesPlaceIsCentred) {
+    SceneMaker maker;
+    const ObjectIndex object = maker.object("object");
+    maker.add(maker.mesh(ball(20)), MaterialId{0}, {}, object);
+    maker.add(Torus{}, MaterialId{0}, Affine::translate({0, 1.5, 0}), object);
+    maker.add(
+        object, MaterialId{0},
+        Affine::translate({3, 0, 0}) * Affine::rotate({1, 1, 0}, 0.7) * Affine::scale({1, 2, 0.5}));
+    maker.add(object, MaterialId{0}, Affine::rotate({0, 1, 1}, 2.0));
+    expect_centred(maker, "instances");
+}
+
+TEST(Framing, SolidsWithoutTightBoundsAreCentred) {
+    const auto lens = [] {
+        SceneMaker maker;
+        const ObjectIndex solid = maker.object("lens");
+        maker.description().objects[1].combine = Combine::Intersection;
+        maker.add(Sphere{{0, 0, 0}, 1}, MaterialId{0}, {}, solid);
+        maker.add(Sphere{{1, 0.5, 0}, 1}, MaterialId{0}, {}, solid);
+        maker.add(solid);
+        return maker;
+    }();
+    SceneMaker maker = lens;
+    expect_centred(maker, "lens");
+    SceneMaker blobs;
+    Blob blob;
+    blob.threshold = 0.4;
+    blob.components = {{.base = {0, 0, 0}, .radius = 1, .strength = 1},
+                       {.base = {0.8, 0.6, 0}, .radius = 0.8, .strength = 1}};
+    blobs.add(blob);
+    expect_centred(blobs, "blob");
+    SceneMaker cushions;
+    cushions.add(Superellipsoid{}, MaterialId{0}, Affine::rotate({1, 2, 3}, 0.5));
+    expect_centred(cushions, "superellipsoid");
+}
+
+TEST(Framing, PartsThatNoEyeRaySeesAreLeftOut) {
+    SceneMaker maker = sphere_without_view();
+    maker.add(Sphere{{9, 0, 0}, 1});
+    maker.description().objects[0].parts.back().visible_to = mask_of(RayKind::Shadow);
+    expect_centred(maker, "half seen");
 }
 
 TEST(Framing, NothingToFrameIsAnError) {
