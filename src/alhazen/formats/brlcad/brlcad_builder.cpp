@@ -55,8 +55,18 @@ void BrlcadBuilder::build(std::span<const std::string> names) {
         tree.add_leaf(name, Affine{}, database_.find(name)->place);
         add_group_parts(tree, 0, BrlcadState{}, root.parts);
     }
+    const bool empty = root.parts.empty();
     scene_.root = add_object(std::move(root));
     tell_left_out();
+    if (empty && database_.faults + cyclic_.size() > 0) refuse();
+}
+
+void BrlcadBuilder::refuse() {
+    const std::vector<Diagnostic> found = diagnostics_.all();
+    for (const Diagnostic& one : found) {
+        if (one.severity == Severity::Warning) diagnostics_.error(one.location, one.message);
+    }
+    diagnostics_.error({database_.file, 0, 0}, "no part can be shown");
 }
 
 void BrlcadBuilder::tell_left_out() {
@@ -97,8 +107,10 @@ const BrlcadObject* BrlcadBuilder::look_up(const BrlcadNode& leaf) {
 
 bool BrlcadBuilder::enter(const BrlcadObject& object) {
     if (!open_.insert(&object).second) {
-        diagnostics_.error(database_.at(object.place),
-                           "combination '" + object.name + "' contains itself");
+        unread_ = "combination '" + object.name + "' contains itself";
+        if (cyclic_.insert(&object).second) {
+            diagnostics_.warning(database_.at(object.place), unread_ + "; it is left out there");
+        }
         return false;
     }
     if (open_.size() > static_cast<std::size_t>(options_.max_nesting)) {
@@ -129,6 +141,7 @@ void BrlcadBuilder::add_group_parts(const BrlcadTree& tree, std::uint32_t index,
         return;
     }
     check_room(1, node.place);
+    if (node.last_row == LastRow::Perspective) return;
     if (node.op != BrlcadOperator::Leaf) {
         Regions regions;
         add_regions(tree, index, state, regions);
@@ -189,7 +202,7 @@ std::optional<BrlcadBuilder::PlacedRegion> BrlcadBuilder::region(const BrlcadObj
 void BrlcadBuilder::add_member_regions(const BrlcadNode& leaf, const BrlcadState& state,
                                        Regions& regions) {
     const BrlcadObject* found = look_up(leaf);
-    if (found == nullptr) return;
+    if (found == nullptr || leaf.last_row == LastRow::Perspective) return;
     const std::size_t first = regions.size();
     const auto* comb = std::get_if<BrlcadCombination>(&found->what);
     if (comb != nullptr && !comb->region) {

@@ -3,8 +3,8 @@
 ///
 /// Source: BRL-CAD, "MGED User's Manual", on regions and attributes inherited from combinations;
 /// manual page of `rt` on air.
-/// Differs: a region with an unsupported solid is omitted as a whole, with a warning, so that no
-/// wrong shape appears.
+/// Differs: a region with an unsupported solid, a member without a place or a combination that
+/// contains itself is omitted as a whole, with a warning, so that no wrong shape appears.
 /// Conventions: a region is one solid of one material, also on the surfaces of cuts. Operators
 /// above the regions apply to each region of their left operand, which keeps its material. A solid
 /// outside any region forms a region of its own. Complexity: each object is made once per material;
@@ -91,6 +91,7 @@ class BrlcadBuilder {
     void check_room(std::size_t parts, const BrlcadPlace& place);
     [[nodiscard]] std::vector<std::string> top_level() const;
     void tell_left_out();
+    void refuse();  ///< turns all warnings into errors
 
     using StateKey = decltype(std::declval<BrlcadState>().key());
 
@@ -109,6 +110,7 @@ class BrlcadBuilder {
     std::map<const BrlcadObject*, MeshIndex> meshes_;
     std::set<MeshIndex> surface_meshes_;
     std::set<ObjectIndex> surface_objects_;  ///< objects with surface meshes
+    std::set<const BrlcadObject*> cyclic_;   ///< combinations that contain themselves
     std::set<std::string> missing_;
     std::string unread_;  ///< why the last operand is Unread
     std::map<const BrlcadObject*, std::string> unread_of_;

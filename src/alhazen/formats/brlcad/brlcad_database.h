@@ -4,7 +4,8 @@
 /// Source: BRL-CAD, "MGED User's Manual", and the text output of its program `g2asc`.
 /// Differs: attributes of other programs are dropped (materials of the ballistic codes, lines of
 /// sight).
-/// Conventions: millimetres.
+/// Conventions: millimetres. What cannot be read is a warning; a solid or combination of it is kept
+/// as BrlcadUnsupported, so that nothing is shown that lacks it in silence.
 
 #include <optional>
 #include <string>
@@ -47,6 +48,8 @@ struct BrlcadDatabase {
     std::vector<BrlcadObject> objects;
     std::unordered_map<std::string, std::size_t> by_name;
     std::vector<BrlcadRegionColor> region_colors;
+    std::size_t faults = 0;      ///< things that could not be read
+    bool told_rounding = false;  ///< warned of a rounded matrix
 
     [[nodiscard]] FileLocation at(const BrlcadPlace& place) const {
         return {file, place.line, place.column};
@@ -59,16 +62,13 @@ struct BrlcadDatabase {
         const auto found = by_name.find(name);
         return found == by_name.end() ? nullptr : &objects[found->second];
     }
-    /// Adds an object. Reports a duplicate name as an error and keeps the first object.
-    void add(BrlcadObject object, Diagnostics& diagnostics) {
-        const auto [entry, fresh] = by_name.try_emplace(object.name, objects.size());
-        if (!fresh) {
-            diagnostics.error(at(object.place),
-                              "'" + object.name + "' is defined again; first in line " +
-                                  std::to_string(objects[entry->second].place.line));
-            return;
-        }
-        objects.push_back(std::move(object));
+    /// Adds an object. Warns of members without a place, once of rounded matrices, and of a
+    /// duplicate name, whose first object is kept.
+    void add(BrlcadObject object, Diagnostics& diagnostics);
+    /// Warns of something that cannot be read.
+    void fault(const FileLocation& where, const std::string& message, Diagnostics& diagnostics) {
+        ++faults;
+        diagnostics.warning(where, message);
     }
 };
 
@@ -76,16 +76,6 @@ struct BrlcadDatabase {
 [[nodiscard]] inline Rgb brlcad_color(double r, double g, double b) {
     const auto part = [](double c) { return (c < 0.0 ? 0.0 : c > 255.0 ? 255.0 : c) / 255.0; };
     return {part(r), part(g), part(b)};
-}
-
-/// The transform of a 4 x 4 row-major matrix; the last number divides all others. None if the
-/// matrix is not affine.
-[[nodiscard]] inline std::optional<Affine> brlcad_transform(const std::array<double, 16>& m) {
-    if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] == 0.0) return std::nullopt;
-    const double s = 1.0 / m[15];
-    return Affine{
-        {s * Vec3{m[0], m[4], m[8]}, s * Vec3{m[1], m[5], m[9]}, s * Vec3{m[2], m[6], m[10]}},
-        s * Vec3{m[3], m[7], m[11]}};
 }
 
 }  // namespace alhazen

@@ -33,9 +33,7 @@ OrientedPlane plane_of(const BrlcadHalfSpace& half) {
 struct Maker {
     BrlcadPieces made;
 
-    void operator()(const BrlcadUnsupported& /*solid*/) {
-        made.refused = "has an unsupported type";
-    }
+    void operator()(const BrlcadUnsupported& given) { made.refused = given.reason; }
     void operator()(const BrlcadArb8& arb) { add(made, hexahedron(arb.corners)); }
     void operator()(const BrlcadEllipsoid& given) {
         Ellipsoid ellipsoid;

@@ -98,8 +98,10 @@ struct BrlcadMesh {
     bool plate = false;  ///< a surface with a thickness, which is dropped
 };
 
-/// A solid of an unsupported type.
-struct BrlcadUnsupported {};
+/// A solid that is not read.
+struct BrlcadUnsupported {
+    std::string reason = "has an unsupported type";
+};
 
 struct BrlcadSolid {
     std::string type;  ///< as in the file, for example "tgc"

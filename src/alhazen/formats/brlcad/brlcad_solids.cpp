@@ -23,7 +23,7 @@ BrlcadBuilder::Operand BrlcadBuilder::object(const BrlcadObject& object, Materia
     }
     Operand made;
     if (const auto* comb = std::get_if<BrlcadCombination>(&object.what)) {
-        if (!enter(object)) return made;
+        if (!enter(object)) return {Outcome::Unread, {}};
         if (comb->tree.root() != BrlcadTree::kEmpty) {
             made = operand(comb->tree, comb->tree.root(), material);
         }
@@ -83,6 +83,10 @@ BrlcadBuilder::Operand BrlcadBuilder::exclusive_or(const Part& a, const Part& b,
 BrlcadBuilder::Operand BrlcadBuilder::member(const BrlcadNode& leaf, MaterialId material) {
     const BrlcadObject* found = look_up(leaf);
     if (found == nullptr) return {};
+    if (leaf.last_row == LastRow::Perspective) {
+        unread_ = "its member '" + leaf.member + "' has no place";
+        return {Outcome::Unread, {}};
+    }
     Operand made = object(*found, material);
     if (made.outcome == Outcome::Present) made.part = placed(std::move(made.part), leaf);
     return made;

@@ -14,6 +14,14 @@ std::uint32_t BrlcadTree::add_leaf(std::string member, const Affine& comb_from_m
     return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
 
+std::uint32_t BrlcadTree::add_leaf(std::string member, const std::array<double, 16>& matrix,
+                                   const BrlcadPlace& place) {
+    const HomogeneousMatrix read(matrix);
+    const std::uint32_t leaf = add_leaf(std::move(member), read.transform, place);
+    nodes_[leaf].last_row = is_invertible(read.transform) ? read.last_row : LastRow::Perspective;
+    return leaf;
+}
+
 std::uint32_t BrlcadTree::join(BrlcadOperator op, std::uint32_t left, std::uint32_t right) {
     BrlcadNode node;
     node.op = op;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/math/affine.h"
+#include "alhazen/formats/core/homogeneous_matrix.h"
 
 namespace alhazen {
 
@@ -26,6 +26,7 @@ struct BrlcadNode {
     std::vector<std::uint32_t> operands;  ///< of Difference: the first minus the others
     std::string member;                   ///< of Leaf: the name of the placed object
     Affine comb_from_member;
+    LastRow last_row = LastRow::Exact;  ///< of the matrix; Perspective: the member has no place
     BrlcadPlace place;
 };
 
@@ -35,6 +36,9 @@ class BrlcadTree {
     static constexpr std::uint32_t kEmpty = ~std::uint32_t{0};
 
     std::uint32_t add_leaf(std::string member, const Affine& comb_from_member,
+                           const BrlcadPlace& place);
+    /// The same with the matrix of the file. One without an inverse gives no place either.
+    std::uint32_t add_leaf(std::string member, const std::array<double, 16>& matrix,
                            const BrlcadPlace& place);
     /// Joins two nodes under an operator, which takes ownership of them. Either may be kEmpty.
     std::uint32_t combine(BrlcadOperator op, std::uint32_t left, std::uint32_t right);

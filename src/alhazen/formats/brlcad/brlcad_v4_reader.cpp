@@ -43,13 +43,29 @@ BrlcadPlace BrlcadV4Reader::place() const {
 }
 
 bool BrlcadV4Reader::fail(const std::string& message) {
-    diagnostics_.error(database_.at(place()), message);
+    record_failed_ = true;
+    if (cursor_.bytes_left() == 0) {
+        diagnostics_.error(database_.at(place()), message);
+    } else {
+        database_.fault(database_.at(place()), message, diagnostics_);
+    }
     return false;
+}
+
+void BrlcadV4Reader::keep_unread(const std::string& object_name) {
+    if (database_.find(object_name) != nullptr) return;
+    add_solid(object_name, {"", BrlcadUnsupported{"could not be read"}}, record_);
 }
 
 bool BrlcadV4Reader::name(std::string& value) {
     if (!cursor_.skip_blanks()) return fail("expected a name, found the end of the line");
     value = cursor_.word();
+    return true;
+}
+
+bool BrlcadV4Reader::own_name(std::string& value) {
+    if (!name(value)) return false;
+    object_name_ = value;
     return true;
 }
 
@@ -94,13 +110,17 @@ void BrlcadV4Reader::check_room(std::int64_t count) {
 void BrlcadV4Reader::read() {
     while (cursor_.skip_to_word()) {
         record_ = place();
-        read_record();
+        const bool lost = record_failed_;
+        record_failed_ = false;
+        object_name_.clear();
+        read_record(lost);
+        if (record_failed_ && !object_name_.empty()) keep_unread(object_name_);
         cursor_.skip_line();
     }
     finish_combination();
 }
 
-void BrlcadV4Reader::read_record() {
+void BrlcadV4Reader::read_record(bool lost) {
     const std::string shown = cursor_.shown_word();
     const std::string_view kind = cursor_.word();
     if (kind == "M") return read_member();
@@ -119,10 +139,14 @@ void BrlcadV4Reader::read_record() {
     if (kind == "w") return read_pipe();
     if (kind == "D") return read_spline();
     if (kind == "c") return read_unsupported("cline");
-    diagnostics_.error(database_.at(record_),
-                       shown +
-                           " is not a record type; expected I, S, C, M, A, P, t, p, n, s, N, "
-                           "w, D, c or m");
+    // The rest of a record that could not be read is no second fault.
+    record_failed_ = true;
+    if (lost) return;
+    database_.fault(database_.at(record_),
+                    shown +
+                        " is not a record type; expected I, S, C, M, A, P, t, p, n, s, N, w, D, c "
+                        "or m",
+                    diagnostics_);
 }
 
 void BrlcadV4Reader::read_ident() {
@@ -142,8 +166,8 @@ void BrlcadV4Reader::read_solid() {
     std::int64_t type = 0, group = 0;
     std::string solid_name;
     std::array<double, 24> values{};
-    if (!integer(type, 0, 1'000'000) || !name(solid_name) || !integer(group, -32768, 1'000'000) ||
-        !numbers(values)) {
+    if (!integer(type, 0, 1'000'000) || !own_name(solid_name) ||
+        !integer(group, -32768, 1'000'000) || !numbers(values)) {
         return;
     }
     check_room(1);
@@ -193,28 +217,27 @@ void BrlcadV4Reader::finish_combination() {
 
 void BrlcadV4Reader::read_member() {
     if (!in_combination_) {
-        diagnostics_.error(database_.at(record_),
-                           "a member (M) without a combination (C) before it");
+        fail("a member (M) without a combination (C) before it");
         return;
     }
     std::string letter, member;
-    if (!name(letter)) return;
-    const BrlcadOperator op = member_operator(letter);
-    if (op == BrlcadOperator::Leaf) {
-        fail("'" + letter + "' is not an operator; expected u, + or -");
-        return;
-    }
     std::array<double, 16> matrix{};
-    if (!name(member) || !numbers(matrix)) return;
-    const std::optional<Affine> transform = brlcad_transform(matrix);
-    if (!transform) {
-        diagnostics_.error(database_.at(record_),
-                           "the matrix of member '" + member + "' is not an affine transform");
-        return;
+    BrlcadOperator op = BrlcadOperator::Leaf;
+    if (name(letter)) {
+        op = member_operator(letter);
+        if (op == BrlcadOperator::Leaf) {
+            fail("'" + letter + "' is not an operator; expected u, + or -");
+        }
+    }
+    if (op == BrlcadOperator::Leaf || !name(member) || !numbers(matrix)) {
+        // A member without a place: what it is part of is not shown without it.
+        matrix.fill(0.0);
+        if (member.empty()) member = "?";
+        op = BrlcadOperator::Union;
     }
     check_room(1);
     BrlcadTree& tree = std::get<BrlcadCombination>(combination_.what).tree;
-    const std::uint32_t leaf = tree.add_leaf(std::move(member), *transform, record_);
+    const std::uint32_t leaf = tree.add_leaf(std::move(member), matrix, record_);
     members_.add(tree, op, leaf);
 }
 

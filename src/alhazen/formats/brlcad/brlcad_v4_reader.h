@@ -3,7 +3,8 @@
 ///
 /// Source: BRL-CAD, the text output of its program `g2asc` for databases of version 4.
 /// Differs: numbers documented as unused may be missing.
-/// Conventions: a fault in a record is an error; reading continues after it.
+/// Conventions: a fault in a record is a warning; reading continues after it, and the object of the
+/// record is unsupported. A file that ends within a record is an error.
 
 #include <cstdint>
 #include <span>
@@ -24,7 +25,7 @@ class BrlcadV4Reader {
     [[nodiscard]] static bool recognise(std::string_view text);
 
   private:
-    void read_record();
+    void read_record(bool lost);  ///< lost: the record before could not be read
     void read_ident();
     void read_solid();
     void read_combination();
@@ -51,19 +52,24 @@ class BrlcadV4Reader {
     void check_room(std::int64_t count);
 
     bool name(std::string& value);
+    bool own_name(std::string& value);  ///< the name of the record's object
     bool numbers(std::span<double> values);
     bool integer(std::int64_t& value, std::int64_t least, std::int64_t most);
     /// The integer at the cursor, or `missing` at the end of the line.
     std::int64_t optional_integer(std::int64_t missing);
     [[nodiscard]] BrlcadPlace place() const;
     bool fail(const std::string& message);
+    /// Adds an unsupported object of that name if there is none.
+    void keep_unread(const std::string& object_name);
 
     TextCursor cursor_;
     const ImportOptions& options_;
     BrlcadDatabase& database_;
     Diagnostics& diagnostics_;
     std::uint64_t elements_ = 0;
-    BrlcadPlace record_;  ///< start of the current record
+    BrlcadPlace record_;       ///< start of the current record
+    std::string object_name_;  ///< of the current record, if known
+    bool record_failed_ = false;
     BrlcadObject combination_;
     BrlcadMemberList members_;
     bool in_combination_ = false;

@@ -28,7 +28,7 @@ bool BrlcadV4Reader::go_to_next(std::string_view kind) {
 void BrlcadV4Reader::read_particle() {
     std::string solid_name;
     std::array<double, 8> v{};
-    if (!name(solid_name) || !numbers(v)) return;
+    if (!own_name(solid_name) || !numbers(v)) return;
     check_room(1);
     add_solid(std::move(solid_name), {"part", BrlcadParticle{vec(&v[0]), vec(&v[3]), v[6], v[7]}},
               record_);
@@ -37,7 +37,7 @@ void BrlcadV4Reader::read_particle() {
 void BrlcadV4Reader::read_planes() {
     std::string solid_name;
     std::int64_t count = 0;
-    if (!name(solid_name) || !integer(count, 0, kMost)) return;
+    if (!own_name(solid_name) || !integer(count, 0, kMost)) return;
     BrlcadPolyhedron polyhedron;
     for (std::int64_t i = 0; i < count; ++i) {
         std::array<double, 4> plane{};
@@ -71,7 +71,7 @@ bool BrlcadV4Reader::read_ars_points(std::size_t count, std::vector<Vec3>& point
 void BrlcadV4Reader::read_ars() {
     std::int64_t type = 0, curves = 0, per_curve = 0, granules = 0, total = 0;
     std::string solid_name;
-    if (!integer(type, -kMost, kMost) || !name(solid_name) || !integer(curves, 2, kMost) ||
+    if (!integer(type, -kMost, kMost) || !own_name(solid_name) || !integer(curves, 2, kMost) ||
         !integer(per_curve, 1, kMost) || !integer(granules, 1, kMost) ||
         !integer(total, 1, kMost)) {
         return;
@@ -118,7 +118,7 @@ bool BrlcadV4Reader::read_bot_faces(bool thick, std::size_t count, TriangleMesh&
 void BrlcadV4Reader::read_bot() {
     std::string solid_name;
     std::int64_t mode = 0, orientation = 0, unused = 0, vertices = 0, faces = 0;
-    if (!name(solid_name) || !integer(mode, 1, 4) || !integer(orientation, 1, 3) ||
+    if (!own_name(solid_name) || !integer(mode, 1, 4) || !integer(orientation, 1, 3) ||
         !integer(unused, -kMost, kMost) || !integer(vertices, 0, kMost) ||
         !integer(faces, 0, kMost)) {
         return;
@@ -144,7 +144,7 @@ void BrlcadV4Reader::read_bot() {
 
 void BrlcadV4Reader::read_polygons() {
     std::string solid_name;
-    if (!name(solid_name)) return;
+    if (!own_name(solid_name)) return;
     BrlcadMesh polygons;
     polygons.mesh = std::make_shared<TriangleMesh>();
     TriangleMesh& mesh = *polygons.mesh;
@@ -166,19 +166,20 @@ void BrlcadV4Reader::read_polygons() {
 
 void BrlcadV4Reader::read_unsupported(const char* type) {
     std::string solid_name;
-    if (name(solid_name)) add_solid(std::move(solid_name), {type, BrlcadUnsupported{}}, record_);
+    if (own_name(solid_name))
+        add_solid(std::move(solid_name), {type, BrlcadUnsupported{}}, record_);
 }
 
 void BrlcadV4Reader::read_string_solid() {
     std::string type, solid_name;
-    if (!name(type) || !name(solid_name)) return;
+    if (!name(type) || !own_name(solid_name)) return;
     add_solid(std::move(solid_name), {std::move(type), BrlcadUnsupported{}}, record_);
 }
 
 void BrlcadV4Reader::read_nmg() {
     std::string solid_name;
     std::int64_t version = 0, granules = 0;
-    if (!integer(version, -kMost, kMost) || !name(solid_name) || !integer(granules, 0, kMost)) {
+    if (!integer(version, -kMost, kMost) || !own_name(solid_name) || !integer(granules, 0, kMost)) {
         return;
     }
     // One line of counts, then four lines of hexadecimal digits per granule.
@@ -195,7 +196,7 @@ void BrlcadV4Reader::read_nmg() {
 
 void BrlcadV4Reader::read_pipe() {
     std::string solid_name;
-    if (!name(solid_name)) return;
+    if (!own_name(solid_name)) return;
     for (;;) {
         if (cursor_.bytes_left() == 0) {
             fail("the file ends within pipe '" + solid_name + "'; expected END_PIPE");

@@ -71,19 +71,21 @@ FileLocation BrlcadV5Reader::location(const TclWord& word) {
     return database_.at(places_.of(word.text.data()));
 }
 
+void BrlcadV5Reader::fault(const FileLocation& where, const std::string& message) {
+    database_.fault(where, message, diagnostics_);
+}
+
 void BrlcadV5Reader::read() {
     TclCommands commands(text_);
     std::vector<TclWord> words;
     try {
-        // Later errors would not be kept.
-        while (diagnostics_.error_count() < Diagnostics::kMaxKept && commands.next(words)) {
+        while (commands.next(words)) {
             try {
                 read_command(words);
             } catch (const Error& error) {
                 if (error.kind() != ErrorKind::Scene) throw;
-                diagnostics_.error(
-                    error.location().line > 0 ? error.location() : location(words[0]),
-                    error.what());
+                fault(error.location().line > 0 ? error.location() : location(words[0]),
+                      error.what());
             }
         }
     } catch (const Error& error) {
@@ -107,30 +109,26 @@ void BrlcadV5Reader::read_command(std::span<const TclWord> words) {
                              "'" + std::string(command) + "' (binary data) is not read");
         return;
     }
-    diagnostics_.error(location(words[0]), shown(words[0]) +
-                                               " is not a command of a database; expected put, "
-                                               "attr, title, units or color");
+    fault(location(words[0]), shown(words[0]) +
+                                  " is not a command of a database; expected put, "
+                                  "attr, title, units or color");
 }
 
 void BrlcadV5Reader::read_put(std::span<const TclWord> words) {
     if (words.size() < 3) {
-        diagnostics_.error(location(words[0]), "expected put NAME TYPE PARAMETERS");
+        fault(location(words[0]), "expected put NAME TYPE PARAMETERS");
         return;
     }
     BrlcadObject object;
     object.name = tcl_value(words[1]);
     object.place = places_.of(words[0].text.data());
-    if (words[2].text == "comb") {
-        object.what = read_combination(words.subspan(3));
-    } else {
-        const std::uint64_t room =
-            options_.max_elements - std::min(elements_, options_.max_elements);
-        BrlcadSolid solid =
-            read_brlcad_v5_solid(words[2], words.subspan(3), places_, database_.file, room);
-        if (const auto* mesh = std::get_if<BrlcadMesh>(&solid.form)) {
-            elements_ += mesh->mesh->positions.size() + mesh->mesh->triangles.size();
-        }
-        object.what = std::move(solid);
+    try {
+        read_form(words, object);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Scene) throw;
+        object.what = BrlcadSolid{std::string(words[2].text.substr(0, 40)),
+                                  BrlcadUnsupported{"could not be read"}};
+        fault(error.location().line > 0 ? error.location() : location(words[0]), error.what());
     }
     if (++elements_ > options_.max_elements) {
         throw Error(ErrorKind::Resource,
@@ -140,11 +138,25 @@ void BrlcadV5Reader::read_put(std::span<const TclWord> words) {
     database_.add(std::move(object), diagnostics_);
 }
 
+void BrlcadV5Reader::read_form(std::span<const TclWord> words, BrlcadObject& object) {
+    if (words[2].text == "comb") {
+        object.what = read_combination(words.subspan(3));
+        return;
+    }
+    const std::uint64_t room = options_.max_elements - std::min(elements_, options_.max_elements);
+    BrlcadSolid solid =
+        read_brlcad_v5_solid(words[2], words.subspan(3), places_, database_.file, room);
+    if (const auto* mesh = std::get_if<BrlcadMesh>(&solid.form)) {
+        elements_ += mesh->mesh->positions.size() + mesh->mesh->triangles.size();
+    }
+    object.what = std::move(solid);
+}
+
 BrlcadCombination BrlcadV5Reader::read_combination(std::span<const TclWord> words) {
     BrlcadCombination comb;
     for (std::size_t i = 0; i < words.size(); i += 2) {
         if (i + 1 == words.size()) {
-            diagnostics_.error(location(words[i]), "expected a value of " + shown(words[i]));
+            fault(location(words[i]), "expected a value of " + shown(words[i]));
             break;
         }
         if (words[i].text == "tree") {
@@ -161,8 +173,8 @@ void BrlcadV5Reader::set_attribute(BrlcadCombination& comb, const TclWord& key,
                                    const TclWord& value) {
     const std::string_view name = key.text;
     const auto wrong = [&](const char* expected) {
-        diagnostics_.error(location(value), "'" + std::string(name) + "': expected " + expected +
-                                                ", found " + shown(value));
+        fault(location(value),
+              "'" + std::string(name) + "': expected " + expected + ", found " + shown(value));
     };
     if (name == "region") {
         comb.region = is_yes(value);
@@ -188,7 +200,7 @@ void BrlcadV5Reader::set_attribute(BrlcadCombination& comb, const TclWord& key,
 
 void BrlcadV5Reader::read_attributes(std::span<const TclWord> words) {
     if (words.size() < 3 || words[1].text != "set") {
-        diagnostics_.error(location(words[0]), "expected attr set NAME KEY VALUE ...");
+        fault(location(words[0]), "expected attr set NAME KEY VALUE ...");
         return;
     }
     const std::string name = tcl_value(words[2]);
@@ -201,7 +213,7 @@ void BrlcadV5Reader::read_attributes(std::span<const TclWord> words) {
     }
     for (std::size_t i = 3; i < words.size(); i += 2) {
         if (i + 1 == words.size()) {
-            diagnostics_.error(location(words[i]), "expected a value of " + shown(words[i]));
+            fault(location(words[i]), "expected a value of " + shown(words[i]));
         } else if (comb != nullptr) {
             set_attribute(*comb, words[i], words[i + 1]);
         } else if (object == nullptr && words[i].text == "title") {
@@ -221,7 +233,7 @@ void BrlcadV5Reader::read_region_color(std::span<const TclWord> words) {
         if (good) n[i] = *value;
     }
     if (!good) {
-        diagnostics_.error(location(words[0]), "expected color FIRST LAST R G B");
+        fault(location(words[0]), "expected color FIRST LAST R G B");
         return;
     }
     database_.region_colors.push_back({n[0], n[1], brlcad_color(n[2], n[3], n[4])});
@@ -230,7 +242,7 @@ void BrlcadV5Reader::read_region_color(std::span<const TclWord> words) {
 void BrlcadV5Reader::read_color_table(const TclWord& table) {
     const std::vector<double> n = tcl_numbers(table.text, 1'000'000);
     if (n.size() % 5 != 0) {
-        diagnostics_.error(location(table), "expected lists of five numbers: FIRST LAST R G B");
+        fault(location(table), "expected lists of five numbers: FIRST LAST R G B");
         return;
     }
     const auto small = [](double v) { return static_cast<int>(std::clamp(v, -2e9, 2e9)); };

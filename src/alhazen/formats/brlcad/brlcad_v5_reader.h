@@ -4,8 +4,8 @@
 /// Source: BRL-CAD, the text output of its program `g2asc`, and the documentation of the MGED
 /// commands put, attr, title, units and color.
 /// Differs: Tcl is not evaluated; other commands are rejected.
-/// Conventions: a fault within a command is an error; reading continues after it. Invalid Tcl ends
-/// the reading.
+/// Conventions: a fault within a command is a warning; reading continues after it, and the object
+/// of the command is unsupported. Invalid Tcl is an error.
 
 #include <map>
 #include <span>
@@ -33,6 +33,9 @@ class BrlcadV5Reader {
     BrlcadCombination read_combination(std::span<const TclWord> words);
     void set_attribute(BrlcadCombination& comb, const TclWord& key, const TclWord& value);
 
+    /// Reads the words of `put` into `object.what`. Throws Error (Scene).
+    void read_form(std::span<const TclWord> words, BrlcadObject& object);
+    void fault(const FileLocation& where, const std::string& message);
     [[nodiscard]] FileLocation location(const TclWord& word);
 
     std::string_view text_;

@@ -70,30 +70,28 @@ class TreeReader {
         return value;
     }
 
-    Affine matrix(const TclToken& open) {
+    std::array<double, 16> matrix() {
         std::array<double, 16> m{};
         for (double& value : m) value = number();
         const TclToken close = tokens_.next();
         if (close.kind != TclTokenKind::Close) fail(close, "a matrix has sixteen numbers");
-        const std::optional<Affine> transform = brlcad_transform(m);
-        if (!transform) fail(open, "this matrix is not an affine transform");
-        return *transform;
+        return m;
     }
 
     void leaf(const TclToken& at) {
         const BrlcadPlace place = places_.of(at.at);
         std::string member = name();
-        Affine transform;
+        std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
         TclToken token = tokens_.next();
         if (token.kind == TclTokenKind::Open) {
-            transform = matrix(token);
+            m = matrix();
             token = tokens_.next();
         }
         const bool whole = open_.empty();
         if (token.kind != TclTokenKind::Close && !(whole && token.kind == TclTokenKind::End)) {
             fail(token, "expected } after member '" + member + "'");
         }
-        take(tree_.add_leaf(std::move(member), transform, place));
+        take(tree_.add_leaf(std::move(member), m, place));
     }
 
     void open(const TclToken& token) {

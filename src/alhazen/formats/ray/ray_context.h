@@ -14,6 +14,7 @@ struct RayContext {
     const ImportOptions& options;
     RayFamily family;
     std::uint64_t elements = 0;  ///< vertices, triangles and parts so far
+    bool told_rounding = false;  ///< warned of a rounded matrix
 
     /// Throws Error (Resource) beyond options.max_elements.
     void count_elements(std::uint64_t more, const FileLocation& where) {

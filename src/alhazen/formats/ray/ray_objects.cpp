@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "alhazen/formats/core/homogeneous_matrix.h"
 #include "alhazen/formats/ray/ray_extensions.h"
 #include "alhazen/formats/ray/ray_mesh.h"
 
@@ -67,27 +68,33 @@ bool read_numbers(const Arguments& arguments, std::string_view what, const Value
 }
 
 /// Four rows of a matrix that multiplies column vectors.
-std::optional<Affine> read_matrix(const Arguments& rows, const ValueReader& values) {
-    double m[4][4];
+std::optional<Affine> read_matrix(const Arguments& rows, const ValueReader& values,
+                                  RayContext& context) {
+    std::array<double, 16> m{};
     for (std::size_t i = 0; i < 4; ++i) {
-        if (!values.read_numbers(rows[i], "transform", 4, m[i])) return std::nullopt;
+        if (!values.read_numbers(rows[i], "transform", 4, &m[4 * i])) return std::nullopt;
     }
-    if (m[3][0] != 0 || m[3][1] != 0 || m[3][2] != 0 || m[3][3] == 0) {
+    const HomogeneousMatrix matrix(m);
+    if (matrix.last_row == LastRow::Perspective) {
         values.diagnostics.error(rows[3].location(),
                                  "transform: the last row must be (0, 0, 0, 1)");
         return std::nullopt;
     }
-    const double w = m[3][3];
-    const auto column = [&](int j) { return Vec3{m[0][j] / w, m[1][j] / w, m[2][j] / w}; };
-    return Affine{{column(0), column(1), column(2)}, column(3)};
+    if (matrix.last_row == LastRow::Rounded && !context.told_rounding) {
+        context.told_rounding = true;
+        values.diagnostics.warning(rows[3].location(),
+                                   "transform: the last row is rounded; it and others are taken as "
+                                   "(0, 0, 0, 1) after division by the last number");
+    }
+    return matrix.transform;
 }
 
 /// The transform `name` with its arguments (those before the object).
 std::optional<Affine> read_affine(std::string_view name, TextNode list, const Arguments& arguments,
-                                  const ValueReader& values) {
+                                  const ValueReader& values, RayContext& context) {
     const std::size_t count = arguments.size();
     double v[4];
-    if (name == "transform" && count == 4) return read_matrix(arguments, values);
+    if (name == "transform" && count == 4) return read_matrix(arguments, values, context);
     const bool fits = (name == "translate" && count == 3) || (name == "rotate" && count == 4) ||
                       (name == "scale" && (count == 1 || count == 3));
     if (!fits) {
@@ -183,7 +190,7 @@ std::optional<TextNode> RayObjects::read_transform(TextNode entry, Affine& objec
     const TextNode object = arguments.back();
     arguments.pop_back();
     const std::optional<Affine> transform =
-        read_affine(entry.text(), list, arguments, {context_.diagnostics});
+        read_affine(entry.text(), list, arguments, {context_.diagnostics}, context_);
     // The object is read even under an invalid transform, to report its findings too.
     if (transform) object_from_part = object_from_part * *transform;
     return object;

@@ -217,6 +217,43 @@ TEST(BrlcadScene, NothingIsLostInSilence) {
     EXPECT_TRUE(mentions(air.found(), "1 regions of air"));
 }
 
+TEST(BrlcadScene, OnePartThatCannotBeReadLeavesTheOthers) {
+    const std::string b = "put b comb region yes tree {l ball}\n";
+    const char* const bad[] = {
+        // A perspective matrix, no matrix, an operator that is not read, a number that is none.
+        "put a comb region yes tree {l ball {1 0 0 9 0 1 0 0 0 0 1 0 1 0 0 1}}\n",
+        "put a comb region yes tree {l ball {0 0 0 9 0 0 0 0 0 0 0 0 0 0 0 1}}\n",
+        "put a comb region yes tree {l ball {1 0 0}}\n",
+        "put a comb region yes tree {u {l ball} {! {l ball}}}\n",
+        "put s ell V {9 0 0} A {2 0 0} B {0 2 0} C {0 0 nan}\n"
+        "put a comb region yes tree {u {l s} {l ball" /* moved */
+        " {1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 "
+        "1}}}\n",
+        "put c comb tree {u {l a} {l ball {1 0 0 9 0 1 0 0 0 0 1 0 0 0 0 1}}}\n"
+        "put a comb region yes tree {l c}\nput t comb tree {l a}\n",
+    };
+    for (const char* text : bad) {
+        const Model model(kBall + text + b);
+        EXPECT_EQ(model.at({0, 0, 0}), 1u) << text;
+        EXPECT_EQ(model.at({9, 0, 0}), 0u) << text;
+        EXPECT_GE(model.found().warning_count(), 1u) << text;
+        EXPECT_TRUE(mentions(model.found(), "a.asc:2:")) << text_of(model.found());
+    }
+    const Model group(kBall + b +
+                      "put a comb tree {u {l b} {l b {1 0 0 9 0 1 0 0 0 0 1 0 1 0 0 1}}}\n");
+    EXPECT_EQ(group.at({0, 0, 0}), 1u);
+    EXPECT_EQ(text_of(group.found()),
+              "a.asc:3:26: warning: the matrix of member 'b' of 'a' is not an affine transform; "
+              "the member is left out\n");
+    // Where nothing is left all is told as errors.
+    Diagnostics found;
+    (void)import(kBall + "put a comb region yes tree {l ball {1 0 0 9 0 1 0 0 0 0 1 0 1 0 0 1}}\n",
+                 found);
+    EXPECT_TRUE(mentions(found, "error: no part can be shown"));
+    EXPECT_TRUE(mentions(found, "a.asc:2:29: error: the matrix of member 'ball'"))
+        << text_of(found);
+}
+
 TEST(BrlcadScene, CombinationsThatContainThemselvesAreRefused) {
     Diagnostics found;
     (void)import("put a comb tree {l b}\nput b comb tree {l c}\nput c comb tree {l b}\n", found);

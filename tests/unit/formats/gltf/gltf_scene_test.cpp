@@ -43,6 +43,22 @@ TEST(GltfScene, TransformsMultiplyAlongTheHierarchy) {
     EXPECT_NEAR_VEC((Vec3{10, 8, 0}), world_positions(result.scene)[1], 1e-12);
 }
 
+TEST(GltfScene, RoundedMatricesAreDividedByTheirLastNumberAndToldOnce) {
+    const Imported result = import_gltf(with_nodes(R"(
+        {"mesh": 0, "matrix": [1, 0, 0, 9e-10, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 0.9999996]},
+        {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1.0000004]})",
+                                                   "0, 1"));
+    EXPECT_EQ(result.errors(), 0u) << result.messages();
+    EXPECT_TRUE(result.says("#/nodes/0/matrix: the last row of a matrix is rounded"));
+    EXPECT_EQ(result.diagnostics.warning_count(), 1u) << result.messages();
+    EXPECT_NEAR_VEC((Vec3{4 / 0.9999996, 0, 0}), world_positions(result.scene)[1], 1e-12);
+    for (const char* refused : {"[1, 0, 0, 2e-5, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1]",
+                                "[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 2]"}) {
+        const std::string node = std::string(R"({"mesh": 0, "matrix": )") + refused + "}";
+        EXPECT_EQ(import_gltf(with_nodes(node)).errors(), 1u) << refused;
+    }
+}
+
 TEST(GltfScene, NodesShareTheirMesh) {
     const Imported result =
         import_gltf(with_nodes(R"({"mesh": 0}, {"mesh": 0, "translation": [1, 0, 0]})", "0, 1"));

@@ -41,6 +41,14 @@ TEST(RayImporter, TakesTheRowsOfAMatrix) {
         import_ray("transform((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,1,1), box{})").says("last row"));
 }
 
+TEST(RayImporter, DividesRoundedMatricesByTheirLastNumberAndSaysSoOnce) {
+    const std::string rounded = "transform((2,0,0,4),(0,2,0,0),(0,0,2,0),(9e-10,0,0,2), box{})";
+    const Imported i = import_ray(rounded + rounded);
+    expect_near(i.parts().at(1).object_from_part.point({1, 1, 1}), {3, 1, 1});
+    EXPECT_TRUE(i.says("warning: transform: the last row is rounded"));
+    EXPECT_EQ(i.diagnostics.all().size(), 1u) << i.messages();
+}
+
 TEST(RayImporter, GivesTheSolidsTheSizesOfTheFormat) {
     const Imported i = import_ray(
         "sphere{} box{} square{} cylinder{} cone{}"

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <utility>
 
 #include "alhazen/formats/gltf/document/gltf_accessor_extent.h"
 #include "alhazen/formats/gltf/document/gltf_accessors.h"
+#include "alhazen/formats/gltf/document/gltf_matrix.h"
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 
 namespace alhazen::gltf {
@@ -22,13 +24,6 @@ bool agrees(double declared, double found, ComponentType type) {
         return static_cast<float>(declared) == static_cast<float>(found);
     }
     return declared == found;
-}
-
-/// True if the last row of a column-major matrix is 0, 0, 0, 1 up to rounding.
-bool is_affine(const double* m) {
-    constexpr double kTolerance = 1e-5;
-    return std::abs(m[3]) < kTolerance && std::abs(m[7]) < kTolerance &&
-           std::abs(m[11]) < kTolerance && std::abs(m[15] - 1) < kTolerance;
 }
 
 class DataChecker {
@@ -186,14 +181,20 @@ class DataChecker {
         }
     }
 
-    void bind_matrices(Index index, const std::string& place) const {
+    void bind_matrices(Index index, const std::string& place) {
         if (!has_data(index)) return;
         const std::vector<double> m = read_numbers(document_, index);
+        bool rounded = false;
         for (std::size_t i = 0; i + 16 <= m.size(); i += 16) {
-            if (is_affine(&m[i])) continue;
+            const LastRow last_row = matrix_of(&m[i]).last_row;
+            rounded = rounded || last_row == LastRow::Rounded;
+            if (last_row != LastRow::Perspective) continue;
             loading_.error(
                 place, "the last row of matrix " + std::to_string(i / 16) + " is not 0, 0, 0, 1");
             return;
+        }
+        if (rounded && !std::exchange(told_rounding_, true)) {
+            loading_.warning(place, kRoundedMatrices);
         }
     }
 
@@ -259,6 +260,7 @@ class DataChecker {
     std::vector<Found> found_;
     // Accessors already checked.
     std::set<Index> checked_vectors_, checked_matrices_, checked_times_;
+    bool told_rounding_ = false;
     std::set<std::pair<Index, bool>> checked_quaternions_;
 };
 

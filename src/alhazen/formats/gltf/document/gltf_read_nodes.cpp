@@ -1,13 +1,15 @@
 // Readers of nodes and scenes.
 #include <cmath>
 
+#include "alhazen/formats/gltf/document/gltf_matrix.h"
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 
 namespace alhazen::gltf {
 
 namespace {
 
-void read_matrix(const JsonObject& object, Node& node) {
+/// Warns of the first rounded matrix.
+void read_matrix(const JsonObject& object, Node& node, bool& told_rounding) {
     std::array<double, 16> matrix{};
     if (!object.has("matrix")) return;
     object.numbers_into("matrix", matrix);
@@ -15,10 +17,12 @@ void read_matrix(const JsonObject& object, Node& node) {
     for (const char* other : {"translation", "rotation", "scale"}) {
         if (object.has(other)) object.error(other, "a node with a matrix must not have it");
     }
-    constexpr double kRounding = 1e-5;
-    if (std::abs(matrix[3]) > kRounding || std::abs(matrix[7]) > kRounding ||
-        std::abs(matrix[11]) > kRounding || std::abs(matrix[15] - 1) > kRounding) {
+    const LastRow last_row = matrix_of(matrix.data()).last_row;
+    if (last_row == LastRow::Perspective) {
         object.error("matrix", "the last row must be 0, 0, 0, 1");
+    } else if (last_row == LastRow::Rounded && !told_rounding) {
+        told_rounding = true;
+        object.warning("matrix", kRoundedMatrices);
     }
 }
 
@@ -52,7 +56,7 @@ void read_instances(const JsonObject& object, Node& node) {
     });
 }
 
-Node read_node(const JsonObject& object) {
+Node read_node(const JsonObject& object, bool& told_rounding) {
     Node node;
     node.name = object.text("name").value_or("");
     node.children = object.indices("children", Collection::Nodes);
@@ -67,7 +71,7 @@ Node read_node(const JsonObject& object) {
     for (const char* key : {"skin", "weights"}) {
         if (object.has(key) && !object.has("mesh")) object.error(key, "not allowed without a mesh");
     }
-    read_matrix(object, node);
+    read_matrix(object, node, told_rounding);
     object.numbers_into("translation", node.translation);
     object.numbers_into("scale", node.scale);
     read_rotation(object, node);
@@ -78,8 +82,9 @@ Node read_node(const JsonObject& object) {
 }  // namespace
 
 void read_nodes(const JsonObject& root, Loading& loading) {
+    bool told_rounding = false;
     root.each_object("nodes", [&](const JsonObject& object, std::size_t) {
-        loading.document.nodes.push_back(read_node(object));
+        loading.document.nodes.push_back(read_node(object, told_rounding));
     });
     root.each_object("scenes", [&](const JsonObject& object, std::size_t) {
         loading.document.scenes.push_back(

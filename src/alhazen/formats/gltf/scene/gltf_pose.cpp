@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alhazen/formats/gltf/document/gltf_matrix.h"
+
 namespace alhazen::gltf {
 
 Pose rest_pose(const Document& document) {
@@ -37,8 +39,8 @@ Affine transform_of(const Vec3& translation, const Quaternion& rotation, const V
     return result;
 }
 
-Affine affine_of(const double* m) {
-    return {{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, {m[12], m[13], m[14]}};
+Affine affine_of(const double* column_major) {
+    return matrix_of(column_major).transform;
 }
 
 std::vector<Affine> world_transforms(const Document& document, const Pose& pose) {

@@ -34,7 +34,7 @@ using Pose = std::vector<NodePose>;
 /// Translation * rotation * scale.
 [[nodiscard]] Affine transform_of(const Vec3& translation, const Quaternion& rotation,
                                   const Vec3& scale);
-/// The first three rows of a column-major 4 x 4 matrix.
+/// The transform of a column-major 4 x 4 matrix.
 [[nodiscard]] Affine affine_of(const double* column_major);
 
 /// World-from-node transform of every node of the document, [node].
