@@ -28,10 +28,14 @@ struct HomogeneousMatrix {
 
     explicit HomogeneousMatrix(const std::array<double, 16>& m) {
         const double w = m[15];
-        const double largest =
-            std::fmax(std::fmax(std::fabs(m[12]), std::fabs(m[13])), std::fabs(m[14]));
-        if (w == 0.0 || !(largest <= kLastRowRounding * std::fabs(w))) return;
-        last_row = largest == 0.0 ? LastRow::Exact : LastRow::Rounded;
+        const double bound = kLastRowRounding * std::fabs(w);
+        bool exact = true;
+        for (std::size_t i = 12; i < 15; ++i) {
+            if (!(std::fabs(m[i]) <= bound)) return;  // NaN, too
+            exact = exact && m[i] == 0.0;
+        }
+        if (w == 0.0) return;
+        last_row = exact ? LastRow::Exact : LastRow::Rounded;
         const double s = 1.0 / w;
         transform = {
             {s * Vec3{m[0], m[4], m[8]}, s * Vec3{m[1], m[5], m[9]}, s * Vec3{m[2], m[6], m[10]}},

@@ -178,7 +178,7 @@ void read_area_light(TextNode entry, RayContext& context) {
 }
 
 /// The half angles of the cone in degrees, in any of the spellings.
-std::pair<double, double> read_cone(BlockReader& reader) {
+std::pair<double, double> read_spot_cone(BlockReader& reader) {
     double full = 0, blend = 0, penumbra = 0, edge[3];
     if (reader.read("size", full)) {
         reader.read("blend", blend);
@@ -218,7 +218,7 @@ void read_spot_light(TextNode entry, RayContext& context) {
     } else if (!reader.has("direction") && !reader.has("target")) {
         reader.error(reader.block(), "one of direction, target is missing");
     }
-    const auto [inner, outer] = read_cone(reader);
+    const auto [inner, outer] = read_spot_cone(reader);
     if (inner < 0 || inner > outer || !(outer > 0) || outer > 180) {
         reader.error(reader.block(), "the cone's angles must be in 0 <= inner <= outer <= 180");
     }
