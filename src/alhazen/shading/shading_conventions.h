@@ -54,6 +54,10 @@ struct ShadingConventions {
 
     double air_index = 1.0003;
 
+    /// A ray that leaves a surface meets nothing nearer than this to where it starts; light that
+    /// passes through a surface starts there anew.
+    double min_distance = 0.0;
+
     /// Largest depth of recursion: 0 = eye rays only.
     int max_depth = 5;
     /// Rays whose product of coefficients is below this in every channel are not cast; 0 = all are.

@@ -105,6 +105,34 @@ TEST(Whitted, ASlabOfGlassAttenuatesShadowRaysByKtSquaredAndTwoByItsFourthPower)
     }
 }
 
+TEST(Whitted, WhatIsNearerThanTheLeastDistanceIsNotMet) {
+    const auto color_with = [](double lo, double hi, double min_distance, bool seen_through) {
+        SceneMaker maker;
+        const MaterialId white = maker.material(plain(1));
+        const MaterialId pane = maker.material(glass({0.5, 0.5, 0.5}));
+        maker.add(Rectangle{.corner = {-9, -9, 0}, .edge_u = {18, 0, 0}, .edge_v = {0, 18, 0}},
+                  white);
+        const Vec3 a = seen_through ? Vec3{-1, -1, lo} : Vec3{0.8 * lo, -1, -1};
+        const Vec3 b = seen_through ? Vec3{1, 1, hi} : Vec3{0.8 * hi, 1, 30};
+        maker.add(BoxShape{.lo = a, .hi = b}, pane);
+        maker.light(DirectionalLight{.to_light = {4, 0, 3}});
+        ShadingConventions& shading = maker.description().conventions.shading;
+        shading.min_distance = min_distance;
+        shading.air_index = 1.0;
+        return center(maker.compile()).r;
+    };
+    // Shadows: both faces of the pane; of a thin one only the first; the second where the first is
+    // too near.
+    EXPECT_NEAR(color_with(1, 1.0005, 0, false), 0.6 * 0.25, 1e-12);
+    EXPECT_NEAR(color_with(1, 1.0005, 1e-3, false), 0.6 * 0.5, 1e-12);
+    EXPECT_NEAR(color_with(1, 1.0015, 1e-3, false), 0.6 * 0.25, 1e-12);
+    EXPECT_NEAR(color_with(0.0005, 1, 1e-3, false), 0.6 * 0.5, 1e-12);
+    // What is seen through the pane; its shadow does not reach the point.
+    const double thick = color_with(1, 1.0015, 1e-3, true);
+    EXPECT_NEAR(color_with(1, 1.0005, 1e-3, true), 2 * thick, 1e-12);
+    EXPECT_NEAR(color_with(1, 1.0005, 0, true), thick, 1e-12);
+}
+
 TEST(Whitted, BeerShadowsDependOnTheDistanceInside) {
     SceneMaker maker;
     const MaterialId white = maker.material(plain(1));

@@ -18,6 +18,7 @@ Conventions uw_conventions() {
     c.importing.truncate_material_colors = true;
     c.shading.transmitting_surfaces_reflect = false;
     c.shading.air_index = 1.0003;
+    c.shading.min_distance = 1e-3;
     c.sampling.pixel_sample = SamplingConventions::PixelSample::Center;
     c.importing.headlight = false;
     c.film.linear_output = true;

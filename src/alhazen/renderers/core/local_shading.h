@@ -6,6 +6,8 @@
 /// Adist IL_j Bj (kd (N.L) + ks (N.H)^ns) ]; Whitted 1980; Phong 1975; Blinn 1977.
 /// Differs: differences between formats are read from ShadingConventions.
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +24,15 @@ struct BehindSurface {
     double eta = 1;       ///< index on this side / index behind
     Rgb absorption;
 };
+
+/// The ray that leaves `surface`, of unit `direction`, by the conventions of the scene.
+[[nodiscard]] inline Ray onward_ray(const ShadingConventions& conventions, const Surface& surface,
+                                    const Vec3& direction,
+                                    double t_max = std::numeric_limits<double>::infinity()) {
+    Ray ray = leaving_ray(surface, direction, t_max);
+    ray.t_min = std::min(std::max(ray.t_min, conventions.min_distance), t_max);
+    return ray;
+}
 
 /// A hit ready for shading: all directions on the side the ray came from.
 struct ShadingPoint {

@@ -37,7 +37,8 @@ void ShadowBatch::add(const Surface& surface, const LightSample& light, const Rg
         return;
     }
     if (rays_.size() == kMostRays) finish();
-    rays_.push_back(leaving_ray(surface, light.to_light, light.distance));
+    rays_.push_back(
+        onward_ray(scene_.conventions.shading, surface, light.to_light, light.distance));
     waiting_.push_back({&sum, &path, light.intensity, fraction});
 }
 
@@ -83,8 +84,12 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     media_.clear();
     if (path.inside) media_.push_back(path.absorption);
     double last = 0.0;
-    bool in_wall = false;  // between the two crossings of a wall
+    const double min_distance = scene_.conventions.shading.min_distance;
+    double met = -min_distance;  // the last crossing that counts
+    bool in_wall = false;        // between the two crossings of a wall
     for (const Hit& crossing : crossings_) {
+        if (crossing.t - met < min_distance) continue;
+        met = crossing.t;
         const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
         MaterialSample material = material_at(scene_, surface);
         if (material.coverage == 0.0) continue;

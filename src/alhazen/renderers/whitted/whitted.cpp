@@ -197,7 +197,7 @@ class WhittedEstimator {
             direction = mirror(seen.ray.direction, point.geometric);
         }
         met.kr = kr;
-        met.reflected = next.add(leaving_ray(point.surface, direction), onward);
+        met.reflected = next.add(onward_ray(conventions_, point.surface, direction), onward);
     }
 
     void transmit(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
@@ -222,7 +222,7 @@ class WhittedEstimator {
         const bool tinted = material.physical || conventions_.refraction_tint ==
                                                      ShadingConventions::RefractionTint::PerEvent;
         met.kt = tinted ? kt : Rgb{1, 1, 1};
-        met.refracted = next.add(leaving_ray(point.surface, direction), onward);
+        met.refracted = next.add(onward_ray(conventions_, point.surface, direction), onward);
     }
 
     [[nodiscard]] bool refracted(const ShadingPoint& point, const Ray& ray, Vec3& direction) const {

@@ -85,7 +85,7 @@ TEST(NativeImporter, ReadsEveryConvention) {
         " ambient_factor = diffuse; ambient_inside_times_kt = true; clamp_attenuation = true;"
         " truncate_material_colors = true; transmitting_surfaces_reflect = true; air_index = 1.1;"
         " pixel_sample = lower_left_corner; linear_output = true; max_depth = 9;"
-        " min_contribution = 0.01 }");
+        " min_contribution = 0.01; min_distance = 0.25 }");
     ASSERT_EQ(i.messages(), "");
     const Conventions& c = i.scene.conventions;
     EXPECT_EQ(c.shading.highlight, ShadingConventions::Highlight::Phong);
@@ -99,6 +99,7 @@ TEST(NativeImporter, ReadsEveryConvention) {
     EXPECT_EQ(c.sampling.pixel_sample, SamplingConventions::PixelSample::LowerLeftCorner);
     EXPECT_EQ(c.shading.max_depth, 9);
     EXPECT_EQ(c.shading.min_contribution, 0.01);
+    EXPECT_EQ(c.shading.min_distance, 0.25);
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
         c.shading.air_index = 1.0003;
         c.shading.max_depth = i;
         c.shading.min_contribution = 0.1 * i;
+        c.shading.min_distance = 0.25 * i;
         scene.picture = {.width = 17, .height = 3, .background = Rgb{0.1, -0.0, 0.3}};
         scene.up_axis = even ? UpAxis::Z : UpAxis::Y;
         expect_round_trip(scene);

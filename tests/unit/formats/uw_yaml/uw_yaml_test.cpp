@@ -71,6 +71,7 @@ TEST(UwYaml, MaterialsAreTakenAsWrittenAndMirrorsFollowTheHighlight) {
     EXPECT_EQ(m.index.value, 1.5);
     EXPECT_TRUE(scene.conventions.importing.truncate_material_colors);
     EXPECT_EQ(scene.conventions.shading.air_index, 1.0003);
+    EXPECT_EQ(scene.conventions.shading.min_distance, 1e-3);
     EXPECT_EQ(shape_of<Sphere>(scene, 0).radius, 0.5);
 }
 

@@ -56,6 +56,9 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     if (reader.read("air_index", c.shading.air_index) && !(c.shading.air_index > 0)) {
         reader.error(*reader.find("air_index"), "'air_index' must be greater than 0");
     }
+    if (reader.read("min_distance", c.shading.min_distance) && c.shading.min_distance < 0) {
+        reader.error(*reader.find("min_distance"), "'min_distance' must not be negative");
+    }
     reader.read_word("pixel_sample", native_words<SamplingConventions::PixelSample>(),
                      c.sampling.pixel_sample);
     reader.read("linear_output", c.film.linear_output);

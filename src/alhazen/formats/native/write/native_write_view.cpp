@@ -123,6 +123,7 @@ void write_native_conventions(NativeWriteContext& context) {
                      usual.shading.correct_interpolated_normals);
     block.add_unless("headlight", c.importing.headlight, usual.importing.headlight);
     block.add_unless("air_index", c.shading.air_index, usual.shading.air_index);
+    block.add_unless("min_distance", c.shading.min_distance, usual.shading.min_distance);
     add_word("pixel_sample", c.sampling.pixel_sample, usual.sampling.pixel_sample);
     block.add_unless("linear_output", c.film.linear_output, usual.film.linear_output);
     block.add_unless("max_depth", c.shading.max_depth, usual.shading.max_depth);
