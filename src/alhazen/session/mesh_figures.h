@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "alhazen/scene_model/scene_description.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
 
@@ -16,7 +17,7 @@ struct MeshFigures {
     std::size_t triangles = 0, vertices = 0;
     std::size_t unused_vertices = 0;  ///< used by no triangle
     double area = 0, volume = 0;
-    std::optional<bool> closed;  ///< none: not tested
+    std::optional<MeshEdges> edges;  ///< none: not tested
 };
 
 /// `look_if_closed` takes a sort of all edges: O(n log n), else O(n).
