@@ -100,6 +100,7 @@ MeasureReport measure_all(const SolidScene& scene, const MeasureArguments& args,
                           ProgressDisplay& progress) {
     MeasureReport report;
     report.open_surfaces = scene.solids().open_surfaces();
+    report.open_meshes = scene.open_meshes();
     std::optional<SectionPlane> plane;
     if (!args.section.empty()) {
         const auto n = parse_numbers(args.section, {4}, "a plane: nx,ny,nz,d");
@@ -117,8 +118,9 @@ MeasureReport measure_all(const SolidScene& scene, const MeasureArguments& args,
     if (!only_pairs) {
         if (scene.solids().count() == 0) {
             throw Error(ErrorKind::Scene,
-                        fmt::format("the scene has no solid: {} surfaces bound no volume",
-                                    report.open_surfaces));
+                        fmt::format("the scene has no solid: {} surfaces bound no volume{}{}",
+                                    report.open_surfaces, report.open_meshes.empty() ? "" : "\n",
+                                    fmt::join(report.open_meshes, "\n")));
         }
         if (args.objects.empty() && !args.all && scene.solids().count() > kMostSolids) {
             throw Error(ErrorKind::Usage,

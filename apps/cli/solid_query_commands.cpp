@@ -71,6 +71,7 @@ void with_solids(const SolidQueryArguments& args, const Work& work) {
         if (!args.quiet && scene.solids().open_surfaces() > 0) {
             tell("alhazen: {} surfaces of the scene bound no volume: they are left out\n",
                  scene.solids().open_surfaces());
+            for (const std::string& open : scene.open_meshes()) tell("alhazen: {}\n", open);
         }
         work(scene);
     });

@@ -402,6 +402,35 @@ plane { point = (0, 0, -9) }
         self.assertEqual([c["name"] for c in cameras], ["front", "top"])
         self.assertAlmostEqual(cameras[0]["fov_y_deg"], 40)
 
+    def test_open_edges_are_named(self):
+        corners = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
+        mesh = self.write("bin.obj", corners + "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\n")  # no lid
+        info = json.loads(run("info", mesh, "--json").stdout)
+        self.assertIs(info["meshes_closed"], False)
+        edges = info["meshes"][0]["edges"]
+        self.assertEqual((edges["open"], len(edges["first_open"])), (4, 4))
+        self.assertEqual(edges["open_between"]["min"], [0, 0, 1])
+        said = "4 of 17 edges are open: ("
+        self.assertIn(said, run("info", mesh).stdout)
+        result = run("measure", mesh)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn(said, result.stderr)
+        self.assertIn(said, run("spans", mesh, "--ray", "0.5,0.5,-1,0,0,1").stderr)
+        # Two cubes that share an edge: four triangles there, no opening.
+        moved = "".join(f"v {x} {y} {z}\n" for x in (1, 2) for y in (1, 2) for z in (0, 1))
+        faces = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
+        two = self.write("two.obj", corners + moved + "".join(
+            "f " + " ".join(str(v + first) for v in face) + "\n" for first in (0, 8) for face in faces))
+        info = json.loads(run("info", two, "--json").stdout)
+        self.assertIs(info["meshes_closed"], True)
+        self.assertEqual(info["meshes"][0]["edges"]["of_four_or_more"], 1)
+        report = json.loads(run("measure", two, "--json", "-", "-q", "--error", "1e-3").stdout)
+        low, high = report["solids"][0]["volume"]["interval"]
+        self.assertTrue(low <= 2 <= high, (low, high))
+        # A line along the shared edge, and one across it.
+        for ray in ("1,1,-1,0,0,1", "0,0,0.5,1,1,0"):
+            self.assertEqual(run("spans", two, "--ray", ray).returncode, 0)
+
     def test_reports_and_difference_pictures_spare_what_was_read(self):
         self.assertEqual(run("render", self.scene, "-q", "-o", self.path("a.png"), "--size", "8x8").returncode, 0)
         before = self.read("a.png")

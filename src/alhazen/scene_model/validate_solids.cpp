@@ -86,7 +86,7 @@ class SolidValidator {
             error(
                 part.location,
                 fmt::format("{} is not closed, so it cannot be part of a solid: each edge must "
-                            "be shared by two triangles, but {}",
+                            "belong to an even number of triangles, but {}",
                             in_words(d_.meshes[i]), mesh_edges(*d_.meshes[i].mesh).description()));
         }
     }

@@ -49,17 +49,32 @@ json part_counts(const SceneDescription& description) {
     return counts;
 }
 
+json edges_json(const MeshEdges& edges) {
+    json shown = json::array();
+    for (const auto& [from, to] : edges.first_open) {
+        shown.push_back({vector_json(from), vector_json(to)});
+    }
+    return {{"count", edges.count},   {"open", edges.open},
+            {"turned", edges.turned}, {"of_four_or_more", edges.crowded},
+            {"first_open", shown},    {"open_between", box_json(edges.open_box)}};
+}
+
 json meshes_json(const SceneDescription& d, const std::vector<MeshFigures>& figures) {
     json meshes = json::array();
     for (std::size_t i = 0; i < figures.size(); ++i) {
         const MeshFigures& f = figures[i];
-        meshes.push_back({{"name", d.meshes[i].name},
-                          {"triangles", f.triangles},
-                          {"vertices", f.vertices},
-                          {"unused_vertices", f.unused_vertices},
-                          {"area", f.area},
-                          {"volume", f.volume},
-                          {"closed", f.closed ? json(*f.closed) : json(nullptr)}});
+        json mesh{{"name", d.meshes[i].name},
+                  {"triangles", f.triangles},
+                  {"vertices", f.vertices},
+                  {"unused_vertices", f.unused_vertices},
+                  {"area", f.area},
+                  {"volume", f.volume},
+                  {"closed", f.edges ? json(f.edges->closed()) : json(nullptr)}};
+        if (f.edges && f.edges->count > 0) {
+            mesh["edges"] = edges_json(*f.edges);
+            if (!f.edges->oriented()) mesh["amiss"] = f.edges->description();
+        }
+        meshes.push_back(std::move(mesh));
     }
     return meshes;
 }
@@ -68,8 +83,8 @@ json meshes_json(const SceneDescription& d, const std::vector<MeshFigures>& figu
 json all_closed(const std::vector<MeshFigures>& figures) {
     bool known = !figures.empty();
     for (const MeshFigures& f : figures) {
-        if (f.closed == false) return false;
-        known = known && f.closed.has_value();
+        if (f.edges && !f.edges->closed()) return false;
+        known = known && f.edges.has_value();
     }
     return known ? json(true) : json(nullptr);
 }

@@ -132,9 +132,11 @@ void add_geometry(Report& report, const json& info) {
                                 count_text(info["effective_primitives"])));
     }
     report.list("meshes", info["meshes"], [](const json& m) {
-        return fmt::format("{}, area {}, volume {}, {}",
-                           of(m["triangles"].get<std::uint64_t>(), "triangle", "triangles"),
-                           number(m["area"]), number(m["volume"]), closed_text(m["closed"]));
+        return fmt::format(
+            "{}, area {}, volume {}, {}",
+            of(m["triangles"].get<std::uint64_t>(), "triangle", "triangles"), number(m["area"]),
+            number(m["volume"]),
+            m.contains("amiss") ? m["amiss"].get<std::string>() : closed_text(m["closed"]));
     });
 }
 

@@ -102,7 +102,7 @@ MeshFigures figures_of(const TriangleMesh& mesh, bool look_if_closed) {
     for (const bool u : used) figures.unused_vertices += u ? 0 : 1;
     figures.area = area(mesh);
     figures.volume = signed_volume(mesh);
-    if (look_if_closed) figures.closed = mesh.closed();
+    if (look_if_closed) figures.edges = mesh_edges(mesh);
     return figures;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "alhazen/scene_model/scene_description.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
 
@@ -17,7 +18,7 @@ struct MeshFigures {
     std::size_t triangles = 0, vertices = 0;
     std::size_t unused_vertices = 0;  ///< used by no triangle
     double area = 0, volume = 0;
-    std::optional<bool> closed;  ///< none: not tested
+    std::optional<MeshEdges> edges;  ///< none: not tested
 };
 
 /// `look_if_closed` sorts all edges: O(n log n), otherwise O(n).

@@ -211,6 +211,7 @@ json measure_json(const MeasureReport& report) {
     for (const SolidReport& r : report.solids) solids.push_back(solid_json(r));
     for (const PairReport& r : report.pairs) pairs.push_back(pair_json(r));
     json out{{"confidence", 0.95}, {"open_surfaces", report.open_surfaces}};
+    out["open_meshes"] = report.open_meshes;
     out["solids"] = std::move(solids);
     if (report.solids.size() > 1) {
         const Totals all = totals_of(report.solids);
@@ -232,6 +233,10 @@ std::string measure_text(const MeasureReport& report) {
         if (all.has_mass) out += fmt::format("  mass      {}\n", text_of(all.mass));
     }
     for (const PairReport& r : report.pairs) out += pair_text(r);
+    if (report.open_surfaces > 0) {
+        out += fmt::format("left out: {} surfaces that bound no volume\n", report.open_surfaces);
+        for (const std::string& open : report.open_meshes) out += "  " + open + "\n";
+    }
     return out;
 }
 

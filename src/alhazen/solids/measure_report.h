@@ -35,6 +35,7 @@ struct MeasureReport {
     std::vector<SolidReport> solids;
     std::vector<PairReport> pairs;
     std::uint64_t open_surfaces = 0;
+    std::vector<std::string> open_meshes;  ///< which of their edges are open; see SolidScene
 
     [[nodiscard]] bool holds() const;
 };

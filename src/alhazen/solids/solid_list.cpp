@@ -110,7 +110,10 @@ void SolidList::add_meshes(Node& node) {
     std::uint32_t index = 0;
     for (const PlacedMesh& placed : node.aggregate->primitives().meshes) {
         const auto [known, fresh] = closed_meshes_.try_emplace(placed.mesh.get(), false);
-        if (fresh) known->second = placed.mesh->closed();
+        if (fresh) {
+            known->second = placed.mesh->closed();
+            if (!known->second) open_meshes_.push_back({placed.mesh.get(), placed.part});
+        }
         const bool closed = known->second;
         node.mesh_number.push_back(closed ? static_cast<std::uint32_t>(node.count++) : kOpen);
         if (closed) node.solid_meshes.push_back(index);
@@ -121,7 +124,11 @@ void SolidList::add_meshes(Node& node) {
 
 void SolidList::add_instances(Node& node) {
     for (const Instance& instance : node.aggregate->primitives().instances) {
+        const std::size_t open_before = open_meshes_.size();
         const Node* inner = build(instance.aggregate);
+        if (instance.of_shared_mesh && open_meshes_.size() > open_before) {
+            open_meshes_.back().part = instance.part;
+        }
         node.instance_number.push_back(node.count);
         node.instances.push_back(inner);
         node.has_unbounded = node.has_unbounded || inner->has_unbounded;

@@ -44,6 +44,12 @@ class SolidList {
     [[nodiscard]] std::uint64_t count() const { return root_->count; }
     /// Stored shapes and meshes that bound no volume.
     [[nodiscard]] std::uint64_t open_surfaces() const { return open_surfaces_; }
+    /// The meshes among them, each once.
+    struct OpenMesh {
+        const TriangleMesh* mesh;
+        std::uint32_t part;  ///< number of the first part that is it (see Surface::part)
+    };
+    [[nodiscard]] const std::vector<OpenMesh>& open_meshes() const { return open_meshes_; }
     /// The solid of the surface that was hit; none for a surface that bounds no volume.
     [[nodiscard]] std::optional<SolidId> solid_of(const Hit& hit) const;
     /// Precondition: the id is below count().
@@ -79,6 +85,7 @@ class SolidList {
 
     std::unordered_map<const Aggregate*, std::unique_ptr<Node>> nodes_;
     std::unordered_map<const TriangleMesh*, bool> closed_meshes_;
+    std::vector<OpenMesh> open_meshes_;
     std::uint64_t open_surfaces_ = 0;
     const Node* root_ = nullptr;
 };

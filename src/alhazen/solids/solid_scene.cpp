@@ -8,6 +8,7 @@
 
 #include "alhazen/base/control_characters.h"
 #include "alhazen/base/error.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
 
@@ -16,6 +17,7 @@ namespace {
 /// Scenes with more solids are not searched by name; numbers find them.
 constexpr std::uint64_t kMostNamed = 2'000'000;
 constexpr std::uint64_t kMostListed = 30;
+constexpr std::size_t kMostOpenMeshes = 5;
 
 std::string own_name(const SceneDescription& description, const Part& part) {
     if (!part.name.empty()) return part.name;
@@ -157,6 +159,19 @@ std::vector<SolidId> SolidScene::select(std::span<const std::string> words) cons
                                 names.size() > kMostListed ? ", ..." : ""));
     }
     return {chosen.begin(), chosen.end()};
+}
+
+std::vector<std::string> SolidScene::open_meshes() const {
+    const std::vector<SolidList::OpenMesh>& open = solids().open_meshes();
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < std::min(open.size(), kMostOpenMeshes); ++i) {
+        texts.push_back(fmt::format("mesh '{}': {}", escape_controls(part_names_[open[i].part]),
+                                    mesh_edges(*open[i].mesh).description()));
+    }
+    if (open.size() > kMostOpenMeshes) {
+        texts.push_back(fmt::format("and {} more open meshes", open.size() - kMostOpenMeshes));
+    }
+    return texts;
 }
 
 std::optional<double> SolidScene::density(SolidId solid) const {

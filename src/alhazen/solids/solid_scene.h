@@ -30,6 +30,9 @@ class SolidScene {
     /// a list of names if a word selects none.
     [[nodiscard]] std::vector<SolidId> select(std::span<const std::string> words) const;
 
+    /// For each mesh that bounds no volume, up to a few: its name, and which of its edges are open.
+    [[nodiscard]] std::vector<std::string> open_meshes() const;
+
     /// The density of the solid's material; for a CSG object that of its leaves, if they share one.
     [[nodiscard]] std::optional<double> density(SolidId solid) const;
 

@@ -57,7 +57,8 @@ TEST(Confidence, DegreesOfFreedomFollowFromHowEvenlyThePartsScatter) {
             }
             held += estimate_of(sum, spread_of_differences(squares, fourths)).holds(0);
         }
-        EXPECT_GE(held / double{kRuns}, 0.94) << ratio;
+        // An approximation where few parts dominate (0.5: fewer than two degrees).
+        EXPECT_GE(held / double{kRuns}, ratio == 1.0 ? 0.945 : 0.92) << ratio;
         EXPECT_LE(held / double{kRuns}, 0.99) << ratio;
     }
     // Nothing scatters: certain.

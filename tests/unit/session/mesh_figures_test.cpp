@@ -27,10 +27,10 @@ TEST(MeshFigures, ATetrahedronIsClosedAndAsLargeAsByHand) {
     EXPECT_EQ(f.unused_vertices, 1u);
     EXPECT_NEAR(f.area, 8 * std::sqrt(3.0), 1e-12);
     EXPECT_NEAR(f.volume, 8.0 / 3.0, 1e-12);
-    EXPECT_EQ(f.closed, true);
-    EXPECT_FALSE(figures_of(mesh, false).closed.has_value());
+    EXPECT_TRUE(f.edges->closed());
+    EXPECT_FALSE(figures_of(mesh, false).edges.has_value());
     mesh.triangles.pop_back();
-    EXPECT_EQ(figures_of(mesh, true).closed, false);
+    EXPECT_FALSE(figures_of(mesh, true).edges->closed());
 }
 
 TEST(MeshFigures, PlacementsScaleThemThroughInstances) {

@@ -1,7 +1,9 @@
 #include "alhazen/shapes/meshes/mesh_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdio>
 
 namespace alhazen {
 
@@ -58,18 +60,35 @@ std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
     return edges;
 }
 
+std::string point_text(const Vec3& p) {
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "(%.9g, %.9g, %.9g)", p.x, p.y, p.z);
+    return text.data();
+}
+
 }  // namespace
 
 MeshEdges mesh_edges(const TriangleMesh& mesh) {
     const std::vector<DirectedEdge> edges = sorted_edges(mesh);
     MeshEdges found;
     for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end].vertices == edges[i].vertices) ++end;
+        std::size_t end = i, upward = 0;
+        for (; end < edges.size() && edges[end].vertices == edges[i].vertices; ++end) {
+            upward += edges[end].upward;
+        }
+        const std::size_t triangles = end - i;
         ++found.count;
-        found.open += end - i == 1;
-        found.crowded += end - i > 2;
-        found.turned += end - i == 2 && edges[i].upward == edges[i + 1].upward;
+        if (triangles % 2 == 0) {
+            found.crowded += triangles > 2;
+            found.turned += 2 * upward != triangles;
+        } else {
+            ++found.open;
+            const Vec3& a = mesh.positions[edges[i].vertices >> 32];
+            const Vec3& b = mesh.positions[edges[i].vertices & 0xffffffffu];
+            if (found.first_open.size() < MeshEdges::kMostShown) found.first_open.push_back({a, b});
+            found.open_box.include(a);
+            found.open_box.include(b);
+        }
         i = end;
     }
     return found;
@@ -77,21 +96,20 @@ MeshEdges mesh_edges(const TriangleMesh& mesh) {
 
 std::string MeshEdges::description() const {
     if (count == 0) return "no triangles";
-    if (closed()) {
+    if (open == 0) {
         return turned == 0 ? "closed"
-                           : "closed, but the two triangles of " + std::to_string(turned) +
+                           : "closed, but the triangles of " + std::to_string(turned) +
                                  " edges face opposite ways";
     }
-    std::string text;
-    if (open > 0) {
-        text = std::to_string(open) + " of " + std::to_string(count) +
-               " edges belong to one triangle only";
+    std::string text = std::to_string(open) + " of " + std::to_string(count) + " edges " +
+                       (open == 1 ? "is open: " : "are open: ");
+    for (std::size_t i = 0; i < first_open.size(); ++i) {
+        const auto& [from, to] = first_open[i];
+        text += (i == 0 ? "" : ", ") + point_text(from) + " to " + point_text(to);
     }
-    if (crowded > 0) {
-        text += (text.empty()
-                     ? std::to_string(crowded) + " of " + std::to_string(count) + " edges belong"
-                     : ", " + std::to_string(crowded)) +
-                " to more than two";
+    if (open > first_open.size()) {
+        text += " and " + std::to_string(open - first_open.size()) + " more, all between " +
+                point_text(open_box.lo) + " and " + point_text(open_box.hi);
     }
     return text;
 }

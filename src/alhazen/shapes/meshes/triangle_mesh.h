@@ -50,8 +50,8 @@ struct TriangleMesh {
     /// `coordinates`: a set of texture coordinates; empty: barycentrics.
     [[nodiscard]] UvDerivatives uv_derivatives(std::size_t triangle,
                                                const std::vector<Vec2>& coordinates) const;
-    /// True when each edge is shared by exactly two triangles after merging vertices of equal
-    /// position: every line then crosses the mesh an even number of times.
+    /// True when each edge belongs to an even number of triangles, after vertices of equal position
+    /// are merged: every line then crosses the mesh an even number of times.
     [[nodiscard]] bool closed() const;
 
     /// Sets each normal to the normalised sum of the area-weighted normals of the vertex's

@@ -61,10 +61,10 @@ TEST(TriangleMesh, OpenMeshesAreRecognised) {
     TriangleMesh cracked = unshared(closed);
     cracked.positions[0].x = std::nextafter(cracked.positions[0].x, 9.0);
     EXPECT_FALSE(cracked.closed());
-    TriangleMesh four_at_an_edge = closed;  // two solids with a common edge
+    TriangleMesh four_at_an_edge = closed;  // everything twice
     four_at_an_edge.triangles.insert(four_at_an_edge.triangles.end(), closed.triangles.begin(),
                                      closed.triangles.end());
-    EXPECT_FALSE(four_at_an_edge.closed());
+    EXPECT_TRUE(four_at_an_edge.closed());
     EXPECT_FALSE(TriangleMesh{}.closed());
     EXPECT_FALSE((TriangleMesh{.positions = {{0, 0, 0}}, .triangles = {{0, 0, 0}}}).closed());
 }
@@ -85,9 +85,52 @@ TEST(TriangleMesh, WhatKeepsItOpenIsCounted) {
     EXPECT_EQ(mesh_edges(turned).turned, 3u);
     TriangleMesh twice = closed;
     twice.triangles.push_back(closed.triangles[0]);
-    EXPECT_EQ(mesh_edges(twice).crowded, 3u);
-    EXPECT_NE(mesh_edges(twice).description().find("to more than two"), std::string::npos);
+    EXPECT_EQ(mesh_edges(twice).open, 3u);  // three triangles each
+    EXPECT_EQ(mesh_edges(twice).crowded, 0u);
     EXPECT_EQ(mesh_edges({}).description(), "no triangles");
+}
+
+/// Two tetrahedra on either side of an edge that is theirs alike, along z.
+TriangleMesh touching_tetrahedra() {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}, {-1, -1, 0}};
+    for (const auto& [a, b] : {std::pair{2u, 3u}, std::pair{5u, 4u}}) {
+        mesh.triangles.insert(mesh.triangles.end(), {{0, 1, b}, {0, a, 1}, {1, a, b}, {0, b, a}});
+    }
+    return mesh;
+}
+
+TEST(TriangleMesh, AnEdgeOfFourTrianglesIsNoOpening) {
+    const TriangleMesh mesh = touching_tetrahedra();
+    const MeshEdges edges = mesh_edges(mesh);
+    EXPECT_EQ(edges.crowded, 1u);
+    EXPECT_EQ(edges.open, 0u);
+    EXPECT_TRUE(edges.oriented());
+    EXPECT_EQ(edges.description(), "closed");
+    TriangleMesh turned = mesh;  // one of the two inside out: still evenly many
+    for (std::size_t i = 0; i < 4; ++i) std::swap(turned.triangles[i][0], turned.triangles[i][1]);
+    EXPECT_TRUE(mesh_edges(turned).oriented());  // as often one way as the other
+    std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+    EXPECT_TRUE(mesh_edges(turned).closed());
+    EXPECT_EQ(mesh_edges(turned).turned, 3u);
+}
+
+TEST(TriangleMesh, OpenEdgesAreNamed) {
+    TriangleMesh mesh = touching_tetrahedra();
+    mesh.triangles.pop_back();
+    const MeshEdges edges = mesh_edges(mesh);
+    EXPECT_EQ(edges.open, 3u);
+    EXPECT_EQ(edges.description(),
+              "3 of 11 edges are open: (0, 0, 0) to (-1, 1, 0), (0, 0, 0) to (-1, -1, 0), "
+              "(-1, 1, 0) to (-1, -1, 0)");
+    mesh.triangles = {mesh.triangles[0], mesh.triangles[4]};
+    EXPECT_EQ(mesh_edges(mesh).count, 5u);
+    mesh.triangles.resize(1);
+    mesh.triangles.push_back({2, 4, 5});
+    EXPECT_NE(
+        mesh_edges(mesh).description().find("and 2 more, all between (-1, -1, 0) and (1, 1, 1)"),
+        std::string::npos)
+        << mesh_edges(mesh).description();
 }
 
 TEST(TriangleMesh, ClosednessOfPositionsThatAreNotNumbersIsAnswered) {
