@@ -52,11 +52,14 @@ json to_json(const std::array<RoadCounts, kRoadCount>& roads) {
 json to_json(const VerifyReport& report) {
     return {{"accelerator", report.accelerator},
             {"rays", report.rays},
+            {"rays_left_out", report.rays_left_out},
+            {"believed_boxes", report.believed_boxes},
             {"hits", report.hits},
             {"disagreements", report.disagreements},
             {"roads", to_json(report.roads)},
             {"closed_surfaces", report.closed_surfaces},
             {"open_meshes", report.open_meshes},
+            {"shapes_left_out", report.shapes_left_out},
             {"parity_lines", report.parity_lines},
             {"odd_crossings", report.odd_crossings},
             {"holds", report.holds()},
@@ -71,6 +74,8 @@ json to_json(const ExactReport& report) {
     return {{"exact", true},
             {"solids", report.solids},
             {"unchecked", report.unchecked},
+            {"left_out", report.left_out},
+            {"triangles_without_formula", report.triangles},
             {"unchecked_solids", std::move(unchecked)},
             {"rays", report.rays},
             {"crossings", report.crossings},
@@ -105,12 +110,34 @@ std::string text_of(const std::array<RoadCounts, kRoadCount>& roads) {
     return text;
 }
 
+/// What the numbers do not cover, a line each.
+void print_left_out(const VerifyReport& report) {
+    if (report.rays_left_out > 0) {
+        print("  not checked: {} of {} rays: the list tests every primitive\n",
+              report.rays_left_out, report.rays + report.rays_left_out);
+    }
+    if (report.believed_boxes > 0) {
+        print("  not checked: the boxes of {} shapes and solids: too many to test without\n",
+              report.believed_boxes);
+    }
+    if (report.open_meshes > 0) {
+        print("  not checked: crossings of {} {}: nothing to count\n", report.open_meshes,
+              report.open_meshes == 1 ? "open mesh" : "open meshes");
+    }
+    if (report.shapes_left_out > 0) {
+        print("  not checked: crossings of {} {}: not closed, endless, or beyond the first 64\n",
+              report.shapes_left_out, report.shapes_left_out == 1 ? "shape" : "shapes");
+    }
+}
+
 void print_report(const VerifyReport& report) {
     print(
-        "{}: {} rays ({}), {} hits, {} disagreements with list; {} closed surfaces, {} lines, {} "
+        "{}: {} rays ({}), {} hits, {} disagreements with brute force; {} closed surfaces, {} "
+        "lines, {} "
         "with an odd number of crossings\n",
         report.accelerator, report.rays, text_of(report.roads), report.hits, report.disagreements,
         report.closed_surfaces, report.parity_lines, report.odd_crossings);
+    print_left_out(report);
     print_disagreements(report.reported);
 }
 
@@ -126,8 +153,17 @@ void print_report(const ExactReport& report) {
     for (const UncheckedSolid& one : report.unchecked_solids) {
         print("  not checked: {}: {}\n", escape_controls(one.name), one.reason);
     }
-    if (report.unchecked > report.unchecked_solids.size() && report.solids > 0) {
-        print("  not checked: {} more\n", report.unchecked - report.unchecked_solids.size());
+    const std::size_t without = report.unchecked - report.left_out;
+    if (without > report.unchecked_solids.size()) {
+        print("  not checked: {} more without a formula\n",
+              without - report.unchecked_solids.size());
+    }
+    if (report.left_out > 0) {
+        print("  not checked: {} more, beyond the {} that share the rays\n", report.left_out,
+              report.solids);
+    }
+    if (report.triangles > 0) {
+        print("  not checked: {} triangles: exact in the comparison above\n", report.triangles);
     }
     print_disagreements(report.reported);
 }

@@ -4,7 +4,10 @@
 #include <limits>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/verification/brute_force.h"
+#include "alhazen/verification/shared_progress.h"
 #include "alhazen/verification/verify_rays.h"
 #include "alhazen/verification/verify_roads.h"
 
@@ -12,22 +15,47 @@ namespace alhazen {
 
 namespace {
 
+/// Rays that one query may trace by the accelerator: the list itself tests every primitive.
+std::uint64_t affordable_rays(std::uint64_t rays, std::uint64_t primitives,
+                              const VerifyOptions& options) {
+    constexpr std::uint64_t kLeastRays = 100;
+    if (!options.accelerator.starts_with("list")) return rays;
+    const std::uint64_t affordable =
+        options.most_list_tests / std::max<std::uint64_t>(1, primitives);
+    return std::min(rays, std::max(kLeastRays, affordable));
+}
+
 /// Counts the crossings of whole lines with one closed surface.
 void count_crossings(const Aggregate& surface, VerifyRays& rays, std::uint64_t lines,
-                     const VerifyOptions& options, VerifyReport& report) {
+                     const VerifyOptions& options, SharedProgress& progress, VerifyReport& report) {
+    constexpr std::size_t kLinesAtOnce = 1 << 16;
     ++report.closed_surfaces;
-    std::vector<Hit> hits;
-    for (std::uint64_t i = 0; i < lines; ++i) {
-        VerifyRays::Sample sample = rays.next();
-        sample.ray.t_min = -std::numeric_limits<double>::infinity();
-        ++report.parity_lines;
-        hits.clear();
-        surface.all_hits(sample.ray, hits, nullptr);
-        if (hits.size() % 2 == 0) continue;
-        ++report.odd_crossings;
-        if (report.reported.size() >= options.max_reported) continue;
-        report.reported.push_back(
-            {sample.kind, "parity", sample.ray, describe(hits), "an even number of crossings"});
+    report.parity_lines += lines;
+    std::vector<VerifyRays::Sample> samples;
+    std::vector<std::string> odd;  // [sample] what was found; empty: an even number
+    for (std::uint64_t done = 0; done < lines; done += samples.size()) {
+        samples.clear();
+        while (samples.size() < kLinesAtOnce && done + samples.size() < lines) {
+            samples.push_back(rays.next());
+            samples.back().ray.t_min = -std::numeric_limits<double>::infinity();
+        }
+        odd.assign(samples.size(), {});
+        parallel_for(samples.size(), 256, [&](std::size_t begin, std::size_t end) {
+            std::vector<Hit> hits;
+            for (std::size_t i = begin; i < end; ++i) {
+                hits.clear();
+                surface.all_hits(samples[i].ray, hits, nullptr);
+                if (hits.size() % 2 != 0) odd[i] = describe(hits);
+            }
+            progress.add(end - begin);
+        });
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (odd[i].empty()) continue;
+            ++report.odd_crossings;
+            if (report.reported.size() >= options.max_reported) continue;
+            report.reported.push_back({samples[i].kind, "parity", samples[i].ray, std::move(odd[i]),
+                                       "an even number of crossings"});
+        }
     }
 }
 
@@ -67,7 +95,7 @@ LoneSurface lone_shape(const AnyShape& any) {
 
 /// Every closed surface of the scene by itself; no more analytic shapes than a sample of each
 /// scene.
-std::vector<LoneSurface> lone_surfaces(const SceneDescription& description) {
+std::vector<LoneSurface> lone_surfaces(const SceneDescription& description, VerifyReport& report) {
     constexpr std::size_t kMaxShapes = 64;
     std::vector<LoneSurface> surfaces;
     for (const MeshDescription& mesh : description.meshes) surfaces.push_back(lone_mesh(mesh.mesh));
@@ -75,8 +103,13 @@ std::vector<LoneSurface> lone_surfaces(const SceneDescription& description) {
     for (const ObjectDescription& object : description.objects) {
         for (const Part& part : object.parts) {
             const AnyShape* shape = std::get_if<AnyShape>(&part.what);
-            if (shape == nullptr || shapes++ >= kMaxShapes) continue;
+            if (shape == nullptr) continue;
+            if (shapes++ >= kMaxShapes) {
+                ++report.shapes_left_out;
+                continue;
+            }
             surfaces.push_back(lone_shape(*shape));
+            report.shapes_left_out += !surfaces.back().closed;
         }
     }
     return surfaces;
@@ -84,7 +117,7 @@ std::vector<LoneSurface> lone_surfaces(const SceneDescription& description) {
 
 void count_all_crossings(const SceneDescription& description, const VerifyOptions& options,
                          VerifyReport& report) {
-    std::vector<LoneSurface> surfaces = lone_surfaces(description);
+    std::vector<LoneSurface> surfaces = lone_surfaces(description, report);
     std::size_t closed = 0;
     for (const LoneSurface& surface : surfaces) {
         closed += surface.closed;
@@ -92,14 +125,23 @@ void count_all_crossings(const SceneDescription& description, const VerifyOption
     }
     if (closed == 0) return;
     const std::uint64_t lines = std::max<std::uint64_t>(100, options.rays / closed);
+    const auto lines_of = [&](const LoneSurface& surface) {
+        const auto& meshes = surface.table.meshes;
+        const std::size_t count = meshes.empty() ? 1 : meshes.front().mesh->triangles.size();
+        return affordable_rays(lines, count, options);
+    };
+    std::uint64_t all = 0;
+    for (const LoneSurface& surface : surfaces) all += surface.closed ? lines_of(surface) : 0;
+    SharedProgress progress(options.progress, "lines " + options.accelerator, all);
     for (LoneSurface& surface : surfaces) {
         if (!surface.closed) continue;
+        const std::uint64_t own = lines_of(surface);
         surface.table.material_opacity.assign(1, Opacity::Opaque);
         surface.table.finish();
         const auto aggregate =
             make_aggregate(options.accelerator, std::move(surface.table), options.build);
         VerifyRays rays(aggregate->box(), nullptr, aggregate->primitives(), options.seed + 1);
-        count_crossings(*aggregate, rays, lines, options, report);
+        count_crossings(*aggregate, rays, own, options, progress, report);
     }
 }
 
@@ -108,16 +150,26 @@ void count_all_crossings(const SceneDescription& description, const VerifyOption
 VerifyReport verify(const SceneDescription& description, const VerifyOptions& options) {
     VerifyReport report;
     report.accelerator = options.accelerator;
-    const Scene fast =
-        compile(description,
-                {.accelerator = options.accelerator, .csg = options.csg, .build = options.build});
-    const Scene brute =
+    Scene fast;
+    {
+        SharedProgress progress(options.progress, "build " + options.accelerator, 1);
+        fast = compile(
+            description,
+            {.accelerator = options.accelerator, .csg = options.csg, .build = options.build});
+        progress.add(1);
+    }
+    const Scene plain =
         compile(description,
                 {.accelerator = "list", .csg = "roth", .build = {}, .own_accelerators = false});
+    const BruteForce brute(*plain.aggregate);
+    report.believed_boxes = brute.believed_boxes();
     const Camera* camera =
         fast.cameras.empty() ? nullptr : &find_camera(fast, options.camera).camera;
     VerifyRays rays(fast.aggregate->box(), camera, fast.aggregate->primitives(), options.seed);
-    RoadComparison(*fast.aggregate, *brute.aggregate, options, report).run(rays, fast.has_masks);
+    VerifyOptions affordable = options;
+    affordable.rays = affordable_rays(options.rays, fast.census.effective_primitives, options);
+    report.rays_left_out = options.rays - affordable.rays;
+    RoadComparison(*fast.aggregate, brute, affordable, report).run(rays, fast.has_masks);
     count_all_crossings(description, options, report);
     return report;
 }

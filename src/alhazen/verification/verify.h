@@ -22,6 +22,8 @@ struct VerifyOptions {
     std::string camera;
     std::size_t max_reported = 20;
     ProgressSink* progress = nullptr;
+    /// Tests of rays with primitives that `list` may take in each query; rays beyond are left out.
+    std::uint64_t most_list_tests = 100'000'000;
 };
 
 /// The calls by which a ray gets to its hit. Which schedule traces it is the accelerator's choice.
@@ -53,11 +55,15 @@ struct Disagreement {
 struct VerifyReport {
     std::string accelerator;
     std::uint64_t rays = 0;           ///< traced, per query
+    std::uint64_t rays_left_out = 0;  ///< of those asked for: `list` tests every primitive itself
+    /// Shapes and CSG solids that brute force tested only with the rays that meet their boxes.
+    std::uint64_t believed_boxes = 0;
     std::uint64_t hits = 0;           ///< of the closest-hit query
     std::uint64_t disagreements = 0;  ///< of all roads
     std::array<RoadCounts, kRoadCount> roads{};
     std::uint64_t closed_surfaces = 0;   ///< meshes and shapes whose crossings were counted
     std::uint64_t open_meshes = 0;       ///< meshes that bound no volume: nothing to count
+    std::uint64_t shapes_left_out = 0;   ///< shapes whose crossings were not counted
     std::uint64_t parity_lines = 0;      ///< lines through closed surfaces
     std::uint64_t odd_crossings = 0;     ///< of those, lines with an odd number of crossings
     std::vector<Disagreement> reported;  ///< the first ones

@@ -7,9 +7,11 @@
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/parallel/parallel.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/scene/scene.h"
 #include "alhazen/verification/exact_solids.h"
+#include "alhazen/verification/shared_progress.h"
 #include "alhazen/verification/verify_rays.h"
 
 namespace alhazen {
@@ -227,6 +229,46 @@ class ExactRays {
     std::uint64_t count_ = 0;
 };
 
+/// Adds what was found with some rays of one solid.
+void add(ExactReport part, const VerifyOptions& options, ExactReport& report) {
+    report.rays += part.rays;
+    report.crossings += part.crossings;
+    report.grazing += part.grazing;
+    report.disagreements += part.disagreements;
+    report.worst_crossing = std::max(report.worst_crossing, part.worst_crossing);
+    report.worst_point = std::max(report.worst_point, part.worst_point);
+    for (Disagreement& one : part.reported) {
+        if (report.reported.size() < options.max_reported) {
+            report.reported.push_back(std::move(one));
+        }
+    }
+}
+
+/// Shoots `count` rays at one solid, on all cores; the report does not depend on their number.
+void check_solid(const ExactSolid& solid, std::uint64_t seed, std::uint64_t count,
+                 const VerifyOptions& options, SharedProgress& progress, ExactReport& report) {
+    constexpr std::size_t kRaysOfPart = 64, kMostParts = 256;
+    ExactRays rays(*solid.aggregate, seed);
+    std::vector<VerifyRays::Sample> samples;
+    for (std::uint64_t done = 0; done < count; done += samples.size()) {
+        samples.clear();
+        while (samples.size() < kRaysOfPart * kMostParts && done + samples.size() < count) {
+            samples.push_back(rays.next());
+        }
+        std::vector<ExactReport> parts((samples.size() + kRaysOfPart - 1) / kRaysOfPart);
+        parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t part = begin; part < end; ++part) {
+                Checker checker(solid, options, parts[part]);
+                const std::size_t first = part * kRaysOfPart;
+                const std::size_t last = std::min(first + kRaysOfPart, samples.size());
+                for (std::size_t i = first; i < last; ++i) checker.check(samples[i]);
+                progress.add(last - first);
+            }
+        });
+        for (ExactReport& part : parts) add(std::move(part), options, report);
+    }
+}
+
 ExactReport check_all(const std::vector<ExactSolid>& all, const VerifyOptions& options) {
     ExactReport report;
     std::vector<const ExactSolid*> checked;
@@ -235,14 +277,14 @@ ExactReport check_all(const std::vector<ExactSolid>& all, const VerifyOptions& o
     }
     const std::size_t count = std::min(checked.size(), kMostSolids);
     report.unchecked = all.size() - count;
+    report.left_out = checked.size() - count;
     report.solids = count;
+    if (count == 0) return report;
+    const std::uint64_t share = std::max<std::uint64_t>(100, options.rays / count);
+    SharedProgress progress(options.progress, "exact", count * share);
     for (std::size_t i = 0; i < count; ++i) {
         const ExactSolid& solid = *checked[i * checked.size() / count];
-        Checker checker(solid, options, report);
-        ExactRays rays(*solid.aggregate, options.seed + 7 * i);
-        const std::uint64_t share = std::max<std::uint64_t>(100, options.rays / count);
-        for (std::uint64_t k = 0; k < share; ++k) checker.check(rays.next());
-        if (options.progress != nullptr) options.progress->update("exact", i + 1, count);
+        check_solid(solid, options.seed + 7 * i, share, options, progress, report);
     }
     return report;
 }
@@ -255,6 +297,7 @@ ExactReport verify_exact(const SceneDescription& description, const VerifyOption
     const std::vector<ExactSolid> all = exact_solids(scene.aggregate);
     ExactReport report = check_all(all, options);
     report.unchecked_solids = unchecked_solids(all, description, scene);
+    report.triangles = scene.census.triangles;
     return report;
 }
 

@@ -8,8 +8,8 @@
 /// surface than the bound of the error that the tracer itself states (twice the largest
 /// `Surface::error`, and what the ray's own numbers round). Anything else is a disagreement. Points
 /// must be within `Surface::error` of the true surface; beyond an edge, within the ray's bound of
-/// it. Shapes and CSG objects
-/// without a formula (exact_crossings.h) are named, not checked; meshes are no matter of this.
+/// it. Shapes and CSG objects without a formula (exact_crossings.h) are named, not checked; meshes
+/// are no matter of this. Rays are checked on all cores.
 
 #include <cstdint>
 
@@ -26,6 +26,8 @@ struct UncheckedSolid {
 struct ExactReport {
     std::uint64_t solids = 0;     ///< stored shapes and CSG objects that were checked
     std::uint64_t unchecked = 0;  ///< closed shapes and CSG objects without a formula, or too many
+    std::uint64_t left_out = 0;   ///< of these, those that have one: too many
+    std::uint64_t triangles = 0;  ///< of meshes, which have no formula here
     std::vector<UncheckedSolid> unchecked_solids;  ///< the first of them that have no formula
     std::uint64_t rays = 0, crossings = 0;
     /// Rays that differ from the truth for longer than the bound, nearer to the surface than it.

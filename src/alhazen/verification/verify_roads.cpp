@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <span>
+
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/verification/shared_progress.h"
 
 namespace alhazen {
 
@@ -57,22 +62,108 @@ std::string describe(const std::vector<Hit>& hits) {
     return text;
 }
 
-RoadComparison::RoadComparison(const Aggregate& tested, const Aggregate& brute,
+/// Takes the rays of one block along every road.
+class RoadComparison::BlockComparison {
+  public:
+    /// Of progress: single calls, and all others.
+    static constexpr std::size_t kUnitsOfRay = 2;
+
+    BlockComparison(const RoadComparison& all, const Block& block)
+        : tested_(all.tested_),
+          brute_(all.brute_),
+          masked_(all.masked_),
+          most_reported_(all.options_.max_reported),
+          samples_(block.samples),
+          masks_(block.masks),
+          sets_(block.sets),
+          occluded_(std::make_unique<bool[]>(kBlockRays)) {}
+
+    /// Finishes kUnitsOfRay units of each ray.
+    [[nodiscard]] VerifyReport run(SharedProgress& progress) {
+        shoot_brute();
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
+            compare_single(i);
+            progress.add(1);
+        }
+        shoot_stream();
+        shoot_coherent();
+        progress.add(samples_.size());
+        return std::move(report_);
+    }
+
+  private:
+    void shoot_brute();
+    void compare_single(std::size_t i);
+    void shoot_stream();
+    void shoot_coherent();
+    /// Takes the rays of `chosen_` through the batch calls, those of each mask together.
+    void shoot_by_mask(Road road);
+    void shoot_batch(Road road, std::span<const std::size_t> chosen, RayMask mask);
+    void disagree(std::size_t i, Road road, const char* query, std::string found,
+                  std::string expected);
+    [[nodiscard]] RoadCounts& counts(Road road) {
+        return report_.roads[static_cast<std::size_t>(road)];
+    }
+
+    const Aggregate& tested_;
+    const BruteForce& brute_;
+    bool masked_;
+    std::size_t most_reported_;
+    VerifyReport report_;
+
+    // Of the block, [ray] each.
+    const std::vector<VerifyRays::Sample>& samples_;
+    const std::vector<RayMask>& masks_;
+    std::vector<std::vector<Hit>> all_;  ///< by brute force
+    std::vector<Hit> expected_;          ///< the nearest of them
+
+    const std::vector<RaySet>& sets_;
+    std::vector<Hit> tested_hits_, brute_hits_;
+    // Of a batch.
+    std::vector<std::size_t> chosen_, of_mask_;
+    std::vector<Ray> rays_;
+    std::vector<Hit> hits_;
+    std::unique_ptr<bool[]> occluded_;
+};
+
+RoadComparison::RoadComparison(const Aggregate& tested, const BruteForce& brute,
                                const VerifyOptions& options, VerifyReport& report)
-    : tested_(tested),
-      brute_(brute),
-      options_(options),
-      report_(report),
-      occluded_(std::make_unique<bool[]>(kBlockRays)) {}
+    : tested_(tested), brute_(brute), options_(options), report_(report) {}
 
 void RoadComparison::run(VerifyRays& rays, bool masked) {
     masked_ = masked;
-    for (std::uint64_t done = 0; done < options_.rays; done += samples_.size()) {
-        make_block(rays, static_cast<std::size_t>(
-                             std::min<std::uint64_t>(options_.rays - done, kBlockRays)));
-        shoot_singles(done);
-        shoot_stream();
-        shoot_coherent();
+    SharedProgress progress(options_.progress, "verify " + options_.accelerator,
+                            BlockComparison::kUnitsOfRay * options_.rays);
+    const auto at_once = static_cast<std::size_t>(2 * available_cores());
+    for (std::uint64_t done = 0; done < options_.rays;) {
+        std::vector<Block> blocks;
+        for (; blocks.size() < at_once && done < options_.rays;
+             done += blocks.back().samples.size()) {
+            blocks.push_back(make_block(rays, static_cast<std::size_t>(std::min<std::uint64_t>(
+                                                  options_.rays - done, kBlockRays))));
+        }
+        std::vector<VerifyReport> reports(blocks.size());
+        parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                reports[i] = BlockComparison(*this, blocks[i]).run(progress);
+            }
+        });
+        for (VerifyReport& report : reports) add(std::move(report));
+    }
+}
+
+void RoadComparison::add(VerifyReport block) {
+    report_.rays += block.rays;
+    report_.hits += block.hits;
+    report_.disagreements += block.disagreements;
+    for (std::size_t i = 0; i < kRoadCount; ++i) {
+        report_.roads[i].rays += block.roads[i].rays;
+        report_.roads[i].disagreements += block.roads[i].disagreements;
+    }
+    for (Disagreement& one : block.reported) {
+        if (report_.reported.size() < options_.max_reported) {
+            report_.reported.push_back(std::move(one));
+        }
     }
 }
 
@@ -82,65 +173,69 @@ RayMask RoadComparison::next_mask(std::uint64_t number) const {
     return masked_ ? mask_of(static_cast<RayKind>(number % kRayKindCount)) : kAllRays;
 }
 
-void RoadComparison::make_block(VerifyRays& rays, std::size_t count) {
-    samples_.clear();
-    masks_.clear();
-    sets_.clear();
-    while (samples_.size() < count) {
+RoadComparison::Block RoadComparison::make_block(VerifyRays& rays, std::size_t count) {
+    Block block;
+    while (block.samples.size() < count) {
         // Three quarters of the rays are of mixed kinds.
         const RayMask mask = next_mask(set_count_++);
-        rays.append_tile(samples_);
-        end_set(mask);
-        find_origins(sets_.back(), mask);
-        add_mixed(rays);
-        rays.append_shadow_rays(origins_, samples_);
-        end_set(mask);
-        add_mixed(rays);
+        rays.append_tile(block.samples);
+        end_set(mask, block);
+        const std::vector<Vec3> origins = origins_on(block.sets.back(), mask, block);
+        add_mixed(rays, block);
+        rays.append_shadow_rays(origins, block.samples);
+        end_set(mask, block);
+        add_mixed(rays, block);
     }
-    samples_.resize(count);
-    masks_.resize(count);
-    while (sets_.back().first >= count) sets_.pop_back();
-    sets_.back().count = std::min(sets_.back().count, count - sets_.back().first);
+    block.samples.resize(count);
+    block.masks.resize(count);
+    std::vector<RaySet>& sets = block.sets;
+    while (sets.back().first >= count) sets.pop_back();
+    sets.back().count = std::min(sets.back().count, count - sets.back().first);
+    return block;
 }
 
-void RoadComparison::add_mixed(VerifyRays& rays) {
+void RoadComparison::add_mixed(VerifyRays& rays, Block& block) {
     constexpr std::size_t kMixedRays = 3 * VerifyRays::kTileRays;
     for (std::size_t i = 0; i < kMixedRays; ++i) {
-        samples_.push_back(rays.next());
+        block.samples.push_back(rays.next());
         // Rays of one sort come every fourth time.
-        masks_.push_back(next_mask(mixed_count_++ / 4));
+        block.masks.push_back(next_mask(mixed_count_++ / 4));
     }
 }
 
-void RoadComparison::end_set(RayMask mask) {
-    sets_.push_back({masks_.size(), samples_.size() - masks_.size()});
-    masks_.resize(samples_.size(), mask);
+void RoadComparison::end_set(RayMask mask, Block& block) {
+    block.sets.push_back({block.masks.size(), block.samples.size() - block.masks.size()});
+    block.masks.resize(block.samples.size(), mask);
 }
 
 /// Where the rays of the tile end; a ray that hits nothing gives the point at t = 1.
-void RoadComparison::find_origins(const RaySet& tile, RayMask mask) {
-    origins_.clear();
+std::vector<Vec3> RoadComparison::origins_on(const RaySet& tile, RayMask mask,
+                                             const Block& block) const {
+    std::vector<Vec3> origins;
     for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
-        const Ray& ray = samples_[i].ray;
+        const Ray& ray = block.samples[i].ray;
         Hit hit;
         const bool found = tested_.closest(ray, hit, {nullptr, mask});
-        origins_.push_back(ray.at(found ? hit.t : 1.0));
+        origins.push_back(ray.at(found ? hit.t : 1.0));
     }
+    return origins;
 }
 
 // ---- Compare.
 
-void RoadComparison::shoot_singles(std::uint64_t done) {
-    expected_.resize(samples_.size());
+void RoadComparison::BlockComparison::shoot_brute() {
+    all_.resize(samples_.size());
+    std::vector<BruteForce::Shot> shots;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-        if (options_.progress != nullptr && i % 256 == 0) {
-            options_.progress->update("verify", done + i, options_.rays);
-        }
-        compare_single(i);
+        shots.push_back({samples_[i].ray, masks_[i], &all_[i]});
+    }
+    brute_.all_hits(shots);
+    for (const std::vector<Hit>& hits : all_) {
+        expected_.push_back(hits.empty() ? Hit{} : hits.front());
     }
 }
 
-void RoadComparison::compare_single(std::size_t i) {
+void RoadComparison::BlockComparison::compare_single(std::size_t i) {
     const Ray& ray = samples_[i].ray;
     const RayQuery query{nullptr, masks_[i]};
     const auto differ = [&](const char* name, std::string found, std::string expected) {
@@ -149,42 +244,37 @@ void RoadComparison::compare_single(std::size_t i) {
     ++report_.rays;
     ++counts(Road::Single).rays;
     Hit found;
-    Hit& expected = expected_[i];
+    const Hit& expected = expected_[i];
     (void)tested_.closest(ray, found, query);
-    (void)brute_.closest(ray, expected, query);
     report_.hits += expected.found();
     if (!same_answer(found, expected)) differ("closest", describe(found), describe(expected));
     const bool occluded = tested_.occluded(ray, query);
     if (occluded != expected.found()) {
         differ("occluded", state_of(occluded), state_of(expected.found()));
     }
-    const auto same_hits = [&] { return std::ranges::equal(tested_hits_, brute_hits_, same_hit); };
     tested_hits_.clear();
-    brute_hits_.clear();
     tested_.all_hits(ray, tested_hits_, query);
-    brute_.all_hits(ray, brute_hits_, query);
-    if (!same_hits()) differ("all_hits", describe(tested_hits_), describe(brute_hits_));
-    // The nearest of all hits must be the closest hit.
-    if (!brute_hits_.empty() && !same_hit(brute_hits_.front(), expected)) {
-        differ("all_hits", "first: " + describe(brute_hits_.front()), describe(expected));
+    if (!std::ranges::equal(tested_hits_, all_[i], same_hit)) {
+        differ("all_hits", describe(tested_hits_), describe(all_[i]));
     }
     tested_hits_.clear();
     brute_hits_.clear();
     const bool shadowed = tested_.shadowed(ray, tested_hits_, query);
-    const bool expect_shadow = brute_.shadowed(ray, brute_hits_, query);
-    if (shadowed != expect_shadow || (!shadowed && !same_hits())) {
+    const bool expect_shadow = brute_.shadowed(ray, masks_[i], all_[i], brute_hits_);
+    if (shadowed != expect_shadow ||
+        (!shadowed && !std::ranges::equal(tested_hits_, brute_hits_, same_hit))) {
         differ("shadowed", describe(tested_hits_), describe(brute_hits_));
     }
 }
 
-void RoadComparison::shoot_stream() {
+void RoadComparison::BlockComparison::shoot_stream() {
     counts(Road::Stream).rays += samples_.size();
     chosen_.resize(samples_.size());
     std::iota(chosen_.begin(), chosen_.end(), std::size_t{0});
     shoot_by_mask(Road::Stream);
 }
 
-void RoadComparison::shoot_coherent() {
+void RoadComparison::BlockComparison::shoot_coherent() {
     std::vector<std::size_t> all;
     for (const RaySet& set : sets_) {
         counts(Road::Coherent).rays += set.count;
@@ -197,7 +287,7 @@ void RoadComparison::shoot_coherent() {
     shoot_by_mask(Road::Coherent);
 }
 
-void RoadComparison::shoot_by_mask(Road road) {
+void RoadComparison::BlockComparison::shoot_by_mask(Road road) {
     if (!masked_) return shoot_batch(road, chosen_, kAllRays);
     for (std::size_t k = 0; k < kRayKindCount; ++k) {
         const RayMask mask = mask_of(static_cast<RayKind>(k));
@@ -208,7 +298,8 @@ void RoadComparison::shoot_by_mask(Road road) {
     }
 }
 
-void RoadComparison::shoot_batch(Road road, std::span<const std::size_t> chosen, RayMask mask) {
+void RoadComparison::BlockComparison::shoot_batch(Road road, std::span<const std::size_t> chosen,
+                                                  RayMask mask) {
     const Coherence coherence = road == Road::Coherent ? Coherence::Coherent : Coherence::Any;
     const RayQuery query{nullptr, mask};
     rays_.clear();
@@ -231,11 +322,11 @@ void RoadComparison::shoot_batch(Road road, std::span<const std::size_t> chosen,
     }
 }
 
-void RoadComparison::disagree(std::size_t i, Road road, const char* query, std::string found,
-                              std::string expected) {
+void RoadComparison::BlockComparison::disagree(std::size_t i, Road road, const char* query,
+                                               std::string found, std::string expected) {
     ++report_.disagreements;
     ++counts(road).disagreements;
-    if (report_.reported.size() >= options_.max_reported) return;
+    if (report_.reported.size() >= most_reported_) return;
     const VerifyRays::Sample& sample = samples_[i];
     const std::string seen_by = name_of(masks_[i]);
     report_.reported.push_back(

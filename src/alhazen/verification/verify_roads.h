@@ -5,15 +5,15 @@
 /// Conventions: rays come in blocks of kBlockRays: tiles, shadow rays that start where the rays of
 /// a tile end, and between them rays of all other kinds. A batch has the rays of a block with one
 /// mask; coherent sets are shot set by set, then all sets of the block at once. Results hold wrong
-/// values before each call: a batch that leaves one unwritten disagrees.
+/// values before each call: a batch that leaves one unwritten disagrees. The report does not depend
+/// on the number of threads.
 
 #include <cstddef>
-#include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "alhazen/primitives/aggregate.h"
+#include "alhazen/verification/brute_force.h"
 #include "alhazen/verification/verify.h"
 #include "alhazen/verification/verify_rays.h"
 
@@ -27,62 +27,44 @@ namespace alhazen {
 class RoadComparison {
   public:
     /// Adds to `report`. All arguments must outlive the object.
-    RoadComparison(const Aggregate& tested, const Aggregate& brute, const VerifyOptions& options,
+    RoadComparison(const Aggregate& tested, const BruteForce& brute, const VerifyOptions& options,
                    VerifyReport& report);
 
-    /// Shoots `options.rays` rays. `masked`: each sees what rays of one RayKind see, in turn; else
-    /// rays see everything.
+    /// Shoots `options.rays` rays, several blocks at once. `masked`: each sees what rays of one
+    /// RayKind see, in turn; else rays see everything.
     void run(VerifyRays& rays, bool masked);
 
   private:
+    static constexpr std::size_t kBlockRays = 2048;
+
     /// Coherent rays of one mask in a block.
     struct RaySet {
         std::size_t first, count;
     };
-    static constexpr std::size_t kBlockRays = 2048;
+    struct Block {
+        // [ray] each
+        std::vector<VerifyRays::Sample> samples;
+        std::vector<RayMask> masks;
+        std::vector<RaySet> sets;
+    };
+    /// Shoots a block; defined beside its functions.
+    class BlockComparison;
 
-    // ---- Make a block of at most `count` rays.
-    void make_block(VerifyRays& rays, std::size_t count);
-    void add_mixed(VerifyRays& rays);
+    [[nodiscard]] Block make_block(VerifyRays& rays, std::size_t count);
+    void add_mixed(VerifyRays& rays, Block& block);
     /// The samples added since the last set.
-    void end_set(RayMask mask);
-    void find_origins(const RaySet& tile, RayMask mask);
+    static void end_set(RayMask mask, Block& block);
+    [[nodiscard]] std::vector<Vec3> origins_on(const RaySet& tile, RayMask mask,
+                                               const Block& block) const;
     [[nodiscard]] RayMask next_mask(std::uint64_t number) const;
-
-    // ---- Compare.
-    void shoot_singles(std::uint64_t done);
-    void compare_single(std::size_t i);
-    void shoot_stream();
-    void shoot_coherent();
-    /// Takes the rays of `chosen_` through the batch calls, those of each mask together.
-    void shoot_by_mask(Road road);
-    void shoot_batch(Road road, std::span<const std::size_t> chosen, RayMask mask);
-    void disagree(std::size_t i, Road road, const char* query, std::string found,
-                  std::string expected);
-    [[nodiscard]] RoadCounts& counts(Road road) {
-        return report_.roads[static_cast<std::size_t>(road)];
-    }
+    void add(VerifyReport block);
 
     const Aggregate& tested_;
-    const Aggregate& brute_;
+    const BruteForce& brute_;
     const VerifyOptions& options_;
     VerifyReport& report_;
     bool masked_ = false;
     std::uint64_t mixed_count_ = 0, set_count_ = 0;
-
-    // Of the block, [ray] each.
-    std::vector<VerifyRays::Sample> samples_;
-    std::vector<RayMask> masks_;
-    std::vector<Hit> expected_;  ///< the nearest, by brute force
-
-    std::vector<RaySet> sets_;
-    std::vector<Vec3> origins_;
-    std::vector<Hit> tested_hits_, brute_hits_;
-    // Of a batch.
-    std::vector<std::size_t> chosen_, of_mask_;
-    std::vector<Ray> rays_;
-    std::vector<Hit> hits_;
-    std::unique_ptr<bool[]> occluded_;
 };
 
 }  // namespace alhazen

@@ -177,7 +177,8 @@ VerifyReport compared(const Aggregate& tested, const Scene& brute, std::uint64_t
     options.rays = rays;
     VerifyReport report;
     VerifyRays source(tested.box(), &brute.cameras.front().camera, tested.primitives(), 1);
-    RoadComparison(tested, *brute.aggregate, options, report).run(source, false);
+    const BruteForce force(*brute.aggregate);
+    RoadComparison(tested, force, options, report).run(source, false);
     return report;
 }
 
