@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/imaging/codecs/image_io.h"
@@ -50,6 +51,28 @@ TEST(BrlcadPictures, EveryPixelOfTheSilhouetteOfMossIsRight) {
         EXPECT_EQ(wrong, std::vector<std::string>{}) << accelerator;
         EXPECT_EQ(background, 149586u) << accelerator;
     }
+}
+
+/// Mean difference of the channels, in 255ths.
+double mean_error(const Image& picture, const Image& reference) {
+    double sum = 0.0;
+    for (int y = 0; y < 512; ++y) {
+        for (int x = 0; x < 512; ++x) {
+            const Rgb a = picture.rgb(x, y), b = reference.rgb(x, y);
+            for (int c = 0; c < 3; ++c) sum += std::abs(std::clamp(a[c], 0.0, 1.0) - b[c]);
+        }
+    }
+    return 255.0 * sum / (3.0 * 512 * 512);
+}
+
+TEST(BrlcadPictures, MossLooksLikeItsReferencePicture) {
+    ALHAZEN_NEEDS_DATA(kReference);
+    LoadOptions options;
+    options.import.view_script = testing::source_folder() / "tests/golden/moss.rt";
+    const LoadedScene moss = load(testing::test_data() / kModels / "moss.asc", options);
+    const RenderResult result = render(moss.scene, moss.description.picture, {});
+    const Image picture = result.film.to_image();
+    EXPECT_LT(mean_error(picture, read_image(testing::test_data() / kReference)), 6.0);
 }
 
 TEST(BrlcadPictures, EveryModelLoadsAndHasItsDefaultCamera) {

@@ -10,9 +10,11 @@
 namespace alhazen {
 
 struct ShadingConventions {
-    /// Cosine of the highlight: of the mirrored light direction and the eye (Phong), or of the
-    /// normal and the half vector (Blinn-Phong).
-    enum class Highlight { Phong, BlinnPhong };
+    /// Cosine c of the highlight: of the mirrored light direction and the eye (Phong), or of the
+    /// normal and the half vector (Blinn-Phong), to the power n of the shininess. Schlick: that of
+    /// Phong as c / (n - n c + c) instead of c^n ("A Fast Alternative to Phong's Specular Model",
+    /// Graphics Gems IV, 1994).
+    enum class Highlight { Phong, BlinnPhong, Schlick };
     Highlight highlight = Highlight::BlinnPhong;
 
     /// Effect on light of a transparent surface between a point and the light.
@@ -37,6 +39,8 @@ struct ShadingConventions {
     AmbientFactor ambient_factor = AmbientFactor::Ambient;
     /// Ambient light is multiplied by kt of the medium when the point is seen from inside it.
     bool ambient_inside_times_kt = true;
+    /// Ambient light comes from where the ray begins: it falls with the cosine of the view.
+    bool ambient_from_eye = false;
 
     /// A point light's 1 / (c + l d + q d^2) never exceeds 1.
     bool clamp_attenuation = true;

@@ -185,10 +185,12 @@ std::optional<BrlcadBuilder::PlacedRegion> BrlcadBuilder::region(const BrlcadObj
     if (known != regions_.end()) return known->second;
     const auto* comb = std::get_if<BrlcadCombination>(&object.what);
     std::optional<PlacedRegion> made;
-    if (comb == nullptr || is_drawn(*comb)) {
+    const BrlcadState own = comb == nullptr ? state : state.below(*comb);
+    const int region_id = comb == nullptr ? 0 : comb->region_id;
+    if ((comb == nullptr || is_drawn(*comb)) &&
+        !materials_.takes_environment(own, region_id, object.place)) {
         const MaterialId material =
-            comb == nullptr ? materials_.of(state, 0, object.place)
-                            : materials_.of(state.below(*comb), comb->region_id, object.place);
+            materials_.of(own, region_id, pattern_unit(object), object.place);
         const Operand whole = this->object(object, material);
         if (whole.outcome == Outcome::Present) made = PlacedRegion{whole.part, material};
         if (whole.outcome == Outcome::Unread) {
@@ -197,6 +199,22 @@ std::optional<BrlcadBuilder::PlacedRegion> BrlcadBuilder::region(const BrlcadObj
         }
     }
     return regions_[key] = made;
+}
+
+Vec2 BrlcadBuilder::pattern_unit(const BrlcadObject& object) const {
+    const BrlcadObject* at = &object;
+    for (int depth = 0; depth < options_.max_nesting; ++depth) {
+        const auto* comb = std::get_if<BrlcadCombination>(&at->what);
+        if (comb == nullptr) return brlcad_pattern_unit(std::get<BrlcadSolid>(at->what));
+        std::uint32_t node = comb->tree.root();
+        if (node == BrlcadTree::kEmpty) break;
+        while (comb->tree.node(node).op != BrlcadOperator::Leaf) {
+            node = comb->tree.node(node).operands[0];
+        }
+        at = database_.find(comb->tree.node(node).member);
+        if (at == nullptr) break;
+    }
+    return {1, 1};
 }
 
 void BrlcadBuilder::add_member_regions(const BrlcadNode& leaf, const BrlcadState& state,

@@ -81,6 +81,8 @@ class BrlcadBuilder {
     void cut_regions(const BrlcadTree& tree, std::span<const std::uint32_t> others, Combine combine,
                      std::size_t first, Regions& regions);
     std::optional<PlacedRegion> region(const BrlcadObject& object, const BrlcadState& state);
+    /// Of the first solid of a region: see brlcad_pattern_unit.
+    [[nodiscard]] Vec2 pattern_unit(const BrlcadObject& object) const;
     [[nodiscard]] bool is_drawn(const BrlcadCombination& comb);
 
     const BrlcadObject* look_up(const BrlcadNode& leaf);

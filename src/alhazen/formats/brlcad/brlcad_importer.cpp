@@ -15,11 +15,15 @@ namespace {
 /// What BRL-CAD's pictures mean.
 Conventions brlcad_conventions() {
     Conventions c;
-    c.shading.highlight = ShadingConventions::Highlight::Phong;
+    c.shading.highlight = ShadingConventions::Highlight::Schlick;
+    c.shading.ambient_from_eye = true;
     c.shading.air_index = 1.0;
     c.sampling.pixel_sample = SamplingConventions::PixelSample::LowerLeftCorner;
     return c;
 }
+
+/// That of `rt`: blue 1 of 255 tells it from black surfaces.
+constexpr Rgb kBackground{0, 0, 1.0 / 255.0};
 
 /// Size limit of view scripts.
 constexpr std::uint64_t kMaxScriptBytes = std::uint64_t{16} << 20;
@@ -31,6 +35,9 @@ void add_cameras(const ImportSource& source, SceneDescription& scene, const Box3
         diagnostics.note_file(script);
         const std::string text = read_file(script, kMaxScriptBytes);
         scene.cameras = read_brlcad_views(text, script.string(), box, diagnostics);
+        if (const auto background = brlcad_view_background(text)) {
+            scene.picture.background = background;
+        }
     }
     for (CameraDescription& camera : brlcad_cameras(box, {source.path.string(), 0, 0})) {
         scene.cameras.push_back(std::move(camera));
@@ -57,7 +64,7 @@ SceneDescription BrlcadImporter::import(const ImportSource& source,
     scene.path = source.path;
     scene.conventions = brlcad_conventions();
     scene.up_axis = UpAxis::Z;
-    scene.picture = {.width = 512, .height = 512, .background = Rgb{0, 0, 0}};
+    scene.picture = {.width = 512, .height = 512, .background = kBackground};
     BrlcadDatabase database;
     database.file = source.path.string();
     if (BrlcadV4Reader::recognise(source.bytes)) {
@@ -73,8 +80,8 @@ SceneDescription BrlcadImporter::import(const ImportSource& source,
     if (diagnostics.error_count() != 0) return scene;
     BrlcadBounds bounds(scene);
     const Box3 box = bounds.of(scene.root);
-    add_brlcad_lights(scene, materials, bounds, diagnostics);
     add_cameras(source, scene, box, diagnostics);
+    add_brlcad_lights(scene, materials, bounds, diagnostics);
     return scene;
 }
 

@@ -1,14 +1,18 @@
 #include "alhazen/formats/brlcad/brlcad_lights.h"
 
+#include <algorithm>
+
+#include "alhazen/math/constants.h"
+
 namespace alhazen {
 
 namespace {
 
 constexpr std::size_t kMaxLights = 1000;
-/// Share of full light that the lights have together.
-constexpr double kDirect = 5.0 / 6.0;
-/// BRL-CAD's ambient light of 0.4 comes from the eye; this is its mean over a visible sphere.
-constexpr double kAmbient = 0.4 * 0.5;
+/// Ambient light of `rt`, which comes from the eye.
+constexpr double kAmbient = 0.4;
+/// Share of full light that the brightest light has.
+constexpr double kBrightest = 1.0 / (1.0 + 0.5 * kAmbient);
 
 class LightFinder {
   public:
@@ -19,6 +23,7 @@ class LightFinder {
     struct Found {
         const BrlcadLight* light = nullptr;
         Vec3 position;
+        Vec3 aim;  ///< not normalised
         const Part* part = nullptr;
     };
 
@@ -29,7 +34,11 @@ class LightFinder {
             if (const BrlcadLight* light = light_of(part)) {
                 const Box3 box = bounds_.of(part);
                 if (!box.empty() && box.bounded()) {
-                    found.push_back({light, world_from_object.point(box.center()), &part});
+                    const Vec3 position = world_from_object.point(box.center());
+                    const Vec3 down =
+                        (world_from_object * object_from_first(part)).vector({0, 0, -1});
+                    found.push_back(
+                        {light, position, light->target ? *light->target - position : down, &part});
                 }
             } else if (const auto* child = std::get_if<ObjectIndex>(&part.what);
                        child != nullptr && holds(*child)) {
@@ -46,6 +55,18 @@ class LightFinder {
         const ObjectDescription& object = scene_.objects[static_cast<std::size_t>(*child)];
         if (object.combine == Combine::Group || object.parts.empty()) return nullptr;
         return light_of(object.parts[0]);
+    }
+
+    /// Of the first solid of a part.
+    Affine object_from_first(const Part& part) {
+        Affine transform = part.object_from_part;
+        const auto* child = std::get_if<ObjectIndex>(&part.what);
+        while (child != nullptr) {
+            const Part& first = scene_.objects[static_cast<std::size_t>(*child)].parts[0];
+            transform = transform * first.object_from_part;
+            child = std::get_if<ObjectIndex>(&first.what);
+        }
+        return transform;
     }
 
     bool holds(ObjectIndex index) {
@@ -67,11 +88,35 @@ class LightFinder {
     std::vector<std::optional<bool>> holds_;
 };
 
-Light make_light(const LightFinder::Found& found, double share) {
-    const Rgb color = share * found.light->color;
+/// Fractions of full light: those of the file, or by the intensity, the brightest kBrightest.
+class Fractions {
+  public:
+    explicit Fractions(const BrlcadMaterials& materials) {
+        for (const auto& [id, light] : materials.lights()) {
+            if (light.fraction <= 0.0) brightest_ = std::max(brightest_, light.intensity);
+        }
+    }
+    [[nodiscard]] double of(const BrlcadLight& light) const {
+        return light.fraction > 0.0 ? light.fraction : kBrightest * light.intensity / brightest_;
+    }
+
+  private:
+    double brightest_ = 1e-300;
+};
+
+Light make_light(const LightFinder::Found& found, double fraction) {
+    const Rgb color = fraction * found.light->color;
     if (found.light->infinite && length(found.position) > 0.0) {
         DirectionalLight light;
         light.to_light = normalize(found.position);
+        light.color = color;
+        return light;
+    }
+    if (found.light->angle_deg < 180.0 && length(found.aim) > 0.0) {
+        SpotLight light;
+        light.position = found.position;
+        light.direction = normalize(found.aim);
+        light.inner_angle = light.outer_angle = found.light->angle_deg * kRadiansPerDegree;
         light.color = color;
         return light;
     }
@@ -81,27 +126,50 @@ Light make_light(const LightFinder::Found& found, double share) {
     return light;
 }
 
+/// The light that `rt` adds to a model without any: white, beside the eye, without shadows.
+void add_implicit_light(SceneDescription& scene) {
+    if (scene.cameras.empty()) return;
+    const auto* camera = std::get_if<OrthographicCamera>(&scene.cameras[0].camera);
+    if (camera == nullptr) return;
+    const double size = length(camera->right);
+    PointLight light;
+    light.position =
+        camera->origin - 0.5 * camera->right - (0.5 * size) * normalize(camera->direction);
+    light.color = {kBrightest, kBrightest, kBrightest};
+    scene.lights.push_back({"implicit light", light, scene.cameras[0].location});
+    scene.conventions.shading.shadow_tint = ShadingConventions::ShadowTint::None;
+}
+
 }  // namespace
 
 void add_brlcad_lights(SceneDescription& scene, const BrlcadMaterials& materials,
                        BrlcadBounds& bounds, Diagnostics& diagnostics) {
-    if (!materials.has_lights()) return;
     std::vector<LightFinder::Found> found;
-    LightFinder(scene, materials, bounds).find(scene.root, Affine{}, found);
+    if (!materials.lights().empty()) {
+        LightFinder(scene, materials, bounds).find(scene.root, Affine{}, found);
+    }
     if (found.size() > kMaxLights) {
         diagnostics.error(found.back().part->location,
                           "more than " + std::to_string(kMaxLights) + " lights");
         return;
     }
-    double sum = 0.0;
-    for (const auto& one : found) sum += one.light->intensity;
+    const Fractions fractions(materials);
     for (const auto& one : found) {
-        const double share = sum > 0.0 ? kDirect * one.light->intensity / sum : 0.0;
-        scene.lights.push_back({one.part->name, make_light(one, share), one.part->location});
+        scene.lights.push_back(
+            {one.part->name, make_light(one, fractions.of(*one.light)), one.part->location});
     }
-    if (found.empty()) return;
+    for (const auto& [id, light] : materials.lights()) {
+        // Half of its brightness falls with the view, as the ambient light does.
+        Material& material = scene.materials[static_cast<std::size_t>(id)].material;
+        const Rgb brightness = fractions.of(light) * light.color;
+        if (!light.shown) continue;
+        material.emission.color = 0.5 * brightness;
+        material.ambient.color = (0.5 / kAmbient) * brightness;
+    }
+    if (found.empty()) add_implicit_light(scene);
+    if (scene.lights.empty()) return;
     const Rgb ambient{kAmbient, kAmbient, kAmbient};
-    scene.lights.push_back({"ambient", AmbientLight{ambient}, found.front().part->location});
+    scene.lights.push_back({"ambient", AmbientLight{ambient}, scene.lights.front().location});
 }
 
 }  // namespace alhazen

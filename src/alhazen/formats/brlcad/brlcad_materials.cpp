@@ -1,10 +1,7 @@
 #include "alhazen/formats/brlcad/brlcad_materials.h"
 
 #include <algorithm>
-#include <array>
-
-#include "alhazen/formats/brlcad/brlcad_tcl.h"
-#include "alhazen/formats/text/text_cursor.h"
+#include <utility>
 
 namespace alhazen {
 
@@ -13,60 +10,18 @@ namespace {
 /// Parameters of the shaders' Phong model with their defaults.
 struct Phong {
     double shine = 10, specular = 0.7, diffuse = 0.3;
-    double transmit = 0, reflect = 0, index = 1, emission = 0;
+    double transmit = 0, reflect = 0, index = 1;
+    Rgb emission;
 };
-
-/// A shader's name and its parameters in text order, parsed from "a=1 b=2" or {a 1 b 2}.
-struct ShaderText {
-    std::string name;
-    std::vector<std::pair<std::string, std::string>> parameters;
-
-    [[nodiscard]] std::optional<double> number(std::string_view long_name,
-                                               std::string_view short_name) const {
-        for (const auto& [key, value] : parameters) {
-            if (key != long_name && key != short_name) continue;
-            TextCursor cursor(value);
-            double number = 0.0;
-            if (cursor.number(number)) return number;
-        }
-        return std::nullopt;
-    }
-};
-
-ShaderText parse(const std::string& text) {
-    ShaderText shader;
-    // An '=' between words is optional.
-    std::vector<std::string> words;
-    TclTokens tokens(text);
-    for (TclToken token = tokens.next(); token.kind != TclTokenKind::End; token = tokens.next()) {
-        if (token.kind != TclTokenKind::Word) continue;
-        std::string_view word = token.word.text;
-        // Only the first shader of a stack is used.
-        if (words.empty() && (word == "stack" || word == "envmap")) {
-            if (word == "envmap") return {"envmap", {}};
-            continue;
-        }
-        const bool assigns = !words.empty();
-        const std::size_t equals = assigns ? word.find('=') : std::string_view::npos;
-        words.emplace_back(word.substr(0, equals));
-        if (equals != std::string_view::npos) words.emplace_back(word.substr(equals + 1));
-    }
-    if (words.empty()) return shader;
-    shader.name = words[0].substr(0, words[0].find(';'));
-    for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
-        shader.parameters.emplace_back(words[i], words[i + 1]);
-    }
-    return shader;
-}
 
 std::optional<Phong> preset(const std::string& name) {
     if (name.empty() || name == "plastic" || name == "default" || name == "phong") return Phong{};
-    if (name == "mirror") return Phong{4, 0.6, 0.4, 0, 0.75, 1.65, 0};
-    if (name == "glass") return Phong{4, 0.7, 0.3, 0.8, 0.1, 1.65, 0};
+    if (name == "mirror") return Phong{4, 0.6, 0.4, 0, 0.75, 1.65, {}};
+    if (name == "glass") return Phong{4, 0.7, 0.3, 0.8, 0.1, 1.65, {}};
     return std::nullopt;
 }
 
-void apply(const ShaderText& text, Phong& phong) {
+void apply(const BrlcadShader& text, Phong& phong) {
     const auto take = [&](double& value, const char* long_name, const char* short_name) {
         if (const auto given = text.number(long_name, short_name)) {
             value = std::clamp(*given, 0.0, 1e6);
@@ -78,7 +33,12 @@ void apply(const ShaderText& text, Phong& phong) {
     take(phong.transmit, "transmit", "tr");
     take(phong.reflect, "reflect", "re");
     take(phong.index, "ri", "refraction");
-    take(phong.emission, "emission", "em");
+    if (const auto given = text.three("emission", "em")) {
+        phong.emission = *given;
+    } else if (const auto grey_emission = text.number("emission", "em")) {
+        phong.emission = {*grey_emission, *grey_emission, *grey_emission};
+    }
+    for (int c = 0; c < 3; ++c) phong.emission[c] = std::clamp(phong.emission[c], 0.0, 1e6);
     phong.transmit = std::min(phong.transmit, 1.0);
     phong.reflect = std::min(phong.reflect, 1.0 - phong.transmit);
     if (!(phong.index > 0.0)) phong.index = 1.0;
@@ -103,59 +63,179 @@ BrlcadState BrlcadState::below(const BrlcadCombination& comb) const {
     return state;
 }
 
-Material BrlcadMaterials::make(const std::string& shader, const Rgb& color,
-                               const BrlcadPlace& place, std::optional<BrlcadLight>& light) {
-    const ShaderText text = parse(shader);
+namespace {
+
+constexpr std::string_view kPhongParameters[] = {
+    "shine", "sh",      "specular", "sp", "diffuse",    "di",       "transmit",
+    "tr",    "reflect", "re",       "ri", "refraction", "emission", "em"};
+constexpr std::string_view kLightParameters[] = {
+    "bright", "b",       "inten", "angle",    "a", "fract",   "f", "target",   "t",
+    "aim",    "shadows", "s",     "infinite", "i", "visible", "v", "invisible"};
+constexpr std::string_view kPatternParameters[] = {"a", "b", "s", "thresh", "range"};
+
+BrlcadLight light_of(const BrlcadShader& shader, const Rgb& color) {
+    BrlcadLight light;
+    light.color = color;
+    const auto intensity = shader.number("bright", "b");
+    light.intensity = intensity ? *intensity : shader.number("inten").value_or(1.0);
+    if (!(light.intensity > 0.0)) light.intensity = 1.0;
+    light.fraction = shader.number("fract", "f").value_or(-1.0);
+    light.angle_deg = std::clamp(shader.number("angle", "a").value_or(180.0), 0.0, 180.0);
+    light.infinite = shader.number("infinite", "i").value_or(0.0) != 0.0;
+    light.shown = shader.number("visible", "v").value_or(1.0) != 0.0 &&
+                  shader.number("invisible").value_or(0.0) == 0.0;
+    auto target = shader.three("target", "t");
+    if (!target) target = shader.three("aim");
+    if (target) light.target = Vec3{target->r, target->g, target->b};
+    return light;
+}
+
+/// The region's colour and what its patterns make of it.
+struct Base {
+    Rgb color;
+    TextureId texture = kNoTexture;
+
+    [[nodiscard]] ColorInput times(double factor) const { return {factor * color, texture}; }
+};
+
+Material phong_material(const Phong& phong, const Base& base) {
+    const double rest = 1.0 - phong.transmit - phong.reflect;
     Material material;
-    if (text.name == "light") {
-        light.emplace();
-        light->color = color;
-        light->intensity = std::max(0.0, text.number("fract", "f").value_or(1.0));
-        light->shown = text.number("visible", "v").value_or(1.0) != 0.0 &&
-                       text.number("invisible", "").value_or(0.0) == 0.0;
-        light->infinite = text.number("infinite", "").value_or(0.0) != 0.0;
-        // Transparent to its own light, whose source is inside.
-        if (light->shown) material.emission.color = color;
-        material.transmissive.color = {1, 1, 1};
-        return material;
-    }
-    std::optional<Phong> phong = preset(text.name);
-    if (!phong) {
-        if (told_.insert(text.name).second) {
-            diagnostics_.warning(database_.at(place), "the shader '" + text.name.substr(0, 40) +
-                                                          "' is not supported; shown as plastic");
-        }
-        phong = Phong{};
-    }
-    apply(text, *phong);
-    const double rest = 1.0 - phong->transmit - phong->reflect;
-    material.ambient.color = rest * color;
-    material.diffuse.color = rest * phong->diffuse * color;
-    material.specular.color = grey(rest * phong->specular);
-    material.shininess.value = phong->shine;
-    material.reflective.color = grey(phong->reflect);
-    material.transmissive.color = phong->transmit * color;
-    material.index.value = phong->index;
-    material.emission.color = phong->emission * color;
+    material.ambient = base.times(rest);
+    material.diffuse = base.times(rest * phong.diffuse);
+    material.specular.color = grey(rest * phong.specular);
+    material.shininess.value = phong.shine;
+    material.reflective.color = grey(phong.reflect);
+    material.transmissive = base.times(phong.transmit);
+    material.index.value = phong.index;
+    material.emission.color = rest * phong.emission;
     return material;
 }
 
-MaterialId BrlcadMaterials::of(const BrlcadState& state, int region_id, const BrlcadPlace& place) {
-    Rgb color = state.color.value_or(Rgb{1, 1, 1});
+}  // namespace
+
+void BrlcadMaterials::tell_once(const std::string& message, const BrlcadPlace& place) {
+    if (told_.insert(message).second) diagnostics_.warning(database_.at(place), message);
+}
+
+void BrlcadMaterials::tell_unknown(const BrlcadShader& shader,
+                                   std::span<const std::string_view> known,
+                                   const BrlcadPlace& place) {
+    for (const auto& [name, values] : shader.parameters) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        tell_once("the option '" + name.substr(0, 40) + "' of the shader '" +
+                      shader.name.substr(0, 40) + "' is not read",
+                  place);
+    }
+}
+
+TextureId BrlcadMaterials::texture_of(BrlcadPattern pattern, const Vec2& unit,
+                                      const BrlcadPlace& place) {
+    Texture texture;
+    texture.filter = pattern.smooth ? TextureFilter::Bilinear : TextureFilter::Nearest;
+    texture.image = std::make_shared<const StoredImage>(stored(std::move(pattern.image)));
+    texture.uv_transform.uu = pattern.repeats / unit.x;
+    texture.uv_transform.vv = pattern.repeats / unit.y;
+    scene_.textures.push_back({"pattern " + std::to_string(scene_.textures.size() + 1),
+                               std::move(texture), database_.at(place)});
+    return static_cast<TextureId>(scene_.textures.size() - 1);
+}
+
+Material BrlcadMaterials::make(const std::vector<BrlcadShader>& shaders, const Rgb& color,
+                               const Vec2& unit, const BrlcadPlace& place,
+                               std::optional<BrlcadLight>& light) {
+    Base base{color};
+    std::optional<Phong> phong;
+    for (const BrlcadShader& shader : shaders) {
+        if (shader.name == "stack" || shader.name == "envmap") continue;
+        if (shader.name == "light") {
+            tell_unknown(shader, kLightParameters, place);
+            if (shader.number("shadows", "s").value_or(1.0) == 0.0) {
+                tell_once("a light without shadows casts them here", place);
+            }
+            if (shader.number("shadows", "s").value_or(1.0) > 1.0) {
+                tell_once("the soft shadows of a light are hard: it shines from its middle", place);
+            }
+            light = light_of(shader, color);
+            // Transparent to its own light, whose source is inside. add_brlcad_lights says how
+            // bright it is.
+            Material material;
+            material.transmissive.color = {1, 1, 1};
+            return material;
+        }
+        if (auto pattern = brlcad_pattern(shader)) {
+            tell_unknown(shader, kPatternParameters, place);
+            base = {{1, 1, 1}, texture_of(*std::move(pattern), unit, place)};
+            continue;
+        }
+        phong = preset(shader.name);
+        if (!phong) {
+            tell_once(
+                "the shader '" + shader.name.substr(0, 40) + "' is not supported; shown as plastic",
+                place);
+            phong = Phong{};
+        } else {
+            tell_unknown(shader, kPhongParameters, place);
+        }
+        apply(shader, *phong);
+    }
+    if (phong || base.texture == kNoTexture) return phong_material(phong.value_or(Phong{}), base);
+    // A pattern by itself shows its colours whatever the light.
+    Material material;
+    material.emission = base.times(1.0);
+    return material;
+}
+
+Rgb BrlcadMaterials::color_of(const BrlcadState& state, int region_id) const {
+    if (state.color) return *state.color;
     for (const BrlcadRegionColor& entry : database_.region_colors) {
         if (region_id != 0 && entry.first <= region_id && region_id <= entry.last) {
-            color = entry.color;
-            break;
+            return entry.color;
         }
     }
+    return {1, 1, 1};
+}
+
+bool BrlcadMaterials::takes_environment(const BrlcadState& state, int region_id,
+                                        const BrlcadPlace& place) {
+    const std::vector<BrlcadShader> shaders = read_brlcad_shaders(state.shader);
+    if (shaders.empty() || shaders[0].name != "envmap") return false;
+    if (std::exchange(has_environment_, true)) {
+        tell_once("a second envmap is left out", place);
+        return true;
+    }
+    Rgb background = color_of(state, region_id);
+    for (std::size_t i = 1; i < shaders.size(); ++i) {
+        if (const auto pattern = brlcad_pattern(shaders[i])) {
+            background = pattern->mean;
+            tell_once("the environment is shown in the mean colour of '" + shaders[i].name + "'",
+                      place);
+        } else if (shaders[i].name != "stack" && !preset(shaders[i].name)) {
+            tell_once("the environment '" + shaders[i].name.substr(0, 40) +
+                          "' is not supported; shown in the region's colour",
+                      place);
+        }
+    }
+    scene_.picture.background = background;
+    return true;
+}
+
+MaterialId BrlcadMaterials::of(const BrlcadState& state, int region_id, const Vec2& unit,
+                               const BrlcadPlace& place) {
+    const Rgb color = color_of(state, region_id);
+    const std::vector<BrlcadShader> shaders = read_brlcad_shaders(state.shader);
+    const bool patterned = std::any_of(shaders.begin(), shaders.end(), [](const BrlcadShader& one) {
+        return brlcad_pattern(one).has_value();
+    });
+    const Vec2 repeats = patterned ? unit : Vec2{1, 1};
     const auto [known, fresh] = known_.try_emplace(
-        std::make_tuple(color.r, color.g, color.b, state.shader), MaterialId(known_.size()));
+        std::make_tuple(color.r, color.g, color.b, state.shader, repeats.x, repeats.y),
+        MaterialId(known_.size()));
     if (!fresh) return known->second;
     std::optional<BrlcadLight> light;
-    Material material = make(state.shader, color, place, light);
-    const TclToken first = TclTokens(state.shader).next();
-    material.name = (state.shader.empty() ? "plastic" : tcl_value(first.word)) + " " +
-                    std::to_string(known_.size());
+    Material material = make(shaders, color, repeats, place, light);
+    material.name = (shaders.empty() ? std::string("plastic") : shaders[0].name.substr(0, 40)) +
+                    " " + std::to_string(known_.size());
     if (light) lights_.emplace(known->second, *light);
     scene_.materials.push_back({std::move(material), database_.at(place)});
     return known->second;

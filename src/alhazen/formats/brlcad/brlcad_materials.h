@@ -1,20 +1,24 @@
 #pragma once
 /// Materials from BRL-CAD's shaders, and the state that regions inherit from combinations.
 ///
-/// Source: BRL-CAD, manual pages of `rt` and of its shaders (plastic, mirror, glass, light) for
-/// names and values of their parameters.
-/// Differs: pattern shaders (cloud, checker, textures, bumps) become plain plastic, with a warning.
-/// The solid of a light does not block its own light.
+/// Source: BRL-CAD, manual pages of `rt` and of its shaders for names and values of their
+/// parameters.
+/// Differs: patterns (checker, testmap, cloud) lie in the texture coordinates of our shapes; an
+/// environment is one colour; textures and bumps become plain plastic, with a warning. The solid of
+/// a light does not block its own light.
 /// Conventions: colours 0..1, linear as in BRL-CAD's images.
 
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "alhazen/formats/brlcad/brlcad_database.h"
+#include "alhazen/formats/brlcad/brlcad_patterns.h"
 #include "alhazen/scene_model/scene_description.h"
 
 namespace alhazen {
@@ -37,6 +41,9 @@ struct BrlcadState {
 struct BrlcadLight {
     Rgb color;
     double intensity = 1;
+    double fraction = -1;        ///< of full light; <= 0: by the intensity
+    double angle_deg = 180;      ///< half that of its beam
+    std::optional<Vec3> target;  ///< a point in the beam's axis; none: -z of the light's solid
     bool shown = true;
     bool infinite = false;  ///< directional, at infinity
 };
@@ -47,25 +54,35 @@ class BrlcadMaterials {
                     Diagnostics& diagnostics)
         : database_(database), scene_(scene), diagnostics_(diagnostics) {}
 
-    /// The material of a region in that state. The colour table of the database may override its
-    /// colour by `region_id`; 0 outside regions.
-    MaterialId of(const BrlcadState& state, int region_id, const BrlcadPlace& place);
+    /// The material of a region in that state. A region without a colour has that of the colour
+    /// table for its `region_id`; 0 outside regions. `unit`: length of a pattern in the texture
+    /// coordinates of the region's shapes.
+    MaterialId of(const BrlcadState& state, int region_id, const Vec2& unit,
+                  const BrlcadPlace& place);
+    /// True for a region with the shader envmap: it is no solid, and the first is the background.
+    bool takes_environment(const BrlcadState& state, int region_id, const BrlcadPlace& place);
     [[nodiscard]] const BrlcadLight* light(MaterialId material) const {
         const auto found = lights_.find(material);
         return found == lights_.end() ? nullptr : &found->second;
     }
-    [[nodiscard]] bool has_lights() const { return !lights_.empty(); }
+    [[nodiscard]] const std::map<MaterialId, BrlcadLight>& lights() const { return lights_; }
 
   private:
-    Material make(const std::string& shader, const Rgb& color, const BrlcadPlace& place,
-                  std::optional<BrlcadLight>& light);
+    Material make(const std::vector<BrlcadShader>& shaders, const Rgb& color, const Vec2& unit,
+                  const BrlcadPlace& place, std::optional<BrlcadLight>& light);
+    TextureId texture_of(BrlcadPattern pattern, const Vec2& unit, const BrlcadPlace& place);
+    [[nodiscard]] Rgb color_of(const BrlcadState& state, int region_id) const;
+    void tell_once(const std::string& message, const BrlcadPlace& place);
+    void tell_unknown(const BrlcadShader& shader, std::span<const std::string_view> known,
+                      const BrlcadPlace& place);
 
     const BrlcadDatabase& database_;
     SceneDescription& scene_;
     Diagnostics& diagnostics_;
-    std::map<std::tuple<double, double, double, std::string>, MaterialId> known_;
+    std::map<std::tuple<double, double, double, std::string, double, double>, MaterialId> known_;
     std::map<MaterialId, BrlcadLight> lights_;
-    std::set<std::string> told_;  ///< shaders already warned about
+    std::set<std::string> told_;  ///< warnings
+    bool has_environment_ = false;
 };
 
 }  // namespace alhazen

@@ -159,4 +159,35 @@ BrlcadPieces brlcad_pieces(const BrlcadSolid& solid) {
     return std::move(maker.made);
 }
 
+Vec2 brlcad_pattern_unit(const BrlcadSolid& solid) {
+    constexpr double kHalfSpaceUnit = 5000.0;
+    if (std::holds_alternative<BrlcadHalfSpace>(solid.form)) {
+        return {kHalfSpaceUnit, kHalfSpaceUnit};
+    }
+    const auto* arb = std::get_if<BrlcadArb8>(&solid.form);
+    Vec2 unit{1, 1};
+    if (arb == nullptr) return unit;
+    constexpr int kFaces[6][4] = {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                  {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+    double largest = 0.0;
+    for (const auto& face : kFaces) {
+        const auto corner = [&](int i) { return arb->corners[static_cast<std::size_t>(face[i])]; };
+        const Vec3 area = cross(corner(2) - corner(0), corner(3) - corner(1));
+        if (!(length(area) > largest) || !std::isfinite(length(area))) continue;
+        largest = length(area);
+        const Vec3 normal = area / largest;
+        const Vec3 u = perpendicular(normal), v = cross(normal, u);
+        const auto extent = [&](const Vec3& axis) {
+            double lo = dot(corner(0), axis), hi = lo;
+            for (int i = 1; i < 4; ++i) {
+                lo = std::fmin(lo, dot(corner(i), axis));
+                hi = std::fmax(hi, dot(corner(i), axis));
+            }
+            return hi - lo;
+        };
+        unit = {extent(u), extent(v)};
+    }
+    return unit.x > 0.0 && unit.y > 0.0 ? unit : Vec2{1, 1};
+}
+
 }  // namespace alhazen

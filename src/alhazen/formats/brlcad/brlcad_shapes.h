@@ -28,4 +28,8 @@ struct BrlcadPieces {
 
 [[nodiscard]] BrlcadPieces brlcad_pieces(const BrlcadSolid& solid);
 
+/// Length of one pattern, from 0 to 1 in BRL-CAD's texture coordinates, in those of the solid's
+/// shape: the largest face of an arb8, 5 m of a half space, else 1.
+[[nodiscard]] Vec2 brlcad_pattern_unit(const BrlcadSolid& solid);
+
 }  // namespace alhazen

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "alhazen/formats/brlcad/brlcad_database.h"
 #include "alhazen/formats/text/text_cursor.h"
 #include "alhazen/math/constants.h"
 
@@ -246,6 +247,21 @@ class ViewReader {
 std::vector<CameraDescription> read_brlcad_views(std::string_view text, const std::string& file,
                                                  const Box3& box, Diagnostics& diagnostics) {
     return ViewReader(text, file, box, diagnostics).read();
+}
+
+std::optional<Rgb> brlcad_view_background(std::string_view text) {
+    const std::string_view command = text.substr(0, text.find("<<"));
+    if (command.size() == text.size()) return std::nullopt;
+    const std::size_t at = command.find(" -C");
+    if (at == std::string_view::npos) return std::nullopt;
+    std::string values(command.substr(at + 3, 100));
+    for (char& c : values) c = c == '/' || c == ',' || c == '"' || c == '\'' || c == '\\' ? ' ' : c;
+    TextCursor cursor(values);
+    std::array<double, 3> c{};
+    for (double& value : c) {
+        if (!cursor.skip_to_word() || !cursor.number(value)) return std::nullopt;
+    }
+    return brlcad_color(c[0], c[1], c[2]);
 }
 
 }  // namespace alhazen

@@ -39,4 +39,7 @@ struct BrlcadFrame {
                                                                const Box3& box,
                                                                Diagnostics& diagnostics);
 
+/// The background that the shell command of a saved view gives `rt` (-C red/green/blue).
+[[nodiscard]] std::optional<Rgb> brlcad_view_background(std::string_view text);
+
 }  // namespace alhazen

@@ -13,7 +13,8 @@ template <class Enum>
 template <>
 inline const Vocabulary<ShadingConventions::Highlight>& native_words() {
     using E = ShadingConventions::Highlight;
-    static const Vocabulary<E> kWords{{"phong", E::Phong}, {"blinn_phong", E::BlinnPhong}};
+    static const Vocabulary<E> kWords{
+        {"phong", E::Phong}, {"blinn_phong", E::BlinnPhong}, {"schlick", E::Schlick}};
     return kWords;
 }
 template <>

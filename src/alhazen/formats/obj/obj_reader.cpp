@@ -13,7 +13,7 @@ namespace alhazen {
 
 namespace {
 
-constexpr int kMaxErrors = 50;
+constexpr int kMaxFileErrors = 50;
 
 /// The runs of a part.
 struct RunsOfPart {
@@ -190,7 +190,7 @@ class PartMaker {
     }
 
     void error(std::uint32_t line, const std::string& message) {
-        if (++errors_ > kMaxErrors) return;
+        if (++errors_ > kMaxFileErrors) return;
         diagnostics_.error({file_, int(std::min<std::uint32_t>(line, INT_MAX)), 0}, message);
     }
 

@@ -218,10 +218,22 @@ Rgb unshadowed_terms(const ShadingConventions& conventions, std::span<const Rgb>
     if (conventions.ambient_inside_times_kt && point.inside) {
         ambient_factor = ambient_factor * point.medium;
     }
+    if (conventions.ambient_from_eye) {
+        ambient_factor = std::fmax(0.0, dot(point.normal, point.view)) * ambient_factor;
+    }
     Rgb sum = m.emission;
     for (const Rgb& term : ambient) sum += ambient_factor * term;
     return sum;
 }
+
+namespace {
+
+double schlick_highlight(double cosine, double shininess) {
+    const double c = std::fmin(cosine, 1.0);
+    return c / (shininess - shininess * c + c);
+}
+
+}  // namespace
 
 Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
                        const Vec3& to_light, double cosine) {
@@ -238,7 +250,10 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
     // Only the lit side: 0^0 would light every point of a material without shininess from behind.
     if (highlight_cosine > 0.0) {
         const double falloff = m.physical ? cosine : 1.0;
-        fraction += (falloff * std::pow(highlight_cosine, m.shininess)) * m.specular;
+        const bool schlick = conventions.highlight == ShadingConventions::Highlight::Schlick;
+        const double highlight = schlick ? schlick_highlight(highlight_cosine, m.shininess)
+                                         : std::pow(highlight_cosine, m.shininess);
+        fraction += (falloff * highlight) * m.specular;
     }
     return fraction;
 }

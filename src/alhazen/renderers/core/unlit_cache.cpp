@@ -22,7 +22,15 @@ std::optional<Rgb> unlit_color_of(const Scene& scene, const Material& material,
     if (!whole || sample.physical || is_unseen_from_behind(sample) || (lit && !dull)) {
         return std::nullopt;
     }
-    return unshadowed_terms(scene.conventions.shading, ambient, point);
+    ShadingConventions conventions = scene.conventions.shading;
+    if (conventions.ambient_from_eye) {
+        const auto shines = [](const Rgb& light) { return !light.is_black(); };
+        const bool ambient_seen =
+            !sample.ambient.is_black() && std::any_of(ambient.begin(), ambient.end(), shines);
+        if (ambient_seen) return std::nullopt;
+        conventions.ambient_from_eye = false;
+    }
+    return unshadowed_terms(conventions, ambient, point);
 }
 
 }  // namespace

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "alhazen/formats/brlcad/brlcad_importer.h"
+#include "alhazen/formats/brlcad/brlcad_shader.h"
 #include "alhazen/formats/brlcad/brlcad_view.h"
+#include "alhazen/math/constants.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/shading/materials/material.h"
 #include "alhazen/solids/spans.h"
 #include "unit/formats/import_text.h"
 
@@ -49,6 +54,7 @@ class Model {
     }
     [[nodiscard]] const Diagnostics& found() const { return found_; }
     [[nodiscard]] const SceneDescription& description() const { return description_; }
+    [[nodiscard]] const Scene& scene() const { return scene_; }
 
   private:
     Diagnostics found_;
@@ -176,6 +182,18 @@ TEST(BrlcadScene, ColoursComeFromAboveWhereTheyAreFixedAndFromTheTableOfRegions)
     EXPECT_EQ(model.color({-9, 0, 9}, {0, 0, -1}), (Rgb{1, 1, 0}));
 }
 
+TEST(BrlcadScene, TheTableOfColoursIsForRegionsWithoutAColourOfTheirOwn) {
+    const std::string table = "color 1 9 255 255 0\n";
+    const Model own(kBall + "put a comb region yes region_id 7 rgb {0 0 255} tree {l ball}\n" +
+                    table);
+    EXPECT_EQ(own.color({9, 0, 0}, {-1, 0, 0}), (Rgb{0, 0, 1}));
+    const Model above(kBall + "put a comb region yes region_id 7 tree {l ball}\n" +
+                      "put b comb rgb {0 255 0} tree {l a}\n" + table);
+    EXPECT_EQ(above.color({9, 0, 0}, {-1, 0, 0}), (Rgb{0, 1, 0}));
+    const Model none(kBall + "put a comb region yes region_id 10 tree {l ball}\n" + table);
+    EXPECT_EQ(none.color({9, 0, 0}, {-1, 0, 0}), (Rgb{1, 1, 1}));
+}
+
 TEST(BrlcadScene, MatricesFollowEachOtherFromTheInsideOut) {
     const Model model(kBall + "put a comb tree {l ball {1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 4}}\n" +
                       "put b comb region yes tree {l a {0 -1 0 0 1 0 0 10 0 0 1 0 0 0 0 1}}\n" +
@@ -237,13 +255,13 @@ TEST(BrlcadScene, OnePartThatCannotBeReadLeavesTheOthers) {
         EXPECT_EQ(model.at({0, 0, 0}), 1u) << text;
         EXPECT_EQ(model.at({9, 0, 0}), 0u) << text;
         EXPECT_GE(model.found().warning_count(), 1u) << text;
-        EXPECT_TRUE(mentions(model.found(), "a.asc:2:")) << text_of(model.found());
+        EXPECT_TRUE(mentions(model.found(), "'a'")) << text_of(model.found());
     }
     const Model group(kBall + b +
                       "put a comb tree {u {l b} {l b {1 0 0 9 0 1 0 0 0 0 1 0 1 0 0 1}}}\n");
     EXPECT_EQ(group.at({0, 0, 0}), 1u);
     EXPECT_EQ(text_of(group.found()),
-              "a.asc:3:26: warning: the matrix of member 'b' of 'a' is not an affine transform; "
+              "a.asc:3:27: warning: the matrix of member 'b' of 'a' is not an affine transform; "
               "the member is left out\n");
     // Where nothing is left all is told as errors.
     Diagnostics found;
@@ -308,6 +326,125 @@ TEST(BrlcadScene, LightsShineFromTheMiddleOfTheirRegions) {
     EXPECT_EQ(light.color.b, 0.0);
 }
 
+std::string light(const std::string& options, const std::string& name = "l") {
+    return "put " + name + " comb region yes rgb {255 255 255} shader {light {" + options +
+           "}} tree {l ball" + moved(3) + "}\n";
+}
+
+TEST(BrlcadScene, LightsHaveTheirFractionAndOthersGoByTheirIntensity) {
+    const Model model(kBall + light("inten 50", "a") + light("b 100", "b") + light("f .25", "c"));
+    const auto& lights = model.description().lights;
+    ASSERT_EQ(lights.size(), 4u);
+    const auto strength = [&](std::size_t i) {
+        return std::get<PointLight>(lights[i].light).color.r;
+    };
+    EXPECT_NEAR(strength(0), 2.5 / 6, 1e-12);
+    EXPECT_NEAR(strength(1), 5.0 / 6, 1e-12);
+    EXPECT_NEAR(strength(2), 0.25, 1e-12);
+    EXPECT_EQ(std::get<AmbientLight>(lights[3].light).ambient, (Rgb{0.4, 0.4, 0.4}));
+    EXPECT_TRUE(model.description().conventions.shading.ambient_from_eye);
+    EXPECT_EQ(text_of(model.found()), "");
+}
+
+TEST(BrlcadScene, ALightWithAnAngleShinesIntoACone) {
+    const Model down(kBall + light("angle 30"));
+    const auto& spot = std::get<SpotLight>(down.description().lights.at(0).light);
+    EXPECT_NEAR(spot.outer_angle, kPi / 6, 1e-12);
+    EXPECT_EQ(spot.direction, (Vec3{0, 0, -1}));
+    const Model aimed(kBall + light("a 30 target {3 0 9}"));
+    const auto& up = std::get<SpotLight>(aimed.description().lights.at(0).light);
+    EXPECT_NEAR(length(up.direction - Vec3{0, 0, 1}), 0.0, 1e-12);
+}
+
+TEST(BrlcadScene, OptionsOfAShaderThatAreNotReadAreTold) {
+    const Model model(kBall + light("pt {1 2 3} s 9") + light("sh 2 s 0", "m"));
+    const auto has = [&](const char* part) {
+        EXPECT_TRUE(mentions(model.found(), part)) << part << text_of(model.found());
+    };
+    has("a.asc:2:1: warning: the option 'pt' of the shader 'light' is not read");
+    has("a.asc:3:1: warning: the option 'sh' of the shader 'light' is not read");
+    has("the soft shadows of a light are hard");
+    has("a light without shadows casts them here");
+}
+
+TEST(BrlcadScene, ShadersOfAStackAreReadInBothForms) {
+    for (const char* text : {"stack checker a=255,0,0 b=0/0/9 s=4;plastic sh=4",
+                             "stack {{checker {a {255 0 0} b {0 0 9} s 4}} {plastic {sh 4}}}",
+                             "stack;checker a 255 0 0 b 0 0 9 s 4; plastic {sh 4}"}) {
+        const auto shaders = read_brlcad_shaders(text);
+        ASSERT_EQ(shaders.size(), 3u) << text;
+        EXPECT_EQ(shaders[1].name, "checker");
+        EXPECT_EQ(shaders[1].three("a"), (Rgb{255, 0, 0})) << text;
+        EXPECT_EQ(shaders[1].three("b"), (Rgb{0, 0, 9})) << text;
+        EXPECT_EQ(shaders[1].number("s"), 4.0) << text;
+        EXPECT_EQ(shaders[2].name, "plastic");
+        EXPECT_EQ(shaders[2].number("shine", "sh"), 4.0) << text;
+    }
+    EXPECT_TRUE(read_brlcad_shaders("").empty());
+}
+
+/// The ambient or else emitted colour, white, of the first surface on a ray.
+Rgb pattern_at(const Model& model, const Vec3& origin, const Vec3& direction) {
+    const Scene& scene = model.scene();
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    Hit hit;
+    if (!scene.aggregate->closest(ray, hit, nullptr)) return {};
+    const Surface surface = surface_at(*scene.aggregate, ray, hit);
+    const MaterialSample sample =
+        evaluate(scene.materials[static_cast<std::size_t>(surface.materials[0])], scene.textures,
+                 {{surface.uv, surface.uv2}, {}, {1, 1, 1, 1}});
+    return sample.emission.is_black() ? sample.ambient : sample.emission;
+}
+
+TEST(BrlcadScene, ACheckerHasItsColoursOnTheFacesOfABox) {
+    const std::string box =
+        "put box arb8 V1 {0 0 0} V2 {8 0 0} V3 {8 8 0} V4 {0 8 0} V5 {0 0 8} V6 {8 0 8} V7 {8 8 8} "
+        "V8 {0 8 8}\n";
+    for (const char* shader : {"checker {a {255 0 0} b {0 255 0} s 4}",
+                               "stack {{checker {a {255 0 0} b {0 255 0} s 4}} {plastic {}}}"}) {
+        const Model model(box + "put r comb region yes shader {" + shader + "} tree {l box}\n");
+        EXPECT_EQ(text_of(model.found()), "");
+        std::array<int, 2> seen{};
+        for (int i = 0; i < 4; ++i) {
+            for (int j = 0; j < 4; ++j) {
+                const auto at = [&](int x, int y) {
+                    return pattern_at(model, {2.0 * x + 1, 2.0 * y + 1, 20}, {0, 0, -1});
+                };
+                const Rgb c = at(i, j);
+                EXPECT_TRUE(c == (Rgb{1, 0, 0}) || c == (Rgb{0, 1, 0})) << i << j << ' ' << c.r;
+                ++seen[c.r > 0.0 ? 0 : 1];
+                if (i > 0) {
+                    EXPECT_NE(c, at(i - 1, j));
+                }
+                if (j > 0) {
+                    EXPECT_NE(c, at(i, j - 1));
+                }
+            }
+        }
+        EXPECT_EQ(seen[0], 8);
+    }
+}
+
+TEST(BrlcadScene, AnEnvironmentIsTheBackgroundAndNoSolid) {
+    const Model model(kBall + "put sky comb region yes shader {envmap cloud} tree {l ball}\n" +
+                      "put r comb region yes tree {l ball" + moved(9) + "}\n");
+    EXPECT_EQ(model.at({0, 0, 0}), 0u);
+    EXPECT_EQ(model.at({9, 0, 0}), 1u);
+    const Rgb sky = model.description().picture.background.value_or(Rgb{});
+    EXPECT_GT(sky.b, sky.r);
+    EXPECT_GT(sky.r, 0.3);
+    EXPECT_TRUE(mentions(model.found(), "mean colour of 'cloud'"));
+}
+
+TEST(BrlcadScene, AModelWithoutLightsHasOneBesideTheEye) {
+    const Model model(kRegions);
+    ASSERT_EQ(model.description().lights.size(), 2u);
+    EXPECT_EQ(model.description().conventions.shading.shadow_tint,
+              ShadingConventions::ShadowTint::None);
+}
+
 TEST(BrlcadView, TheDefaultIsFrom35And25AsWideAsTheDiagonal) {
     const auto cameras = brlcad_cameras({{-1.5, -1, -0.5}, {2.5, 3, 1}}, {});
     ASSERT_EQ(cameras.size(), 8u);
@@ -345,6 +482,14 @@ TEST(BrlcadView, OrientationAndRotationSayTheSame) {
     EXPECT_EQ(first.origin, (Vec3{1, 2, 3}));
     const auto& third = std::get<PerspectiveCamera>(views[2].camera);
     EXPECT_NEAR(length(third.look - Vec3{0, 0, -1}), 0, 1e-12);
+}
+
+TEST(BrlcadView, ASavedViewHasTheBackgroundOfItsCommand) {
+    EXPECT_EQ(brlcad_view_background("#!/bin/sh\nrt -M -o a.pix -C0/0/51\\\n a.g <<EOF\nae 1 2;\n"),
+              (Rgb{0, 0, 0.2}));
+    EXPECT_EQ(brlcad_view_background("rt -C \"255 0 0\" a.g <<EOF\n"), (Rgb{1, 0, 0}));
+    EXPECT_FALSE(brlcad_view_background("ae 35 25; -C0/0/50;").has_value());
+    EXPECT_FALSE(brlcad_view_background("rt a.g <<EOF\nend;\nEOF\n").has_value());
 }
 
 TEST(BrlcadView, FaultsOfAScriptAreToldWithTheirLine) {

@@ -54,13 +54,14 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
         SceneDescription scene = empty_scene("room");
         Conventions& c = scene.conventions;
         const bool even = i % 2 == 0;
-        c.shading.highlight = even ? C::Highlight::Phong : C::Highlight::BlinnPhong;
+        c.shading.highlight = C::Highlight(i % 3);
         c.shading.shadow_tint = C::ShadowTint(i);
         c.shading.refraction_tint =
             even ? C::RefractionTint::PerDistance : C::RefractionTint::PerEvent;
         c.shading.ambient_factor = even ? C::AmbientFactor::Diffuse : C::AmbientFactor::Ambient;
         c.sampling.pixel_sample = SamplingConventions::PixelSample(i % 3);
         c.shading.ambient_inside_times_kt = even;
+        c.shading.ambient_from_eye = even;
         c.shading.clamp_attenuation = even;
         c.importing.truncate_material_colors = even;
         c.shading.transmitting_surfaces_reflect = even;

@@ -46,6 +46,7 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
                      c.shading.refraction_tint);
     reader.read_word("ambient_factor", native_words<S::AmbientFactor>(), c.shading.ambient_factor);
     reader.read("ambient_inside_times_kt", c.shading.ambient_inside_times_kt);
+    reader.read("ambient_from_eye", c.shading.ambient_from_eye);
     reader.read("clamp_attenuation", c.shading.clamp_attenuation);
     reader.read("truncate_material_colors", c.importing.truncate_material_colors);
     reader.read("transmitting_surfaces_reflect", c.shading.transmitting_surfaces_reflect);

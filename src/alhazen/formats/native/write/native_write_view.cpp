@@ -109,6 +109,8 @@ void write_native_conventions(NativeWriteContext& context) {
     add_word("ambient_factor", c.shading.ambient_factor, usual.shading.ambient_factor);
     block.add_unless("ambient_inside_times_kt", c.shading.ambient_inside_times_kt,
                      usual.shading.ambient_inside_times_kt);
+    block.add_unless("ambient_from_eye", c.shading.ambient_from_eye,
+                     usual.shading.ambient_from_eye);
     block.add_unless("clamp_attenuation", c.shading.clamp_attenuation,
                      usual.shading.clamp_attenuation);
     block.add_unless("truncate_material_colors", c.importing.truncate_material_colors,
