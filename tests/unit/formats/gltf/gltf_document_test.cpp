@@ -89,6 +89,27 @@ TEST(GltfExtensions, OnesThatAreOnlyUsedAreWarnings) {
     EXPECT_TRUE(read.says("the extension A_a is not supported; ignored"));
 }
 
+TEST(GltfExtensions, OfTheLookAreWarningsEvenWhereTheyAreRequired) {
+    const auto read = read_gltf(
+        gltf_with(json("'extensionsUsed': ['KHR_materials_iridescence'], 'extensionsRequired': "
+                       "['KHR_materials_iridescence']")));
+    EXPECT_TRUE(read.is_good()) << read.findings();
+    EXPECT_EQ(read.diagnostics.warning_count(), 1u) << read.findings();
+    EXPECT_TRUE(read.says("KHR_materials_iridescence is not supported; it is left out of the"));
+}
+
+TEST(GltfDocument, UnknownValuesThatLeaveThePictureAreWarnings) {
+    for (const char* members :
+         {"'cameras': [{'type': 'perspective', 'perspective': {'yfov': 4, 'znear': 1}}]",
+          "'cameras': [{'type': 'fisheye'}]",
+          "'cameras': [{'type': 'orthographic', 'orthographic': {'xmag': 0, 'ymag': 1, 'znear': 0, "
+          "'zfar': 1}}]"}) {
+        const auto read = read_gltf(gltf_with(json(members)));
+        EXPECT_TRUE(read.is_good()) << read.findings();
+        EXPECT_EQ(read.diagnostics.warning_count(), 1u) << read.findings();
+    }
+}
+
 struct Refusal {
     const char* name;
     const char* text;     ///< members beside the asset; a whole file if it begins with {
@@ -128,6 +149,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "#/asset/minVersion"},
         Refusal{"EmptyArray", "'nodes': []", "#/nodes: the array must not be empty"},
         Refusal{"WrongElement", "'nodes': [{}, 1]", "#/nodes/1: expected an object, found number"},
+        Refusal{"MisplacedExtension",
+                "'extensionsUsed': ['KHR_materials_unlit'], 'nodes': [{'extensions': "
+                "{'KHR_materials_unlit': {}}}]",
+                "#/nodes/0/extensions/KHR_materials_unlit: the extension does not belong"},
         Refusal{"UndeclaredExtension", "'extensions': {'A_a': {}}",
                 "#/extensions/A_a: the extension is not listed"}),
     [](const auto& test) { return std::string(test.param.name); });
@@ -274,6 +299,7 @@ TEST(GltfDocument, NormalsMustBeUnitButMayBeMissing) {
                            "'NORMAL': 0}}]}]")));
     };
     EXPECT_TRUE(file(1.005).is_good());
+    EXPECT_TRUE(file(1.02).is_good());
     EXPECT_TRUE(file(1.02).says("NORMAL: 1 vectors are not of unit length"));
     EXPECT_TRUE(file(0).is_good());
     EXPECT_TRUE(file(0).says("warning: #/meshes/0/primitives/0/attributes/NORMAL: 1 vectors have"));

@@ -149,7 +149,7 @@ class DataChecker {
             loading_.warning(place, std::to_string(zeros) + " vectors have length 0");
         }
         if (others != 0) {
-            loading_.error(place, std::to_string(others) + " vectors are not of unit length");
+            loading_.warning(place, std::to_string(others) + " vectors are not of unit length");
         }
         if (signs != 0) {
             loading_.error(place, std::to_string(signs) + " tangents have a w that is not 1 or -1");

@@ -130,8 +130,10 @@ void read_asset(const JsonObject& root) {
                                        std::to_string((*version)[0]) + "." +
                                        std::to_string((*version)[1]));
         }
-        if (minimum && *minimum > std::array<int, 2>{2, 0}) {
-            asset.error("minVersion", "only glTF 2.0 is supported, a later version is required");
+        if (minimum && version && *minimum > *version) {
+            asset.error("minVersion", "greater than version");
+        } else if (minimum && *minimum > std::array<int, 2>{2, 0}) {
+            asset.warning("minVersion", "a later version is required; read as 2.0");
         }
     });
 }
@@ -140,7 +142,8 @@ bool read_extensions(const JsonObject& root, Loading& loading) {
     Document& document = loading.document;
     std::string missing;
     for (const std::string& name : document.extensions_required) {
-        if (!is_supported(name)) missing += (missing.empty() ? "" : ", ") + name;
+        if (is_supported(name) || is_only_look(name)) continue;
+        missing += (missing.empty() ? "" : ", ") + name;
     }
     if (!missing.empty()) {
         root.error("extensionsRequired", "requires extensions that are not supported: " + missing);
@@ -150,9 +153,12 @@ bool read_extensions(const JsonObject& root, Loading& loading) {
         if (loading.extensions_used.count(name) != 0) continue;
         root.error("extensionsRequired", name + " is not listed in extensionsUsed");
     }
+    std::set<std::string_view> told;
     for (const std::string& name : document.extensions_used) {
-        if (is_supported(name)) continue;
-        root.warning("extensionsUsed", "the extension " + name + " is not supported; ignored");
+        if (is_supported(name) || !told.insert(name).second) continue;
+        root.warning("extensionsUsed",
+                     "the extension " + name + " is not supported; " +
+                         (is_only_look(name) ? "it is left out of the look" : "ignored"));
     }
     loading.quantized = loading.extensions_used.count("KHR_mesh_quantization") != 0;
     count_arrays(root, loading);

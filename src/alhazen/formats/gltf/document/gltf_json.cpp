@@ -21,6 +21,54 @@ constexpr std::string_view kSupported[] = {
     "KHR_texture_transform",
 };
 
+/// Places of the objects that an extension extends; "N" stands for a position.
+struct Extended {
+    std::string_view extension;
+    std::array<std::string_view, 2> places;
+};
+constexpr Extended kExtended[] = {
+    {"EXT_mesh_gpu_instancing", {"#/nodes/N"}},
+    {"EXT_texture_webp", {"#/textures/N"}},
+    {"KHR_animation_pointer", {"#/animations/N/channels/N/target"}},
+    {"KHR_lights_punctual", {"#", "#/nodes/N"}},
+    {"KHR_materials_anisotropy", {"#/materials/N"}},
+    {"KHR_materials_clearcoat", {"#/materials/N"}},
+    {"KHR_materials_dispersion", {"#/materials/N"}},
+    {"KHR_materials_emissive_strength", {"#/materials/N"}},
+    {"KHR_materials_ior", {"#/materials/N"}},
+    {"KHR_materials_iridescence", {"#/materials/N"}},
+    {"KHR_materials_pbrSpecularGlossiness", {"#/materials/N"}},
+    {"KHR_materials_sheen", {"#/materials/N"}},
+    {"KHR_materials_specular", {"#/materials/N"}},
+    {"KHR_materials_transmission", {"#/materials/N"}},
+    {"KHR_materials_unlit", {"#/materials/N"}},
+    {"KHR_materials_variants", {"#", "#/meshes/N/primitives/N"}},
+    {"KHR_materials_volume", {"#/materials/N"}},
+};
+
+/// A pointer with "N" for each position: "#/nodes/3" -> "#/nodes/N".
+std::string without_positions(std::string_view pointer) {
+    std::string text;
+    for (std::size_t at = 0; at < pointer.size();) {
+        const std::size_t end = std::min(pointer.find('/', at + 1), pointer.size());
+        const std::string_view part = pointer.substr(at, end - at);
+        const bool is_position =
+            part.size() > 1 && part.find_first_not_of("0123456789", 1) == std::string_view::npos;
+        text += is_position ? "/N" : part;
+        at = end;
+    }
+    return text;
+}
+
+/// True if the extension is not known, or extends the objects at this place.
+bool is_expected(std::string_view extension, std::string_view place) {
+    for (const Extended& known : kExtended) {
+        if (known.extension != extension) continue;
+        return std::find(known.places.begin(), known.places.end(), place) != known.places.end();
+    }
+    return true;
+}
+
 std::string in_quotes(std::string_view text) {
     return '"' + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...\"" : "\"");
 }
@@ -39,6 +87,10 @@ std::string written(double x) {
 bool is_supported(std::string_view extension) {
     return std::find(std::begin(kSupported), std::end(kSupported), extension) !=
            std::end(kSupported);
+}
+
+bool is_only_look(std::string_view extension) {
+    return extension.find("_materials_") != std::string_view::npos;
 }
 
 std::string Place::pointer() const {
@@ -78,8 +130,14 @@ JsonObject::JsonObject(json& value, const Place& place, const JsonContext& conte
     if (extensions == nullptr) return;
     const Place where(place_, "extensions");
     if (!is_object(*extensions, where)) return;
+    if (extensions->empty()) return;
+    const std::string kind = without_positions(place_.pointer());
     for (const auto& [name, unused] : extensions->items()) {
-        if (context_.extensions_used.count(name) != 0) continue;
+        if (context_.extensions_used.count(name) != 0) {
+            if (is_expected(name, kind)) continue;
+            context_.error(Place(where, name), "the extension does not belong to this object");
+            continue;
+        }
         // A supported extension is readable without its declaration.
         const char* message = "the extension is not listed in extensionsUsed";
         const Place at(where, name);

@@ -27,6 +27,9 @@ namespace alhazen::gltf {
 /// True if the extension is supported.
 [[nodiscard]] bool is_supported(std::string_view extension);
 
+/// True if a file without the extension shows the same shapes: only their look changes.
+[[nodiscard]] bool is_only_look(std::string_view extension);
+
 /// The shortest decimal text that identifies the number, for messages.
 [[nodiscard]] std::string written(double x);
 
@@ -95,7 +98,8 @@ inline constexpr Range kPositive{.lo = 0, .above_lo = true};
 /// A JSON object being read.
 class JsonObject {
   public:
-    /// Reports undeclared extensions of the object: an error if unsupported, else a warning.
+    /// Reports undeclared extensions of the object: an error if unsupported, else a warning. A
+    /// known extension at an object that it does not extend is an error.
     JsonObject(nlohmann::json& value, const Place& place, const JsonContext& context);
 
     [[nodiscard]] const Place& place() const { return place_; }

@@ -24,8 +24,11 @@ Primitive read_primitive(const JsonObject& object) {
     });
     primitive.indices = object.index("indices", Collection::Accessors);
     primitive.material = object.index("material", Collection::Materials);
-    primitive.mode = static_cast<PrimitiveMode>(
-        object.integer("mode", 0, 6).value_or(std::uint64_t(PrimitiveMode::Triangles)));
+    if (const auto mode = object.integer("mode"); mode && *mode > 6) {
+        object.warning("mode", "expected 0 to 6; taken as 4 (triangles)");
+    } else if (mode) {
+        primitive.mode = static_cast<PrimitiveMode>(*mode);
+    }
     object.each_object("targets", [&](const JsonObject& target, std::size_t) {
         primitive.targets.push_back(read_attributes(target));
     });

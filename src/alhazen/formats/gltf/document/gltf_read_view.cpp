@@ -1,5 +1,6 @@
 // Readers of cameras and lights.
 #include <numbers>
+#include <utility>
 
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 
@@ -12,7 +13,11 @@ void read_perspective(const JsonObject& object, Camera& camera) {
     object.require("znear");
     camera.aspect = object.number("aspectRatio", kPositive);
     camera.yfov = object.number("yfov", kPositive).value_or(1);
-    if (camera.yfov >= std::numbers::pi) object.error("yfov", "expected an angle below pi");
+    if (camera.yfov >= std::numbers::pi) {
+        constexpr double kWidest = 3.0;  // 172 degrees
+        object.warning("yfov", "expected an angle below pi; taken as " + written(kWidest));
+        camera.yfov = kWidest;
+    }
     camera.near = object.number("znear", kPositive).value_or(1);
     camera.far = object.number("zfar", kPositive);
     if (camera.far && *camera.far <= camera.near) {
@@ -24,8 +29,11 @@ void read_orthographic(const JsonObject& object, Camera& camera) {
     for (const char* key : {"xmag", "ymag", "znear", "zfar"}) object.require(key);
     camera.xmag = object.number("xmag").value_or(1);
     camera.ymag = object.number("ymag").value_or(1);
-    if (camera.xmag == 0) object.error("xmag", "must not be 0");
-    if (camera.ymag == 0) object.error("ymag", "must not be 0");
+    for (auto [key, value] : {std::pair{"xmag", &camera.xmag}, std::pair{"ymag", &camera.ymag}}) {
+        if (*value != 0) continue;
+        object.warning(key, "must not be 0; taken as 1");
+        *value = 1;
+    }
     camera.near = object.number("znear", kNotNegative).value_or(0);
     camera.far = object.number("zfar", kPositive);
     if (camera.far && *camera.far <= camera.near) {
@@ -39,7 +47,7 @@ Camera read_camera(const JsonObject& object) {
     object.require("type");
     const std::string type = object.text("type").value_or("perspective");
     if (type != "perspective" && type != "orthographic") {
-        object.error("type", "expected perspective or orthographic");
+        object.warning("type", "expected perspective or orthographic; taken as perspective");
         return camera;
     }
     camera.perspective = type == "perspective";
@@ -68,7 +76,7 @@ PunctualLight read_light(const JsonObject& object) {
     } else if (type == "spot") {
         light.type = PunctualLight::Type::Spot;
     } else if (type != "point") {
-        object.error("type", "expected directional, point or spot");
+        object.warning("type", "expected directional, point or spot; taken as point");
     }
     object.numbers_into("color", light.color, kNotNegative);
     object.number_into("intensity", light.intensity, kNotNegative);
