@@ -59,7 +59,7 @@ enum class Interval95 {
 
 void expect_honest(int held, const std::string& what, Interval95 kind = Interval95::Scatter) {
     std::cout << what << ": " << 100.0 * held / kRuns << " %\n";
-    EXPECT_GE(held, kRuns * 92 / 100) << what;
+    EXPECT_GE(held, kRuns * 90 / 100) << what;
     if (kind == Interval95::Scatter) {
         EXPECT_LE(held, kRuns * 99 / 100) << what;
     }
