@@ -20,8 +20,8 @@
 /// Intervals of volume and area come from the differences of the two pairs of lines of every cell,
 /// by Student's distribution with as many degrees of freedom as the differences are evenly large
 /// (Satterthwaite, "An Approximate Distribution of Estimates of Variance Components", Biometrics
-/// Bulletin 2, 1946). They scatter little, so that work may end when they are narrow enough: what
-/// scatters would be believed when it happens to be too narrow. Those of centroid and moments come
+/// Bulletin 2, 1946): many of them, so that the width of an interval scatters little. Those of
+/// centroid and moments come
 /// from sixteen balanced half samples (McCarthy, "Pseudo-Replication: Half Samples", Review of the
 /// International Statistical Institute 37, 1969; cells share rows of a Hadamard matrix at random).
 /// A part smaller than a cell that no line has hit is not covered. Every interval has a term for

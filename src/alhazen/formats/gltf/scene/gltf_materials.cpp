@@ -73,8 +73,8 @@ void add_materials(const Document& document, const ImportSource& source, SceneDe
     }
     if (rough != 0) {
         diagnostics.warning({source.path.string(), 0, 0},
-                            fmt::format("{} material{} both transmit light and are rough; what is "
-                                        "seen through them is left sharp",
+                            fmt::format("transmission through rough surfaces is left sharp "
+                                        "({} material{})",
                                         rough, rough == 1 ? "" : "s"));
     }
     for (std::size_t i = 0; i < document.materials.size(); ++i) {
