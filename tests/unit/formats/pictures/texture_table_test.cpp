@@ -104,15 +104,21 @@ TEST(TextureTable, AFileCountsWhileItIsRead) {
     EXPECT_FALSE(fits(bytes.size() - 1));
 }
 
-TEST(TextureTable, OnePictureBeyondItsOwnLimitIsAFinding) {
+TEST(TextureTable, OnePictureBeyondItsOwnLimitIsAnErrorOfResources) {
     SceneDescription scene;
     Diagnostics found;
     ImageLimits limits;
     limits.max_pixels = 399;
     TextureTable table(scene, found, {"."}, limits);
     const std::string bytes = picture(100);
-    EXPECT_FALSE(table.add(bytes, {}, "p", {}));
-    EXPECT_EQ(found.error_count(), 1U);
+    try {
+        (void)table.add(bytes, {}, "p", {"scene", 3, 4});
+        FAIL() << "a picture of 400 pixels was read";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Resource);
+        EXPECT_EQ(std::string(error.what()).find("scene:3:4: error: texture: p: "), 0u)
+            << error.what();
+    }
 }
 
 TEST(TextureTable, TheSameBytesAreOnePicture) {
