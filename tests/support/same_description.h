@@ -170,14 +170,14 @@ inline bool same(const AmbientLight& a, const AmbientLight& b) {
     return same(a1, b1);
 }
 inline bool same(const DirectionalLight& a, const DirectionalLight& b) {
-    const auto& [a1, a2, a3] = a;
-    const auto& [b1, b2, b3] = b;
-    return all_same(a1, b1, a2, b2, a3, b3);
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
 }
 inline bool same(const PointLight& a, const PointLight& b) {
-    const auto& [a1, a2, a3, a4, a5] = a;
-    const auto& [b1, b2, b3, b4, b5] = b;
-    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
+    const auto& [a1, a2, a3, a4, a5, a6] = a;
+    const auto& [b1, b2, b3, b4, b5, b6] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6);
 }
 inline bool same(const SpotLight& a, const SpotLight& b) {
     const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
@@ -283,9 +283,9 @@ inline bool same(const FilmConventions& a, const FilmConventions& b) {
     return all_same(a1, b1);
 }
 inline bool same(const ImportConventions& a, const ImportConventions& b) {
-    const auto& [a1, a2] = a;
-    const auto& [b1, b2] = b;
-    return all_same(a1, b1, a2, b2);
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
 }
 inline bool same(const Conventions& a, const Conventions& b) {
     const auto& [a1, a2, a3, a4] = a;

@@ -20,6 +20,9 @@ struct ImportConventions {
     /// A file without lights is given one at the eye (`complete_view`); false: it is meant to be
     /// dark.
     bool headlight = true;
+    /// A file with lights of its own and no background is given dim neutral light from everywhere,
+    /// and a background of that colour (`complete_view`).
+    bool surroundings = false;
 };
 
 struct Conventions {

@@ -24,6 +24,8 @@ constexpr double kFlat = 0.25;
 constexpr Rgb kHeadlight{0.75, 0.75, 0.75};
 constexpr Rgb kHeadlightAmbient{0.25, 0.25, 0.25};
 constexpr Rgb kHeadlightBackground{0.3, 0.3, 0.3};
+/// Of a scene with lights of its own.
+constexpr Rgb kSurroundings{0.1, 0.1, 0.1};
 
 struct Turn {
     double cosine, sine;
@@ -189,17 +191,20 @@ CameraDescription framed_camera(const Scene& scene, UpAxis up_axis, const Framin
     return camera;
 }
 
-/// A light at the eye: visible points are never in shadow.
+/// A light at the eye: visible points are never in shadow. It would be a white spot on whatever
+/// glass faces the eye.
 Light headlight(const Camera& camera) {
     return std::visit(Overloaded{[](const PerspectiveCamera& c) -> Light {
                                      return PointLight{.position = c.eye,
                                                        .color = kHeadlight,
-                                                       .ambient = kHeadlightAmbient};
+                                                       .ambient = kHeadlightAmbient,
+                                                       .glints = false};
                                  },
                                  [](const OrthographicCamera& c) -> Light {
                                      return DirectionalLight{.to_light = normalize(-c.direction),
                                                              .color = kHeadlight,
-                                                             .ambient = kHeadlightAmbient};
+                                                             .ambient = kHeadlightAmbient,
+                                                             .glints = false};
                                  }},
                       camera);
 }
@@ -307,6 +312,14 @@ std::vector<std::string> complete_view(SceneDescription& description, Scene& sce
             scene.background = kHeadlightBackground;
         }
         notes.push_back("no lights in the file: a headlight was added");
+    } else if (!scene.lights.empty() && description.conventions.importing.surroundings &&
+               !description.picture.background) {
+        const Light light = AmbientLight{kSurroundings};
+        description.lights.push_back({"surroundings", light, {}});
+        scene.lights.push_back(light);
+        description.picture.background = kSurroundings;
+        scene.background = kSurroundings;
+        notes.push_back("no surroundings in the file: dim grey ones were added");
     }
     return notes;
 }

@@ -48,9 +48,10 @@ struct FramingOptions {
 
 /// Adds a camera and a light to both, where they have none, and a grey background where a light was
 /// added and the file has none. Formats whose scenes are meant as they are get no light
-/// (ImportConventions::headlight). Returns what was done, a sentence each. A scene that gets a
-/// camera must have its aggregate. Throws Error: Scene when there is nothing to frame, Usage as
-/// find_camera.
+/// (ImportConventions::headlight). A scene with lights of its own and without a background gets dim
+/// grey surroundings where its format has none (ImportConventions::surroundings). Returns what was
+/// done, a sentence each. A scene that gets a camera must have its aggregate. Throws Error: Scene
+/// when there is nothing to frame, Usage as find_camera.
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,
                                        const FramingOptions& options);
 

@@ -1,4 +1,5 @@
 #include "alhazen/renderers/whitted/whitted.h"
+#include "alhazen/renderers/core/local_shading.h"
 
 #include <gtest/gtest.h>
 
@@ -318,6 +319,25 @@ TEST(Whitted, RadianceThatIsNotFiniteIsCountedAndLeftOut) {
     RayCounters counters;
     expect_near(center(maker.compile(), counters), {0, 0, 0});
     EXPECT_EQ(counters.non_finite, 1u);
+}
+
+TEST(LocalShading, ALightWithoutGlintsHasNoHighlightOnGlass) {
+    MaterialSample sample;
+    sample.diffuse = {0.25, 0.25, 0.25};
+    sample.specular = {1, 1, 1};
+    sample.shininess = 10;
+    ShadingPoint point;
+    point.material = &sample;
+    point.normal = point.view = {0, 0, 1};
+    LightSample light{.to_light = {0, 0, 1}, .distance = 1, .intensity = {1, 1, 1}};
+    const ShadingConventions conventions;
+    for (const bool glass : {false, true}) {
+        sample.transmissive = glass ? Rgb{0.5, 0.5, 0.5} : Rgb{};
+        light.glints = true;
+        EXPECT_EQ(reflected_fraction(conventions, point, light, 1.0), (Rgb{1.25, 1.25, 1.25}));
+        light.glints = false;
+        EXPECT_EQ(reflected_fraction(conventions, point, light, 1.0).r, glass ? 0.25 : 1.25);
+    }
 }
 
 }  // namespace

@@ -134,6 +134,31 @@ TEST(Framing, WhatTheFileHasIsKept) {
     EXPECT_EQ(scene.background, Rgb{});
 }
 
+TEST(Framing, AModelWithLightsOfItsOwnGetsDimSurroundings) {
+    SceneMaker maker;
+    maker.add(Sphere{});
+    maker.light(PointLight{.position = {0, 5, 0}});
+    maker.description().conventions.importing.surroundings = true;
+    Scene scene = maker.compile();
+    const auto notes = complete_view(maker.description(), scene, {});
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes[0].find("surroundings"), std::string::npos) << notes[0];
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(ambient_of(scene.lights[1]), scene.background);
+    EXPECT_GT(scene.background.r, 0.0);
+    EXPECT_LT(scene.background.r, 0.3);
+    EXPECT_EQ(maker.description().lights.size(), 2u);
+
+    SceneMaker own;
+    own.add(Sphere{});
+    own.light(PointLight{.position = {0, 5, 0}});
+    own.description().conventions.importing.surroundings = true;
+    own.description().picture.background = Rgb{0, 0, 0.5};
+    Scene with_background = own.compile();
+    EXPECT_TRUE(complete_view(own.description(), with_background, {}).empty());
+    EXPECT_EQ(with_background.lights.size(), 1u);
+}
+
 TEST(Framing, ScenesThatAreMeantToBeDarkStayDark) {
     SceneMaker maker = sphere_without_view();
     maker.description().conventions.importing.headlight = false;

@@ -236,10 +236,11 @@ double schlick_highlight(double cosine, double shininess) {
 }  // namespace
 
 Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint& point,
-                       const Vec3& to_light, double cosine) {
+                       const LightSample& light, double cosine) {
     const MaterialSample& m = *point.material;
+    const Vec3& to_light = light.to_light;
     Rgb fraction = cosine * m.diffuse;
-    if (m.specular.is_black()) return fraction;
+    if (m.specular.is_black() || (!light.glints && !m.transmissive.is_black())) return fraction;
     double highlight_cosine;
     if (conventions.highlight == ShadingConventions::Highlight::BlinnPhong) {
         highlight_cosine = dot(point.normal, normalize(to_light + point.view));

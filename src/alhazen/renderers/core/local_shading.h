@@ -109,9 +109,9 @@ inline constexpr double kLeastTransmittance = 1.0 / 4096;
 [[nodiscard]] Rgb unshadowed_terms(const ShadingConventions& conventions,
                                    std::span<const Rgb> ambient, const ShadingPoint& point);
 
-/// kd (N.L) + ks highlight for a light in unit direction `to_light` with N.L = `cosine` > 0.
+/// kd (N.L) + ks highlight for a light as seen from the point, with N.L = `cosine` > 0.
 [[nodiscard]] Rgb reflected_fraction(const ShadingConventions& conventions,
-                                     const ShadingPoint& point, const Vec3& to_light,
+                                     const ShadingPoint& point, const LightSample& light,
                                      double cosine);
 
 }  // namespace alhazen

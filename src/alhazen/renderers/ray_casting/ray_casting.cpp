@@ -21,8 +21,7 @@ Rgb shade(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& 
             sample(light, point.surface.point, scene.conventions.shading.clamp_attenuation);
         const double cosine = dot(point.normal, l.to_light);
         if (cosine > 0.0) {
-            sum += l.intensity *
-                   reflected_fraction(scene.conventions.shading, point, l.to_light, cosine);
+            sum += l.intensity * reflected_fraction(scene.conventions.shading, point, l, cosine);
         }
     }
     return sum;

@@ -175,9 +175,8 @@ class WhittedEstimator {
                 sample(light, point.surface.point, conventions_.clamp_attenuation);
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
-            shadows_.add(point.surface, l,
-                         reflected_fraction(conventions_, point, l.to_light, cosine), seen.path,
-                         sum);
+            shadows_.add(point.surface, l, reflected_fraction(conventions_, point, l, cosine),
+                         seen.path, sum);
         }
     }
 

@@ -68,11 +68,12 @@ LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation
         Overloaded{
             [](const AmbientLight&) { return LightSample{}; },
             [](const DirectionalLight& l) {
-                return LightSample{l.to_light, std::numeric_limits<double>::infinity(), l.color};
+                return LightSample{l.to_light, std::numeric_limits<double>::infinity(), l.color,
+                                   l.glints};
             },
             [&](const PointLight& l) {
                 const Approach a = approach(l, point, clamp_attenuation);
-                return LightSample{a.to_light, a.distance, a.attenuation * l.color};
+                return LightSample{a.to_light, a.distance, a.attenuation * l.color, l.glints};
             },
             [&](const SpotLight& l) {
                 const Approach a = approach(l, point, clamp_attenuation);

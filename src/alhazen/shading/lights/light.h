@@ -33,6 +33,7 @@ struct DirectionalLight {
     Vec3 to_light{0, 0, 1};  ///< unit, from the scene towards the light
     Rgb color{1, 1, 1};
     Rgb ambient;
+    bool glints = true;  ///< see PointLight
 };
 
 /// 1 / (constant + linear d + quadratic d^2).
@@ -50,6 +51,7 @@ struct PointLight {
     Attenuation attenuation;
     Rgb ambient;
     double range = kNoRange;
+    bool glints = true;  ///< false: no highlights on materials that transmit light
 };
 
 /// A point light that shines into a cone: full within `inner_angle` of the axis, none beyond
@@ -72,6 +74,7 @@ struct LightSample {
     Vec3 to_light;
     double distance = 0;
     Rgb intensity;
+    bool glints = true;  ///< see PointLight
 };
 
 /// End of the shadow rays to a light.

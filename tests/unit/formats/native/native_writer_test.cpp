@@ -69,6 +69,7 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
         c.shading.trace_reflections = !even;
         c.shading.trace_refractions = !even;
         c.importing.headlight = !even;
+        c.importing.surroundings = even;
         c.film.linear_output = even;
         c.shading.air_index = 1.0003;
         c.shading.max_depth = i;
@@ -94,9 +95,10 @@ TEST(NativeWriter, CamerasAndLightsComeBackBitForBit) {
         const Attenuation a{n.positive(), n.positive(), n.positive()};
         const double inner = 0.1 * n.positive();
         scene.lights.push_back({"", AmbientLight{n.color()}, {}});
-        scene.lights.push_back({"sun", DirectionalLight{n.point(), n.color(), n.color()}, {}});
         scene.lights.push_back(
-            {"sun", PointLight{n.point(), n.color(), a, n.color(), n.positive()}, {}});
+            {"sun", DirectionalLight{n.point(), n.color(), n.color(), i == 0}, {}});
+        scene.lights.push_back(
+            {"sun", PointLight{n.point(), n.color(), a, n.color(), n.positive(), i == 0}, {}});
         scene.lights.push_back({"lamp",
                                 SpotLight{n.point(), n.point(), inner, inner + 0.1 * n.positive(),
                                           n.color(), a, n.color(), n.positive()},

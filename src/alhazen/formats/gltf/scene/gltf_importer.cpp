@@ -26,6 +26,7 @@ Conventions gltf_conventions() {
     c.shading.air_index = 1.0;
     c.film.linear_output = false;
     c.shading.min_contribution = 1.0 / 512.0;
+    c.importing.surroundings = true;
     return c;
 }
 

@@ -54,6 +54,7 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     reader.read("trace_refractions", c.shading.trace_refractions);
     reader.read("correct_interpolated_normals", c.shading.correct_interpolated_normals);
     reader.read("headlight", c.importing.headlight);
+    reader.read("surroundings", c.importing.surroundings);
     if (reader.read("air_index", c.shading.air_index) && !(c.shading.air_index > 0)) {
         reader.error(*reader.find("air_index"), "'air_index' must be greater than 0");
     }

@@ -214,6 +214,7 @@ void read_directional_light(const NativeBlock& block, NativeContext& context) {
         }
     }
     read_emission(reader, light.color, light.ambient);
+    reader.read("glints", light.glints);
     reader.finish();
     add_light(block, context, light);
 }
@@ -227,6 +228,7 @@ void read_point_light(const NativeBlock& block, NativeContext& context) {
     read_emission(reader, light.color, light.ambient);
     read_attenuation(reader, light.attenuation);
     read_positive(reader, "range", light.range);
+    reader.read("glints", light.glints);
     reader.finish();
     add_light(block, context, light);
 }

@@ -43,6 +43,7 @@ NativeBlockText block_of(const std::string& name, const DirectionalLight& light)
     NativeBlockText block("directional_light", name);
     block.add("to_light", native_value(light.to_light));
     add_light_colors(block, light.color, light.ambient);
+    block.add_unless("glints", light.glints, true);
     return block;
 }
 
@@ -51,6 +52,7 @@ NativeBlockText block_of(const std::string& name, const PointLight& light) {
     block.add("position", native_value(light.position));
     add_light_colors(block, light.color, light.ambient);
     add_falloff(block, light);
+    block.add_unless("glints", light.glints, true);
     return block;
 }
 
@@ -124,6 +126,7 @@ void write_native_conventions(NativeWriteContext& context) {
     block.add_unless("correct_interpolated_normals", c.shading.correct_interpolated_normals,
                      usual.shading.correct_interpolated_normals);
     block.add_unless("headlight", c.importing.headlight, usual.importing.headlight);
+    block.add_unless("surroundings", c.importing.surroundings, usual.importing.surroundings);
     block.add_unless("air_index", c.shading.air_index, usual.shading.air_index);
     block.add_unless("min_distance", c.shading.min_distance, usual.shading.min_distance);
     add_word("pixel_sample", c.sampling.pixel_sample, usual.sampling.pixel_sample);
