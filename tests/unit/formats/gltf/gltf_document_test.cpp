@@ -50,6 +50,36 @@ TEST(GltfContainer, ShortBinaryChunksAreRefused) {
     EXPECT_TRUE(read.says("#/buffers/0/byteLength: expected 5 bytes, found 4")) << read.findings();
 }
 
+TEST(GltfContainer, FaultyChunksAreRefused) {
+    const std::string text = chunk("JSON", kGlbJson, ' ');
+    const std::string binary = chunk("BIN\0", "12345", '\0');
+    const std::string whole = glb_of(text + binary);
+    ASSERT_TRUE(read_gltf(whole).is_good());
+    struct Fault {
+        std::string bytes;
+        const char* finding;
+    };
+    const Fault faults[] = {
+        {"glTF" + word(1) + whole.substr(8), "GLB: expected version 2, found 1"},
+        {"glTF" + word(2) + word(8) + whole.substr(12), "GLB: the header gives a length of 8"},
+        {whole + "1234", "GLB: the header gives a length of"},
+        {glb_of(word(2) + "JSON{}"), "GLB: the length of chunk 0 is not a multiple of 4"},
+        {glb_of(word(400) + "JSON{}  "), "GLB: chunk 0 has 400 bytes"},
+        {glb_of(binary + text), "GLB: the first chunk is not the JSON chunk"},
+        {glb_of(text + text), "GLB: chunk 1 is a second JSON chunk"},
+        {glb_of(text + binary + binary), "GLB: chunk 2 is a second binary chunk"},
+        {glb_of(text + chunk("MINE", "any", ' ') + binary),
+         "GLB: the binary chunk is not the second one"},
+        {glb_of(chunk("JSON", "", ' ')), "GLB: the JSON chunk is empty"},
+        {"GLTF" + whole.substr(4), "JSON: "},
+    };
+    for (const auto& [bytes, finding] : faults) {
+        const auto read = read_gltf(bytes);
+        EXPECT_TRUE(read.says(finding)) << finding << "\n" << read.findings();
+        EXPECT_FALSE(read.is_good()) << finding;
+    }
+}
+
 TEST(GltfUri, Base64IsDecodedToItsLastByte) {
     EXPECT_EQ(gltf::base64_decoded("").value(), "");
     EXPECT_EQ(gltf::base64_decoded("Zg==").value(), "f");
