@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "alhazen/geometry/polygon/free_diagonals.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/scene_model/scene_description.h"
 
@@ -109,6 +110,7 @@ inline std::string difference(const TriangleMesh& ours, const PolygonSoup& their
     }
     std::vector<Triple> other;
     std::vector<std::uint32_t> polygon;
+    std::vector<PolygonTriangles> polygons;
     std::size_t begin = 0, lost = 0;
     for (const std::size_t end : theirs.ends) {
         polygon.clear();
@@ -119,13 +121,18 @@ inline std::string difference(const TriangleMesh& ours, const PolygonSoup& their
         if (polygon.size() != end - begin) {
             ++lost;
         } else if (polygon.size() >= 3) {
+            const std::size_t first = other.size();
             triangulate(places.positions(), polygon, other);
+            if (polygon.size() > 3) polygons.push_back({first, other.size()});
         }
         begin = end;
     }
+    std::vector<Triple> freed = other;
+    free_diagonals(places.positions(), polygons, freed);
     mine = sorted_set(std::move(mine));
     other = sorted_set(std::move(other));
-    if (lost == 0 && mine == other) return {};
+    // Models of several meshes are freed in each mesh alone.
+    if (lost == 0 && (mine == other || mine == sorted_set(std::move(freed)))) return {};
     std::vector<Triple> only_mine, only_other;
     std::set_difference(mine.begin(), mine.end(), other.begin(), other.end(),
                         std::back_inserter(only_mine));

@@ -1,6 +1,7 @@
 // Contents of regions: solids and combinations of solids, of one material.
 
 #include "alhazen/formats/brlcad/brlcad_builder.h"
+#include "alhazen/shapes/meshes/mesh_edges.h"
 
 namespace alhazen {
 
@@ -174,7 +175,8 @@ void BrlcadBuilder::tell_about_mesh(const BrlcadObject& object, const BrlcadMesh
                              "the plates of '" + object.name + "' are shown without thickness");
     } else if (mesh.solid && !pieces.closed) {
         diagnostics_.warning(database_.at(object.place),
-                             "'" + object.name + "' is not closed; it is shown as a surface");
+                             "'" + object.name + "' is not closed; it is shown as a surface: " +
+                                 mesh_edges(*mesh.mesh).description());
     }
 }
 

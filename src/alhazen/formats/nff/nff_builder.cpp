@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "alhazen/formats/mesh/mesh_normals.h"
+#include "alhazen/geometry/polygon/free_diagonals.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 
 namespace alhazen {
@@ -149,7 +150,9 @@ void NffBuilder::add_triangles(const std::vector<Vec3>& vertices, const std::vec
     std::iota(loop.begin(), loop.end(), std::uint32_t(mesh.positions.size()));
     mesh.positions.insert(mesh.positions.end(), vertices.begin(), vertices.end());
     mesh.normals.insert(mesh.normals.end(), normals.begin(), normals.end());
+    const std::size_t first = mesh.triangles.size();
     triangulate(mesh.positions, loop, mesh.triangles);
+    if (loop.size() > 3) polygons_[&mesh].push_back({first, mesh.triangles.size()});
 }
 
 TriangleMesh& NffBuilder::current_mesh(bool smooth, const FileLocation& where) {
@@ -209,6 +212,9 @@ void NffBuilder::finish(const NffView& view) {
     }
     scene_.lights.push_back(
         {"ambient", AmbientLight{ambient_.value_or(intensity)}, {scene_.path.string(), 0, 0}});
+    for (const auto& [mesh, polygons] : polygons_) {
+        free_diagonals(mesh->positions, polygons, mesh->triangles);
+    }
     for (MeshDescription& mesh : scene_.meshes) make_normals_unit(*mesh.mesh);
     if (degenerate_ != 0) {
         diagnostics_.warning(

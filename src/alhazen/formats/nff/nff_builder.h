@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "alhazen/formats/core/importer.h"
+#include "alhazen/geometry/polygon/free_diagonals.h"
 
 namespace alhazen {
 
@@ -61,7 +62,8 @@ class NffBuilder {
     std::map<std::array<double, 12>, MaterialId> materials_;
     std::optional<MaterialId> material_;
     std::map<std::pair<MaterialId, bool>, std::size_t> meshes_;  ///< by material and smoothness
-    std::vector<bool> default_intensity_;                        ///< per light
+    std::map<TriangleMesh*, std::vector<PolygonTriangles>> polygons_;  ///< of each mesh
+    std::vector<bool> default_intensity_;                              ///< per light
     std::optional<Rgb> ambient_;
     std::uint64_t elements_ = 0;
     std::uint64_t degenerate_ = 0;

@@ -7,6 +7,7 @@
 #include "alhazen/formats/mesh/mesh_normals.h"
 #include "alhazen/formats/obj/obj_smoothing.h"
 #include "alhazen/formats/obj/obj_vertex_table.h"
+#include "alhazen/geometry/polygon/free_diagonals.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 
 namespace alhazen {
@@ -166,13 +167,17 @@ class PartMaker {
         });
         mesh.triangles.reserve(corners - 2 * faces);
         std::vector<std::uint32_t> polygon;
+        std::vector<PolygonTriangles> polygons;
         for_each_face(group, [&](std::uint32_t begin, std::uint32_t end, std::uint32_t) {
             polygon.clear();
             for (std::uint32_t c = begin; c < end; ++c) {
                 polygon.push_back(std::uint32_t(in_.corners.position[c]));
             }
+            const std::size_t first = mesh.triangles.size();
             triangulate(mesh.positions, polygon, mesh.triangles);
+            if (polygon.size() > 3) polygons.push_back({first, mesh.triangles.size()});
         });
+        free_diagonals(mesh.positions, polygons, mesh.triangles);
     }
 
     template <class Use>

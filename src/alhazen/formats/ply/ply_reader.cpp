@@ -8,6 +8,7 @@
 #include "alhazen/formats/ply/ply_header.h"
 #include "alhazen/formats/ply/ply_values.h"
 #include "alhazen/formats/ply/ply_vertices.h"
+#include "alhazen/geometry/polygon/free_diagonals.h"
 #include "alhazen/geometry/polygon/triangulate.h"
 
 namespace alhazen {
@@ -127,6 +128,8 @@ class BodyReader {
         for (std::uint64_t i = 0; i < element.count; ++i) {
             if (!read_face(element, i, list, strips) && !recover()) return false;
         }
+        free_diagonals(mesh_.positions, polygons_, mesh_.triangles);
+        polygons_.clear();
         return errors_ == 0;
     }
     bool read_face(const PlyElement& element, std::uint64_t i, std::size_t list, bool strips) {
@@ -187,7 +190,9 @@ class BodyReader {
         if (count < 3) {
             ++small_faces_;
         } else {
+            const std::size_t first = mesh_.triangles.size();
             triangulate(mesh_.positions, polygon_, mesh_.triangles);
+            if (count > 3) polygons_.push_back({first, mesh_.triangles.size()});
         }
         return true;
     }
@@ -272,6 +277,7 @@ class BodyReader {
     Diagnostics& diagnostics_;
     TriangleMesh mesh_;
     std::vector<std::uint32_t> polygon_;
+    std::vector<PolygonTriangles> polygons_;  ///< of the element being read
     std::uint64_t small_faces_ = 0;
     int errors_ = 0;
 };

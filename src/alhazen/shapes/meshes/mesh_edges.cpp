@@ -2,38 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdio>
+
+#include "alhazen/geometry/polygon/merged_positions.h"
 
 namespace alhazen {
 
 namespace {
-
-/// A position as bits, with -0 equal to 0: a total order that includes NaN.
-struct PositionKey {
-    std::array<std::uint64_t, 3> bits;
-    std::uint32_t vertex;
-};
-
-/// For each vertex the lowest vertex of equal position. Sorts, and so is O(n log n) for any input.
-std::vector<std::uint32_t> merged_vertices(const std::vector<Vec3>& positions) {
-    std::vector<PositionKey> keys(positions.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const Vec3 p = positions[i] + Vec3{};
-        keys[i] = {{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
-                    std::bit_cast<std::uint64_t>(p.z)},
-                   static_cast<std::uint32_t>(i)};
-    }
-    std::sort(keys.begin(), keys.end(), [](const PositionKey& a, const PositionKey& b) {
-        return a.bits != b.bits ? a.bits < b.bits : a.vertex < b.vertex;
-    });
-    std::vector<std::uint32_t> merged(positions.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const bool same = i > 0 && keys[i].bits == keys[i - 1].bits;
-        merged[keys[i].vertex] = same ? merged[keys[i - 1].vertex] : keys[i].vertex;
-    }
-    return merged;
-}
 
 /// An edge, lower vertex first, and whether the triangle traverses it from the lower to the higher
 /// vertex.
@@ -43,7 +18,7 @@ struct DirectedEdge {
 };
 
 std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
-    const std::vector<std::uint32_t> merged = merged_vertices(mesh.positions);
+    const std::vector<std::uint32_t> merged = merged_positions(mesh.positions);
     std::vector<DirectedEdge> edges;
     edges.reserve(3 * mesh.triangles.size());
     for (const auto& triangle : mesh.triangles) {

@@ -311,7 +311,9 @@ TEST(BrlcadScene, SurfacesAreShownButNotCut) {
     const Model model(kBall + bot + "put a comb region yes tree {u {l s} {l o}}\n" +
                       "put b comb region yes tree {- {l ball} {l s}}\n");
     EXPECT_TRUE(mentions(model.found(), "without thickness"));
-    EXPECT_TRUE(mentions(model.found(), "'o' is not closed"));
+    EXPECT_TRUE(mentions(model.found(),
+                         "'o' is not closed; it is shown as a surface: 3 of 3 edges are open: (0, "
+                         "0, 0) to (1, 0, 0), "));
     EXPECT_TRUE(mentions(model.found(), "'b' is left out: 's' is a surface"));
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Small glTF files for tests: JSON with data URIs.
 
+#include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <initializer_list>
 #include <string>
@@ -45,10 +47,13 @@ inline std::string base64(const std::string& bytes) {
 /// Collects accessors, each with a buffer and view of its own.
 class GltfText {
   public:
-    /// Adds an accessor of `type` ("VEC3") over floats and returns its index.
+    /// Adds an accessor of `type` ("VEC3") over floats and returns its index. Scalars, which may be
+    /// times, get bounds unless `more` is given.
     int floats(const std::string& type, std::initializer_list<double> numbers,
                const std::string& more = "") {
-        return add(5126, 4, type, bytes_of_numbers<float>(numbers), numbers.size(), more);
+        const bool bounded = type == "SCALAR" && more.empty();
+        return add(5126, 4, type, bytes_of_numbers<float>(numbers), numbers.size(),
+                   bounded ? scalar_bounds(numbers) : more);
     }
     int bytes(const std::string& type, std::initializer_list<double> numbers,
               const std::string& more = "") {
@@ -74,6 +79,16 @@ class GltfText {
     }
 
   private:
+    static std::string scalar_bounds(std::initializer_list<double> numbers) {
+        const auto text = [](double number) {
+            char digits[32];
+            std::snprintf(digits, sizeof(digits), "%.9g", number);
+            return std::string(digits);
+        };
+        return R"(, "min": [)" + text(std::min(numbers)) + R"(], "max": [)" +
+               text(std::max(numbers)) + "]";
+    }
+
     int add(int component, std::size_t size, const std::string& type, const std::string& data,
             std::size_t numbers, const std::string& more) {
         const std::size_t width = type == "SCALAR" ? 1

@@ -1,5 +1,6 @@
 // Checks that skins and animations refer to suitable nodes and accessors.
 #include <map>
+#include <set>
 
 #include "alhazen/formats/gltf/document/gltf_accessors.h"
 #include "alhazen/formats/gltf/document/gltf_readers.h"
@@ -21,34 +22,44 @@ void check_bind_matrices(const Loading& loading, const Skin& skin, const std::st
     }
 }
 
-/// True for the root nodes of the displayed scene, [node].
-std::vector<bool> scene_roots(const Document& document) {
-    std::vector<bool> roots(document.nodes.size(), false);
-    if (document.scenes.empty()) return roots;
-    for (const Index node : document.scenes[document.scene.value_or(0)].nodes) roots[node] = true;
-    return roots;
+/// Each scene with a skinned mesh has the joints of its skin.
+void check_scenes_of_skins(const Loading& loading, const NodeTree& tree) {
+    const Document& document = loading.document;
+    // Joints without a common root are reported elsewhere, so the first stands for all.
+    for (std::size_t i = 0; i < document.scenes.size(); ++i) {
+        const std::vector<Index>& nodes = document.scenes[i].nodes;
+        const std::set<Index> roots(nodes.begin(), nodes.end());
+        for (std::size_t j = 0; j < document.nodes.size(); ++j) {
+            const Node& node = document.nodes[j];
+            if (!node.skin || !node.mesh || document.skins[*node.skin].joints.empty()) continue;
+            const Index joint = document.skins[*node.skin].joints.front();
+            if (roots.count(tree.root_of(static_cast<Index>(j))) == 0 ||
+                roots.count(tree.root_of(joint)) != 0) {
+                continue;
+            }
+            loading.error(pointer_to("scenes", i), "node " + std::to_string(j) +
+                                                       " has a skin whose joints are not in the "
+                                                       "scene");
+            break;
+        }
+    }
 }
 
-void check_joints(const Loading& loading, const NodeTree& tree, const std::vector<bool>& roots,
-                  const Skin& skin, const std::string& place) {
+void check_joints(const Loading& loading, const NodeTree& tree, const Skin& skin,
+                  const std::string& place) {
     for (const Index joint : skin.joints) {
         if (tree.is_in_loop(joint)) return;  // reported already
     }
-    bool one_root = true, in_scene = true;
+    bool one_root = true;
     for (const Index joint : skin.joints) {
         one_root = one_root && tree.root_of(joint) == tree.root_of(skin.joints.front());
-        in_scene = in_scene && roots[tree.root_of(joint)];
         if (skin.skeleton && !tree.contains(*skin.skeleton, joint)) {
             loading.error(place + "/skeleton",
                           "node " + std::to_string(*skin.skeleton) + " is not above all joints");
             return;
         }
     }
-    if (one_root) return;
-    // Some programs write skeletons of several trees: only a warning if all of them are displayed.
-    const char* message = "the joints have no common root";
-    in_scene ? loading.warning(place + "/joints", message)
-             : loading.error(place + "/joints", message);
+    if (!one_root) loading.error(place + "/joints", "the joints have no common root");
 }
 
 bool is_number(const Accessor& accessor, bool integers) {
@@ -66,12 +77,17 @@ class AnimationChecker {
 
     void run() {
         for (std::size_t i = 0; i < animation_.samplers.size(); ++i) {
-            const Accessor& input = document_.accessors[animation_.samplers[i].input];
-            if (input.type == ElementType::Scalar && input.component == ComponentType::Float) {
-                continue;
+            const AnimationSampler& sampler = animation_.samplers[i];
+            const Accessor& input = document_.accessors[sampler.input];
+            const std::string place = place_ + "/samplers/" + std::to_string(i) + "/input";
+            if (input.type != ElementType::Scalar || input.component != ComponentType::Float) {
+                loading_.error(place, "times must be SCALAR of FLOAT");
+            } else if (input.min.empty() || input.max.empty()) {
+                loading_.error(place, "the accessor must have min and max");
             }
-            loading_.error(place_ + "/samplers/" + std::to_string(i) + "/input",
-                           "times must be SCALAR of FLOAT");
+            if (sampler.interpolation == Interpolation::CubicSpline && input.count < 2) {
+                loading_.error(place, "a cubic spline needs at least 2 times");
+            }
         }
         for (std::size_t i = 0; i < animation_.channels.size(); ++i) {
             channel(i, place_ + "/channels/" + std::to_string(i));
@@ -137,13 +153,13 @@ void check_skins_and_animations(const Loading& loading) {
     const Document& document = loading.document;
     if (!document.skins.empty()) {
         const NodeTree tree(document.nodes);
-        const std::vector<bool> roots = scene_roots(document);
         for (std::size_t i = 0; i < document.skins.size(); ++i) {
             const Skin& skin = document.skins[i];
             const std::string place = pointer_to("skins", i);
             check_bind_matrices(loading, skin, place + "/inverseBindMatrices");
-            check_joints(loading, tree, roots, skin, place);
+            check_joints(loading, tree, skin, place);
         }
+        check_scenes_of_skins(loading, tree);
     }
     for (std::size_t i = 0; i < document.animations.size(); ++i) {
         AnimationChecker(loading, document.animations[i], pointer_to("animations", i)).run();

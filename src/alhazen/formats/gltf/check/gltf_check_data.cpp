@@ -18,6 +18,9 @@ namespace {
 /// Tolerances for the length of unit vectors stored in few bits; same as Khronos' validator.
 constexpr double kUnitVectorTolerance = 0.00674, kUnitQuaternionTolerance = 0.00769;
 
+/// Sums of weights: rounding of four bytes stays below the first.
+constexpr double kWeightTolerance = 0.01, kWeightRounding = 1e-6;
+
 /// True if the declared number equals the number found after rounding to the stored type.
 bool agrees(double declared, double found, ComponentType type) {
     if (type == ComponentType::Float) {
@@ -98,8 +101,9 @@ class DataChecker {
             vertices = document_.accessors[index].count;
             const std::string at = place + "/attributes/" + name;
             if (name == "NORMAL" || name == "TANGENT") unit_vectors(index, at);
-            if (name.starts_with("COLOR_") || name.starts_with("WEIGHTS_")) zero_to_one(index, at);
+            if (name.starts_with("COLOR_")) zero_to_one(index, at);
         }
+        weights(primitive, place + "/attributes");
         if (primitive.indices) indices(*primitive.indices, vertices, place + "/indices");
     }
 
@@ -117,12 +121,69 @@ class DataChecker {
         }
     }
 
-    /// Warns of colours and weights outside 0..1; they remain usable.
+    /// Weights are not negative and sum up to 1, and no joint has two of them.
+    void weights(const Primitive& primitive, const std::string& place) {
+        std::vector<Index> joints, weights;
+        for (std::size_t set = 0;; ++set) {
+            const auto joint = primitive.attributes.find("JOINTS_" + std::to_string(set));
+            const auto weight = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
+            const auto end = primitive.attributes.end();
+            if (joint == end || weight == end) break;
+            if (!has_data(weight->second) || !has_data(joint->second)) return;
+            joints.push_back(joint->second);
+            weights.push_back(weight->second);
+        }
+        if (weights.empty() || !checked_weights_.insert({joints, weights}).second) return;
+        // Primitives may share accessors in any combination.
+        const std::uint64_t count = document_.accessors[weights.front()].count;
+        const std::uint64_t numbers = 8 * weights.size() * count;
+        if (numbers > weight_budget_) return;
+        weight_budget_ -= numbers;
+        std::vector<std::vector<double>> weight_sets;
+        std::vector<std::vector<std::uint32_t>> joint_sets;
+        for (std::size_t set = 0; set < weights.size(); ++set) {
+            weight_sets.push_back(read_numbers(document_, weights[set]));
+            joint_sets.push_back(read_integers(document_, joints[set]));
+        }
+        bool rounded = false;
+        std::vector<std::uint32_t> used;
+        for (std::size_t i = 0; i < count; ++i) {
+            double sum = 0;
+            used.clear();
+            for (std::size_t k = 0; k < 4 * weight_sets.size(); ++k) {
+                const double weight = weight_sets[k / 4][4 * i + k % 4];
+                if (weight < 0) {
+                    loading_.error(place, "weight " + std::to_string(k % 4) + " of vertex " +
+                                              std::to_string(i) + " is negative");
+                    return;
+                }
+                if (weight == 0) continue;
+                sum += weight;
+                used.push_back(joint_sets[k / 4][4 * i + k % 4]);
+            }
+            std::sort(used.begin(), used.end());
+            const auto twice = std::adjacent_find(used.begin(), used.end());
+            if (twice != used.end()) {
+                loading_.error(place, "vertex " + std::to_string(i) + " has two weights of joint " +
+                                          std::to_string(*twice));
+                return;
+            }
+            const double error = std::abs(sum - 1);
+            if (error > kWeightTolerance) {
+                loading_.error(place, "the weights of vertex " + std::to_string(i) + " sum up to " +
+                                          written(sum) + ", not to 1");
+                return;
+            }
+            rounded = rounded || error > kWeightRounding;
+        }
+        if (rounded) loading_.warning(place, "weights do not sum up to 1; they are divided by it");
+    }
+
     void zero_to_one(Index index, const std::string& place) const {
         const Accessor& accessor = document_.accessors[index];
         if (accessor.component != ComponentType::Float) return;
         if (found_[index].within_unit) return;
-        loading_.warning(place, "there are numbers outside 0 to 1");
+        loading_.error(place, "there are numbers outside 0 to 1");
     }
 
     void unit_vectors(Index index, const std::string& place) {
@@ -262,6 +323,8 @@ class DataChecker {
     std::set<Index> checked_vectors_, checked_matrices_, checked_times_;
     bool told_rounding_ = false;
     std::set<std::pair<Index, bool>> checked_quaternions_;
+    std::set<std::pair<std::vector<Index>, std::vector<Index>>> checked_weights_;
+    std::uint64_t weight_budget_ = std::uint64_t{1} << 30;  ///< numbers that may still be read
 };
 
 }  // namespace

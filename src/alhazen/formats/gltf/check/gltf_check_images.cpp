@@ -56,9 +56,23 @@ std::string jpeg_refusal(std::string_view bytes) {
 }
 
 std::string png_refusal(std::string_view bytes) {
-    constexpr std::size_t kHeader = 8 + 8 + 13 + 4;
+    constexpr std::size_t kHeader = 8 + 8 + 13 + 4, kAround = 12;
     if (bytes.size() < kHeader) return "the PNG data ends within its header";
-    return bytes.substr(12, 4) == "IHDR" ? "" : "the PNG data does not begin with IHDR";
+    const auto number_at = [&](std::size_t i) {
+        return std::size_t{byte_at(bytes, i)} << 24 | byte_at(bytes, i + 1) << 16 |
+               byte_at(bytes, i + 2) << 8 | byte_at(bytes, i + 3);
+    };
+    if (bytes.substr(12, 4) != "IHDR" || number_at(8) != 13) {
+        return "the PNG data does not begin with IHDR";
+    }
+    if (number_at(16) == 0 || number_at(20) == 0) return "the PNG data has no pixels";
+    for (std::size_t position = kHeader; bytes.size() - position >= kAround;) {
+        const std::size_t length = number_at(position);
+        if (bytes.substr(position + 4, 4) == "IDAT") return "";
+        if (bytes.size() - position - kAround < length) break;
+        position += kAround + length;
+    }
+    return "the PNG data ends before its pixels";
 }
 
 void check_bytes(const Loading& loading, const Image& image, const std::string& place,
@@ -67,6 +81,9 @@ void check_bytes(const Loading& loading, const Image& image, const std::string& 
     if (type.empty()) {
         loading.warning(place, "the image is neither PNG nor JPEG");
         return;
+    }
+    if (type == "image/webp" && loading.extensions_used.count("EXT_texture_webp") == 0) {
+        loading.error(place, "an image of image/webp needs the extension EXT_texture_webp");
     }
     if (!image.mime_type.empty() && image.mime_type != type &&
         begins_with(image.mime_type, "image/")) {
@@ -112,13 +129,16 @@ void check_images(const Loading& loading) {
     for (std::size_t i = 0; i < document.images.size(); ++i) {
         const Image& image = document.images[i];
         const std::string place = pointer_to("images", i);
+        if (image.elsewhere) continue;
         if (!image.data.empty()) {
             check_bytes(loading, image, place, std::string_view(image.data).substr(0, kHeadBytes));
         } else if (image.view) {
             const BufferView& view = document.views[*image.view];
             const std::size_t size = document.buffers[view.buffer].bytes.size();
             // A view outside its buffer is already reported.
-            if (view.offset <= size && view.length <= size - view.offset) {
+            if (document.buffers[view.buffer].lacks_data) {
+                loading.error(place, "the image lies in a buffer without data");
+            } else if (view.offset <= size && view.length <= size - view.offset) {
                 check_bytes(loading, image, place, bytes_of(document, view).substr(0, kHeadBytes));
             }
             if (view.stride != 0) loading.error(place, "the buffer view must not have a stride");

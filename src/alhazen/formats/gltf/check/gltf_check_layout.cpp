@@ -26,11 +26,11 @@ class LayoutChecker {
         for (std::size_t i = 0; i < document_.views.size(); ++i) {
             const BufferView& view = document_.views[i];
             const Buffer& buffer = document_.buffers[view.buffer];
-            if (fits(view.offset, 1, 1, view.length, buffer.bytes.size())) continue;
+            if (fits(view.offset, 1, 1, view.length, size_of(buffer))) continue;
             loading_.error(pointer_to("bufferViews", i),
                            std::to_string(view.length) + " bytes from " +
                                std::to_string(view.offset) + " do not fit into the " +
-                               std::to_string(buffer.bytes.size()) + " of buffer " +
+                               std::to_string(size_of(buffer)) + " of buffer " +
                                std::to_string(view.buffer));
         }
     }
@@ -42,12 +42,20 @@ class LayoutChecker {
         if (!accessor.view) {
             limit_zeros(accessor, place);
         } else if (range(accessor, layout, place)) {
-            limit_numbers(accessor, place);
+            const bool zeros = lacks_data(document_.views[*accessor.view]);
+            zeros ? limit_zeros(accessor, place) : limit_numbers(accessor, place);
         }
         if (accessor.sparse) sparse(accessor, layout, place + "/sparse");
     }
 
   private:
+    [[nodiscard]] bool lacks_data(const BufferView& view) const {
+        return document_.buffers[view.buffer].lacks_data;
+    }
+    static std::uint64_t size_of(const Buffer& buffer) {
+        return buffer.lacks_data ? buffer.length : buffer.bytes.size();
+    }
+
     /// True if the elements lie in the view.
     bool range(const Accessor& accessor, const ElementLayout& layout,
                const std::string& place) const {
@@ -129,7 +137,7 @@ class LayoutChecker {
             refuse("/values",
                    "byteOffset must be a multiple of " + std::to_string(layout.component));
         }
-        if (good && lies_in_buffer(indices)) order(accessor, place);
+        if (good && !lacks_data(indices) && lies_in_buffer(indices)) order(accessor, place);
     }
 
     [[nodiscard]] bool lies_in_buffer(const BufferView& view) const {

@@ -142,14 +142,20 @@ class PrimitiveChecker {
               &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
               &material.transmission_texture, &material.thickness_texture,
               &material.specular_texture, &material.specular_color_texture}) {
-            if (!*info) continue;
-            const std::string name = "TEXCOORD_" + std::to_string((*info)->tex_coord);
-            if (primitive_.attributes.count(name) != 0) continue;
-            loading_.error(place_ + "/material", "a texture of material " +
-                                                     std::to_string(*primitive_.material) +
-                                                     " needs the attribute " + name);
-            return;
+            if (*info && !has_coordinates(**info)) return;
         }
+        for (const TextureInfo& info : material.ignored_textures) {
+            if (!has_coordinates(info)) return;
+        }
+    }
+
+    [[nodiscard]] bool has_coordinates(const TextureInfo& info) const {
+        const std::string name = "TEXCOORD_" + std::to_string(info.tex_coord);
+        if (primitive_.attributes.count(name) != 0) return true;
+        loading_.error(place_ + "/material", "a texture of material " +
+                                                 std::to_string(*primitive_.material) +
+                                                 " needs the attribute " + name);
+        return false;
     }
 
     const Loading& loading_;

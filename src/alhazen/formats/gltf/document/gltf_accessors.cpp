@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "alhazen/formats/gltf/document/gltf_readers.h"
@@ -106,6 +107,7 @@ std::vector<double> numbers_of(const Document& document, const Accessor& accesso
 void read_sparse(const JsonObject& object, Accessor& accessor) {
     object.with_object("sparse", [&](const JsonObject& sparse) {
         SparseAccessor result;
+        bool is_known = true;
         sparse.require("count");
         sparse.require("indices");
         sparse.require("values");
@@ -121,7 +123,9 @@ void read_sparse(const JsonObject& object, Accessor& accessor) {
             result.indices_offset = indices.integer("byteOffset").value_or(0);
             const auto type = indices.integer("componentType");
             if (type && *type != 5121 && *type != 5123 && *type != 5125) {
-                indices.error("componentType", "expected 5121, 5123 or 5125");
+                indices.warning("componentType",
+                                "expected 5121, 5123 or 5125; the sparse values are ignored");
+                is_known = false;
             } else if (type) {
                 result.indices_type = static_cast<ComponentType>(*type);
             }
@@ -131,11 +135,13 @@ void read_sparse(const JsonObject& object, Accessor& accessor) {
             result.values_view = values.index("bufferView", Collection::BufferViews).value_or(0);
             result.values_offset = values.integer("byteOffset").value_or(0);
         });
-        accessor.sparse = result;
+        if (is_known) accessor.sparse = result;
     });
 }
 
-void read_types(const JsonObject& object, Accessor& accessor) {
+/// False for a type that is not known, with a warning.
+bool read_types(const JsonObject& object, Accessor& accessor) {
+    bool is_known = true;
     object.require("componentType");
     object.require("type");
     if (const auto code = object.integer("componentType")) {
@@ -143,8 +149,10 @@ void read_types(const JsonObject& object, Accessor& accessor) {
             std::begin(kComponents), std::end(kComponents),
             [&](const ComponentName& c) { return static_cast<std::uint64_t>(c.type) == *code; });
         if (found == std::end(kComponents)) {
-            object.error("componentType", "expected 5120, 5121, 5122, 5123, 5125 or 5126, found " +
-                                              std::to_string(*code));
+            object.warning("componentType",
+                           "expected 5120, 5121, 5122, 5123, 5125 or 5126, found " +
+                               std::to_string(*code) + "; the accessor is ignored");
+            is_known = false;
         } else {
             accessor.component = found->type;
         }
@@ -153,17 +161,41 @@ void read_types(const JsonObject& object, Accessor& accessor) {
         const auto* found = std::find_if(std::begin(kElements), std::end(kElements),
                                          [&](const ElementName& e) { return *name == e.name; });
         if (found == std::end(kElements)) {
-            object.error("type", "expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
+            object.warning("type",
+                           "expected SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4; the accessor "
+                           "is ignored");
+            is_known = false;
         } else {
             accessor.type = static_cast<ElementType>(found - std::begin(kElements));
         }
     }
+    return is_known;
+}
+
+/// Reads the member "min" or "max": numbers that the type can hold.
+std::vector<double> read_bound(const JsonObject& object, const char* key,
+                               const Accessor& accessor) {
+    constexpr double kLargestFloat = std::numeric_limits<float>::max();
+    const bool is_float = accessor.component == ComponentType::Float;
+    const bool is_signed =
+        accessor.component == ComponentType::Byte || accessor.component == ComponentType::Short;
+    const auto bits = static_cast<int>(8 * component_size(accessor.component));
+    const double least = is_float ? -kLargestFloat : is_signed ? -std::ldexp(1.0, bits - 1) : 0.0;
+    const double most =
+        is_float ? kLargestFloat : std::ldexp(1.0, is_signed ? bits - 1 : bits) - 1.0;
+    auto bound =
+        object.numbers(key, component_count(accessor.type)).value_or(std::vector<double>());
+    for (const double x : bound) {
+        if (x >= least && x <= most && (is_float || x == std::floor(x))) continue;
+        object.error(key, written(x) + " is not a number of " + name_of(accessor.component));
+    }
+    return bound;
 }
 
 Accessor read_accessor(const JsonObject& object) {
     Accessor accessor;
     accessor.name = object.text("name").value_or("");
-    read_types(object, accessor);
+    const bool is_known = read_types(object, accessor);
     accessor.view = object.index("bufferView", Collection::BufferViews);
     accessor.offset = object.integer("byteOffset").value_or(0);
     if (object.has("byteOffset") && !object.has("bufferView")) {
@@ -176,9 +208,15 @@ Accessor read_accessor(const JsonObject& object) {
         object.error("normalized", std::string("only bytes and shorts can be normalised, not ") +
                                        name_of(accessor.component));
     }
-    const std::size_t n = component_count(accessor.type);
-    accessor.min = object.numbers("min", n).value_or(std::vector<double>());
-    accessor.max = object.numbers("max", n).value_or(std::vector<double>());
+    if (!is_known) {
+        // No use allows this type without data; each reports it.
+        Accessor unusable;
+        unusable.component = ComponentType::Byte;
+        unusable.count = 1;
+        return unusable;
+    }
+    accessor.min = read_bound(object, "min", accessor);
+    accessor.max = read_bound(object, "max", accessor);
     read_sparse(object, accessor);
     return accessor;
 }

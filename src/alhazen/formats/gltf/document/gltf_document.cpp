@@ -53,6 +53,8 @@ std::vector<std::string> names_in(const JsonObject& root, std::string_view key) 
             root.error(key, "expected names, found another type");
         }
     }
+    const std::set<std::string> distinct(names.begin(), names.end());
+    if (distinct.size() != names.size()) root.error(key, "a name occurs more than once");
     return names;
 }
 
@@ -65,11 +67,15 @@ void count_arrays(const JsonObject& root, Loading& loading) {
         }
         loading.sizes[static_cast<std::size_t>(entry.collection)] = list->size();
     }
-    root.with_extension("KHR_lights_punctual", [&](const JsonObject& extension) {
-        const nlohmann::json* list = extension.find("lights");
-        if (list == nullptr || !list->is_array()) return;
-        loading.sizes[static_cast<std::size_t>(Collection::Lights)] = list->size();
-    });
+    const auto count_in_extension = [&](const char* name, const char* key, Collection collection) {
+        root.with_extension(name, [&](const JsonObject& extension) {
+            const nlohmann::json* list = extension.find(key);
+            if (list == nullptr || !list->is_array()) return;
+            loading.sizes[static_cast<std::size_t>(collection)] = list->size();
+        });
+    };
+    count_in_extension("KHR_lights_punctual", "lights", Collection::Lights);
+    count_in_extension("KHR_materials_variants", "variants", Collection::Variants);
 }
 
 /// "2.0" -> {2, 0}.
@@ -102,6 +108,23 @@ void read_all(const JsonObject& root, Loading& loading) {
     read_animations(root, loading);
 }
 
+/// Accessors in buffers without data become zeros, like those without a view.
+void zeros_without_data(Loading& loading) {
+    Document& document = loading.document;
+    const auto lacks_data = [&](Index view) {
+        return document.buffers[document.views[view].buffer].lacks_data;
+    };
+    for (Accessor& accessor : document.accessors) {
+        if (accessor.sparse && (lacks_data(accessor.sparse->indices_view) ||
+                                lacks_data(accessor.sparse->values_view))) {
+            accessor.sparse.reset();
+        }
+        if (!accessor.view || !lacks_data(*accessor.view)) continue;
+        accessor.view.reset();
+        accessor.offset = 0;
+    }
+}
+
 }  // namespace
 
 std::string pointer_to(const char* collection, std::size_t position) {
@@ -123,6 +146,7 @@ void read_asset(const JsonObject& root) {
     root.require("asset");
     root.with_object("asset", [](const JsonObject& asset) {
         asset.require("version");
+        for (const char* key : {"copyright", "generator"}) (void)asset.text(key);
         const auto version = version_in(asset, "version");
         const auto minimum = version_in(asset, "minVersion");
         if (version && (*version)[0] != 2) {
@@ -160,7 +184,14 @@ bool read_extensions(const JsonObject& root, Loading& loading) {
                      "the extension " + name + " is not supported; " +
                          (is_only_look(name) ? "it is left out of the look" : "ignored"));
     }
-    loading.quantized = loading.extensions_used.count("KHR_mesh_quantization") != 0;
+    constexpr const char* kQuantization = "KHR_mesh_quantization";
+    loading.quantized = loading.extensions_used.count(kQuantization) != 0;
+    const auto& required = document.extensions_required;
+    if (loading.quantized &&
+        std::find(required.begin(), required.end(), kQuantization) == required.end()) {
+        root.error("extensionsUsed",
+                   std::string(kQuantization) + " must be listed in extensionsRequired as well");
+    }
     count_arrays(root, loading);
     return true;
 }
@@ -199,11 +230,14 @@ Document read_gltf_document(const ImportSource& source, Diagnostics& diagnostics
     }
     if (failed()) return {};
     check_layout(loading);
+    check_usage(loading);
     check_images(loading);
     check_graph(loading);
     check_meshes(loading);
     check_skins_and_animations(loading);
-    if (!failed()) check_data(loading);
+    if (failed()) return std::move(loading.document);
+    zeros_without_data(loading);
+    check_data(loading);
     return std::move(loading.document);
 }
 

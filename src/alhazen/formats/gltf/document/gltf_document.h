@@ -25,13 +25,16 @@ using Index = std::uint32_t;
 
 struct Buffer {
     std::shared_ptr<const std::string>
-        owned;               ///< null for the chunk of a GLB, which the source owns
-    std::string_view bytes;  ///< byteLength bytes; empty for a buffer without references
+        owned;                 ///< null for the chunk of a GLB, which the source owns
+    std::string_view bytes;    ///< byteLength bytes; empty for a buffer without references
+    std::uint64_t length = 0;  ///< byteLength
+    bool lacks_data = false;   ///< names no data: what lies in it is zero
 };
 struct BufferView {
     Index buffer = 0;
     std::uint64_t offset = 0, length = 0;
     std::uint32_t stride = 0;  ///< 0: tightly packed
+    std::uint32_t target = 0;  ///< 34962 (vertices) or 34963 (indices); 0: undeclared
 };
 
 enum class ComponentType : std::uint16_t {
@@ -69,6 +72,7 @@ struct Image {
     std::optional<Index> view;  ///< the encoded image
     std::string data;           ///< the encoded image of a data: URI
     std::string mime_type;      ///< as declared; empty: undeclared
+    bool elsewhere = false;     ///< on the net: the textures that name it have no source
 };
 /// Mipmap: any mipmap mode.
 enum class Filter { Unset, Nearest, Linear, NearestMipmap, LinearMipmap };
@@ -110,6 +114,7 @@ struct Material {
     double specular = 1;  ///< KHR_materials_specular
     std::array<double, 3> specular_color{1, 1, 1};
     std::optional<TextureInfo> specular_texture, specular_color_texture;
+    std::vector<TextureInfo> ignored_textures;  ///< of extensions that are left out of the look
 };
 
 using Attributes = std::map<std::string, Index>;  ///< semantic -> accessor

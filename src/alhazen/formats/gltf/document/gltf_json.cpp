@@ -11,8 +11,8 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kCollectionNames[kCollectionCount] = {
-    "accessor", "buffer", "bufferView", "camera", "image", "light",  "material",
-    "mesh",     "node",   "sampler",    "scene",  "skin",  "texture"};
+    "accessor", "buffer", "bufferView", "camera", "image", "light",   "material",
+    "mesh",     "node",   "sampler",    "scene",  "skin",  "texture", "variant"};
 
 constexpr std::string_view kSupported[] = {
     "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
@@ -44,7 +44,11 @@ constexpr Extended kExtended[] = {
     {"KHR_materials_unlit", {"#/materials/N"}},
     {"KHR_materials_variants", {"#", "#/meshes/N/primitives/N"}},
     {"KHR_materials_volume", {"#/materials/N"}},
+    {"KHR_mesh_quantization", {}},
 };
+
+/// Place of KHR_texture_transform: any reference of a material to a texture.
+constexpr std::string_view kTextureTransform = "KHR_texture_transform", kTextureInfo = "Texture";
 
 /// A pointer with "N" for each position: "#/nodes/3" -> "#/nodes/N".
 std::string without_positions(std::string_view pointer) {
@@ -62,6 +66,7 @@ std::string without_positions(std::string_view pointer) {
 
 /// True if the extension is not known, or extends the objects at this place.
 bool is_expected(std::string_view extension, std::string_view place) {
+    if (extension == kTextureTransform) return place.ends_with(kTextureInfo);
     for (const Extended& known : kExtended) {
         if (known.extension != extension) continue;
         return std::find(known.places.begin(), known.places.end(), place) != known.places.end();
@@ -90,7 +95,8 @@ bool is_supported(std::string_view extension) {
 }
 
 bool is_only_look(std::string_view extension) {
-    return extension.find("_materials_") != std::string_view::npos;
+    return extension.find("_materials_") != std::string_view::npos ||
+           extension.find("_texture_") != std::string_view::npos;
 }
 
 std::string Place::pointer() const {
@@ -138,10 +144,7 @@ JsonObject::JsonObject(json& value, const Place& place, const JsonContext& conte
             context_.error(Place(where, name), "the extension does not belong to this object");
             continue;
         }
-        // A supported extension is readable without its declaration.
-        const char* message = "the extension is not listed in extensionsUsed";
-        const Place at(where, name);
-        is_supported(name) ? context_.warning(at, message) : context_.error(at, message);
+        context_.error(Place(where, name), "the extension is not listed in extensionsUsed");
     }
 }
 
@@ -412,6 +415,11 @@ FileLocation location_at(std::string_view text, std::size_t offset, const std::s
 
 std::optional<json> parse_json(std::string_view text, const std::string& file, std::uint64_t most,
                                Diagnostics& diagnostics) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) {
+        diagnostics.error({file, 1, 1}, "JSON: the text begins with a byte order mark");
+        return std::nullopt;
+    }
     try {
         Watch watch(most);
         static_cast<void>(json::sax_parse(text.begin(), text.end(), &watch));

@@ -66,8 +66,9 @@ enum class Collection {
     Scenes,
     Skins,
     Textures,
+    Variants,  ///< of KHR_materials_variants
 };
-inline constexpr std::size_t kCollectionCount = 13;
+inline constexpr std::size_t kCollectionCount = 14;
 
 /// Shared state of the readers of one document.
 struct JsonContext {
@@ -98,8 +99,7 @@ inline constexpr Range kPositive{.lo = 0, .above_lo = true};
 /// A JSON object being read.
 class JsonObject {
   public:
-    /// Reports undeclared extensions of the object: an error if unsupported, else a warning. A
-    /// known extension at an object that it does not extend is an error.
+    /// Reports undeclared extensions of the object, and known ones that do not extend it.
     JsonObject(nlohmann::json& value, const Place& place, const JsonContext& context);
 
     [[nodiscard]] const Place& place() const { return place_; }

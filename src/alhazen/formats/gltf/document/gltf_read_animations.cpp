@@ -55,6 +55,8 @@ void read_target(const JsonObject& target, AnimationChannel& channel) {
         channel.node.reset();
         if (target.has("node")) extension.error({}, "the target must not have a node as well");
         if (path != "pointer") extension.error({}, "the path of the target must be \"pointer\"");
+        extension.require("pointer");
+        (void)extension.text("pointer");
     });
 }
 

@@ -19,9 +19,11 @@ class BufferLoader {
 
     Buffer load(const JsonObject& object, std::size_t position) {
         Buffer buffer;
+        (void)object.text("name");
         object.require("byteLength");
         const auto length = object.integer("byteLength", 1);
         if (!length) return buffer;
+        buffer.length = *length;
         if (object.has("uri")) {
             buffer.owned = named(object, position);
             if (buffer.owned) buffer.bytes = *buffer.owned;
@@ -32,7 +34,12 @@ class BufferLoader {
                 object.warning({}, "the binary chunk is larger than the buffer");
             }
         } else {
-            if (used_[position]) object.error({}, "the buffer is in use but has no data");
+            buffer.lacks_data = true;
+            if (position == 0 && loading_.is_glb) {
+                object.error({}, "the buffer has no uri and the file no binary chunk");
+            } else if (used_[position]) {
+                object.warning({}, "the buffer has no data; numbers in it are taken as 0");
+            }
             return buffer;
         }
         if (buffer.bytes.size() >= *length) {
@@ -51,9 +58,18 @@ class BufferLoader {
         if (!uri) return nullptr;
         if (is_data_uri(*uri)) {
             auto data = read_data_uri(*uri);
-            if (data) return std::make_shared<const std::string>(std::move(data->bytes));
-            object.error("uri", "malformed data: URI, expected base64");
-            return nullptr;
+            if (!data) {
+                object.error("uri", "malformed data: URI");
+                return nullptr;
+            }
+            if (data->media_type != "application/octet-stream" &&
+                data->media_type != "application/gltf-buffer") {
+                object.error("uri",
+                             "the media type of a data: URI must be application/octet-stream or "
+                             "application/gltf-buffer, found \"" +
+                                 data->media_type.substr(0, 80) + '"');
+            }
+            return std::make_shared<const std::string>(std::move(data->bytes));
         }
         if (is_absolute_uri(*uri) && !used_[position]) {
             object.warning("uri", "not relative to the file; the buffer is not used");
@@ -91,6 +107,7 @@ class BufferLoader {
 
 BufferView read_view(const JsonObject& object) {
     BufferView view;
+    (void)object.text("name");
     object.require("buffer");
     object.require("byteLength");
     view.buffer = object.index("buffer", Collection::Buffers).value_or(0);
@@ -104,6 +121,8 @@ BufferView read_view(const JsonObject& object) {
     if (const auto target = object.integer("target"); target) {
         if (*target != 34962 && *target != 34963) {
             object.warning("target", "expected 34962 or 34963; ignored");
+        } else {
+            view.target = static_cast<std::uint32_t>(*target);
         }
         if (*target == 34963 && view.stride != 0) {
             object.error("byteStride", "a buffer view of indices must not have a stride");

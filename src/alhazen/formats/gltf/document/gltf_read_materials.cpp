@@ -56,24 +56,60 @@ void read_dielectric_extensions(const JsonObject& object, Material& material) {
     });
 }
 
-/// Checks the ranges of numbers in ignored extensions; the file is invalid outside them.
-void check_ignored_extensions(const JsonObject& object) {
-    struct Limited {
+/// Checks the members of ignored extensions; the file is invalid outside their ranges.
+void check_ignored_extensions(const JsonObject& object, Material& material) {
+    struct Numbers {
         const char* extension;
         const char* member;
+        std::size_t size;  ///< 0: a number, not a list
         Range range;
     };
-    constexpr Limited kLimited[] = {
-        {"KHR_materials_anisotropy", "anisotropyStrength", kUnitRange},
-        {"KHR_materials_clearcoat", "clearcoatFactor", kUnitRange},
-        {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", kUnitRange},
-        {"KHR_materials_dispersion", "dispersion", kNotNegative},
-        {"KHR_materials_iridescence", "iridescenceFactor", kUnitRange},
-        {"KHR_materials_sheen", "sheenRoughnessFactor", kUnitRange},
+    constexpr Numbers kNumbers[] = {
+        {"KHR_materials_anisotropy", "anisotropyStrength", 0, kUnitRange},
+        {"KHR_materials_anisotropy", "anisotropyRotation", 0, {}},
+        {"KHR_materials_clearcoat", "clearcoatFactor", 0, kUnitRange},
+        {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", 0, kUnitRange},
+        {"KHR_materials_dispersion", "dispersion", 0, kNotNegative},
+        {"KHR_materials_iridescence", "iridescenceFactor", 0, kUnitRange},
+        {"KHR_materials_iridescence", "iridescenceIor", 0, {.lo = 1}},
+        {"KHR_materials_iridescence", "iridescenceThicknessMinimum", 0, kNotNegative},
+        {"KHR_materials_iridescence", "iridescenceThicknessMaximum", 0, kNotNegative},
+        {"KHR_materials_pbrSpecularGlossiness", "diffuseFactor", 4, kUnitRange},
+        {"KHR_materials_pbrSpecularGlossiness", "specularFactor", 3, kUnitRange},
+        {"KHR_materials_pbrSpecularGlossiness", "glossinessFactor", 0, kUnitRange},
+        {"KHR_materials_sheen", "sheenColorFactor", 3, kUnitRange},
+        {"KHR_materials_sheen", "sheenRoughnessFactor", 0, kUnitRange},
     };
-    for (const Limited& limited : kLimited) {
-        object.with_extension(limited.extension, [&](const JsonObject& extension) {
-            (void)extension.number(limited.member, limited.range);
+    struct Picture {
+        const char* extension;
+        const char* member;
+        const char* strength;
+    };
+    constexpr Picture kPictures[] = {
+        {"KHR_materials_anisotropy", "anisotropyTexture", ""},
+        {"KHR_materials_clearcoat", "clearcoatTexture", ""},
+        {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", ""},
+        {"KHR_materials_clearcoat", "clearcoatNormalTexture", "scale"},
+        {"KHR_materials_iridescence", "iridescenceTexture", ""},
+        {"KHR_materials_iridescence", "iridescenceThicknessTexture", ""},
+        {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", ""},
+        {"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture", ""},
+        {"KHR_materials_sheen", "sheenColorTexture", ""},
+        {"KHR_materials_sheen", "sheenRoughnessTexture", ""},
+    };
+    for (const Numbers& numbers : kNumbers) {
+        object.with_extension(numbers.extension, [&](const JsonObject& extension) {
+            if (numbers.size == 0) {
+                (void)extension.number(numbers.member, numbers.range);
+            } else {
+                (void)extension.numbers(numbers.member, numbers.size, numbers.range);
+            }
+        });
+    }
+    for (const Picture& picture : kPictures) {
+        object.with_extension(picture.extension, [&](const JsonObject& extension) {
+            const auto info = read_texture_info(extension, picture.member, picture.strength);
+            if (info) material.ignored_textures.push_back(*info);
         });
     }
 }
@@ -93,7 +129,7 @@ Material read_material(const JsonObject& object) {
         extension.number_into("emissiveStrength", material.emissive_strength, kNotNegative);
     });
     read_dielectric_extensions(object, material);
-    check_ignored_extensions(object);
+    check_ignored_extensions(object, material);
     return material;
 }
 
@@ -102,6 +138,14 @@ Material read_material(const JsonObject& object) {
 void read_materials(const JsonObject& root, Loading& loading) {
     root.each_object("materials", [&](const JsonObject& object, std::size_t) {
         loading.document.materials.push_back(read_material(object));
+    });
+    // Variants are not shown, but what a file says of them must hold together.
+    root.with_extension("KHR_materials_variants", [](const JsonObject& extension) {
+        extension.require("variants");
+        extension.each_object("variants", [](const JsonObject& variant, std::size_t) {
+            variant.require("name");
+            (void)variant.text("name");
+        });
     });
 }
 

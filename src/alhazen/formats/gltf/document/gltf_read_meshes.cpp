@@ -1,4 +1,6 @@
 // Readers of meshes, primitives and morph targets.
+#include <set>
+
 #include "alhazen/formats/gltf/document/gltf_readers.h"
 
 namespace alhazen::gltf {
@@ -15,6 +17,24 @@ Attributes read_attributes(const JsonObject& object) {
     return attributes;
 }
 
+/// Variants are not shown, but what a file says of them must hold together.
+void check_variants(const JsonObject& primitive) {
+    primitive.with_extension("KHR_materials_variants", [](const JsonObject& extension) {
+        extension.require("mappings");
+        std::set<Index> mapped;
+        extension.each_object("mappings", [&](const JsonObject& mapping, std::size_t) {
+            mapping.require("material");
+            mapping.require("variants");
+            (void)mapping.index("material", Collection::Materials);
+            for (const Index variant : mapping.indices("variants", Collection::Variants)) {
+                if (mapped.insert(variant).second) continue;
+                mapping.error("variants",
+                              "variant " + std::to_string(variant) + " has a material already");
+            }
+        });
+    });
+}
+
 Primitive read_primitive(const JsonObject& object) {
     Primitive primitive;
     object.require("attributes");
@@ -29,8 +49,10 @@ Primitive read_primitive(const JsonObject& object) {
     } else if (mode) {
         primitive.mode = static_cast<PrimitiveMode>(*mode);
     }
+    check_variants(object);
     object.each_object("targets", [&](const JsonObject& target, std::size_t) {
         primitive.targets.push_back(read_attributes(target));
+        if (target.keys().empty()) target.error({}, "there is no attribute");
     });
     return primitive;
 }

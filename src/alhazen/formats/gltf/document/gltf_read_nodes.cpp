@@ -8,6 +8,20 @@ namespace alhazen::gltf {
 
 namespace {
 
+/// True if the columns stand upright on each other and none is 0, up to rounding.
+bool is_trs(const std::array<double, 16>& m) {
+    constexpr double kLargestCosine = 1e-3;
+    const auto dot = [&](std::size_t i, std::size_t j) {
+        return m[4 * i] * m[4 * j] + m[4 * i + 1] * m[4 * j + 1] + m[4 * i + 2] * m[4 * j + 2];
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        const double lengths = std::sqrt(dot(i, i)) * std::sqrt(dot(j, j));
+        if (!(lengths > 0) || std::abs(dot(i, j)) > kLargestCosine * lengths) return false;
+    }
+    return true;
+}
+
 /// Warns of the first rounded matrix.
 void read_matrix(const JsonObject& object, Node& node, bool& told_rounding) {
     std::array<double, 16> matrix{};
@@ -24,6 +38,9 @@ void read_matrix(const JsonObject& object, Node& node, bool& told_rounding) {
         told_rounding = true;
         object.warning("matrix", kRoundedMatrices);
     }
+    if (!is_trs(matrix)) {
+        object.error("matrix", "the matrix is not a product of translation, rotation and scale");
+    }
 }
 
 void read_rotation(const JsonObject& object, Node& node) {
@@ -37,7 +54,7 @@ void read_rotation(const JsonObject& object, Node& node) {
         return;
     }
     if (std::abs(length - 1) > kTolerance) {
-        object.warning("rotation", "the quaternion is not of unit length; it is normalised");
+        object.error("rotation", "the quaternion is not of unit length, but of " + written(length));
     }
     for (double& q : node.rotation) q /= length;
 }

@@ -1,5 +1,8 @@
 // Readers of images, samplers, textures, and texture references of materials.
+#include <algorithm>
+#include <initializer_list>
 #include "alhazen/formats/gltf/document/gltf_texture_info.h"
+
 #include "alhazen/formats/gltf/document/gltf_uri.h"
 
 namespace alhazen::gltf {
@@ -11,11 +14,16 @@ void read_uri(const JsonObject& object, Image& image) {
     if (!uri) return;
     if (is_data_uri(*uri)) {
         auto data = read_data_uri(*uri);
-        if (!data) return object.error("uri", "malformed data: URI, expected base64");
+        if (!data) return object.error("uri", "malformed data: URI");
         image.data = std::move(data->bytes);
         if (image.mime_type.empty()) image.mime_type = data->media_type;
         if (image.data.empty()) object.error("uri", "the image has no bytes");
         return;
+    }
+    const bool is_path = uri->starts_with('/') || uri->starts_with('\\');
+    if (is_absolute_uri(*uri) && !is_path) {
+        image.elsewhere = true;
+        return object.warning("uri", "not relative to the file; the image is left out");
     }
     const auto name = percent_decoded(*uri);
     if (!name) {
@@ -70,6 +78,17 @@ Wrap wrap_in(const JsonObject& object, std::string_view key) {
     return Wrap::Repeat;
 }
 
+/// Reports the source of a texture whose declared type is not one of these.
+void media_type(const JsonObject& texture, const std::vector<Image>& images, Index source,
+                std::initializer_list<std::string_view> allowed) {
+    if (source >= images.size()) return;  // reported already
+    const std::string& type = images[source].mime_type;
+    if (type.empty() || std::find(allowed.begin(), allowed.end(), type) != allowed.end()) return;
+    // Types that nobody knows are told of elsewhere, and the image shows what it is.
+    if (type != "image/jpeg" && type != "image/png" && type != "image/webp") return;
+    texture.error("source", "an image of " + type + " cannot be the source here");
+}
+
 }  // namespace
 
 void read_textures(const JsonObject& root, Loading& loading) {
@@ -77,18 +96,29 @@ void read_textures(const JsonObject& root, Loading& loading) {
         loading.document.images.push_back(read_image_entry(object));
     });
     root.each_object("samplers", [&](const JsonObject& object, std::size_t) {
+        (void)object.text("name");
         loading.document.samplers.push_back({.magnify = filter_in(object, "magFilter", false),
                                              .minify = filter_in(object, "minFilter", true),
                                              .wrap_s = wrap_in(object, "wrapS"),
                                              .wrap_t = wrap_in(object, "wrapT")});
     });
     root.each_object("textures", [&](const JsonObject& object, std::size_t) {
+        (void)object.text("name");
         loading.document.textures.push_back({object.index("sampler", Collection::Samplers),
                                              object.index("source", Collection::Images)});
         // The extension's image is not read, but its index must be valid.
-        object.with_extension("EXT_texture_webp", [](const JsonObject& extension) {
-            (void)extension.index("source", Collection::Images);
+        object.with_extension("EXT_texture_webp", [&](const JsonObject& extension) {
+            const auto source = extension.index("source", Collection::Images);
+            if (!source) return;
+            media_type(extension, loading.document.images, *source, {"image/webp"});
         });
+        if (const auto source = loading.document.textures.back().source) {
+            const std::vector<Image>& images = loading.document.images;
+            media_type(object, images, *source, {"image/jpeg", "image/png"});
+            if (*source < images.size() && images[*source].elsewhere) {
+                loading.document.textures.back().source.reset();
+            }
+        }
     });
 }
 

@@ -30,9 +30,7 @@ void read_orthographic(const JsonObject& object, Camera& camera) {
     camera.xmag = object.number("xmag").value_or(1);
     camera.ymag = object.number("ymag").value_or(1);
     for (auto [key, value] : {std::pair{"xmag", &camera.xmag}, std::pair{"ymag", &camera.ymag}}) {
-        if (*value != 0) continue;
-        object.warning(key, "must not be 0; taken as 1");
-        *value = 1;
+        if (*value == 0) object.error(key, "must not be 0");
     }
     camera.near = object.number("znear", kNotNegative).value_or(0);
     camera.far = object.number("zfar", kPositive);
@@ -49,6 +47,9 @@ Camera read_camera(const JsonObject& object) {
     if (type != "perspective" && type != "orthographic") {
         object.warning("type", "expected perspective or orthographic; taken as perspective");
         return camera;
+    }
+    if (object.has("perspective") && object.has("orthographic")) {
+        object.error({}, "expected one of \"perspective\" and \"orthographic\"");
     }
     camera.perspective = type == "perspective";
     object.require(type);
@@ -78,7 +79,7 @@ PunctualLight read_light(const JsonObject& object) {
     } else if (type != "point") {
         object.warning("type", "expected directional, point or spot; taken as point");
     }
-    object.numbers_into("color", light.color, kNotNegative);
+    object.numbers_into("color", light.color, kUnitRange);
     object.number_into("intensity", light.intensity, kNotNegative);
     light.range = object.number("range", kPositive);
     if (light.type == PunctualLight::Type::Spot) {

@@ -33,8 +33,8 @@ void read_asset(const JsonObject& root);
 [[nodiscard]] bool read_extensions(const JsonObject& root, Loading& loading);
 void read_buffers(const JsonObject& root, Loading& loading);  ///< and buffer views
 void read_accessors(const JsonObject& root, Loading& loading);
-void read_textures(const JsonObject& root, Loading& loading);  ///< and images, samplers
-void read_materials(const JsonObject& root, Loading& loading);
+void read_textures(const JsonObject& root, Loading& loading);   ///< and images, samplers
+void read_materials(const JsonObject& root, Loading& loading);  ///< and KHR_materials_variants
 void read_meshes(const JsonObject& root, Loading& loading);
 void read_cameras(const JsonObject& root, Loading& loading);
 void read_lights(const JsonObject& root, Loading& loading);
@@ -43,6 +43,7 @@ void read_animations(const JsonObject& root, Loading& loading);  ///< and skins
 
 // Checks of a document that was read without errors.
 void check_layout(const Loading& loading);  ///< views in buffers, accessors in views, sparse order
+void check_usage(const Loading& loading);   ///< each accessor and view has one use
 void check_images(const Loading& loading);
 void check_graph(const Loading& loading);
 void check_meshes(const Loading& loading);

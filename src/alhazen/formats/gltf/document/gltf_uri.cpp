@@ -107,9 +107,9 @@ std::optional<DataUri> read_data_uri(std::string_view uri) {
     if (!is_data_uri(uri) || comma == std::string_view::npos) return std::nullopt;
     std::string_view head = uri.substr(5, comma - 5);
     constexpr std::string_view kBase64 = ";base64";
-    if (head.size() < kBase64.size()) return std::nullopt;
-    if (!begins_with(head.substr(head.size() - kBase64.size()), kBase64)) return std::nullopt;
-    head.remove_suffix(kBase64.size());
+    const bool is_base64 = head.size() >= kBase64.size() &&
+                           begins_with(head.substr(head.size() - kBase64.size()), kBase64);
+    if (is_base64) head.remove_suffix(kBase64.size());
     DataUri result;
     // Parameters of the form name=value follow the media type.
     std::size_t start = head.find(';');
@@ -122,7 +122,9 @@ std::optional<DataUri> read_data_uri(std::string_view uri) {
     }
     const std::string_view text = uri.substr(comma + 1);
     std::optional<std::string> bytes;
-    if (text.find('%') == std::string_view::npos) {
+    if (!is_base64) {
+        bytes = percent_decoded(text);
+    } else if (text.find('%') == std::string_view::npos) {
         bytes = base64_decoded(text);
     } else if (const auto decoded = percent_decoded(text)) {
         bytes = base64_decoded(*decoded);

@@ -1,0 +1,18 @@
+#pragma once
+/// Vertices of equal position as one.
+///
+/// Derivation: sorting. Conventions: 0 and -0 are alike; NaN equals a NaN of the same bits.
+/// Complexity: O(n log n) for any input.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+/// For each vertex the lowest vertex of equal position.
+[[nodiscard]] std::vector<std::uint32_t> merged_positions(std::span<const Vec3> positions);
+
+}  // namespace alhazen
