@@ -278,9 +278,9 @@ inline bool same(const SamplingConventions& a, const SamplingConventions& b) {
     return all_same(a1, b1);
 }
 inline bool same(const FilmConventions& a, const FilmConventions& b) {
-    const auto& [a1] = a;
-    const auto& [b1] = b;
-    return all_same(a1, b1);
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1, a2, b2);
 }
 inline bool same(const ImportConventions& a, const ImportConventions& b) {
     const auto& [a1, a2, a3] = a;

@@ -186,7 +186,7 @@ Comparison compare(SceneDescription description, const std::string& scene,
     comparison.rays = trial.picture().counters;
     comparison.recorded = trial.stream().by_kind();
     comparison.picture.assign(film.data(), film.data() + 3 * film.crop().area());
-    comparison.linear_output = trial.reference().conventions.film.linear_output;
+    comparison.encoding = trial.reference().conventions.film.encoding();
     Comparer(trial, options, scene).run(comparison);
     return comparison;
 }

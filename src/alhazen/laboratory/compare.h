@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "alhazen/base/progress.h"
+#include "alhazen/imaging/image/encoding.h"
 #include "alhazen/laboratory/scene_trial.h"
 
 namespace alhazen {
@@ -73,7 +74,7 @@ struct Comparison {
     RayCounters rays;  ///< of the picture
     std::array<std::uint64_t, kRayKindCount> recorded{};
     std::vector<double> picture;  ///< radiance [height][width][3]
-    bool linear_output = false;
+    Encoding encoding = Encoding::Srgb;
     std::vector<Measurement> measurements;
 
     /// The default of that name, or null.

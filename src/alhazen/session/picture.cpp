@@ -12,8 +12,7 @@ bool holds_layers(const std::filesystem::path& path) {
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const FilmConventions& conventions, const PictureOptions& options) {
     check_image_suffix(path);
-    const Encoding encoding = options.encoding.value_or(
-        conventions.linear_output ? Encoding::LinearTruncated : Encoding::Srgb);
+    const Encoding encoding = options.encoding.value_or(conventions.encoding());
     const std::string suffix = lower_suffix(path);
     const PixelBox& crop = film.crop();
     if (suffix == ".png") {

@@ -64,13 +64,27 @@ struct LoneSurface {
     PrimitiveTable table;
     bool closed = false;
     bool is_mesh = false;
+    bool is_whole_scene =
+        false;  ///< the table is empty: the aggregate of the scene is the surface's
 };
 
-LoneSurface lone_mesh(const std::shared_ptr<TriangleMesh>& mesh) {
+/// True where a scene is nothing but this mesh, not moved: another aggregate would be the same.
+bool is_only(const Scene& scene, const TriangleMesh& mesh) {
+    const PrimitiveTable& table = scene.aggregate->primitives();
+    if (scene.has_masks || table.meshes.size() != 1) return false;
+    if (table.size() != mesh.triangles.size()) return false;
+    const TriangleMesh& placed = *table.meshes.front().mesh;
+    return &placed == &mesh ||
+           (placed.triangles == mesh.triangles && placed.positions == mesh.positions);
+}
+
+LoneSurface lone_mesh(const std::shared_ptr<TriangleMesh>& mesh, const Scene& scene) {
     LoneSurface lone;
     lone.is_mesh = true;
     lone.closed = !mesh->triangles.empty() && mesh->closed();
     if (!lone.closed) return lone;
+    lone.is_whole_scene = is_only(scene, *mesh);
+    if (lone.is_whole_scene) return lone;
     auto plain = std::make_shared<TriangleMesh>();
     plain->positions = mesh->positions;
     plain->triangles = mesh->triangles;
@@ -95,10 +109,13 @@ LoneSurface lone_shape(const AnyShape& any) {
 
 /// Every closed surface of the scene by itself; no more analytic shapes than a sample of each
 /// scene.
-std::vector<LoneSurface> lone_surfaces(const SceneDescription& description, VerifyReport& report) {
+std::vector<LoneSurface> lone_surfaces(const SceneDescription& description, const Scene& scene,
+                                       VerifyReport& report) {
     constexpr std::size_t kMaxShapes = 64;
     std::vector<LoneSurface> surfaces;
-    for (const MeshDescription& mesh : description.meshes) surfaces.push_back(lone_mesh(mesh.mesh));
+    for (const MeshDescription& mesh : description.meshes) {
+        surfaces.push_back(lone_mesh(mesh.mesh, scene));
+    }
     std::size_t shapes = 0;
     for (const ObjectDescription& object : description.objects) {
         for (const Part& part : object.parts) {
@@ -115,9 +132,9 @@ std::vector<LoneSurface> lone_surfaces(const SceneDescription& description, Veri
     return surfaces;
 }
 
-void count_all_crossings(const SceneDescription& description, const VerifyOptions& options,
-                         VerifyReport& report) {
-    std::vector<LoneSurface> surfaces = lone_surfaces(description, report);
+void count_all_crossings(const SceneDescription& description, const Scene& scene,
+                         const VerifyOptions& options, VerifyReport& report) {
+    std::vector<LoneSurface> surfaces = lone_surfaces(description, scene, report);
     std::size_t closed = 0;
     for (const LoneSurface& surface : surfaces) {
         closed += surface.closed;
@@ -126,7 +143,8 @@ void count_all_crossings(const SceneDescription& description, const VerifyOption
     if (closed == 0) return;
     const std::uint64_t lines = std::max<std::uint64_t>(100, options.rays / closed);
     const auto lines_of = [&](const LoneSurface& surface) {
-        const auto& meshes = surface.table.meshes;
+        const auto& meshes =
+            (surface.is_whole_scene ? scene.aggregate->primitives() : surface.table).meshes;
         const std::size_t count = meshes.empty() ? 1 : meshes.front().mesh->triangles.size();
         return affordable_rays(lines, count, options);
     };
@@ -136,12 +154,17 @@ void count_all_crossings(const SceneDescription& description, const VerifyOption
     for (LoneSurface& surface : surfaces) {
         if (!surface.closed) continue;
         const std::uint64_t own = lines_of(surface);
+        const auto count = [&](const Aggregate& aggregate) {
+            VerifyRays rays(aggregate.box(), nullptr, aggregate.primitives(), options.seed + 1);
+            count_crossings(aggregate, rays, own, options, progress, report);
+        };
+        if (surface.is_whole_scene) {
+            count(*scene.aggregate);
+            continue;
+        }
         surface.table.material_opacity.assign(1, Opacity::Opaque);
         surface.table.finish();
-        const auto aggregate =
-            make_aggregate(options.accelerator, std::move(surface.table), options.build);
-        VerifyRays rays(aggregate->box(), nullptr, aggregate->primitives(), options.seed + 1);
-        count_crossings(*aggregate, rays, own, options, progress, report);
+        count(*make_aggregate(options.accelerator, std::move(surface.table), options.build));
     }
 }
 
@@ -170,7 +193,7 @@ VerifyReport verify(const SceneDescription& description, const VerifyOptions& op
     affordable.rays = affordable_rays(options.rays, fast.census.effective_primitives, options);
     report.rays_left_out = options.rays - affordable.rays;
     RoadComparison(*fast.aggregate, brute, affordable, report).run(rays, fast.has_masks);
-    count_all_crossings(description, options, report);
+    count_all_crossings(description, fast, options, report);
     return report;
 }
 

@@ -23,10 +23,21 @@ TEST(Encoding, TruncationUsesTheDoubleNotItsFloat) {
     EXPECT_EQ(encoded.samples, (std::vector<std::uint16_t>{84, 127, 85}));
 }
 
+TEST(Encoding, RoundingTakesTheNearestCode) {
+    for (int code = 0; code < 255; ++code) {
+        const auto encoded = [&](double above) {
+            return int(encode_channel((code + above) / 255.0, Encoding::LinearRounded, 8));
+        };
+        EXPECT_EQ(encoded(0.499), code);
+        EXPECT_EQ(encoded(0.501), code + 1);
+    }
+}
+
 TEST(Encoding, ValuesOutsideTheUnitRangeAndNanAreClamped) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
-    for (const Encoding encoding : {Encoding::LinearTruncated, Encoding::Srgb}) {
+    for (const Encoding encoding :
+         {Encoding::LinearTruncated, Encoding::LinearRounded, Encoding::Srgb}) {
         for (const int bits : {8, 16}) {
             const std::uint32_t max = bits == 8 ? 255 : 65535;
             for (const double low : {0.0, -0.0, -1.0, -infinity, nan, -nan}) {
@@ -51,7 +62,8 @@ TEST(Encoding, SrgbMeetsTheValuesOfTheStandard) {
 }
 
 TEST(Encoding, CodesNeverFallWhereTheValueRises) {
-    for (const Encoding encoding : {Encoding::LinearTruncated, Encoding::Srgb}) {
+    for (const Encoding encoding :
+         {Encoding::LinearTruncated, Encoding::LinearRounded, Encoding::Srgb}) {
         std::uint32_t last = 0;
         for (int i = 0; i <= 100'000; ++i) {
             const std::uint32_t code = encode_channel(i / 100'000.0, encoding, 16);
@@ -65,7 +77,8 @@ TEST(Encoding, PicturesThatAreEncodedKeepTheirCodes) {
     Image image(256, 1, 1);
     image.linear = false;
     for (int i = 0; i < 256; ++i) image.pixel(i, 0)[0] = float(i) / 255.0f;
-    for (const Encoding encoding : {Encoding::LinearTruncated, Encoding::Srgb}) {
+    for (const Encoding encoding :
+         {Encoding::LinearTruncated, Encoding::LinearRounded, Encoding::Srgb}) {
         const EncodedImage encoded = encode(image, encoding, 8);
         for (std::size_t i = 0; i < 256; ++i) EXPECT_EQ(encoded.samples[i], i);
     }

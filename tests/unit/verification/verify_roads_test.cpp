@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -109,6 +110,43 @@ TEST(VerifyRoads, EveryRoadAgreesOnScenesOfEveryKind) {
         // Two sets of 64 from each 512 rays; the last set is truncated.
         EXPECT_EQ(report.roads[2].rays, 5 * 128u + 40u);
     }
+}
+
+TEST(VerifyParity, AMeshByItselfIsCountedAsOneAmongOthers) {
+    const auto counted = [](const std::function<void(SceneMaker&)>& add) {
+        SceneMaker maker;
+        add(maker);
+        (void)maker.compile();
+        VerifyOptions options;
+        options.rays = 400;
+        const VerifyReport report = verify(maker.description(), options);
+        EXPECT_TRUE(report.holds()) << first_of(report);
+        return std::array{report.closed_surfaces, report.open_meshes, report.parity_lines};
+    };
+    using Counts = std::array<std::uint64_t, 3>;
+    const auto alone = [](SceneMaker& maker) { maker.add(maker.mesh(round_mesh(3))); };
+    EXPECT_EQ(counted(alone), (Counts{1, 0, 400}));
+    EXPECT_EQ(counted([&](SceneMaker& maker) {
+                  maker.add(maker.mesh(round_mesh(3)), MaterialId{0}, Affine::translate({1, 0, 0}));
+              }),
+              (Counts{1, 0, 400}));
+    EXPECT_EQ(counted([&](SceneMaker& maker) {
+                  alone(maker);
+                  maker.add(maker.mesh(testing::tetrahedron()));
+              }),
+              (Counts{2, 0, 400}));
+    EXPECT_EQ(counted([&](SceneMaker& maker) {
+                  alone(maker);
+                  maker.description().objects.front().parts.front().visible_to =
+                      mask_of(RayKind::Eye);
+              }),
+              (Counts{1, 0, 400}));
+    EXPECT_EQ(counted([](SceneMaker& maker) {
+                  TriangleMesh open = round_mesh(3);
+                  open.triangles.pop_back();
+                  maker.add(maker.mesh(std::move(open)));
+              }),
+              (Counts{0, 1, 0}));
 }
 
 /// Forwards queries to another aggregate.

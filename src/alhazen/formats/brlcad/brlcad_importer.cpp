@@ -19,6 +19,7 @@ Conventions brlcad_conventions() {
     c.shading.ambient_from_eye = true;
     c.shading.air_index = 1.0;
     c.sampling.pixel_sample = SamplingConventions::PixelSample::LowerLeftCorner;
+    c.film.round_output = true;
     return c;
 }
 

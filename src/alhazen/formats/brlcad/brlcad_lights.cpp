@@ -16,20 +16,19 @@ constexpr double kBrightest = 1.0 / (1.0 + 0.5 * kAmbient);
 
 class LightFinder {
   public:
-    LightFinder(const SceneDescription& scene, const BrlcadMaterials& materials,
-                BrlcadBounds& bounds)
+    LightFinder(SceneDescription& scene, const BrlcadMaterials& materials, BrlcadBounds& bounds)
         : scene_(scene), materials_(materials), bounds_(bounds), holds_(scene.objects.size()) {}
 
     struct Found {
         const BrlcadLight* light = nullptr;
         Vec3 position;
         Vec3 aim;  ///< not normalised
-        const Part* part = nullptr;
+        Part* part = nullptr;
     };
 
     /// Appends the lights of an object and its descendants; stops after kMaxLights + 1.
     void find(ObjectIndex object, const Affine& world_from_object, std::vector<Found>& found) {
-        for (const Part& part : scene_.objects[static_cast<std::size_t>(object)].parts) {
+        for (Part& part : scene_.objects[static_cast<std::size_t>(object)].parts) {
             if (found.size() > kMaxLights) return;
             if (const BrlcadLight* light = light_of(part)) {
                 const Box3 box = bounds_.of(part);
@@ -82,7 +81,7 @@ class LightFinder {
         return *holds_[i];
     }
 
-    const SceneDescription& scene_;
+    SceneDescription& scene_;
     const BrlcadMaterials& materials_;
     BrlcadBounds& bounds_;
     std::vector<std::optional<bool>> holds_;
@@ -157,12 +156,17 @@ void add_brlcad_lights(SceneDescription& scene, const BrlcadMaterials& materials
     for (const auto& one : found) {
         scene.lights.push_back(
             {one.part->name, make_light(one, fractions.of(*one.light)), one.part->location});
+        // Its source is inside: what is seen of it lets all light through.
+        if (one.light->shown) one.part->visible_to = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
     }
     for (const auto& [id, light] : materials.lights()) {
         // Half of its brightness falls with the view, as the ambient light does.
         Material& material = scene.materials[static_cast<std::size_t>(id)].material;
         const Rgb brightness = fractions.of(light) * light.color;
-        if (!light.shown) continue;
+        const bool shines = std::any_of(found.begin(), found.end(),
+                                        [&](const auto& one) { return one.light == &light; });
+        if (!light.shown || !shines) continue;
+        material.transmissive.color = {0, 0, 0};
         material.emission.color = 0.5 * brightness;
         material.ambient.color = (0.5 / kAmbient) * brightness;
     }

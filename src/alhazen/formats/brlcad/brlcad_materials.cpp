@@ -157,7 +157,7 @@ Material BrlcadMaterials::make(const std::vector<BrlcadShader>& shaders, const R
                 tell_once("the soft shadows of a light are hard: it shines from its middle", place);
             }
             light = light_of(shader, color);
-            // Transparent to its own light, whose source is inside. add_brlcad_lights says how
+            // Not seen, and transparent to its own light. add_brlcad_lights says how
             // bright it is.
             Material material;
             material.transmissive.color = {1, 1, 1};

@@ -54,7 +54,7 @@ std::uint32_t encode_channel(double c, Encoding encoding, int bits) {
     if (!(c > 0.0)) return 0;  // NaN too
     if (c >= 1.0) return max;
     if (encoding == Encoding::LinearTruncated) return std::uint32_t(std::floor(double(max) * c));
-    return rounded(srgb_from_linear(c), bits);
+    return rounded(encoding == Encoding::LinearRounded ? c : srgb_from_linear(c), bits);
 }
 
 EncodedImage encode(const double* rgb, int width, int height, Encoding encoding, int bits) {

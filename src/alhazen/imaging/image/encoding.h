@@ -16,6 +16,7 @@ struct Image;
 /// The conversion of linear values to integers.
 enum class Encoding {
     LinearTruncated,  ///< floor(max * clamp(c, 0, 1)): images of the course and of old formats
+    LinearRounded,    ///< the nearest code: images of BRL-CAD
     Srgb,             ///< IEC 61966-2-1 transfer curve, rounded to nearest
 };
 

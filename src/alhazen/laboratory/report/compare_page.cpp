@@ -69,9 +69,7 @@ std::string variant_text(const Measurement& m) {
 
 std::string viewer(const Comparison& c) {
     const CostScale scale(c);
-    const EncodedImage picture =
-        encode(c.picture.data(), c.width, c.height,
-               c.linear_output ? Encoding::LinearTruncated : Encoding::Srgb, 8);
+    const EncodedImage picture = encode(c.picture.data(), c.width, c.height, c.encoding, 8);
     std::string thumbs, first, first_name;
     for (const Measurement& m : c.measurements) {
         if (!m.unavailable.empty()) continue;

@@ -85,7 +85,8 @@ TEST(NativeImporter, ReadsEveryConvention) {
         " ambient_factor = diffuse; ambient_inside_times_kt = true; ambient_from_eye = true;"
         " clamp_attenuation = true;"
         " truncate_material_colors = true; transmitting_surfaces_reflect = true; air_index = 1.1;"
-        " pixel_sample = lower_left_corner; linear_output = true; max_depth = 9;"
+        " pixel_sample = lower_left_corner; linear_output = true; round_output = true; max_depth = "
+        "9;"
         " min_contribution = 0.01; min_distance = 0.25 }");
     ASSERT_EQ(i.messages(), "");
     const Conventions& c = i.scene.conventions;
@@ -96,6 +97,7 @@ TEST(NativeImporter, ReadsEveryConvention) {
     EXPECT_TRUE(c.shading.ambient_inside_times_kt && c.shading.ambient_from_eye &&
                 c.shading.clamp_attenuation && c.importing.truncate_material_colors &&
                 c.shading.transmitting_surfaces_reflect && c.film.linear_output);
+    EXPECT_EQ(c.film.encoding(), Encoding::LinearRounded);
     EXPECT_EQ(c.shading.air_index, 1.1);
     EXPECT_EQ(c.sampling.pixel_sample, SamplingConventions::PixelSample::LowerLeftCorner);
     EXPECT_EQ(c.shading.max_depth, 9);

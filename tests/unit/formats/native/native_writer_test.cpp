@@ -71,6 +71,7 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
         c.importing.headlight = !even;
         c.importing.surroundings = even;
         c.film.linear_output = even;
+        c.film.round_output = i % 4 == 0;
         c.shading.air_index = 1.0003;
         c.shading.max_depth = i;
         c.shading.min_contribution = 0.1 * i;

@@ -64,6 +64,7 @@ void read_conventions(const NativeBlock& block, NativeContext& context) {
     reader.read_word("pixel_sample", native_words<SamplingConventions::PixelSample>(),
                      c.sampling.pixel_sample);
     reader.read("linear_output", c.film.linear_output);
+    reader.read("round_output", c.film.round_output);
     if (reader.read("max_depth", c.shading.max_depth) &&
         (c.shading.max_depth < 0 || c.shading.max_depth > 1000)) {
         reader.error(*reader.find("max_depth"), "'max_depth' must be from 0 to 1000");

@@ -131,6 +131,7 @@ void write_native_conventions(NativeWriteContext& context) {
     block.add_unless("min_distance", c.shading.min_distance, usual.shading.min_distance);
     add_word("pixel_sample", c.sampling.pixel_sample, usual.sampling.pixel_sample);
     block.add_unless("linear_output", c.film.linear_output, usual.film.linear_output);
+    block.add_unless("round_output", c.film.round_output, usual.film.round_output);
     block.add_unless("max_depth", c.shading.max_depth, usual.shading.max_depth);
     block.add_unless("min_contribution", c.shading.min_contribution,
                      usual.shading.min_contribution);
