@@ -117,6 +117,7 @@ INSIDE = {
         "algebraic": ["quadrics"],
         "blobs": ["algebraic"],
         "meshes": ["core"],
+        "patches": ["algebraic", "polygons", "swept"],
         "polygons": ["core"],
         "swept": ["core"],
     },
