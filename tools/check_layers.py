@@ -117,6 +117,7 @@ INSIDE = {
         "algebraic": ["quadrics"],
         "blobs": ["algebraic"],
         "meshes": ["core"],
+        "patches": ["core"],
         "polygons": ["core"],
         "swept": ["core"],
     },
