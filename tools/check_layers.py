@@ -117,7 +117,7 @@ INSIDE = {
         "algebraic": ["quadrics"],
         "blobs": ["algebraic"],
         "meshes": ["core"],
-        "patches": ["core"],
+        "patches": ["algebraic", "polygons", "swept"],
         "polygons": ["core"],
         "swept": ["core"],
     },

@@ -66,17 +66,21 @@ constexpr bool applies_to(Check check) {
     return false;
 }
 
+template <class S, class T>
+constexpr Field<S, T> checked_field(const char* name, T S::*member, Unit unit, Check check,
+                                    bool optional) {
+    if (!applies_to<T>(check)) throw "the check does not apply to the type of the field";
+    return {name, member, unit, check, optional};
+}
+
 /// A check that does not apply to the member's type does not compile.
 template <class S, class T>
 consteval Field<S, T> field(const char* name, T S::*member, Unit unit, Check check) {
-    if (!applies_to<T>(check)) throw "the check does not apply to the type of the field";
-    return {name, member, unit, check, false};
+    return checked_field(name, member, unit, check, false);
 }
 template <class S, class T>
 consteval Field<S, T> optional_field(const char* name, T S::*member, Unit unit, Check check) {
-    Field<S, T> optional = field(name, member, unit, check);
-    optional.optional = true;
-    return optional;
+    return checked_field(name, member, unit, check, true);
 }
 
 /// Calls `visit(field)` for each field of S, in order.
