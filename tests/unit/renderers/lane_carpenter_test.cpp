@@ -173,7 +173,8 @@ Agreement agreement(SceneMaker& maker, const Camera& camera, int size,
             const std::uint32_t part =
                 flat ? geometry.facets[item].part : geometry.pieces[item].part;
             const Surface surface = surface_at(*scene.aggregate, ray, hit);
-            if (geometry.sources[source].part != surface.part || part != hit.part) continue;
+            const bool same_patch = geometry.sources[source].mesh != nullptr || part == hit.part;
+            if (geometry.sources[source].part != surface.part || !same_patch) continue;
             ++same;
             const double t = view.parallel() ? -seen.nearness
                                              : 1.0 / (seen.nearness * view.depth_of(ray.direction));
@@ -231,7 +232,9 @@ TEST(LaneCarpenter, HasTheLookAndTheLayersOfRayCasting) {
     AovFilm layers(parse_aovs("all"), all), ray_layers(parse_aovs("all"), all);
     RenderJob job{
         .scene = scene, .camera = camera, .aovs = &layers, .description = &maker.description()};
-    (void)LaneCarpenter().render(job, film);
+    ScanLineOptions options;
+    options.flatness = 0.05;
+    (void)LaneCarpenter(options).render(job, film);
     job.aovs = &ray_layers;
     (void)RayCasting().render(job, rays);
     int other_pixels = 0, other_ids = 0, other_depths = 0, other_uvs = 0;

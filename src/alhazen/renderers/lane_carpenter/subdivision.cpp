@@ -132,14 +132,25 @@ bool Subdivision::is_out_of_view(PatchDegrees degrees, const SubPatch& patch) co
 void Subdivision::straighten(PatchDegrees degrees, std::size_t side, SubPatch& patch,
                              Projected& at) const {
     const auto [first, stride, degree] = side_points(degrees, side);
-    const HomogeneousPoint from = patch.points[first];
-    const HomogeneousPoint to = patch.points[first + degree * stride];
+    const ScreenPoint from = at[static_cast<std::size_t>(first)];
+    const ScreenPoint to = at[static_cast<std::size_t>(first + degree * stride)];
     for (int i = 1; i < degree; ++i) {
-        const double share = static_cast<double>(i) / degree;
         HomogeneousPoint& p = patch.points[first + i * stride];
-        p = (1.0 - share) * from + share * to;
-        at[static_cast<std::size_t>(first + i * stride)] = {p.x / p.w, p.y / p.w, p.z / p.w};
+        ScreenPoint& s = at[static_cast<std::size_t>(first + i * stride)];
+        const double share = share_of_chord(s, from, to);
+        s = {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y),
+             from.nearness + share * (to.nearness - from.nearness)};
+        p = {s.x * p.w, s.y * p.w, s.nearness * p.w, p.w};
     }
+}
+
+double Subdivision::share_of_chord(const ScreenPoint& p, const ScreenPoint& a,
+                                   const ScreenPoint& b) const {
+    const double scale = view_.pixels_of_nearness(0.5 * (a.nearness + b.nearness));
+    const Vec3 chord{b.x - a.x, b.y - a.y, scale * (b.nearness - a.nearness)};
+    const Vec3 d{p.x - a.x, p.y - a.y, scale * (p.nearness - a.nearness)};
+    const double squared = dot(chord, chord);
+    return squared > 0.0 ? std::clamp(dot(d, chord) / squared, 0.0, 1.0) : 0.0;
 }
 
 void Subdivision::find_straight_sides(PatchDegrees degrees, SubPatch& patch, Projected& at) const {

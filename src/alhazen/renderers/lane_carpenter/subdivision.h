@@ -6,7 +6,8 @@
 /// is flat in one direction is split in the other only); Clark, "A Fast Scan-Line Algorithm for
 /// Rendering Parametric Surfaces", SIGGRAPH 1979 (an edge that is straight is replaced by its
 /// chord).
-/// Differs: distances count depth, too, in pixels at the depth of the point, so that depths are as
+/// Differs: control points of a straight edge move to the nearest points of the chord, not to its
+/// thirds. Distances count depth, too, in pixels at the depth of the point, so that depths are as
 /// exact as silhouettes.
 /// Conventions: whether an edge is straight depends on its own control points alone, read in either
 /// direction: two patches that share an edge decide alike.
@@ -63,7 +64,12 @@ class Subdivision {
     void judge_before_eye(PatchDegrees degrees, SubPatch& patch) const;
     [[nodiscard]] bool is_out_of_view(PatchDegrees degrees, const SubPatch& patch) const;
     void find_straight_sides(PatchDegrees degrees, SubPatch& patch, Projected& at) const;
+    /// Moves the control points of a side to the nearest points of its chord: the parameters along
+    /// it stay where they are, so that the patch beside it does not slide.
     void straighten(PatchDegrees degrees, std::size_t side, SubPatch& patch, Projected& at) const;
+    /// Where the point of the chord from a to b that is nearest to p lies, 0 to 1.
+    [[nodiscard]] double share_of_chord(const ScreenPoint& p, const ScreenPoint& a,
+                                        const ScreenPoint& b) const;
     [[nodiscard]] bool in_reach(const ScreenPoint& p) const {
         return std::abs(p.x) <= view_.reach() && std::abs(p.y) <= view_.reach();
     }
