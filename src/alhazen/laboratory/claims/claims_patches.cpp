@@ -89,6 +89,7 @@ int ground_inside(const Film& film, const Rgb& ground) {
 }
 
 constexpr double kTeapotRadius = 4.0;
+constexpr double kClaimFlatness = 0.25;
 
 }  // namespace
 
@@ -98,6 +99,7 @@ void claim_c1(ClaimRun& run) {
         run.step(fmt::format("teapot, {0} x {0}", size));
         const Camera camera = view_from({0.6, -1.0, 0.5}, kTeapotRadius);
         ScanLineOptions options;
+        options.flatness = kClaimFlatness;
         const ScanLineReport lazy = scan(teapot, camera, size, options).counts;
         options.all_first = true;
         const ScanLineReport first = scan(teapot, camera, size, options).counts;
@@ -166,6 +168,7 @@ void claim_c3(ClaimRun& run) {
         run.step(name);
         const Camera camera = view_from({0.6, -1.0, 0.5}, radius);
         ScanLineOptions options;
+        options.flatness = kClaimFlatness;
         const std::uint64_t one = scan(scene, camera, 512, options).counts.quads;
         options.split = SplitRule::Both;
         const std::uint64_t both = scan(scene, camera, 512, options).counts.quads;

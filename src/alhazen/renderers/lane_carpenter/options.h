@@ -16,7 +16,7 @@ enum class SplitRule {
 };
 
 struct ScanLineOptions {
-    double flatness = 0.25;  ///< pixels
+    double flatness = 0.125;  ///< pixels
     Cracks cracks = Cracks::Clark;
     SplitRule split = SplitRule::Needed;
     bool all_first = false;    ///< subdivide all patches before the first scan line (Clark 1979)
