@@ -100,6 +100,7 @@ INSIDE = {
     },
     "renderers": {
         "core": [],
+        "lane_carpenter": ["core"],
         "ray_casting": ["core"],
         "whitted": ["core"],
     },
