@@ -52,6 +52,10 @@ struct PatchMesh {
     [[nodiscard]] BezierNet net(std::size_t patch) const;
 };
 
+[[nodiscard]] inline bool first_hit(const PatchMesh& shape, const Ray& ray, ShapeHit& hit) {
+    return shape.tree->first_hit(ray, hit);
+}
+
 /// Area, and flux volume: the volume enclosed where the mesh is closed.
 [[nodiscard]] PatchMeasures measures_of(const PatchMesh& mesh);
 

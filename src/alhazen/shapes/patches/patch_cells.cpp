@@ -1,0 +1,352 @@
+#include "alhazen/shapes/patches/patch_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alhazen {
+
+namespace {
+
+enum class Place { Inside, Outside, Unclear };
+
+/// Where a root lies to a cell: clear where its distance in the plane of the line, from each side,
+/// is beyond rounding, `scale` times `line.tiny`.
+Place place_of(const PatchValue& at, double scale, const PatchLine& line, const PatchCell& cell,
+               double u, double v) {
+    const double x_u = dot(line.axis_x, at.du), y_u = dot(line.axis_y, at.du);
+    const double x_v = dot(line.axis_x, at.dv), y_v = dot(line.axis_y, at.dv);
+    // A quarter for the change of the derivatives across the cell.
+    const double area = 0.25 * std::abs(x_u * y_v - x_v * y_u);
+    const double inside_u = std::min(u - cell.u0, cell.u1 - u) * area;
+    const double inside_v = std::min(v - cell.v0, cell.v1 - v) * area;
+    const double margin = 4.0 * scale * line.tiny;
+    const double margin_u = margin * std::hypot(x_v, y_v);
+    const double margin_v = margin * std::hypot(x_u, y_u);
+    if (inside_u > margin_u && inside_v > margin_v) return Place::Inside;
+    if (inside_u < -margin_u || inside_v < -margin_v) return Place::Outside;
+    return Place::Unclear;
+}
+
+double t_at(const Vec3& from_origin, const PatchLine& line) {
+    return line.shift + dot(from_origin, line.direction) * line.per_length;
+}
+
+}  // namespace
+
+bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, const PatchCell& cell,
+                    double u, double v, PatchRoot& root) {
+    const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
+    const Vec3& d = line.direction;
+    // Distance of the root, if there is one, from the estimate, in widths.
+    double reach = 0.5 * kCertified + kCellMargin, last = 1.0;
+    for (int step = 0; step < 40; ++step) {
+        const double far_u = reach * width_u, far_v = reach * width_v;
+        if (!(u >= cell.u0 - far_u && u <= cell.u1 + far_u && v >= cell.v0 - far_v &&
+              v <= cell.v1 + far_v)) {
+            return false;
+        }
+        u = std::clamp(u, cell.u0 - kCellMargin * width_u, cell.u1 + kCellMargin * width_u);
+        v = std::clamp(v, cell.v0 - kCellMargin * width_v, cell.v1 + kCellMargin * width_v);
+        PatchValue at;
+        if (what == RootOf::Point) {
+            at = patch_value(net, u, v);
+            at.point = at.point - line.origin;
+        } else {
+            at = weighted_value(net, line.origin, u, v);
+        }
+        const Vec3 across_v = cross(at.dv, d), across_u = cross(d, at.du);
+        const double inverse = -1.0 / dot(at.du, across_v);
+        const double du = dot(across_v, at.point) * inverse;
+        const double dv = dot(across_u, at.point) * inverse;
+        u += du;
+        v += dv;
+        reach = std::max(0.7 * reach, kCellMargin);
+        const double moved = std::max(std::abs(du) / width_u, std::abs(dv) / width_v);
+        // Done, unless the steps still shrink as they do before rounding stops them.
+        const bool stalled = last < 0x1p-4 && moved > 0.25 * last;
+        last = moved;
+        if (moved > 0x1p-25 && !stalled) continue;
+        const double scale = what == RootOf::Point ? 1.0 / at.weight : 1.0;
+        const Place place = place_of(at, scale, line, cell, u, v);
+        if (place == Place::Outside) return false;
+        if (place == Place::Unclear && !passes_through(plane_net(net, line), cell, line.tiny)) {
+            return false;
+        }
+        if (what == RootOf::Point) {
+            root.t = t_at(at.point + du * at.du + dv * at.dv, line);
+        } else {
+            root.t = t_at(patch_value(net, u, v).point - line.origin, line);
+        }
+        root.u = u;
+        root.v = v;
+        return true;
+    }
+    return false;
+}
+
+namespace {
+
+void halve_cell_net(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high) {
+    low.degree_u = high.degree_u = net.degree_u;
+    low.degree_v = high.degree_v = net.degree_v;
+    const int degree = along_u ? net.degree_u : net.degree_v;
+    const int rows = along_u ? net.degree_v : net.degree_u;
+    const int row_stride = along_u ? 1 : net.degree_v + 1;
+    const int stride = along_u ? net.degree_v + 1 : 1;
+    for (int r = 0; r <= rows; ++r) {
+        PlanePoint work[kMaxPatchOrder];
+        const auto index = [&](int k) {
+            return static_cast<std::size_t>(r * row_stride + k * stride);
+        };
+        for (int k = 0; k <= degree; ++k) work[k] = net.at[index(k)];
+        for (int level = 0; level <= degree; ++level) {
+            low.at[index(level)] = work[0];
+            high.at[index(degree - level)] = work[degree - level];
+            for (int k = 0; k < degree - level; ++k) work[k] = 0.5 * (work[k] + work[k + 1]);
+        }
+    }
+}
+
+double cross2(const PlanePoint& a, const PlanePoint& b) {
+    return a.x * b.y - a.y * b.x;
+}
+double size_of(const PlanePoint& a) {
+    return std::abs(a.x) + std::abs(a.y);
+}
+
+/// What the control points of a cell tell.
+class CellFacts {
+  public:
+    explicit CellFacts(const PlaneNet& net)
+        : net_(net),
+          n_(static_cast<std::size_t>(net.degree_u)),
+          m_(static_cast<std::size_t>(net.degree_v)) {
+        middle_u_ = 0.5 * (at(n_, 0) + at(n_, m_) - at(0, 0) - at(0, m_));
+        middle_v_ = 0.5 * (at(0, m_) + at(n_, m_) - at(0, 0) - at(n_, 0));
+    }
+
+    enum class Hull { Beside, Thin, Around };
+    /// Beside: no root, all on one side of a line through the origin, by more than 1.5 `tiny`.
+    /// Thin: all within 2 `tiny` of a line through the origin.
+    [[nodiscard]] Hull hull(double tiny) const {
+        const PlanePoint along = size_of(middle_u_) > size_of(middle_v_) ? middle_u_ : middle_v_;
+        const double scale = size_of(along);
+        const PlanePoint aside =
+            scale > 0.0 ? (1.0 / scale) * PlanePoint{-along.y, along.x} : PlanePoint{0.5, 0.5};
+        Vec3 least{kInfinity, kInfinity, kInfinity}, most = -least;
+        for (int k = 0; k < net_.count(); ++k) {
+            const PlanePoint& p = net_.at[static_cast<std::size_t>(k)];
+            const Vec3 x{p.x, p.y, p.x * aside.x + p.y * aside.y};
+            least = {std::min(least.x, x.x), std::min(least.y, x.y), std::min(least.z, x.z)};
+            most = {std::max(most.x, x.x), std::max(most.y, x.y), std::max(most.z, x.z)};
+        }
+        const double margin = 1.5 * tiny;
+        if (least.x > margin || least.y > margin || least.z > margin || most.x < -margin ||
+            most.y < -margin || most.z < -margin) {
+            return Hull::Beside;
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::max(-least[axis], most[axis]) <= 2.0 * tiny) return Hull::Thin;
+        }
+        return Hull::Around;
+    }
+    /// Whether Newton's method is certified; sets the first step from the middle, in half-widths,
+    /// and about the distance of the cell's borders from its middle.
+    bool certify(PlanePoint& step, double& radius) const;
+    /// Whether to halve in u.
+    [[nodiscard]] bool split_u() const;
+
+  private:
+    [[nodiscard]] const PlanePoint& at(std::size_t i, std::size_t j) const {
+        return net_.at[i * (m_ + 1) + j];
+    }
+    [[nodiscard]] PlanePoint second_differences() const;
+
+    const PlaneNet& net_;
+    std::size_t n_, m_;
+    PlanePoint middle_u_, middle_v_;  // mean derivatives, for the cell's widths
+};
+
+bool CellFacts::certify(PlanePoint& step, double& radius) const {
+    // The middle's value and derivatives, in half-widths.
+    double bu[kMaxPatchOrder], bv[kMaxPatchOrder], cu[kMaxPatchOrder], cv[kMaxPatchOrder];
+    bernstein_values(net_.degree_u, 0.5, bu, cu);
+    bernstein_values(net_.degree_v, 0.5, bv, cv);
+    PlanePoint f{0, 0}, f_u{0, 0}, f_v{0, 0};
+    for (std::size_t i = 0; i <= n_; ++i) {
+        for (std::size_t j = 0; j <= m_; ++j) {
+            f = f + (bu[i] * bv[j]) * at(i, j);
+            f_u = f_u + (0.5 * cu[i] * bv[j]) * at(i, j);
+            f_v = f_v + (0.5 * bu[i] * cv[j]) * at(i, j);
+        }
+    }
+    const double det = cross2(f_u, f_v);
+    if (!(std::abs(det) > 0x1p-40 * (size_of(f_u) * size_of(f_v)))) return false;
+    const double inverse = 1.0 / det;
+    const PlanePoint row_u = inverse * PlanePoint{f_v.y, -f_v.x},
+                     row_v = inverse * PlanePoint{-f_u.y, f_u.x};
+    PlanePoint from_u{0, 0}, from_v{0, 0};  // by which the rows of the unit matrix change
+    const auto include = [&](PlanePoint& most, const PlanePoint& d) {
+        most = {std::max(most.x, std::abs(row_u.x * d.x + row_u.y * d.y)),
+                std::max(most.y, std::abs(row_v.x * d.x + row_v.y * d.y))};
+    };
+    const double half_n = 0.5 * static_cast<double>(n_), half_m = 0.5 * static_cast<double>(m_);
+    for (std::size_t i = 0; i < n_; ++i) {
+        for (std::size_t j = 0; j <= m_; ++j) {
+            include(from_u, half_n * (at(i + 1, j) - at(i, j)) - f_u);
+        }
+    }
+    for (std::size_t i = 0; i <= n_; ++i) {
+        for (std::size_t j = 0; j < m_; ++j) {
+            include(from_v, half_m * (at(i, j + 1) - at(i, j)) - f_v);
+        }
+    }
+    step = {-(row_u.x * f.x + row_u.y * f.y), -(row_v.x * f.x + row_v.y * f.y)};
+    radius = std::abs(det) / std::max(size_of(f_u), size_of(f_v));
+    // Over the cell with its margin, Bernstein coefficients bound the change with this factor.
+    const double growth = 1.0 + 2.5 * kCellMargin * (net_.degree_u + net_.degree_v);
+    return growth * (from_u.x + from_v.x) <= kCertified &&
+           growth * (from_u.y + from_v.y) <= kCertified;
+}
+
+PlanePoint CellFacts::second_differences() const {
+    PlanePoint most{0, 0};
+    for (std::size_t i = 0; i + 2 <= n_; ++i) {
+        for (std::size_t j = 0; j <= m_; ++j) {
+            most.x = std::max(most.x, size_of(at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j)));
+        }
+    }
+    for (std::size_t i = 0; i <= n_; ++i) {
+        for (std::size_t j = 0; j + 2 <= m_; ++j) {
+            most.y = std::max(most.y, size_of(at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j)));
+        }
+    }
+    return {static_cast<double>(n_ * (n_ - 1)) * most.x,
+            static_cast<double>(m_ * (m_ - 1)) * most.y};
+}
+
+bool CellFacts::split_u() const {
+    double twist = 0.0, extent_u = 0.0, extent_v = 0.0;
+    for (std::size_t i = 0; i <= n_; ++i) {
+        for (std::size_t j = 0; j <= m_; ++j) {
+            if (i < n_) extent_u = std::max(extent_u, size_of(at(i + 1, j) - at(i, j)));
+            if (j < m_) extent_v = std::max(extent_v, size_of(at(i, j + 1) - at(i, j)));
+            if (i < n_ && j < m_) {
+                twist = std::max(
+                    twist, size_of(at(i + 1, j + 1) - at(i, j + 1) - at(i + 1, j) + at(i, j)));
+            }
+        }
+    }
+    const PlanePoint bend = second_differences();
+    if (std::max(bend.x, bend.y) > static_cast<double>(n_ * m_) * twist) return bend.x > bend.y;
+    return static_cast<double>(n_) * extent_u > static_cast<double>(m_) * extent_v;
+}
+
+constexpr double kSmallestCell = 1.0 / static_cast<double>(1LL << kMaxCellLevel);
+
+/// The halves of a cell.
+std::array<PatchCell, 2> halves_of(const PatchCell& cell, bool along_u) {
+    const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
+    if (along_u) return {PatchCell{cell.u0, u, cell.v0, cell.v1}, {u, cell.u1, cell.v0, cell.v1}};
+    return {PatchCell{cell.u0, cell.u1, cell.v0, v}, {cell.u0, cell.u1, v, cell.v1}};
+}
+
+}  // namespace
+
+CellSearch::CellSearch(const BezierNet& net, const PatchLine& line, const PatchCell& cell)
+    : net_(net), line_(line), whole_(plane_net(net, line)) {
+    size_ = 1;
+    stack_[0].net = whole_;
+    // Down to the cell; the other halves are dropped.
+    PatchCell& at = stack_[0].cell;
+    at = {0, 1, 0, 1};
+    const auto inside = [&] {
+        return at.u0 == cell.u0 && at.u1 == cell.u1 && at.v0 == cell.v0 && at.v1 == cell.v1;
+    };
+    while (!inside()) {
+        const bool along_u = at.u0 != cell.u0 || at.u1 != cell.u1;
+        push_halves(along_u);
+        size_ = 1;
+        if (along_u ? cell.u0 >= at.u1 : cell.v0 >= at.v1) stack_[0] = stack_[1];
+    }
+}
+
+/// Replaces the last entry by its halves.
+void CellSearch::push_halves(bool along_u) {
+    Entry& low = stack_[size_ - 1];
+    Entry& high = stack_[size_++];
+    halve_cell_net(low.net, along_u, low.net, high.net);
+    const auto halves = halves_of(low.cell, along_u);
+    low.cell = halves[0];
+    high.cell = halves[1];
+}
+
+bool CellSearch::next(PatchRoot& root) {
+    while (size_ > 0) {
+        const Entry& top = stack_[size_ - 1];
+        const PatchCell& cell = top.cell;
+        const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
+        const CellFacts facts(top.net);
+        const auto hull = facts.hull(line_.tiny);
+        if (hull == CellFacts::Hull::Beside) {
+            --size_;
+            continue;
+        }
+        PlanePoint step;
+        double radius = 0.0;
+        if (hull == CellFacts::Hull::Around && facts.certify(step, radius)) {
+            const double u = cell.u0 + 0.5 * (1.0 + step.x) * width_u;
+            const double v = cell.v0 + 0.5 * (1.0 + step.y) * width_v;
+            --size_;
+            if (radius < 0x1p13 * line_.tiny) {
+                if (settle(cell, root)) return true;
+                continue;
+            }
+            if (certified_root(RootOf::WeightedPoint, net_, line_, cell, u, v, root)) return true;
+            continue;
+        }
+        bool along_u = facts.split_u();
+        if ((along_u ? width_u : width_v) <= kSmallestCell) along_u = !along_u;
+        if (hull == CellFacts::Hull::Thin || ++cells_ > kMostCells ||
+            (along_u ? width_u : width_v) <= kSmallestCell) {
+            --size_;
+            if (settle(cell, root)) return true;
+            continue;
+        }
+        push_halves(along_u);
+    }
+    return false;
+}
+
+/// Reports one root where the winding number is odd: in the half where it is odd, and so on, then
+/// by Newton's method kept inside of the cell.
+bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
+    if (!passes_through(whole_, cell, line_.tiny)) return false;
+    constexpr double kFine = 0x1p-18;
+    while (std::max(cell.u1 - cell.u0, cell.v1 - cell.v0) > kFine) {
+        const auto halves = halves_of(cell, cell.u1 - cell.u0 >= cell.v1 - cell.v0);
+        cell = halves[passes_through(whole_, halves[0], line_.tiny) ? 0 : 1];
+    }
+    root.u = 0.5 * (cell.u0 + cell.u1);
+    root.v = 0.5 * (cell.v0 + cell.v1);
+    const Vec3& d = line_.direction;
+    double nearest = kInfinity;
+    PatchRoot next = root;
+    for (int step = 0; step < 8; ++step) {
+        const PatchValue at = weighted_value(net_, line_.origin, next.u, next.v);
+        const Vec3 off = cross(at.point, d);
+        const double distance = dot(off, off);
+        if (!(distance < nearest)) break;
+        nearest = distance;
+        root = next;
+        const Vec3 across_v = cross(at.dv, d), across_u = cross(d, at.du);
+        const double det = dot(at.du, across_v);
+        if (det == 0.0) break;
+        next.u = std::clamp(next.u - dot(across_v, at.point) / det, cell.u0, cell.u1);
+        next.v = std::clamp(next.v - dot(across_u, at.point) / det, cell.v0, cell.v1);
+    }
+    root.t = t_at(patch_value(net_, root.u, root.v).point - line_.origin, line_);
+    return true;
+}
+
+}  // namespace alhazen
