@@ -58,11 +58,25 @@ class Builder {
             ++counts[bin];
         }
         const int cut = best_cut(bins, counts);
-        const auto middle_of = std::partition(order_.begin() + static_cast<std::ptrdiff_t>(r.begin),
-                                              order_.begin() + static_cast<std::ptrdiff_t>(r.end),
-                                              [&](std::uint32_t i) { return bin_of(i) < cut; });
-        const auto place = static_cast<std::size_t>(middle_of - order_.begin());
-        return place == r.begin || place == r.end ? half : place;
+        std::size_t first = 0;
+        for (int k = 0; k < cut; ++k) first += counts[static_cast<std::size_t>(k)];
+        // By whole nodes, so that nodes of leaves are full.
+        if (r.count() > kBoxChildren) {
+            const std::size_t whole = (first + kBoxChildren / 2) / kBoxChildren * kBoxChildren;
+            const std::size_t most = (r.count() - 1) / kBoxChildren * kBoxChildren;
+            first = std::clamp(whole, std::size_t{kBoxChildren}, most);
+        }
+        first = std::clamp(first, std::size_t{1}, r.count() - 1);
+        const auto at = [&](std::size_t k) {
+            return order_.begin() + static_cast<std::ptrdiff_t>(k);
+        };
+        std::nth_element(at(r.begin), at(r.begin + first), at(r.end),
+                         [&](std::uint32_t i, std::uint32_t j) {
+                             const double x = boxes_[i].center()[axis];
+                             const double y = boxes_[j].center()[axis];
+                             return x != y ? x < y : i < j;
+                         });
+        return r.begin + first;
     }
     /// The first bin of the second half.
     template <std::size_t kBins>
@@ -98,15 +112,17 @@ class Builder {
         const bool evenly = depth > 8;
         std::vector<Range> parts;
         if (all.count() > 0) parts.push_back(all);
+        // A range that fits into a node stays whole, so that the nodes of leaves are full.
+        const auto worth = [&](const Range& r) {
+            if (r.count() < 2) return -1.0;
+            if (r.count() <= kBoxChildren && all.count() > kBoxChildren) return -1.0;
+            return evenly ? static_cast<double>(r.count()) : r.box.half_area();
+        };
         while (parts.size() < kBoxChildren) {
-            const auto worth = [&](const Range& r) {
-                if (r.count() < 2) return -1.0;
-                return evenly ? static_cast<double>(r.count()) : r.box.half_area();
-            };
             const auto largest = std::max_element(
                 parts.begin(), parts.end(),
                 [&](const Range& a, const Range& b) { return worth(a) < worth(b); });
-            if (largest == parts.end() || largest->count() < 2) break;
+            if (largest == parts.end() || worth(*largest) < 0.0) break;
             const Range whole = *largest;
             const std::size_t cut = split(whole, evenly);
             *largest = range(whole.begin, cut);

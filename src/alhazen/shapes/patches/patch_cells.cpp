@@ -38,7 +38,7 @@ bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, co
     const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
     const Vec3& d = line.direction;
     // Distance of the root, if there is one, from the estimate, in widths.
-    double reach = 0.5 * kCertified + kCellMargin, last = 1.0;
+    double reach = 0.25 * kCertified + kCellMargin, last = 1.0;
     for (int step = 0; step < 40; ++step) {
         const double far_u = reach * width_u, far_v = reach * width_v;
         if (!(u >= cell.u0 - far_u && u <= cell.u1 + far_u && v >= cell.v0 - far_v &&
@@ -65,7 +65,7 @@ bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, co
         // Done, unless the steps still shrink as they do before rounding stops them.
         const bool stalled = last < 0x1p-4 && moved > 0.25 * last;
         last = moved;
-        if (moved > 0x1p-25 && !stalled) continue;
+        if (moved > 0x1p-23 && !stalled) continue;
         const double scale = what == RootOf::Point ? 1.0 / at.weight : 1.0;
         const Place place = place_of(at, scale, line, cell, u, v);
         if (place == Place::Outside) return false;
@@ -185,28 +185,29 @@ bool CellFacts::certify(PlanePoint& step, double& radius) const {
     const double inverse = 1.0 / det;
     const PlanePoint row_u = inverse * PlanePoint{f_v.y, -f_v.x},
                      row_v = inverse * PlanePoint{-f_u.y, f_u.x};
-    PlanePoint from_u{0, 0}, from_v{0, 0};  // by which the rows of the unit matrix change
+    // The second derivatives in half-widths, solved for the parameters: bounds of each.
+    PlanePoint most_uu{0, 0}, most_uv{0, 0}, most_vv{0, 0};
     const auto include = [&](PlanePoint& most, const PlanePoint& d) {
         most = {std::max(most.x, std::abs(row_u.x * d.x + row_u.y * d.y)),
                 std::max(most.y, std::abs(row_v.x * d.x + row_v.y * d.y))};
     };
-    const double half_n = 0.5 * static_cast<double>(n_), half_m = 0.5 * static_cast<double>(m_);
-    for (std::size_t i = 0; i < n_; ++i) {
-        for (std::size_t j = 0; j <= m_; ++j) {
-            include(from_u, half_n * (at(i + 1, j) - at(i, j)) - f_u);
-        }
-    }
     for (std::size_t i = 0; i <= n_; ++i) {
-        for (std::size_t j = 0; j < m_; ++j) {
-            include(from_v, half_m * (at(i, j + 1) - at(i, j)) - f_v);
+        for (std::size_t j = 0; j <= m_; ++j) {
+            if (i + 2 <= n_) include(most_uu, at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j));
+            if (j + 2 <= m_) include(most_vv, at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j));
+            if (i < n_ && j < m_) {
+                include(most_uv, at(i + 1, j + 1) - at(i, j + 1) - at(i + 1, j) + at(i, j));
+            }
         }
     }
     step = {-(row_u.x * f.x + row_u.y * f.y), -(row_v.x * f.x + row_v.y * f.y)};
     radius = std::abs(det) / std::max(size_of(f_u), size_of(f_v));
     // Over the cell with its margin, Bernstein coefficients bound the change with this factor.
-    const double growth = 1.0 + 2.5 * kCellMargin * (net_.degree_u + net_.degree_v);
-    return growth * (from_u.x + from_v.x) <= kCertified &&
-           growth * (from_u.y + from_v.y) <= kCertified;
+    const double growth = 0.25 * (1.0 + 2.5 * kCellMargin * (net_.degree_u + net_.degree_v));
+    const PlanePoint sum = (growth * static_cast<double>(n_ * (n_ - 1))) * most_uu +
+                           (2.0 * growth * static_cast<double>(n_ * m_)) * most_uv +
+                           (growth * static_cast<double>(m_ * (m_ - 1))) * most_vv;
+    return sum.x <= kCertified && sum.y <= kCertified;
 }
 
 PlanePoint CellFacts::second_differences() const {

@@ -20,9 +20,13 @@ struct PatchRoot {
     double t = 0, u = 0, v = 0;
 };
 
-/// A cell is certified where the derivative differs from that at its middle by less than this part,
-/// over the cell with its margin: at most one root, and Newton's method converges to it.
-inline constexpr double kCertified = 0.25;
+/// In a cell's own parameters from -1 to 1, with the line's two equations solved for them at its
+/// middle: the cell is certified where the second derivatives' sum |F_aa| + 2 |F_ab| + |F_bb| is at
+/// most this, for each of the two, over the cell with its margin. Then there is at most one root;
+/// it is within half of this of the first step of Newton's method from the middle, which converges.
+inline constexpr double kCertified = 0.5;
+/// Up to this there is at most one root, but Newton's method may not find it.
+inline constexpr double kUnique = 0.95;
 /// Part of a cell's width that is added on each side.
 inline constexpr double kCellMargin = 0x1p-10;
 

@@ -58,17 +58,23 @@ LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& dire
     const Vec3 du = vec(leaf.du), dv = vec(leaf.dv);
     const Vec3 offset = origin - vec(leaf.center);
     const Vec3 across_v = cross(dv, direction), across_u = cross(direction, du);
-    const double det = dot(du, across_v), size = std::abs(det);
+    const Vec3 normal = cross(du, dv);
+    const double det = dot(normal, direction), size = std::abs(det);
     const double along_u = dot(across_v, offset), along_v = dot(across_u, offset);
-    // 1e-12 for the rounding of cross products that cancel.
-    const double size_v = std::sqrt(dot(across_v, across_v) + 1e-12 * dot(dv, dv));
-    const double size_u = std::sqrt(dot(across_u, across_u) + 1e-12 * dot(du, du));
-    if (std::abs(along_u) > size + size_v * leaf.bulge) return LeafAnswer::None;
-    if (std::abs(along_v) > size + size_u * leaf.bulge) return LeafAnswer::None;
-    if (!(std::max(size_u, size_v) * leaf.spread <= kCertified * size)) return LeafAnswer::Divide;
+    const double normal_u = std::abs(dot(across_u, normal)) * leaf.bend[2];
+    const double normal_v = std::abs(dot(across_v, normal)) * leaf.bend[2];
+    const double bend_u = size * leaf.bend[0] + normal_v, bend_v = size * leaf.bend[1] + normal_u;
+    // For the rounding of cross products that cancel; all vectors are shorter than 8.
+    constexpr double kRounding = 1e-14;
+    if (std::abs(along_u) > size + 0.5 * bend_u + kRounding ||
+        std::abs(along_v) > size + 0.5 * bend_v + kRounding) {
+        return LeafAnswer::None;
+    }
+    const double bend = std::max(bend_u, bend_v);
+    if (!(bend <= kUnique * size)) return LeafAnswer::Divide;
     a = along_u / det;
     b = along_v / det;
-    return LeafAnswer::Certified;
+    return bend <= kCertified * size ? LeafAnswer::Certified : LeafAnswer::Unique;
 }
 
 }  // namespace alhazen

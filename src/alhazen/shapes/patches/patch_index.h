@@ -9,15 +9,11 @@
 #include "alhazen/geometry/ray.h"
 #include "alhazen/shapes/patches/patch_boxes.h"
 #include "alhazen/shapes/patches/patch_cells.h"
+#include "alhazen/shapes/patches/patch_lanes.h"
 #include "alhazen/shapes/patches/patch_leaves.h"
 #include "alhazen/shapes/patches/patch_tree.h"
 
 namespace alhazen {
-
-/// Counts of one or many searches.
-struct PatchCounts {
-    std::size_t nodes = 0, leaves = 0, newton = 0, halved = 0;
-};
 
 class PatchIndex {
   public:
@@ -44,7 +40,7 @@ class PatchIndex {
 };
 
 /// The part of the leaf test that needs no patch.
-enum class LeafAnswer { None, Certified, Divide };
+enum class LeafAnswer { None, Certified, Unique, Divide };
 [[nodiscard]] LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& direction,
                                    double& a, double& b);
 
@@ -57,11 +53,12 @@ void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, const PatchLine
     const PatchCell cell = leaf.cell();
     const BezierNet& net = pieces[leaf.piece].net;
     PatchRoot root;
-    if (answer == LeafAnswer::Certified) {
+    if (answer != LeafAnswer::Divide) {
         const double u = cell.u0 + 0.5 * (1.0 + a) * (cell.u1 - cell.u0);
         const double v = cell.v0 + 0.5 * (1.0 + b) * (cell.v1 - cell.v0);
-        if (certified_root(RootOf::Point, net, line, cell, u, v, root)) found(leaf.piece, root);
-        return;
+        const bool met = certified_root(RootOf::Point, net, line, cell, u, v, root);
+        if (met) found(leaf.piece, root);
+        if (met || answer == LeafAnswer::Certified) return;
     }
     CellSearch cells(net, line, cell);
     while (cells.next(root)) found(leaf.piece, root);
@@ -70,16 +67,13 @@ void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, const PatchLine
 template <class F>
 void PatchIndex::search(std::span<const BezierPiece> pieces, const PatchLine& line, double t_min,
                         double limit, F&& found) const {
-    struct Waiting {
-        float near;
-        std::uint32_t child;
-    };
+    PatchWalk walk;
     const Vec3 origin = frame_.scale * (line.origin - frame_.center);
-    float from[3], inverse[3];
     for (int axis = 0; axis < 3; ++axis) {
         const double d = line.direction[axis];
-        from[axis] = static_cast<float>(origin[axis]);
-        inverse[axis] = static_cast<float>(1.0 / std::copysign(std::max(std::abs(d), 1e-18), d));
+        walk.from[axis] = static_cast<float>(origin[axis]);
+        walk.inverse[axis] =
+            static_cast<float>(1.0 / std::copysign(std::max(std::abs(d), 1e-18), d));
     }
     // Along the line in the frame, with a margin.
     const double per_t = frame_.scale / line.per_length;
@@ -87,39 +81,18 @@ void PatchIndex::search(std::span<const BezierPiece> pieces, const PatchLine& li
         const double x = (t - line.shift) * per_t;
         return static_cast<float>(std::clamp(x + side * (1e-5 + 1e-6 * std::abs(x)), -1e30, 1e30));
     };
-    const float least = place(t_min, -1.0);
-    float most = place(limit, 1.0);
+    walk.least = place(t_min, -1.0);
+    walk.most = place(limit, 1.0);
+    walk.size = 1;
+    walk.stack[0] = {walk.least, 0};
     const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
         const double t = found(piece, root);
-        if (t < limit) most = place(limit = t, 1.0);
+        if (t < limit) walk.most = place(limit = t, 1.0);
     };
-    Waiting stack[kBoxChildren * 24];
-    int size = 0;
-    stack[size++] = {least, 0};
-    while (size > 0) {
-        const Waiting next = stack[--size];
-        if (next.near > most) continue;
-        if ((next.child & kLeafChild) != 0) {
-            visit_leaf(pieces, line, origin, leaves_[next.child & ~kLeafChild], report);
-            continue;
-        }
-        const PatchBoxes& node = nodes_[next.child];
-        const int begin = size;
-        for (int k = 0; k < kBoxChildren; ++k) {
-            float near = least, far = most;
-            for (int axis = 0; axis < 3; ++axis) {
-                const float x = (node.lo[axis][k] - from[axis]) * inverse[axis];
-                const float y = (node.hi[axis][k] - from[axis]) * inverse[axis];
-                near = std::max(near, inverse[axis] < 0 ? y : x);
-                far = std::min(far, inverse[axis] < 0 ? x : y);
-            }
-            if (!(near <= far)) continue;
-            int place_in = size++;
-            for (; place_in > begin && stack[place_in - 1].near < near; --place_in) {
-                stack[place_in] = stack[place_in - 1];
-            }
-            stack[place_in] = {near, node.child[k]};
-        }
+    const PatchKernels& kernels = patch_kernels();
+    std::uint32_t leaf = 0;
+    while (kernels.next_leaf(nodes_.data(), walk, leaf)) {
+        visit_leaf(pieces, line, origin, leaves_[leaf], report);
     }
 }
 

@@ -9,14 +9,10 @@ namespace alhazen {
 
 namespace {
 
-constexpr std::size_t kMostLeaves = 40;
-constexpr int kMostLeafLevel = 12;
+constexpr std::size_t kMostLeaves = 20;
+constexpr int kMostLeafLevel = 8;
 /// Part of a patch's area, seen from everywhere, that need not be certified.
-constexpr double kUncertified = 0.04;
-
-Vec3 xyz(const HomogeneousPoint& p) {
-    return {p.x, p.y, p.z};
-}
+constexpr double kUncertified = 0.05;
 
 /// A part of a patch, with what decides where to divide it.
 struct Part {
@@ -26,129 +22,121 @@ struct Part {
     bool split_u = false;
 };
 
-/// The bounds of the derivatives and of the distance from the tangent plane, in half-widths.
-class PartBounds {
+/// Bounds of a part's second derivatives, in half-widths, by Bernstein coefficients of the
+/// numerator from the middle, N = w (S - middle), and the quotient rule.
+class PartBends {
   public:
-    explicit PartBounds(const BezierNet& net)
-        : net_(net),
-          middle_(patch_value(net, 0.5, 0.5)),
-          du(0.5 * middle_.du),
-          dv(0.5 * middle_.dv) {
+    PartBends(const BezierNet& net, const Vec3& middle) : net_(net), middle_(middle) {
+        double least = kInfinity;
         for (int k = 0; k < net.count(); ++k) {
-            const double w = net.points[static_cast<std::size_t>(k)].w;
-            least_weight_ = std::min(least_weight_, w);
-            weight_change_ = std::max(weight_change_, std::abs(w - middle_.weight));
-            radius_ = std::max(radius_, length(offset(k)));
+            least = std::min(least, net.points[static_cast<std::size_t>(k)].w);
         }
-        radius_ /= least_weight_;
-        bound_bulge();
-        bound_spread();
+        // For the margin of the cell (kCellMargin).
+        const double growth = 1.0 + 2.5 * kCellMargin * (net.degree_u + net.degree_v);
+        factor_ = growth / least;
     }
-    [[nodiscard]] const Vec3& center() const { return middle_.point; }
+
+    /// Bounds of the second derivatives along an axis.
+    struct Bends {
+        double aa = 0, ab = 0, bb = 0;
+
+        [[nodiscard]] double sum() const { return aa + 2.0 * ab + bb; }
+        [[nodiscard]] double halved_u() const { return 0.25 * aa + ab + bb; }
+        [[nodiscard]] double halved_v() const { return aa + ab + 0.25 * bb; }
+    };
+    [[nodiscard]] Bends along(const Vec3& axis) const {
+        const auto most = [&](int order_u, int order_v) { return find(axis, order_u, order_v); };
+        const Most m0 = most(0, 0), mu = most(1, 0), mv = most(0, 1);
+        const Most muu = most(2, 0), muv = most(1, 1), mvv = most(0, 2);
+        const double s = m0.point;
+        const double s_u = mu.point + mu.weight * s, s_v = mv.point + mv.weight * s;
+        const double s_uu = muu.point + 2.0 * mu.weight * s_u + muu.weight * s;
+        const double s_vv = mvv.point + 2.0 * mv.weight * s_v + mvv.weight * s;
+        const double s_uv = muv.point + mu.weight * s_v + mv.weight * s_u + muv.weight * s;
+        return {s_uu, s_uv, s_vv};
+    }
 
   private:
-    /// The control point from the middle, times its weight.
-    [[nodiscard]] Vec3 offset(int k) const {
-        const HomogeneousPoint& p = net_.points[static_cast<std::size_t>(k)];
-        return xyz(p) - p.w * middle_.point;
-    }
-    void bound_bulge() {
-        for (int i = 0; i <= net_.degree_u; ++i) {
-            for (int j = 0; j <= net_.degree_v; ++j) {
-                const Vec3 plane =
-                    (2.0 * i / net_.degree_u - 1.0) * du + (2.0 * j / net_.degree_v - 1.0) * dv;
-                const Vec3 d = offset(i * (net_.degree_v + 1) + j) - middle_.weight * plane;
-                bulge = std::max(bulge, length(d));
+    struct Most {
+        double point = 0, weight = 0;
+    };
+
+    /// Bounds of a derivative of axis . N and of the weight: `order_u` times by u, `order_v` times
+    /// by v.
+    [[nodiscard]] Most find(const Vec3& axis, int order_u, int order_v) const {
+        static constexpr double kBinomial[3][3] = {{1, 0, 0}, {-1, 1, 0}, {1, -2, 1}};
+        double factor = factor_;
+        for (int k = 0; k < order_u; ++k) factor *= 0.5 * (net_.degree_u - k);
+        for (int k = 0; k < order_v; ++k) factor *= 0.5 * (net_.degree_v - k);
+        Most most;
+        for (int i = 0; i + order_u <= net_.degree_u; ++i) {
+            for (int j = 0; j + order_v <= net_.degree_v; ++j) {
+                double point = 0.0, weight = 0.0;
+                for (int k = 0; k <= order_u; ++k) {
+                    for (int l = 0; l <= order_v; ++l) {
+                        const double c = kBinomial[order_u][k] * kBinomial[order_v][l];
+                        const HomogeneousPoint& p = net_.at(i + k, j + l);
+                        point += c * dot(axis, Vec3{p.x, p.y, p.z} - p.w * middle_);
+                        weight += c * p.w;
+                    }
+                }
+                most.point = std::max(most.point, factor * std::abs(point));
+                most.weight = std::max(most.weight, factor * std::abs(weight));
             }
         }
-        bulge = (bulge + (length(du) + length(dv)) * weight_change_) / least_weight_;
-    }
-    void bound_spread() {
-        double spread_u = 0.0, spread_v = 0.0;
-        const int row = net_.degree_v + 1;
-        const auto change = [&](int from, int to, int degree, const Vec3& middle) {
-            const double rise = net_.points[static_cast<std::size_t>(to)].w -
-                                net_.points[static_cast<std::size_t>(from)].w;
-            return length(0.5 * degree * (offset(to) - offset(from)) - middle_.weight * middle) +
-                   0.5 * degree * radius_ * std::abs(rise);
-        };
-        for (int i = 0; i <= net_.degree_u; ++i) {
-            for (int j = 0; j <= net_.degree_v; ++j) {
-                const int k = i * row + j;
-                if (i < net_.degree_u) {
-                    spread_u = std::max(spread_u, change(k, k + row, net_.degree_u, du));
-                }
-                if (j < net_.degree_v) {
-                    spread_v = std::max(spread_v, change(k, k + 1, net_.degree_v, dv));
-                }
-            }
-        }
-        const double rest = (length(du) + length(dv)) * weight_change_;
-        const double growth = 1.0 + 2.5 * kCellMargin * (net_.degree_u + net_.degree_v);
-        spread = growth * (spread_u + spread_v + rest) / least_weight_;
+        return most;
     }
 
     const BezierNet& net_;
-    PatchValue middle_;
-    double least_weight_ = kInfinity, weight_change_ = 0, radius_ = 0;
-
-  public:
-    Vec3 du, dv;
-    double bulge = 0, spread = 0;
+    Vec3 middle_;
+    double factor_ = 1;
 };
 
-/// Whether halving in u straightens a part more.
-bool straighter_by_u(const BezierNet& net) {
-    const int n = net.degree_u, m = net.degree_v;
-    const auto at = [&](int i, int j) { return projected(net.at(i, j)); };
-    double bend_u = 0.0, bend_v = 0.0, twist = 0.0, extent_u = 0.0, extent_v = 0.0;
-    for (int i = 0; i <= n; ++i) {
-        for (int j = 0; j <= m; ++j) {
-            const Vec3 p = at(i, j);
-            if (i < n) extent_u = std::max(extent_u, length(at(i + 1, j) - p));
-            if (j < m) extent_v = std::max(extent_v, length(at(i, j + 1) - p));
-            if (i + 2 <= n) {
-                bend_u = std::max(bend_u, length(at(i + 2, j) - 2.0 * at(i + 1, j) + p));
-            }
-            if (j + 2 <= m) {
-                bend_v = std::max(bend_v, length(at(i, j + 2) - 2.0 * at(i, j + 1) + p));
-            }
-            if (i < n && j < m) {
-                const Vec3 d = at(i + 1, j + 1) - at(i, j + 1) - at(i + 1, j) + p;
-                twist = std::max(twist, length(d));
-            }
-        }
-    }
-    bend_u *= n * (n - 1);
-    bend_v *= m * (m - 1);
-    if (std::max(bend_u, bend_v) > n * m * twist) return bend_u > bend_v;
-    return n * extent_u > m * extent_v;
+/// The part of the lines that meet a leaf for which it is not certified.
+double uncertified_part(const PatchLeaf& leaf, double size_u, double size_v, double flat) {
+    const double along = std::max(leaf.bend[0], leaf.bend[1]);
+    const double across = leaf.bend[2] * std::max(size_u, size_v) * flat;
+    if (!(along < kUnique)) return 1.0;
+    // bend along + bend across * tan(angle) / (sine * size of a derivative) <= kUnique
+    const double slope = (kUnique - along) * flat / std::max(across, 1e-30);
+    return 1.0 / (1.0 + slope * slope);
 }
 
 void measure(Part& part, const PatchFrame& frame) {
-    const PartBounds bounds(part.net);
-    const Vec3 center = frame.scale * (bounds.center() - frame.center);
-    const Vec3 du = frame.scale * bounds.du, dv = frame.scale * bounds.dv;
+    const PatchValue middle = patch_value(part.net, 0.5, 0.5);
+    const Vec3 center = frame.scale * (middle.point - frame.center);
+    const Vec3 du = (0.5 * frame.scale) * middle.du, dv = (0.5 * frame.scale) * middle.dv;
     PatchLeaf& leaf = part.leaf;
     for (int k = 0; k < 3; ++k) {
         leaf.center[k] = static_cast<float>(center[k]);
         leaf.du[k] = static_cast<float>(du[k]);
         leaf.dv[k] = static_cast<float>(dv[k]);
     }
-    const double size_u = length(du), size_v = length(dv);
-    // Rounding of the six vectors, and of the sums made of them.
-    const double rounding = 0x1p-21 * (length(center) + size_u + size_v);
-    leaf.bulge = static_cast<float>(1.000001 * frame.scale * bounds.bulge + rounding);
-    leaf.spread =
-        static_cast<float>(1.000001 * frame.scale * bounds.spread + 0x1p-21 * (size_u + size_v));
-    // The certificate holds for lines at an angle to the plane whose sine is above `sine`.
-    part.area = size_u * size_v;
-    const double sine = std::max(size_u, size_v) * leaf.spread / kCertified;
-    const double flat = length(cross(du, dv));
-    const double part_uncertified = sine < flat ? sine * sine / (flat * flat) : 1.0;
-    part.uncertified = part.area * part_uncertified;
+    const auto vec = [](const float(&x)[3]) { return Vec3{x[0], x[1], x[2]}; };
+    const Vec3 u = vec(leaf.du), v = vec(leaf.dv), normal = cross(u, v);
+    const double square = dot(normal, normal);
+    const Vec3 axes[3] = {cross(v, normal), cross(normal, u), normal};
+    const PartBends bends(part.net, middle.point);
+    // Rounding of the center and the derivatives, and of the sums made of them.
+    const double rounding = 0x1p-20 * (length(center) + length(u) + length(v));
+    PartBends::Bends bend[3];
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 axis = axes[k] / square;
+        bend[k] = bends.along(frame.scale * axis);
+        const double bound = 1.000001 * bend[k].sum() + rounding * length(axis);
+        // Without a plane never certified.
+        leaf.bend[k] = bound < 1e6 ? static_cast<float>(bound) : 1e6f;
+    }
+    part.area = length(u) * length(v);
+    part.uncertified = part.area * uncertified_part(leaf, length(u), length(v), std::sqrt(square));
     const int level_u = leaf.level_u, level_v = leaf.level_v;
-    part.split_u = straighter_by_u(part.net);
+    // A half's own parameter is measured by half of the derivative.
+    const double size_u = length(u), size_v = length(v);
+    const double if_u = std::max(2.0 * (bend[0].halved_u() + bend[2].halved_u() * size_v),
+                                 bend[1].halved_u() + bend[2].halved_u() * size_u);
+    const double if_v = std::max(bend[0].halved_v() + bend[2].halved_v() * size_v,
+                                 2.0 * (bend[1].halved_v() + bend[2].halved_v() * size_u));
+    part.split_u = square > 0.0 ? if_u < if_v : size_u > size_v;
     if ((part.split_u ? level_u : level_v) >= kMostLeafLevel) part.uncertified = 0.0;
 }
 
@@ -159,8 +147,8 @@ std::array<Part, 2> halves_of_part(const Part& part, const PatchFrame& frame) {
     halves[1].net = nets.second;
     for (std::size_t side = 0; side < 2; ++side) {
         PatchLeaf& leaf = halves[side].leaf;
-        std::uint16_t& place = part.split_u ? leaf.u : leaf.v;
-        place = static_cast<std::uint16_t>(2 * place + side);
+        std::uint8_t& place = part.split_u ? leaf.u : leaf.v;
+        place = static_cast<std::uint8_t>(2 * place + side);
         ++(part.split_u ? leaf.level_u : leaf.level_v);
         measure(halves[side], frame);
     }

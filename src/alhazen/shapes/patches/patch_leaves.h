@@ -16,13 +16,13 @@
 
 namespace alhazen {
 
-/// Around the tangent plane at its middle: |S - (center + a du + b dv)| <= bulge, and
-/// |S_a - du| + |S_b - dv| <= spread.
+/// A part of a patch around the plane center + a du + b dv, with n = du x dv. The sum of second
+/// derivatives |S_aa| + 2 |S_ab| + |S_bb|, written as x du + y dv + z n, has x, y and z at most
+/// `bend`; the distance from the plane's point at (a, b) has at most half of them.
 struct PatchLeaf {
-    float center[3], du[3], dv[3];
-    float bulge, spread;
+    float center[3], du[3], dv[3], bend[3];
     std::uint32_t piece;
-    std::uint16_t u, v;  ///< the cell: [u, u + 1] / 2^level_u
+    std::uint8_t u, v;  ///< the cell: [u, u + 1] / 2^level_u
     std::uint8_t level_u, level_v;
 
     [[nodiscard]] PatchCell cell() const {
@@ -30,6 +30,7 @@ struct PatchLeaf {
         return {u * width_u, (u + 1) * width_u, v * width_v, (v + 1) * width_v};
     }
 };
+static_assert(sizeof(PatchLeaf) == 56);
 
 /// The frame of a tree: its box becomes about [-1, 1].
 struct PatchFrame {

@@ -1,5 +1,7 @@
 #include "alhazen/shapes/patches/patch_value.h"
 
+#include "alhazen/shapes/patches/patch_lanes.h"
+
 namespace alhazen {
 
 void bernstein_values(int degree, double t, double* values, double* derivatives) {
@@ -19,36 +21,24 @@ void bernstein_values(int degree, double t, double* values, double* derivatives)
 
 namespace {
 
-struct HomogeneousValue {
-    HomogeneousPoint s{0, 0, 0, 0}, s_u{0, 0, 0, 0}, s_v{0, 0, 0, 0};
-};
-
-/// Degrees of zero: read from the net; else known when it is compiled.
-template <int kDegree>
-HomogeneousValue value_of_degree(const BezierNet& net, double u, double v) {
-    const int degree_u = kDegree != 0 ? kDegree : net.degree_u;
-    const int degree_v = kDegree != 0 ? kDegree : net.degree_v;
+HomogeneousValue value_of(const BezierNet& net, double u, double v) {
+    if (net.degree_u == 3 && net.degree_v == 3) return patch_kernels().bicubic(net, u, v);
     double bu[kMaxPatchOrder], bv[kMaxPatchOrder], cu[kMaxPatchOrder], cv[kMaxPatchOrder];
-    bernstein_values(degree_u, u, bu, cu);
-    bernstein_values(degree_v, v, bv, cv);
-    HomogeneousValue sum;
-    for (int i = 0; i <= degree_u; ++i) {
-        HomogeneousPoint row{0, 0, 0, 0}, row_v{0, 0, 0, 0};
-        const HomogeneousPoint* points = &net.points[static_cast<std::size_t>(i * (degree_v + 1))];
-        for (int j = 0; j <= degree_v; ++j) {
-            row = row + bv[j] * points[j];
-            row_v = row_v + cv[j] * points[j];
+    bernstein_values(net.degree_u, u, bu, cu);
+    bernstein_values(net.degree_v, v, bv, cv);
+    constexpr HomogeneousPoint kZero{0, 0, 0, 0};
+    HomogeneousValue sum{kZero, kZero, kZero};
+    for (int i = 0; i <= net.degree_u; ++i) {
+        HomogeneousPoint row = kZero, row_v = kZero;
+        for (int j = 0; j <= net.degree_v; ++j) {
+            row = row + bv[j] * net.at(i, j);
+            row_v = row_v + cv[j] * net.at(i, j);
         }
         sum.s = sum.s + bu[i] * row;
         sum.s_u = sum.s_u + cu[i] * row;
         sum.s_v = sum.s_v + bu[i] * row_v;
     }
     return sum;
-}
-
-HomogeneousValue value_of(const BezierNet& net, double u, double v) {
-    if (net.degree_u == 3 && net.degree_v == 3) return value_of_degree<3>(net, u, v);
-    return value_of_degree<0>(net, u, v);
 }
 
 Vec3 numerator_of(const HomogeneousPoint& p) {

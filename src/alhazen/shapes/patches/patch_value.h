@@ -17,6 +17,11 @@ struct PatchValue {
     double weight = 1;
 };
 
+/// The homogeneous point and its derivatives.
+struct HomogeneousValue {
+    HomogeneousPoint s, s_u, s_v;
+};
+
 /// Bernstein polynomials of a degree, and their derivatives, at t.
 void bernstein_values(int degree, double t, double* values, double* derivatives);
 
