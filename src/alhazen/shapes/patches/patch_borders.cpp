@@ -20,6 +20,12 @@ PlaneNet plane_net(const BezierNet& net, const PatchLine& line) {
     return plane;
 }
 
+PlaneNet border_net(const BezierNet& net, const PatchLine& line) {
+    PatchLine beside = line;
+    beside.origin += line.tiny * (line.axis_x + 0.37 * line.axis_y);
+    return plane_net(net, beside);
+}
+
 namespace {
 
 using PlaneRow = std::array<PlanePoint, kMaxPatchOrder>;
@@ -83,14 +89,22 @@ class Border {
         : net_(net),
           along_v_(along_v),
           at_(at),
-          tiny_(tiny),
           degree_(along_v ? net.degree_v : net.degree_u),
           // The points of an inner line v = at were halved in the other order.
           slack_(along_v || at == 0.0 || at == 1.0 ? 0.0 : 0.25 * tiny),
-          row_(along_v ? row_at_u(net, at) : row_at_v(net, at)) {}
+          row_(along_v ? row_at_u(net, at) : row_at_v(net, at)) {
+        // Points of the polyline are about tiny / 32 apart.
+        double fastest = 0.0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(degree_); ++k) {
+            const PlanePoint d = row_[k + 1] - row_[k];
+            fastest = std::max({fastest, std::abs(d.x), std::abs(d.y)});
+        }
+        const int level = fastest > 0.0 ? std::ilogb(32.0 * degree_ * fastest / tiny) + 1 : 0;
+        last_ = std::ldexp(1.0, -std::clamp(level, 8, kMaxBorderLevel));
+    }
 
     /// Crossings of the positive x axis upward, less those downward, in the part over [from, to].
-    int crossings(double from, double to) {
+    [[nodiscard]] int crossings(double from, double to) const {
         PlaneRow row = row_, left, right;
         double lo = 0.0, hi = 1.0;
         while (lo != from || hi != to) {
@@ -104,33 +118,30 @@ class Border {
     }
 
   private:
-    struct Point {
-        PlanePoint at;
-        bool up = false;  ///< y >= 0
-    };
-
-    [[nodiscard]] Point point(const PlaneRow& row, bool last, double parameter) const {
-        PlanePoint p = row[last ? static_cast<std::size_t>(degree_) : 0];
-        if (slack_ != 0.0) p = point_of_row(row_at_u(net_, parameter), net_.degree_v, at_);
-        if (std::abs(p.x) <= tiny_ && std::abs(p.y) <= tiny_) p = {tiny_, tiny_};
-        return {p, p.y >= 0.0};
+    [[nodiscard]] PlanePoint point(const PlaneRow& row, bool last, double parameter) const {
+        if (slack_ == 0.0) return row[last ? static_cast<std::size_t>(degree_) : 0];
+        return point_of_row(row_at_u(net_, parameter), net_.degree_v, at_);
+    }
+    /// Whether the point has y >= 0; from the curve's own halves where these are sure of it.
+    [[nodiscard]] bool is_up(const PlaneRow& row, bool last, double parameter) const {
+        const double y = row[last ? static_cast<std::size_t>(degree_) : 0].y;
+        if (std::abs(y) > slack_) return y > 0.0;
+        return point(row, last, parameter).y >= 0.0;
     }
 
-    int count(const PlaneRow& row, double lo, double hi) {
+    [[nodiscard]] int count(const PlaneRow& row, double lo, double hi) const {
         PlanePoint least = row[0], most = row[0];
         for (std::size_t k = 1; k <= static_cast<std::size_t>(degree_); ++k) {
             least = {std::min(least.x, row[k].x), std::min(least.y, row[k].y)};
             most = {std::max(most.x, row[k].x), std::max(most.y, row[k].y)};
         }
-        const double beyond = tiny_ + slack_, within = tiny_ - slack_;
-        if (least.y > slack_ || most.y < -beyond || most.x < -beyond) return 0;
-        if (std::max({-least.x, -least.y, most.x, most.y}) <= within) return 0;
-        const auto rise = [&](const Point& a, const Point& b) { return int{b.up} - int{a.up}; };
-        if (least.x > slack_) return rise(point(row, false, lo), point(row, true, hi));
-        if (hi - lo <= std::ldexp(1.0, -kMaxBorderLevel) || ++steps_ > kMostSteps) {
-            const Point a = point(row, false, lo), b = point(row, true, hi);
-            const double side = difference_of_products(a.at.x, b.at.y, b.at.x, a.at.y);
-            return (b.up ? side > 0.0 : side < 0.0) ? rise(a, b) : 0;
+        if (least.y > slack_ || most.y < -slack_ || most.x < -slack_) return 0;
+        if (least.x > slack_) return int{is_up(row, true, hi)} - int{is_up(row, false, lo)};
+        if (hi - lo <= last_) {
+            const PlanePoint a = point(row, false, lo), b = point(row, true, hi);
+            const double side = difference_of_products(a.x, b.y, b.x, a.y);
+            const bool a_up = a.y >= 0.0, b_up = b.y >= 0.0;
+            return (b_up ? side > 0.0 : side < 0.0) ? int{b_up} - int{a_up} : 0;
         }
         PlaneRow left, right;
         halve_plane_row(row, degree_, left, right);
@@ -138,17 +149,12 @@ class Border {
         return count(left, lo, middle) + count(right, middle, hi);
     }
 
-    // A border that lies within some 2^-50 of the edge of the square of side 2 `tiny` for all its
-    // length would be followed to its last point.
-    static constexpr int kMostSteps = 2000;
-
     const PlaneNet& net_;
     bool along_v_;
-    double at_, tiny_;
+    double at_;
     int degree_;
-    double slack_;
+    double slack_, last_;
     PlaneRow row_;
-    int steps_ = 0;
 };
 
 }  // namespace

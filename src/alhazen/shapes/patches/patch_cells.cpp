@@ -34,7 +34,7 @@ double t_at(const Vec3& from_origin, const PatchLine& line) {
 }  // namespace
 
 bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, const PatchCell& cell,
-                    double u, double v, PatchRoot& root) {
+                    double noise, double u, double v, PatchRoot& root) {
     const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
     const Vec3& d = line.direction;
     // Distance of the root, if there is one, from the estimate, in widths.
@@ -60,7 +60,7 @@ bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, co
         const double dv = dot(across_u, at.point) * inverse;
         u += du;
         v += dv;
-        reach = std::max(0.7 * reach, kCellMargin);
+        reach = std::max({0.7 * reach, kCellMargin, noise});
         const double moved = std::max(std::abs(du) / width_u, std::abs(dv) / width_v);
         // Done, unless the steps still shrink as they do before rounding stops them.
         const bool stalled = last < 0x1p-4 && moved > 0.25 * last;
@@ -69,7 +69,7 @@ bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, co
         const double scale = what == RootOf::Point ? 1.0 / at.weight : 1.0;
         const Place place = place_of(at, scale, line, cell, u, v);
         if (place == Place::Outside) return false;
-        if (place == Place::Unclear && !passes_through(plane_net(net, line), cell, line.tiny)) {
+        if (place == Place::Unclear && !passes_through(border_net(net, line), cell, line.tiny)) {
             return false;
         }
         if (what == RootOf::Point) {
@@ -255,9 +255,9 @@ std::array<PatchCell, 2> halves_of(const PatchCell& cell, bool along_u) {
 }  // namespace
 
 CellSearch::CellSearch(const BezierNet& net, const PatchLine& line, const PatchCell& cell)
-    : net_(net), line_(line), whole_(plane_net(net, line)) {
+    : net_(net), line_(line), whole_(border_net(net, line)) {
     size_ = 1;
-    stack_[0].net = whole_;
+    stack_[0].net = plane_net(net, line);
     // Down to the cell; the other halves are dropped.
     PatchCell& at = stack_[0].cell;
     at = {0, 1, 0, 1};
@@ -299,11 +299,13 @@ bool CellSearch::next(PatchRoot& root) {
             const double u = cell.u0 + 0.5 * (1.0 + step.x) * width_u;
             const double v = cell.v0 + 0.5 * (1.0 + step.y) * width_v;
             --size_;
-            if (radius < 0x1p13 * line_.tiny) {
+            const double noise = 2.0 * line_.tiny / radius;
+            if (noise > 0x1p-6) {
                 if (settle(cell, root)) return true;
                 continue;
             }
-            if (certified_root(RootOf::WeightedPoint, net_, line_, cell, u, v, root)) return true;
+            if (certified_root(RootOf::WeightedPoint, net_, line_, cell, noise, u, v, root))
+                return true;
             continue;
         }
         bool along_u = facts.split_u();

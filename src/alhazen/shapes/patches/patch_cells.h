@@ -35,9 +35,10 @@ inline constexpr double kCellMargin = 0x1p-10;
 enum class RootOf { Point, WeightedPoint };
 
 /// Finds the root in a certified cell from (u, v), the first step of Newton's method from its
-/// middle.
+/// middle. `noise` is the rounding error of a step in widths of the cell, where above kCellMargin.
 [[nodiscard]] bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line,
-                                  const PatchCell& cell, double u, double v, PatchRoot& root);
+                                  const PatchCell& cell, double noise, double u, double v,
+                                  PatchRoot& root);
 
 /// Calls for each root in a cell: halves it until its parts are certified or tiny.
 class CellSearch {
@@ -62,7 +63,7 @@ class CellSearch {
 
     const BezierNet& net_;
     const PatchLine& line_;
-    PlaneNet whole_;
+    PlaneNet whole_;  // of the borders
     int size_ = 0, cells_ = 0;
     Entry stack_[kMostEntries];
 };

@@ -56,7 +56,7 @@ void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, const PatchLine
     if (answer != LeafAnswer::Divide) {
         const double u = cell.u0 + 0.5 * (1.0 + a) * (cell.u1 - cell.u0);
         const double v = cell.v0 + 0.5 * (1.0 + b) * (cell.v1 - cell.v0);
-        const bool met = certified_root(RootOf::Point, net, line, cell, u, v, root);
+        const bool met = certified_root(RootOf::Point, net, line, cell, 0.0, u, v, root);
         if (met) found(leaf.piece, root);
         if (met || answer == LeafAnswer::Certified) return;
     }
