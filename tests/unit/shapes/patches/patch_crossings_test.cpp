@@ -54,6 +54,8 @@ void expect_same_crossings(const Exact& exact, const PatchMesh& patches, Random&
             const Vec3 a = patches.surface(ray, found[k]).point;
             const Vec3 b = exact.surface(ray, expected[k]).point;
             EXPECT_LT(length(a - b), 1e-12 * far) << i;
+            const Vec3 n = patches.surface(ray, found[k]).normal;
+            EXPECT_GT(dot(n, exact.surface(ray, expected[k]).normal), 1.0 - 1e-9) << i;
         }
         compared += static_cast<int>(found.size());
     }
@@ -98,6 +100,26 @@ TEST(PatchCrossings, ClosedMeshesAreCrossedEvenly) {
     expect_even(testing::sphere_of_patches(), random, 4000);
     for (const double change : {0.0, 0.1, 0.4}) {
         expect_even(testing::random_closed_patches(random, change), random, 2000);
+    }
+}
+
+TEST(PatchCrossings, NormalsOfClosedMeshesPointOutward) {
+    PatchMesh mesh = testing::sphere_of_patches();
+    // Patches turned at random: their points in the other order of u.
+    Random random(7);
+    for (std::size_t patch = 0; patch < mesh.patch_count(); ++patch) {
+        if (random.coin()) continue;
+        std::uint32_t* points = &mesh.patches[9 * patch];
+        for (int j = 0; j < 3; ++j) std::swap(points[j], points[6 + j]);
+    }
+    mesh.prepare();
+    ASSERT_TRUE(mesh.closed());
+    for (int i = 0; i < 1000; ++i) {
+        const Ray ray{2.0 * random.unit_vector(), random.unit_vector(), -kInfinity, kInfinity};
+        for (const ShapeHit& hit : all_hits(mesh, ray)) {
+            const ShapeSurface surface = mesh.surface(ray, hit);
+            EXPECT_GT(dot(surface.normal, surface.point), 0.999);
+        }
     }
 }
 
