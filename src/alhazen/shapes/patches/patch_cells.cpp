@@ -1,5 +1,7 @@
 #include "alhazen/shapes/patches/patch_cells.h"
 
+#include "alhazen/shapes/patches/patch_lanes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -87,6 +89,9 @@ bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, co
 namespace {
 
 void halve_cell_net(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high) {
+    if (net.degree_u == 3 && net.degree_v == 3) {
+        return patch_kernels().halve_cubic(net, along_u, low, high);
+    }
     low.degree_u = high.degree_u = net.degree_u;
     low.degree_v = high.degree_v = net.degree_v;
     const int degree = along_u ? net.degree_u : net.degree_v;
@@ -114,134 +119,112 @@ double size_of(const PlanePoint& a) {
     return std::abs(a.x) + std::abs(a.y);
 }
 
+/// The bounds of a cell of any degree.
+CellBounds bounds_of(const PlaneNet& net) {
+    const auto n = static_cast<std::size_t>(net.degree_u),
+               m = static_cast<std::size_t>(net.degree_v);
+    const auto at = [&](std::size_t i, std::size_t j) { return net.at[i * (m + 1) + j]; };
+    CellBounds out{};
+    double bu[kMaxPatchOrder], bv[kMaxPatchOrder], cu[kMaxPatchOrder], cv[kMaxPatchOrder];
+    bernstein_values(net.degree_u, 0.5, bu, cu);
+    bernstein_values(net.degree_v, 0.5, bv, cv);
+    for (std::size_t i = 0; i <= n; ++i) {
+        for (std::size_t j = 0; j <= m; ++j) {
+            out.f = out.f + (bu[i] * bv[j]) * at(i, j);
+            out.f_u = out.f_u + (0.5 * cu[i] * bv[j]) * at(i, j);
+            out.f_v = out.f_v + (0.5 * bu[i] * cv[j]) * at(i, j);
+        }
+    }
+    const PlanePoint along = size_of(out.f_u) > size_of(out.f_v) ? out.f_u : out.f_v;
+    const double scale = size_of(along), det = cross2(out.f_u, out.f_v);
+    const PlanePoint aside =
+        scale > 0.0 ? PlanePoint{-along.y / scale, along.x / scale} : PlanePoint{0.5, 0.5};
+    const double inverse = det != 0.0 ? 1.0 / det : 0.0;
+    const auto larger = [](double& most, double x) { most = std::max(most, x); };
+    const auto include = [&](int k, double& size, const PlanePoint& d) {
+        larger(size, size_of(d));
+        larger(out.bend_u[k], std::abs(inverse * cross2(d, out.f_v)));
+        larger(out.bend_v[k], std::abs(inverse * cross2(out.f_u, d)));
+    };
+    std::fill_n(out.least, 3, kInfinity);
+    std::fill_n(out.most, 3, -kInfinity);
+    for (std::size_t i = 0; i <= n; ++i) {
+        for (std::size_t j = 0; j <= m; ++j) {
+            const PlanePoint p = at(i, j);
+            const double x[3] = {p.x, p.y, p.x * aside.x + p.y * aside.y};
+            for (int axis = 0; axis < 3; ++axis) {
+                larger(out.most[axis], x[axis]);
+                out.least[axis] = std::min(out.least[axis], x[axis]);
+            }
+            if (i < n) larger(out.extent_u, size_of(at(i + 1, j) - p));
+            if (j < m) larger(out.extent_v, size_of(at(i, j + 1) - p));
+            if (i + 2 <= n) include(0, out.size_uu, at(i + 2, j) - 2.0 * at(i + 1, j) + p);
+            if (j + 2 <= m) include(2, out.size_vv, at(i, j + 2) - 2.0 * at(i, j + 1) + p);
+            if (i < n && j < m) {
+                include(1, out.size_uv, at(i + 1, j + 1) - at(i, j + 1) - at(i + 1, j) + p);
+            }
+        }
+    }
+    return out;
+}
+
 /// What the control points of a cell tell.
 class CellFacts {
   public:
-    explicit CellFacts(const PlaneNet& net)
-        : net_(net),
-          n_(static_cast<std::size_t>(net.degree_u)),
-          m_(static_cast<std::size_t>(net.degree_v)) {
-        middle_u_ = 0.5 * (at(n_, 0) + at(n_, m_) - at(0, 0) - at(0, m_));
-        middle_v_ = 0.5 * (at(0, m_) + at(n_, m_) - at(0, 0) - at(n_, 0));
+    explicit CellFacts(const PlaneNet& net) : n_(net.degree_u), m_(net.degree_v) {
+        if (n_ == 3 && m_ == 3) {
+            patch_kernels().cubic_bounds(net, bounds_);
+        } else {
+            bounds_ = bounds_of(net);
+        }
     }
 
     enum class Hull { Beside, Thin, Around };
     /// Beside: no root, all on one side of a line through the origin, by more than 1.5 `tiny`.
     /// Thin: all within 2 `tiny` of a line through the origin.
     [[nodiscard]] Hull hull(double tiny) const {
-        const PlanePoint along = size_of(middle_u_) > size_of(middle_v_) ? middle_u_ : middle_v_;
-        const double scale = size_of(along);
-        const PlanePoint aside =
-            scale > 0.0 ? (1.0 / scale) * PlanePoint{-along.y, along.x} : PlanePoint{0.5, 0.5};
-        Vec3 least{kInfinity, kInfinity, kInfinity}, most = -least;
-        for (int k = 0; k < net_.count(); ++k) {
-            const PlanePoint& p = net_.at[static_cast<std::size_t>(k)];
-            const Vec3 x{p.x, p.y, p.x * aside.x + p.y * aside.y};
-            least = {std::min(least.x, x.x), std::min(least.y, x.y), std::min(least.z, x.z)};
-            most = {std::max(most.x, x.x), std::max(most.y, x.y), std::max(most.z, x.z)};
-        }
-        const double margin = 1.5 * tiny;
-        if (least.x > margin || least.y > margin || least.z > margin || most.x < -margin ||
-            most.y < -margin || most.z < -margin) {
-            return Hull::Beside;
-        }
+        bool thin = false;
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::max(-least[axis], most[axis]) <= 2.0 * tiny) return Hull::Thin;
+            const double least = bounds_.least[axis], most = bounds_.most[axis];
+            if (least > 1.5 * tiny || most < -1.5 * tiny) return Hull::Beside;
+            thin = thin || std::max(-least, most) <= 2.0 * tiny;
         }
-        return Hull::Around;
+        return thin ? Hull::Thin : Hull::Around;
     }
+    enum class Newton { Certified, NoRoot, Unsure };
     /// Whether Newton's method is certified; sets the first step from the middle, in half-widths,
-    /// and about the distance of the cell's borders from its middle.
-    bool certify(PlanePoint& step, double& radius) const;
-    /// Whether to halve in u.
-    [[nodiscard]] bool split_u() const;
+    /// and about the distance of the cell's borders from its middle. No root: that step is farther
+    /// than it is from any root in the cell, by more than `tiny`.
+    Newton newton(double tiny, PlanePoint& step, double& radius) const {
+        const PlanePoint &f = bounds_.f, &f_u = bounds_.f_u, &f_v = bounds_.f_v;
+        const double det = cross2(f_u, f_v), size = size_of(f_u) * size_of(f_v);
+        if (!(std::abs(det) > 0x1p-40 * size)) return Newton::Unsure;
+        step = {-cross2(f, f_v) / det, -cross2(f_u, f) / det};
+        radius = std::abs(det) / std::max(size_of(f_u), size_of(f_v));
+        // Over the cell with its margin, Bernstein coefficients bound the change with this factor.
+        const double growth = 0.25 * (1.0 + 2.5 * kCellMargin * (n_ + m_));
+        const double uu = growth * (n_ * (n_ - 1)), uv = 2.0 * growth * (n_ * m_);
+        const double vv = growth * (m_ * (m_ - 1));
+        const auto sum = [&](const double(&b)[3]) { return uu * b[0] + uv * b[1] + vv * b[2]; };
+        const double bend_u = sum(bounds_.bend_u), bend_v = sum(bounds_.bend_v);
+        const double margin = 1.001 + 8.0 * tiny / radius;
+        if (std::abs(step.x) > margin + 0.5 * bend_u || std::abs(step.y) > margin + 0.5 * bend_v) {
+            return Newton::NoRoot;
+        }
+        return std::max(bend_u, bend_v) <= kCertified ? Newton::Certified : Newton::Unsure;
+    }
+    /// Whether to halve in u: where it bends more, else where it is longer.
+    [[nodiscard]] bool split_u() const {
+        const double bend_u = n_ * (n_ - 1) * bounds_.size_uu;
+        const double bend_v = m_ * (m_ - 1) * bounds_.size_vv;
+        if (std::max(bend_u, bend_v) > n_ * m_ * bounds_.size_uv) return bend_u > bend_v;
+        return n_ * bounds_.extent_u > m_ * bounds_.extent_v;
+    }
 
   private:
-    [[nodiscard]] const PlanePoint& at(std::size_t i, std::size_t j) const {
-        return net_.at[i * (m_ + 1) + j];
-    }
-    [[nodiscard]] PlanePoint second_differences() const;
-
-    const PlaneNet& net_;
-    std::size_t n_, m_;
-    PlanePoint middle_u_, middle_v_;  // mean derivatives, for the cell's widths
+    int n_, m_;
+    CellBounds bounds_;
 };
-
-bool CellFacts::certify(PlanePoint& step, double& radius) const {
-    // The middle's value and derivatives, in half-widths.
-    double bu[kMaxPatchOrder], bv[kMaxPatchOrder], cu[kMaxPatchOrder], cv[kMaxPatchOrder];
-    bernstein_values(net_.degree_u, 0.5, bu, cu);
-    bernstein_values(net_.degree_v, 0.5, bv, cv);
-    PlanePoint f{0, 0}, f_u{0, 0}, f_v{0, 0};
-    for (std::size_t i = 0; i <= n_; ++i) {
-        for (std::size_t j = 0; j <= m_; ++j) {
-            f = f + (bu[i] * bv[j]) * at(i, j);
-            f_u = f_u + (0.5 * cu[i] * bv[j]) * at(i, j);
-            f_v = f_v + (0.5 * bu[i] * cv[j]) * at(i, j);
-        }
-    }
-    const double det = cross2(f_u, f_v);
-    if (!(std::abs(det) > 0x1p-40 * (size_of(f_u) * size_of(f_v)))) return false;
-    const double inverse = 1.0 / det;
-    const PlanePoint row_u = inverse * PlanePoint{f_v.y, -f_v.x},
-                     row_v = inverse * PlanePoint{-f_u.y, f_u.x};
-    // The second derivatives in half-widths, solved for the parameters: bounds of each.
-    PlanePoint most_uu{0, 0}, most_uv{0, 0}, most_vv{0, 0};
-    const auto include = [&](PlanePoint& most, const PlanePoint& d) {
-        most = {std::max(most.x, std::abs(row_u.x * d.x + row_u.y * d.y)),
-                std::max(most.y, std::abs(row_v.x * d.x + row_v.y * d.y))};
-    };
-    for (std::size_t i = 0; i <= n_; ++i) {
-        for (std::size_t j = 0; j <= m_; ++j) {
-            if (i + 2 <= n_) include(most_uu, at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j));
-            if (j + 2 <= m_) include(most_vv, at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j));
-            if (i < n_ && j < m_) {
-                include(most_uv, at(i + 1, j + 1) - at(i, j + 1) - at(i + 1, j) + at(i, j));
-            }
-        }
-    }
-    step = {-(row_u.x * f.x + row_u.y * f.y), -(row_v.x * f.x + row_v.y * f.y)};
-    radius = std::abs(det) / std::max(size_of(f_u), size_of(f_v));
-    // Over the cell with its margin, Bernstein coefficients bound the change with this factor.
-    const double growth = 0.25 * (1.0 + 2.5 * kCellMargin * (net_.degree_u + net_.degree_v));
-    const PlanePoint sum = (growth * static_cast<double>(n_ * (n_ - 1))) * most_uu +
-                           (2.0 * growth * static_cast<double>(n_ * m_)) * most_uv +
-                           (growth * static_cast<double>(m_ * (m_ - 1))) * most_vv;
-    return sum.x <= kCertified && sum.y <= kCertified;
-}
-
-PlanePoint CellFacts::second_differences() const {
-    PlanePoint most{0, 0};
-    for (std::size_t i = 0; i + 2 <= n_; ++i) {
-        for (std::size_t j = 0; j <= m_; ++j) {
-            most.x = std::max(most.x, size_of(at(i + 2, j) - 2.0 * at(i + 1, j) + at(i, j)));
-        }
-    }
-    for (std::size_t i = 0; i <= n_; ++i) {
-        for (std::size_t j = 0; j + 2 <= m_; ++j) {
-            most.y = std::max(most.y, size_of(at(i, j + 2) - 2.0 * at(i, j + 1) + at(i, j)));
-        }
-    }
-    return {static_cast<double>(n_ * (n_ - 1)) * most.x,
-            static_cast<double>(m_ * (m_ - 1)) * most.y};
-}
-
-bool CellFacts::split_u() const {
-    double twist = 0.0, extent_u = 0.0, extent_v = 0.0;
-    for (std::size_t i = 0; i <= n_; ++i) {
-        for (std::size_t j = 0; j <= m_; ++j) {
-            if (i < n_) extent_u = std::max(extent_u, size_of(at(i + 1, j) - at(i, j)));
-            if (j < m_) extent_v = std::max(extent_v, size_of(at(i, j + 1) - at(i, j)));
-            if (i < n_ && j < m_) {
-                twist = std::max(
-                    twist, size_of(at(i + 1, j + 1) - at(i, j + 1) - at(i + 1, j) + at(i, j)));
-            }
-        }
-    }
-    const PlanePoint bend = second_differences();
-    if (std::max(bend.x, bend.y) > static_cast<double>(n_ * m_) * twist) return bend.x > bend.y;
-    return static_cast<double>(n_) * extent_u > static_cast<double>(m_) * extent_v;
-}
 
 constexpr double kSmallestCell = 1.0 / static_cast<double>(1LL << kMaxCellLevel);
 
@@ -295,17 +278,21 @@ bool CellSearch::next(PatchRoot& root) {
         }
         PlanePoint step;
         double radius = 0.0;
-        if (hull == CellFacts::Hull::Around && facts.certify(step, radius)) {
+        auto newton = CellFacts::Newton::Unsure;
+        if (hull == CellFacts::Hull::Around) newton = facts.newton(line_.tiny, step, radius);
+        if (newton == CellFacts::Newton::NoRoot) {
+            --size_;
+            continue;
+        }
+        if (newton == CellFacts::Newton::Certified) {
             const double u = cell.u0 + 0.5 * (1.0 + step.x) * width_u;
             const double v = cell.v0 + 0.5 * (1.0 + step.y) * width_v;
             --size_;
             const double noise = 2.0 * line_.tiny / radius;
-            if (noise > 0x1p-6) {
-                if (settle(cell, root)) return true;
-                continue;
-            }
-            if (certified_root(RootOf::WeightedPoint, net_, line_, cell, noise, u, v, root))
-                return true;
+            const bool met = noise > 0x1p-6 ? settle(cell, root)
+                                            : certified_root(RootOf::WeightedPoint, net_, line_,
+                                                             cell, noise, u, v, root);
+            if (met) return true;
             continue;
         }
         bool along_u = facts.split_u();

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "alhazen/shapes/patches/patch_borders.h"
 #include "alhazen/shapes/patches/patch_boxes.h"
 #include "alhazen/shapes/patches/patch_value.h"
 
@@ -26,10 +27,22 @@ struct PatchWalk {
     Waiting stack[kMostWaiting];
 };
 
+/// Bounds of a cell by its control points.
+struct CellBounds {
+    double least[3], most[3];          ///< of x, y and along `aside`
+    PlanePoint f, f_u, f_v;            ///< value and derivatives at the middle, in half-widths
+    double bend_u[3], bend_v[3];       ///< |second differences| by uu, uv, vv, solved for u and v
+    double size_uu, size_uv, size_vv;  ///< |second differences|
+    double extent_u, extent_v;         ///< |first differences|
+};
+
 struct PatchKernels {
     /// The next leaf whose box the line passes through; false at the end.
     bool (*next_leaf)(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf);
     HomogeneousValue (*bicubic)(const BezierNet& net, double u, double v);
+    void (*cubic_bounds)(const PlaneNet& net, CellBounds& out);
+    /// `low` may be `net`.
+    void (*halve_cubic)(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high);
 };
 [[nodiscard]] const PatchKernels& patch_kernels();
 
