@@ -22,8 +22,8 @@ Place place_of(const PatchValue& at, double scale, const PatchLine& line, const 
     const double inside_u = std::min(u - cell.u0, cell.u1 - u) * area;
     const double inside_v = std::min(v - cell.v0, cell.v1 - v) * area;
     const double margin = 4.0 * scale * line.tiny;
-    const double margin_u = margin * std::hypot(x_v, y_v);
-    const double margin_v = margin * std::hypot(x_u, y_u);
+    const double margin_u = margin * std::sqrt(x_v * x_v + y_v * y_v);
+    const double margin_v = margin * std::sqrt(x_u * x_u + y_u * y_u);
     if (inside_u > margin_u && inside_v > margin_v) return Place::Inside;
     if (inside_u < -margin_u || inside_v < -margin_v) return Place::Outside;
     return Place::Unclear;
@@ -171,9 +171,10 @@ CellBounds bounds_of(const PlaneNet& net) {
 /// What the control points of a cell tell.
 class CellFacts {
   public:
-    explicit CellFacts(const PlaneNet& net) : n_(net.degree_u), m_(net.degree_v) {
+    CellFacts(const PlaneNet& net, double tiny)
+        : n_(net.degree_u), m_(net.degree_v), margin_(1.5 * tiny) {
         if (n_ == 3 && m_ == 3) {
-            patch_kernels().cubic_bounds(net, bounds_);
+            patch_kernels().cubic_bounds(net, margin_, bounds_);
         } else {
             bounds_ = bounds_of(net);
         }
@@ -186,7 +187,7 @@ class CellFacts {
         bool thin = false;
         for (int axis = 0; axis < 3; ++axis) {
             const double least = bounds_.least[axis], most = bounds_.most[axis];
-            if (least > 1.5 * tiny || most < -1.5 * tiny) return Hull::Beside;
+            if (least > margin_ || most < -margin_) return Hull::Beside;
             thin = thin || std::max(-least, most) <= 2.0 * tiny;
         }
         return thin ? Hull::Thin : Hull::Around;
@@ -223,6 +224,7 @@ class CellFacts {
 
   private:
     int n_, m_;
+    double margin_;
     CellBounds bounds_;
 };
 
@@ -238,7 +240,7 @@ std::array<PatchCell, 2> halves_of(const PatchCell& cell, bool along_u) {
 }  // namespace
 
 CellSearch::CellSearch(const BezierNet& net, const PatchLine& line, const PatchCell& cell)
-    : net_(net), line_(line), whole_(border_net(net, line)) {
+    : net_(net), line_(line) {
     size_ = 1;
     stack_[0].net = plane_net(net, line);
     // Down to the cell; the other halves are dropped.
@@ -270,7 +272,7 @@ bool CellSearch::next(PatchRoot& root) {
         const Entry& top = stack_[size_ - 1];
         const PatchCell& cell = top.cell;
         const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
-        const CellFacts facts(top.net);
+        const CellFacts facts(top.net, line_.tiny);
         const auto hull = facts.hull(line_.tiny);
         if (hull == CellFacts::Hull::Beside) {
             --size_;
@@ -311,11 +313,12 @@ bool CellSearch::next(PatchRoot& root) {
 /// Reports one root where the winding number is odd: in the half where it is odd, and so on, then
 /// by Newton's method kept inside of the cell.
 bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
-    if (!passes_through(whole_, cell, line_.tiny)) return false;
+    const PlaneNet whole = border_net(net_, line_);
+    if (!passes_through(whole, cell, line_.tiny)) return false;
     constexpr double kFine = 0x1p-18;
     while (std::max(cell.u1 - cell.u0, cell.v1 - cell.v0) > kFine) {
         const auto halves = halves_of(cell, cell.u1 - cell.u0 >= cell.v1 - cell.v0);
-        cell = halves[passes_through(whole_, halves[0], line_.tiny) ? 0 : 1];
+        cell = halves[passes_through(whole, halves[0], line_.tiny) ? 0 : 1];
     }
     root.u = 0.5 * (cell.u0 + cell.u1);
     root.v = 0.5 * (cell.v0 + cell.v1);

@@ -63,7 +63,6 @@ class CellSearch {
 
     const BezierNet& net_;
     const PatchLine& line_;
-    PlaneNet whole_;  // of the borders
     int size_ = 0, cells_ = 0;
     Entry stack_[kMostEntries];
 };

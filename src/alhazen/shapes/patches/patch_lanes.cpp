@@ -144,7 +144,7 @@ HWY_INLINE void middle_of(const CubicRows& rows, double& f, double& f_u, double&
     f_v = weighted_sum(at, -0.375, -0.375, 0.375, 0.375);
 }
 
-void cubic_bounds(const PlaneNet& net, CellBounds& out) {
+void cubic_bounds(const PlaneNet& net, double margin, CellBounds& out) {
     // Two rows' ends are read beyond the last.
     HWY_ALIGN double xs[20], ys[20];
     for (std::size_t k = 0; k < 16; ++k) {
@@ -166,6 +166,9 @@ void cubic_bounds(const PlaneNet& net, CellBounds& out) {
     Point aside[4];
     for (std::size_t i = 0; i < 4; ++i) aside[i] = x.row[i] * ax + y.row[i] * ay;
     extremes(aside, out.least[2], out.most[2]);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (out.least[axis] > margin || out.most[axis] < -margin) return;
+    }
     const double det = out.f_u.x * out.f_v.y - out.f_u.y * out.f_v.x;
     const double inverse = det != 0.0 ? 1.0 / det : 0.0;
     HWY_ALIGN static constexpr double kKeep[3][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}, {1, 1, 0, 0}};

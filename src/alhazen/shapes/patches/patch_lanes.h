@@ -40,7 +40,8 @@ struct PatchKernels {
     /// The next leaf whose box the line passes through; false at the end.
     bool (*next_leaf)(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf);
     HomogeneousValue (*bicubic)(const BezierNet& net, double u, double v);
-    void (*cubic_bounds)(const PlaneNet& net, CellBounds& out);
+    /// Only `least` and `most` where these leave out the origin by more than `margin`.
+    void (*cubic_bounds)(const PlaneNet& net, double margin, CellBounds& out);
     /// `low` may be `net`.
     void (*halve_cubic)(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high);
 };
