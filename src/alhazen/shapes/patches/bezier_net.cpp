@@ -113,19 +113,21 @@ PatchMeasures gauss_measures(const BezierNet& net) {
     return sum;
 }
 
+/// `settled`: halving in the other direction changed nothing.
 PatchMeasures adaptive_measures(const BezierNet& net, const PatchMeasures& whole,
-                                double area_tolerance, double volume_tolerance, int depth) {
+                                double area_tolerance, double volume_tolerance, int depth,
+                                bool settled) {
     const auto [low, high] = depth % 2 == 0 ? halved_u(net) : halved_v(net);
     const PatchMeasures a = gauss_measures(low);
     const PatchMeasures b = gauss_measures(high);
     const PatchMeasures both{a.area + b.area, a.flux_volume + b.flux_volume};
     const bool exact = std::abs(both.area - whole.area) <= area_tolerance &&
                        std::abs(both.flux_volume - whole.flux_volume) <= volume_tolerance;
-    if ((exact && depth > 0) || depth > 24) return both;
+    if ((exact && settled) || depth > 24) return both;
     const PatchMeasures x =
-        adaptive_measures(low, a, 0.7 * area_tolerance, 0.7 * volume_tolerance, depth + 1);
+        adaptive_measures(low, a, 0.7 * area_tolerance, 0.7 * volume_tolerance, depth + 1, exact);
     const PatchMeasures y =
-        adaptive_measures(high, b, 0.7 * area_tolerance, 0.7 * volume_tolerance, depth + 1);
+        adaptive_measures(high, b, 0.7 * area_tolerance, 0.7 * volume_tolerance, depth + 1, exact);
     return {x.area + y.area, x.flux_volume + y.flux_volume};
 }
 
@@ -279,7 +281,7 @@ PatchMeasures measures_of(const BezierNet& net) {
     const double area = std::max(whole.area, 1e-30 * size * size);
     const Vec3 center = abs(control_box(net).center());
     return adaptive_measures(net, whole, 1e-12 * area,
-                             1e-12 * area * (max_component(center) + size), 0);
+                             1e-12 * area * (max_component(center) + size), 0, false);
 }
 
 }  // namespace alhazen

@@ -43,4 +43,8 @@ struct BezierPatch {
     [[nodiscard]] BezierNet net() const;
 };
 
+[[nodiscard]] inline bool first_hit(const BezierPatch& shape, const Ray& ray, ShapeHit& hit) {
+    return shape.tree->first_hit(ray, hit);
+}
+
 }  // namespace alhazen

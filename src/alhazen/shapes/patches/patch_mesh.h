@@ -7,9 +7,9 @@
 /// u-major, as indices into `points`. Two patches share a boundary curve where its control points
 /// are equal (positions and weights, not indices). A mesh in which every boundary curve that is
 /// more than a point is shared by an even number of patches is closed: a solid, crossed an even
-/// number of times by every line. part = patch; u and v of a hit are those of the patch, and its
-/// texture coordinates.
-/// Complexity: O(log patches) for a ray; memory: see patch_tree.h.
+/// number of times by every line, with normals outward. part = patch; u and v of a hit are those of
+/// the patch, and its texture coordinates. Complexity: O(log patches) for a ray; memory: see
+/// patch_tree.h.
 
 #include <memory>
 
@@ -31,6 +31,8 @@ struct PatchMesh {
 
     std::shared_ptr<const PatchTree> tree{};  ///< derived
     bool is_closed = false;                   ///< derived
+    std::vector<bool>
+        inward{};  ///< derived, for closed meshes: patches whose du x dv points inward
 
     static constexpr auto kFields = std::make_tuple(
         optional_field("degree_u", &PatchMesh::degree_u, Unit::Count, Check::Shape),
@@ -51,6 +53,10 @@ struct PatchMesh {
     [[nodiscard]] std::size_t patch_count() const;
     [[nodiscard]] BezierNet net(std::size_t patch) const;
 };
+
+[[nodiscard]] inline bool first_hit(const PatchMesh& shape, const Ray& ray, ShapeHit& hit) {
+    return shape.tree->first_hit(ray, hit);
+}
 
 /// Area, and flux volume: the volume enclosed where the mesh is closed.
 [[nodiscard]] PatchMeasures measures_of(const PatchMesh& mesh);

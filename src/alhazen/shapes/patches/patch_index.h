@@ -1,0 +1,99 @@
+#pragma once
+/// The leaves of patches in a tree of boxes, and the search for the roots of a line.
+///
+/// Conventions: internal to PatchTree.
+
+#include <span>
+#include <vector>
+
+#include "alhazen/geometry/ray.h"
+#include "alhazen/shapes/patches/patch_boxes.h"
+#include "alhazen/shapes/patches/patch_cells.h"
+#include "alhazen/shapes/patches/patch_lanes.h"
+#include "alhazen/shapes/patches/patch_leaves.h"
+#include "alhazen/shapes/patches/patch_tree.h"
+
+namespace alhazen {
+
+class PatchIndex {
+  public:
+    PatchIndex(std::span<const BezierPiece> pieces, const Box3& box);
+
+    [[nodiscard]] PatchLine line_of(const Ray& ray) const;
+    [[nodiscard]] std::span<const PatchLeaf> leaves() const { return leaves_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+    /// Calls `found(piece, root)` for every root in [t_min, limit]; `found` returns the new limit.
+    template <class F>
+    void search(std::span<const BezierPiece> pieces, const PatchLine& line, double t_min,
+                double limit, F&& found) const;
+
+  private:
+    template <class F>
+    void visit_leaf(std::span<const BezierPiece> pieces, const PatchLine& line, const Vec3& origin,
+                    const PatchLeaf& leaf, F& found) const;
+
+    PatchFrame frame_;
+    double reach_ = 0, most_weight_ = 0, far_ = 0;
+    std::vector<PatchLeaf> leaves_;  ///< in the order of the tree
+    std::vector<PatchBoxes> nodes_;
+};
+
+/// The part of the leaf test that needs no patch.
+enum class LeafAnswer { None, Certified, Unique, Divide };
+[[nodiscard]] LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& direction,
+                                   double& a, double& b);
+
+template <class F>
+void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, const PatchLine& line,
+                            const Vec3& origin, const PatchLeaf& leaf, F& found) const {
+    double a = 0, b = 0;
+    const LeafAnswer answer = test_leaf(leaf, origin, line.direction, a, b);
+    if (answer == LeafAnswer::None) return;
+    const PatchCell cell = leaf.cell();
+    const BezierNet& net = pieces[leaf.piece].net;
+    PatchRoot root;
+    if (answer != LeafAnswer::Divide) {
+        const double u = cell.u0 + 0.5 * (1.0 + a) * (cell.u1 - cell.u0);
+        const double v = cell.v0 + 0.5 * (1.0 + b) * (cell.v1 - cell.v0);
+        const bool met = certified_root(RootOf::Point, net, line, cell, 0.0, u, v, root);
+        if (met) found(leaf.piece, root);
+        if (met || answer == LeafAnswer::Certified) return;
+    }
+    CellSearch cells(net, line, cell);
+    while (cells.next(root)) found(leaf.piece, root);
+}
+
+template <class F>
+void PatchIndex::search(std::span<const BezierPiece> pieces, const PatchLine& line, double t_min,
+                        double limit, F&& found) const {
+    PatchWalk walk;
+    const Vec3 origin = frame_.scale * (line.origin - frame_.center);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = line.direction[axis];
+        walk.from[axis] = static_cast<float>(origin[axis]);
+        walk.inverse[axis] =
+            static_cast<float>(1.0 / std::copysign(std::max(std::abs(d), 1e-18), d));
+    }
+    // Along the line in the frame, with a margin.
+    const double per_t = frame_.scale / line.per_length;
+    const auto place = [&](double t, double side) {
+        const double x = (t - line.shift) * per_t;
+        return static_cast<float>(std::clamp(x + side * (1e-5 + 1e-6 * std::abs(x)), -1e30, 1e30));
+    };
+    walk.least = place(t_min, -1.0);
+    walk.most = place(limit, 1.0);
+    walk.size = 1;
+    walk.stack[0] = {walk.least, 0};
+    const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
+        const double t = found(piece, root);
+        if (t < limit) walk.most = place(limit = t, 1.0);
+    };
+    const PatchKernels& kernels = patch_kernels();
+    std::uint32_t leaf = 0;
+    while (kernels.next_leaf(nodes_.data(), walk, leaf)) {
+        visit_leaf(pieces, line, origin, leaves_[leaf], report);
+    }
+}
+
+}  // namespace alhazen
