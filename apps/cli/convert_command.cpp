@@ -28,7 +28,9 @@ int run(const ConvertArguments& args) {
     const ConvertReport report = convert(description, args.output, args.convert);
     if (args.quiet) return kDone;
     if (!report.left_out.empty()) {
-        tell("warning: left out, as they are not meshes: {}\n", report.left_out);
+        const bool patches = report.files.back().extension() == ".bpt";
+        tell("warning: left out, as they are not {}: {}\n", patches ? "patches" : "meshes",
+             report.left_out);
     }
     if (report.masked_parts > 0) {
         tell(
@@ -52,12 +54,15 @@ int run(const ConvertArguments& args) {
 
 void add_convert(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand(
-        "convert", "Write a scene in the native format, or its meshes as PLY, OBJ or STL");
+        "convert",
+        "Write a scene in the native format, its meshes as PLY, OBJ or STL, its patches as OBJ or "
+        ".bpt");
     const auto args = std::make_shared<ConvertArguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
     command
         ->add_option("output", args->output,
-                     "File to write: .alhazen for the whole scene, .ply .obj .stl for its meshes")
+                     "File to write: .alhazen for the whole scene, .ply .obj .stl for its meshes, "
+                     ".obj .bpt for its patches")
         ->required()
         ->type_name("OUT");
     command->add_flag("--meshes-only", args->convert.meshes_only,

@@ -1,4 +1,4 @@
-// Lists and counts of patches.
+// Lists and counts of patches, and the loops that trim them.
 
 #include "alhazen/formats/native/read/native_shape_fields.h"
 
@@ -46,28 +46,118 @@ void read_native_list(BlockReader& reader, std::string_view key, std::vector<std
     });
 }
 
-void read_native_list(BlockReader& reader, std::string_view key, std::vector<TrimLoop>&) {
-    (void)reader.find(key);
+namespace {
+
+constexpr const char* kTrimExpected =
+    "polyline((u, v), (u, v), ...) or curve { degree = ...; knots = [...]; points = [...] }";
+
+/// `polyline((u, v), ...)` or `curve { degree, knots, points, weights }`.
+bool read_trim_curve(TextNode entry, std::string_view key, const ValueReader& values,
+                     TrimCurve& curve) {
+    if (entry.is(NodeKind::Entry, "polyline") && !entry.empty() &&
+        entry.first().is(NodeKind::List)) {
+        for (const TextNode item : entry.first()) {
+            Vec2 point;
+            if (!values.read(item, key, point)) return false;
+            curve.points.push_back(point);
+        }
+        return true;
+    }
+    if (!entry.is(NodeKind::Entry, "curve") || entry.empty() ||
+        !entry.first().is(NodeKind::Block)) {
+        return values.fail(entry, key, kTrimExpected);
+    }
+    BlockReader block(entry.first(), "curve", BlockReader::Strictness::Strict, values.diagnostics);
+    const std::size_t before = values.diagnostics.error_count();
+    read_native_count(block, "degree", curve.degree);
+    read_native_list(block, "knots", curve.knots);
+    block.require("points");
+    read_items<Vec2>(block, "points",
+                     [&](TextNode, const Vec2& value) { curve.points.push_back(value); });
+    read_native_list(block, "weights", curve.weights);
+    block.finish();
+    return values.diagnostics.error_count() == before;
 }
 
+}  // namespace
+
+void read_native_list(BlockReader& reader, std::string_view key, std::vector<TrimLoop>& loops) {
+    const auto list = reader.find(key);
+    if (!list || !reader.values().is_list(*list, key)) return;
+    for (const TextNode item : *list) {
+        if (!reader.values().is_list(item, key)) continue;
+        TrimLoop loop;
+        for (const TextNode entry : item) {
+            TrimCurve curve;
+            if (read_trim_curve(entry, key, reader.values(), curve)) {
+                loop.push_back(std::move(curve));
+            }
+        }
+        loops.push_back(std::move(loop));
+    }
+}
+
+namespace {
+
+/// `[a, b, ...]`, in lines of about 100 characters.
+template <class T, class TextOf>
+std::string wrapped_list(const std::vector<T>& list, const TextOf& text_of) {
+    constexpr std::size_t kWidth = 100;
+    std::string text = "[";
+    std::size_t line = 0;
+    for (const T& value : list) {
+        const std::string item = text_of(value);
+        if (text.size() > 1) text += ",";
+        if (text.size() - line + item.size() > kWidth) {
+            text += "\n        ";
+            line = text.size();
+        } else if (text.size() > 1) {
+            text += " ";
+        }
+        text += item;
+    }
+    return text + "]";
+}
+
+std::string trim_text(const TrimCurve& curve) {
+    const auto point = [](const Vec2& p) { return native_value(p); };
+    if (curve.degree == 1 && curve.knots.empty() && curve.weights.empty()) {
+        std::string points = wrapped_list(curve.points, point);
+        points.front() = '(';
+        points.back() = ')';
+        return "polyline" + points;
+    }
+    std::string text = "curve { degree = " + native_field_text(curve.degree);
+    if (!curve.knots.empty()) text += "; knots = " + native_field_text(curve.knots);
+    text += "; points = " + wrapped_list(curve.points, point);
+    if (!curve.weights.empty()) text += "; weights = " + native_field_text(curve.weights);
+    return text + " }";
+}
+
+}  // namespace
+
 std::string native_field_text(std::uint32_t count) {
-    return native_value(static_cast<double>(count));
+    return std::to_string(count);
 }
 
 std::string native_field_text(const std::vector<Vec3>& list) {
-    return native_list_of(list, [](const Vec3& p) { return native_value(p); });
+    return wrapped_list(list, [](const Vec3& p) { return native_value(p); });
 }
 
 std::string native_field_text(const std::vector<double>& list) {
-    return native_list_of(list, [](double x) { return native_value(x); });
+    return wrapped_list(list, [](double x) { return native_value(x); });
 }
 
 std::string native_field_text(const std::vector<std::uint32_t>& list) {
-    return native_list_of(list, [](std::uint32_t x) { return native_field_text(x); });
+    return wrapped_list(list, [](std::uint32_t x) { return std::to_string(x); });
 }
 
-std::string native_field_text(const std::vector<TrimLoop>&) {
-    return "[]";
+std::string native_field_text(const std::vector<TrimLoop>& loops) {
+    return wrapped_list(loops, [](const TrimLoop& loop) {
+        std::vector<std::string> curves;
+        for (const TrimCurve& curve : loop) curves.push_back(trim_text(curve));
+        return native_list(curves);
+    });
 }
 
 }  // namespace alhazen

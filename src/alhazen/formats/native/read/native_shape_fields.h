@@ -30,7 +30,7 @@ template <class S>
 void read_native_field(BlockReader& reader, const Field<S, std::uint32_t>& field, S& shape) {
     read_native_count(reader, field.name, shape.*field.member);
 }
-/// `(a, b, ...)`.
+/// `[a, b, ...]`; loops of trimming curves: `[[polyline((u, v), ...), curve { ... }], ...]`.
 template <class S, class T>
 void read_native_field(BlockReader& reader, const Field<S, std::vector<T>>& field, S& shape) {
     read_native_list(reader, field.name, shape.*field.member);
@@ -68,6 +68,10 @@ template <class T>
 template <class T>
 [[nodiscard]] bool is_native_default(const T& value, const T& usual) {
     return native_field_text(value) == native_field_text(usual);
+}
+template <class T>
+[[nodiscard]] bool is_native_default(const std::vector<T>& value, const std::vector<T>& usual) {
+    return value.empty() && usual.empty();
 }
 /// An unbounded box cannot be written.
 inline bool is_native_default(const Box3& box, const Box3&) {
