@@ -1,10 +1,8 @@
 // Bodies that another commit replaces.
 #include "alhazen/shapes/patches/bilinear_patch.h"
-#include "alhazen/shapes/patches/nurbs_surface.h"
 #include "alhazen/shapes/patches/steiner_patch.h"
 
 namespace alhazen {
-class TrimRegion {};
 struct SteinerImplicit {};
 void BilinearPatch::validate(const FileLocation&, Diagnostics&) const {}
 Box3 BilinearPatch::box() const {
@@ -28,14 +26,6 @@ int SteinerPatch::intersect(const Ray&, ShapeHit*) const {
     return 0;
 }
 ShapeSurface SteinerPatch::surface(const Ray&, const ShapeHit&) const {
-    return {};
-}
-void NurbsSurface::prepare() {
-    tree = std::make_shared<PatchTree>(std::vector<BezierPiece>{});
-}
-void NurbsSurface::validate(const FileLocation&, Diagnostics&) const {}
-void NurbsSurface::intersect(const Ray&, ShapeHits&) const {}
-ShapeSurface NurbsSurface::surface(const Ray&, const ShapeHit&) const {
     return {};
 }
 }  // namespace alhazen
