@@ -3,7 +3,7 @@
 ///
 /// A source file defines three macros and includes this file, which compiles itself once per
 /// instruction set:
-/// - ALHAZEN_KERNELS: the function that returns the kernels of the chosen instruction set
+/// - ALHAZEN_KERNELS_FUNCTION: the function that returns the kernels of the chosen instruction set
 /// - ALHAZEN_KERNELS_WIDTH: children of a node
 /// - ALHAZEN_KERNELS_TEST: the triangle test, FilteredTriangleTest or FloatTriangleTest
 
@@ -77,7 +77,7 @@ struct Kernels {
     }
 };
 
-const WideBvhKernels& ALHAZEN_KERNELS() {
+const WideBvhKernels& ALHAZEN_KERNELS_FUNCTION() {
     static constexpr WideBvhKernels kernels =
         Kernels<ALHAZEN_KERNELS_WIDTH, ALHAZEN_KERNELS_TEST>::table();
     return kernels;
@@ -90,11 +90,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace alhazen {
 
-HWY_EXPORT(ALHAZEN_KERNELS);
+HWY_EXPORT(ALHAZEN_KERNELS_FUNCTION);
 
-const WideBvhKernels& ALHAZEN_KERNELS() {
+const WideBvhKernels& ALHAZEN_KERNELS_FUNCTION() {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return HWY_DYNAMIC_DISPATCH(ALHAZEN_KERNELS)();
+    return HWY_DYNAMIC_DISPATCH(ALHAZEN_KERNELS_FUNCTION)();
 }
 
 }  // namespace alhazen

@@ -5,7 +5,7 @@
 #undef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3)
 
-#define ALHAZEN_KERNELS wide_bvh_kernels_4
+#define ALHAZEN_KERNELS_FUNCTION wide_bvh_kernels_4
 #define ALHAZEN_KERNELS_WIDTH 4
 #define ALHAZEN_KERNELS_TEST FilteredTriangleTest
 #include "alhazen/aggregates/wide_bvh/kernels-inl.h"
