@@ -79,7 +79,7 @@ INSIDE = {
         "mesh_files": ["obj", "ply", "stl"],
         "patch_files": ["mesh_files"],
         "native": ["text"],
-        "native/read": ["mesh_files", "native"],
+        "native/read": ["bpt", "mesh_files", "native"],
         "nff": ["mesh"],
         "ray": ["mesh", "pictures"],
         "rib": ["patches"],
