@@ -4,62 +4,13 @@
 #include <cmath>
 
 #include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/patches/bspline_pieces.h"
 #include "alhazen/shapes/patches/patch_checks.h"
+#include "alhazen/shapes/patches/trim_region.h"
 
 namespace alhazen {
 
-class TrimRegion {};
-
 namespace {
-
-using HomogeneousRow = std::vector<HomogeneousPoint>;
-
-/// Inserts the knot u once into a B-spline curve. Piegl and Tiller, equation 5.15.
-/// Preconditions: u is in the domain, its multiplicity is less than the degree.
-void insert_knot(std::vector<double>& knots, HomogeneousRow& row, int degree, double u) {
-    const auto after = std::upper_bound(knots.begin(), knots.end(), u);
-    const auto span = static_cast<int>(after - knots.begin()) - 1;
-    const auto before = std::lower_bound(knots.begin(), knots.end(), u);
-    const auto multiplicity = static_cast<int>(after - before);
-    const HomogeneousRow old = row;
-    const auto at = [](int i) { return static_cast<std::size_t>(i); };
-    row.insert(row.begin() + (span - multiplicity), old[at(span - multiplicity)]);
-    for (int i = span - degree + 1; i <= span - multiplicity; ++i) {
-        const double share = (u - knots[at(i)]) / (knots[at(i + degree)] - knots[at(i)]);
-        row[at(i)] = share * old[at(i)] + (1.0 - share) * old[at(i - 1)];
-    }
-    knots.insert(knots.begin() + span + 1, u);
-}
-
-/// Inserts every knot of the domain until its multiplicity is at least the degree.
-void insert_all_knots(std::vector<double>& knots, HomogeneousRow& row, int degree) {
-    const auto p = static_cast<std::size_t>(degree);
-    std::vector<double> inner(knots.begin() + degree, knots.end() - degree);
-    inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
-    for (const double u : inner) {
-        const auto range = std::equal_range(knots.begin(), knots.end(), u);
-        for (auto n = static_cast<std::size_t>(range.second - range.first); n < p; ++n) {
-            insert_knot(knots, row, degree, u);
-        }
-    }
-}
-
-/// A span of the domain and the first of its control points.
-struct KnotSpan {
-    double lo, hi;
-    std::size_t first;
-};
-std::vector<KnotSpan> knot_spans(const std::vector<double>& knots, int degree, double lo,
-                                 double hi) {
-    const auto p = static_cast<std::size_t>(degree);
-    std::vector<KnotSpan> spans;
-    for (std::size_t k = p; k + p + 1 < knots.size(); ++k) {
-        if (knots[k] >= lo && knots[k] < knots[k + 1] && knots[k + 1] <= hi) {
-            spans.push_back({knots[k], knots[k + 1], k - p});
-        }
-    }
-    return spans;
-}
 
 std::vector<BezierPiece> bezier_pieces_of(const NurbsSurface& s) {
     const auto pu = static_cast<int>(s.degree_u), pv = static_cast<int>(s.degree_v);
@@ -102,38 +53,20 @@ std::vector<BezierPiece> bezier_pieces_of(const NurbsSurface& s) {
     return pieces;
 }
 
-void check_knots(FieldChecks& checks, const std::string& name, const std::vector<double>& knots,
-                 std::uint32_t degree) {
-    if (knots.size() < 2 * (std::size_t{degree} + 1)) {
-        checks.fail(name + ": degree " + std::to_string(degree) + " needs at least " +
-                    std::to_string(2 * (std::size_t{degree} + 1)) + " knots, found " +
-                    std::to_string(knots.size()));
-        return;
-    }
-    for (std::size_t k = 0; k < knots.size(); ++k) {
-        if (!(std::abs(knots[k]) <= kMaxCoordinate)) {
-            checks.fail(name + ": knot " + std::to_string(k) + " must be a finite number");
-        } else if (k > 0 && knots[k] < knots[k - 1]) {
-            checks.fail(name + ": knot " + std::to_string(k) + " is less than the one before it");
-        }
-    }
-    if (!(knots[degree] < knots[knots.size() - degree - 1])) {
-        checks.fail(name + ": the domain is empty");
-        return;
-    }
-    for (std::size_t k = 1; k + degree + 1 < knots.size(); ++k) {
-        if (knots[k] == knots[k + degree] && knots[k] > knots[degree] &&
-            knots[k] < knots[knots.size() - degree - 1]) {
-            checks.fail(name + ": knot " + std::to_string(k) +
-                        " repeats more often than the degree, " + std::to_string(degree));
-        }
-    }
-}
-
 }  // namespace
 
 void NurbsSurface::prepare() {
-    tree = std::make_shared<PatchTree>(bezier_pieces_of(*this));
+    std::vector<BezierPiece> pieces = bezier_pieces_of(*this);
+    region = nullptr;
+    if (!trims.empty()) {
+        region = std::make_shared<TrimRegion>(trims);
+        const BezierPiece first = pieces[0];
+        std::erase_if(pieces, [&](const BezierPiece& piece) {
+            return region->cover(piece.lo, piece.hi) == TrimRegion::Cover::None;
+        });
+        if (pieces.empty()) pieces.push_back(first);  // a surface has a box
+    }
+    tree = std::make_shared<PatchTree>(std::move(pieces));
 }
 
 void NurbsSurface::validate(const FileLocation& where, Diagnostics& diagnostics) const {
@@ -142,9 +75,10 @@ void NurbsSurface::validate(const FileLocation& where, Diagnostics& diagnostics)
     check_control_points(checks, points, weights);
     if (degree_u >= 1 && degree_u <= 7) check_knots(checks, "knots_u", knots_u, degree_u);
     if (degree_v >= 1 && degree_v <= 7) check_knots(checks, "knots_v", knots_v, degree_v);
-    // Keeping all of a surface that has holes would be wrong without a word.
-    if (!trims.empty()) checks.fail("trimming loops are not supported yet");
     if (!checks.ok()) return;
+    const Vec2 size{knots_u[knots_u.size() - degree_u - 1] - knots_u[degree_u],
+                    knots_v[knots_v.size() - degree_v - 1] - knots_v[degree_v]};
+    check_trim_loops(checks, trims, size);
     const std::size_t nu = knots_u.size() - degree_u - 1, nv = knots_v.size() - degree_v - 1;
     if (points.size() != nu * nv) {
         checks.fail("these knots and degrees need " + std::to_string(nu) + " x " +
@@ -152,8 +86,36 @@ void NurbsSurface::validate(const FileLocation& where, Diagnostics& diagnostics)
     }
 }
 
+bool NurbsSurface::keeps(const ShapeHit& hit) const {
+    if (region == nullptr) return true;
+    // A loop along the border of the domain keeps the border.
+    const auto within = [](double x, const std::vector<double>& knots, std::uint32_t degree) {
+        const double lo = knots[degree], hi = knots[knots.size() - degree - 1];
+        const double margin = 0x1p-40 * (hi - lo);
+        return std::clamp(x, lo + margin, hi - margin);
+    };
+    return region->contains({within(hit.u, knots_u, degree_u), within(hit.v, knots_v, degree_v)});
+}
+
 void NurbsSurface::intersect(const Ray& ray, ShapeHits& hits) const {
+    const std::size_t first = hits.size();
     tree->intersect(ray, hits);
+    if (region == nullptr) return;
+    std::size_t kept = first;
+    for (std::size_t k = first; k < hits.size(); ++k) {
+        if (keeps(hits[k])) hits[kept++] = hits[k];
+    }
+    hits.shrink(kept);
+}
+
+bool first_hit(const NurbsSurface& shape, const Ray& ray, ShapeHit& hit) {
+    if (!shape.tree->first_hit(ray, hit)) return false;
+    if (shape.keeps(hit)) return true;
+    ShapeHits hits;
+    shape.intersect(ray, hits);
+    if (hits.empty()) return false;
+    hit = hits.front();
+    return true;
 }
 
 ShapeSurface NurbsSurface::surface(const Ray& ray, const ShapeHit& hit) const {
@@ -162,7 +124,7 @@ ShapeSurface NurbsSurface::surface(const Ray& ray, const ShapeHit& hit) const {
     const Vec2 size{knots_u[knots_u.size() - degree_u - 1] - lo.x,
                     knots_v[knots_v.size() - degree_v - 1] - lo.y};
     surface.uv = {(hit.u - lo.x) / size.x, (hit.v - lo.y) / size.y};
-    const BezierPiece& piece = tree->pieces()[hit.part];
+    const BezierPiece& piece = tree->piece_of(hit.part);
     surface.dpdu = (size.x / (piece.hi.x - piece.lo.x)) * surface.dpdu;
     surface.dpdv = (size.y / (piece.hi.y - piece.lo.y)) * surface.dpdv;
     return surface;

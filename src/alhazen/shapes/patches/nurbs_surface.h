@@ -8,7 +8,8 @@
 /// Conventions: control points are u-major: [i * n + j] with n = knots_v.size() - degree_v - 1. The
 /// domain is [knots[degree], knots[size - degree - 1]] in each direction. u and v of a hit are
 /// parameters in the domain; texture coordinates are these mapped to [0, 1]. part = Bezier piece.
-/// The surface is kept inside of the odd-even region of the trimming loops; none: all of it.
+/// The surface is kept inside of the odd-even region of the trimming loops (trim_region.h); none:
+/// all of it. A loop along the border of the domain keeps the border.
 
 #include <memory>
 
@@ -60,7 +61,11 @@ struct NurbsSurface {
     [[nodiscard]] Box3 box() const { return tree->box(); }
     [[nodiscard]] Interval extent(const Vec3& axis) const { return tree->extent(axis); }
     void intersect(const Ray& ray, ShapeHits& hits) const;
+    /// Whether the loops leave the surface there.
+    [[nodiscard]] bool keeps(const ShapeHit& hit) const;
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
 };
+
+[[nodiscard]] bool first_hit(const NurbsSurface& shape, const Ray& ray, ShapeHit& hit);
 
 }  // namespace alhazen

@@ -89,8 +89,8 @@ bool PatchTree::first_hit(const Ray& ray, ShapeHit& hit) const {
 
 const BezierPiece& PatchTree::piece_of(std::uint32_t part) const {
     if (part < pieces_.size() && pieces_[part].part == part) return pieces_[part];
-    return *std::find_if(pieces_.begin(), pieces_.end(),
-                         [&](const BezierPiece& p) { return p.part == part; });
+    return *std::partition_point(pieces_.begin(), pieces_.end(),
+                                 [&](const BezierPiece& p) { return p.part < part; });
 }
 
 ShapeSurface PatchTree::surface(const Ray&, const ShapeHit& hit) const {

@@ -29,6 +29,7 @@ class PatchIndex;  // the leaves, and the boxes around them
 
 class PatchTree {
   public:
+    /// Precondition: parts ascend.
     explicit PatchTree(std::vector<BezierPiece> pieces);
 
     [[nodiscard]] const Box3& box() const { return box_; }
@@ -42,11 +43,11 @@ class PatchTree {
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
 
     [[nodiscard]] std::span<const BezierPiece> pieces() const { return pieces_; }
+    /// The piece of that part.
+    [[nodiscard]] const BezierPiece& piece_of(std::uint32_t part) const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    [[nodiscard]] const BezierPiece& piece_of(std::uint32_t part) const;
-
     std::vector<BezierPiece> pieces_;
     Box3 box_;
     std::shared_ptr<const PatchIndex> index_;
