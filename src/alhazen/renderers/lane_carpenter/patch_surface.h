@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/lane_carpenter/patch_block.h"
 #include "alhazen/renderers/lane_carpenter/scan_scene.h"
 
 namespace alhazen {
@@ -17,5 +18,8 @@ namespace alhazen {
 /// its texture coordinates.
 void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 parameters,
                        const Ray& ray, double error, Surface& surface);
+/// The same from a lane of a block whose points are found. Texture coordinates only `with_uv`.
+void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, const PatchBlock& block,
+                       std::size_t lane, bool with_uv, Surface& surface);
 
 }  // namespace alhazen
