@@ -358,32 +358,6 @@ TEST(LaneCarpenter, HasTheLookAndTheLayersOfRayCasting) {
     EXPECT_LE(other_uvs, few);
 }
 
-TEST(LaneCarpenter, VeilsLetTheEyePassAsForRays) {
-    SceneMaker maker;
-    Material veil = glowing({1, 0, 0}), single = glowing({0, 1, 0});
-    veil.alpha_mode = AlphaMode::Blend;
-    veil.alpha.value = 0.25;
-    single.double_sided = false;
-    maker.add(square(-3, 3, 4), maker.material(veil));
-    maker.add(square(-2, 2, 2), MaterialId{0});
-    maker.add(square(-2, 1, 0), maker.material(single));
-    // Seen from behind.
-    maker.add(square(-1, 3, -3), MaterialId{1}, {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {}});
-    const Camera camera = unit_pixels(8);
-    Scene scene = maker.compile();
-    scene.background = {0, 0, 1};
-    const PixelBox all{0, 0, 8, 8};
-    Film film(8, 8, all), rays(8, 8, all);
-    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
-    (void)LaneCarpenter().render(job, film);
-    (void)RayCasting().render(job, rays);
-    for (int y = 0; y < 8; ++y) {
-        for (int x = 0; x < 8; ++x) EXPECT_EQ(film.at(x, y), rays.at(x, y)) << x << ',' << y;
-    }
-    // Two veils of 1/4 before green: 1/4 + 3/16 red, 9/16 green.
-    EXPECT_EQ(film.at(3, 4), (Rgb{0.4375, 0.5625, 0}));
-}
-
 /// A torus of bicubic patches that shares its points.
 PatchMesh closed_torus() {
     // Uniform cubic B-spline: every 4 x 4 of the points, as Bezier patches.
@@ -431,6 +405,129 @@ PatchMesh closed_torus() {
         }
     }
     return mesh;
+}
+
+/// Samples of the layers `uv` and `N` that differ from those of rays, and of the picture.
+struct Differences {
+    int pixels = 0, uvs = 0, normals = 0;
+};
+Differences differences(SceneMaker& maker, const Camera& camera, int size) {
+    Scene scene = maker.compile("wide_bvh");
+    scene.background = {0, 0, 1};
+    const PixelBox all{0, 0, size, size};
+    Film film(size, size, all), rays(size, size, all);
+    AovFilm layers(parse_aovs("uv,Ng"), all), ray_layers(parse_aovs("uv,Ng"), all);
+    RenderJob job{
+        .scene = scene, .camera = camera, .aovs = &layers, .description = &maker.description()};
+    (void)LaneCarpenter().render(job, film);
+    job.aovs = &ray_layers;
+    (void)RayCasting().render(job, rays);
+    Differences found;
+    const auto& channels = layers.layers().channels();
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const Rgb d = film.at(x, y) + -1.0 * rays.at(x, y);
+            found.pixels += !(std::abs(d.r) + std::abs(d.g) + std::abs(d.b) <= 0.02);
+            for (std::size_t c = 0; c < channels.size(); ++c) {
+                const auto at = static_cast<std::size_t>(y * size + x);
+                const double off =
+                    value_of(channels[c], at) - value_of(ray_layers.layers().channels()[c], at);
+                (channels[c].name.starts_with("uv") ? found.uvs : found.normals) +=
+                    !(std::abs(off) <= 0.01);
+            }
+        }
+    }
+    return found;
+}
+
+TEST(LaneCarpenter, ParametersAreThoseOfRays) {
+    SceneMaker maker;
+    maker.add(Rectangle{.corner = {-2, -2, -1}, .edge_u = {4, 0, 0}, .edge_v = {0, 4, 0}});
+    NurbsSurface surface;
+    surface.degree_u = 2;
+    surface.degree_v = 1;
+    surface.knots_u = {1, 1, 1, 1.5, 3, 3, 3};
+    surface.knots_v = {-2, -2, 0, 5, 5};
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            surface.points.push_back({0.9 * i - 1.4, 0.9 * j - 0.9, i % 2 == j % 2 ? 0.3 : 0.0});
+        }
+    }
+    maker.add(surface);
+    const Camera camera = look_along({0.4, 1.2, 5}, {-0.08, -0.24, -1}, {0, 1, 0}, 0.7, 1.0);
+    const Differences found = differences(maker, camera, 96);
+    EXPECT_LE(found.uvs, 60);
+    EXPECT_LE(found.normals, 100);
+    // The derivatives by u and v of the whole, against differences along the surface.
+    surface.prepare();
+    for (const double x : {-0.9, -0.2, 0.7}) {
+        const auto surface_at_x = [&](double at) {
+            const Ray ray{{at, -0.3, 5}, {0, 0, -1}};
+            ShapeHits hits;
+            surface.intersect(ray, hits);
+            EXPECT_EQ(hits.size(), 1u);
+            return surface.surface(ray, hits[0]);
+        };
+        const ShapeSurface low = surface_at_x(x), high = surface_at_x(x + 1e-5);
+        const Vec2 change = high.uv - low.uv;
+        const Vec3 along = change.x * low.dpdu + change.y * low.dpdv;
+        EXPECT_NEAR(along.x, 1e-5, 1e-8);
+        EXPECT_NEAR(along.y, 0.0, 1e-8);
+    }
+}
+
+TEST(LaneCarpenter, SingleSidedSurfacesAreThoseOfRays) {
+    Material single = glowing({0.1, 0.9, 0});
+    single.double_sided = false;
+    // Mirrored, and with a patch that runs against its neighbours.
+    for (const bool turned : {false, true}) {
+        SceneMaker maker;
+        PatchMesh mesh = closed_torus();
+        if (turned) {
+            for (std::size_t patch = 0; patch < mesh.patches.size() / 16; patch += 3) {
+                for (std::size_t i = 0; i < 4; ++i) {
+                    for (std::size_t j = 0; j < i; ++j) {
+                        std::swap(mesh.patches[16 * patch + 4 * i + j],
+                                  mesh.patches[16 * patch + 4 * j + i]);
+                    }
+                }
+            }
+        }
+        const Affine mirror = Affine::scale({turned ? 1.0 : -1.0, 1, 1});
+        maker.add(std::move(mesh), maker.material(single), mirror);
+        const Camera camera = look_along({1.1, 0.1, 5}, {-0.2, 0, -5}, {0, 1, 0}, 0.9, 1.0);
+        const Differences found = differences(maker, camera, 128);
+        EXPECT_LE(found.pixels, 16);
+        EXPECT_LE(found.normals, 250);
+        const Camera inside = look_along({1.2, 0.1, 0.1}, {0, 1, 0.1}, {0, 0, 1}, 1.2, 1.0);
+        EXPECT_LE(differences(maker, inside, 64).pixels, 4);
+    }
+}
+
+TEST(LaneCarpenter, VeilsLetTheEyePassAsForRays) {
+    SceneMaker maker;
+    Material veil = glowing({1, 0, 0}), single = glowing({0, 1, 0});
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.alpha.value = 0.25;
+    single.double_sided = false;
+    maker.add(square(-3, 3, 4), maker.material(veil));
+    maker.add(square(-2, 2, 2), MaterialId{0});
+    maker.add(square(-2, 1, 0), maker.material(single));
+    // Seen from behind.
+    maker.add(square(-1, 3, -3), MaterialId{1}, {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {}});
+    const Camera camera = unit_pixels(8);
+    Scene scene = maker.compile();
+    scene.background = {0, 0, 1};
+    const PixelBox all{0, 0, 8, 8};
+    Film film(8, 8, all), rays(8, 8, all);
+    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
+    (void)LaneCarpenter().render(job, film);
+    (void)RayCasting().render(job, rays);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) EXPECT_EQ(film.at(x, y), rays.at(x, y)) << x << ',' << y;
+    }
+    // Two veils of 1/4 before green: 1/4 + 3/16 red, 9/16 green.
+    EXPECT_EQ(film.at(3, 4), (Rgb{0.4375, 0.5625, 0}));
 }
 
 /// Pixels of the bright ground between eight dark ones.

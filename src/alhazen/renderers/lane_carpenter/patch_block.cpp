@@ -218,7 +218,7 @@ HWY_INLINE FourMask step_four(const FourPlane& plane, const FourVec& origin,
     solution.point = select(found, met, solution.point);
     solution.u = select_lanes(found, limited(solution.u + du), solution.u);
     solution.v = select_lanes(found, limited(solution.v + dv), solution.v);
-    return found & (!(dot(offset, offset) <= error * error));
+    return found & (!(dot(offset, offset) <= Four(kShortStep * kShortStep) * error * error));
 }
 
 HWY_INLINE std::uint32_t find_four(const BezierNet& net, bool polynomial, std::size_t first,

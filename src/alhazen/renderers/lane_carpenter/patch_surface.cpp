@@ -178,7 +178,7 @@ void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 uv, 
         if (!step.found) break;
         surface.point = step.point;
         uv = {limited(uv.x + step.change.x), limited(uv.y + step.change.y)};
-        if (length_squared(step.offset) <= error * error) break;
+        if (length_squared(step.offset) <= kShortStep * kShortStep * error * error) break;
         at = tangents_at(piece, uv.x, uv.y);
         normal = cross(at.du, at.dv);
         squared = length_squared(normal);
@@ -188,7 +188,7 @@ void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 uv, 
     } else {
         normal = limit_normal(piece, uv, ray);
     }
-    surface.normal = source.mirrored ? -normal : normal;
+    surface.normal = source.mirrored != piece.inward ? -normal : normal;
     surface.shading_normal = surface.normal;
     surface.dpdu = at.du;
     surface.dpdv = at.dv;
@@ -204,7 +204,7 @@ void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, const Pat
                             ? PatchBlock::vector(block.normal, lane)
                             : limit_normal(piece, uv, block.rays[lane]);
     surface.point = PatchBlock::vector(block.point, lane);
-    surface.normal = source.mirrored ? -normal : normal;
+    surface.normal = source.mirrored != piece.inward ? -normal : normal;
     surface.shading_normal = surface.normal;
     const double error = block.error[lane];
     surface.error = {error, error, error};
