@@ -130,7 +130,7 @@ INSIDE = {
 
 # Start of an include -> rooms that may include it. Unlisted ones (standard, POSIX, fmt) are free.
 LIBRARIES = {
-    "hwy/": {"simd", "shapes", "cameras", "accel", "csg", "aggregates", "verification"},
+    "hwy/": {"simd", "shapes", "cameras", "accel", "csg", "aggregates", "renderers", "verification"},
     "tbb/": {"parallel"},
     "oneapi/": {"parallel"},
     "Imf": {"imaging"},

@@ -8,9 +8,12 @@
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/renderers/lane_carpenter/edge_line.h"
+#include "alhazen/renderers/lane_carpenter/patch_surface.h"
 #include "alhazen/renderers/lane_carpenter/scan_lines.h"
 #include "alhazen/renderers/lane_carpenter/subdivision.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/simd/targets.h"
 #include "support/scene_maker.h"
 
 namespace alhazen {
@@ -116,23 +119,118 @@ TEST(LaneCarpenter, SplitsOnlyAlongTheDirectionThatIsNotFlat) {
     }
 }
 
-TEST(Subdivision, DistancesCountDepthAndDoNotDependOnTheDirection) {
+TEST(ScreenChord, DistancesCountDepthAndDoNotDependOnTheDirection) {
     const ScreenView view(unit_pixels(8), 8, 8, 10.0);
-    const Scene scene;
-    const RenderJob job{scene, unit_pixels(8)};
-    const Film film(8, 8, {0, 0, 8, 8});
-    const SampleGrid grid(job, film, view);
-    const Subdivision subdivision(view, grid, {}, 0.25, false);
-    const ScreenPoint a{0, 0, -10}, b{6, 8, -10}, c{3, 4, -13}, d{12, 16, -10};
-    EXPECT_DOUBLE_EQ(subdivision.squared_distance(c, a, b), 9.0);
-    EXPECT_DOUBLE_EQ(subdivision.squared_distance(d, a, b), 100.0);
+    const ScreenPoint a{0, 0, -10}, b{6, 8, -10}, c{3, 4, -13}, d{12, 16, -10}, e{-3, -4, -10};
+    const ScreenChord chord(view, a, b);
+    for (const auto& [point, squared] : {std::pair{c, 9.0}, {d, 100.0}, {e, 25.0}}) {
+        EXPECT_TRUE(chord.is_within(point, squared));
+        EXPECT_FALSE(chord.is_within(point, squared - 1e-9));
+    }
+    EXPECT_TRUE(ScreenChord(view, a, a).is_within(e, 25.0));
+    EXPECT_FALSE(ScreenChord(view, a, a).is_within(e, 24.0));
     RandomStream random(4);
     for (int k = 0; k < 1000; ++k) {
         const auto point = [&] {
             return ScreenPoint{random.uniform(0, 9), random.uniform(0, 9), random.uniform(-9, -1)};
         };
         const ScreenPoint p = point(), q = point(), r = point();
-        EXPECT_EQ(subdivision.squared_distance(p, q, r), subdivision.squared_distance(p, r, q));
+        const double squared = random.uniform(0, 50);
+        EXPECT_EQ(ScreenChord(view, q, r).is_within(p, squared),
+                  ScreenChord(view, r, q).is_within(p, squared));
+    }
+}
+
+TEST(EdgeLine, FindsTheFirstSampleOnTheRight) {
+    using PixelSample = SamplingConventions::PixelSample;
+    for (const auto where : {PixelSample::Center, PixelSample::FrameCorners}) {
+        for (const int size : {1, 2, 61}) {
+            Scene scene;
+            scene.conventions.sampling.pixel_sample = where;
+            const ScreenView view(unit_pixels(size), size, size, 10.0);
+            const RenderJob job{scene, unit_pixels(size)};
+            const Film film(size, size, {0, 0, size, size});
+            const SampleGrid grid(job, film, view);
+            RandomStream random(11);
+            for (int k = 0; k < 4000; ++k) {
+                // Every other line passes exactly through a sample.
+                GridPoint from{view.to_grid(random.uniform(-9, 70)),
+                               view.to_grid(random.uniform(-9, 70))};
+                GridPoint to{view.to_grid(random.uniform(-9, 70)),
+                             view.to_grid(random.uniform(-9, 70))};
+                const int row = k % size, column = k / 3 % size;
+                if (k % 2 == 0) {
+                    const auto dx = static_cast<std::int32_t>(random.below(7000));
+                    const auto dy = static_cast<std::int32_t>(random.below(7000));
+                    from = {grid.x(column) - 3 * dx, grid.y(row) - 3 * dy};
+                    to = {grid.x(column) + 5 * dx, grid.y(row) + 5 * dy};
+                }
+                const EdgeLine line(from, to);
+                int first = 0;
+                while (first < size && !line.is_right(grid.x(first), grid.y(row))) ++first;
+                if (line.dy == 0) continue;
+                EXPECT_EQ(line.first_right(grid, grid.y(row)), first);
+            }
+        }
+    }
+}
+
+/// A patch with random points around a plane; weights of 1/2 to 2 where it is rational.
+BezierNet bumpy(int degree_u, int degree_v, bool rational, RandomStream& random) {
+    BezierNet net;
+    net.degree_u = degree_u;
+    net.degree_v = degree_v;
+    for (int i = 0; i <= degree_u; ++i) {
+        for (int j = 0; j <= degree_v; ++j) {
+            const Vec3 p{double(i) / degree_u, double(j) / degree_v, random.uniform(-0.2, 0.2)};
+            net.at(i, j) = homogeneous(p, rational ? random.uniform(0.5, 2) : 1.0);
+        }
+    }
+    return net;
+}
+
+TEST(PatchBlock, LanesHaveTheBitsOfSinglePoints) {
+    RandomStream random(5);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride override(target);
+        for (int k = 0; k < 200; ++k) {
+            ScanScene scene;
+            scene.sources.push_back({.mirrored = k % 3 == 0, .is_patch = true});
+            ScanPiece piece{.lo = {0.25, 0}, .hi = {0.5, 1}, .polynomial = k % 2 == 0};
+            const int degree = k % 4 == 0 ? 3 : 1 + k % 7;
+            piece.net = bumpy(degree, k % 5 == 0 ? 3 : degree, !piece.polynomial, random);
+            // An edge that is a point: no normal there.
+            if (k % 11 == 0) {
+                for (int j = 1; j <= piece.net.degree_v; ++j)
+                    piece.net.at(0, j) = piece.net.at(0, 0);
+            }
+            PatchBlock block;
+            block.count = 1 + static_cast<std::size_t>(k) % PatchBlock::kMost;
+            std::vector<Ray> rays(block.count);
+            for (std::size_t i = 0; i < block.count; ++i) {
+                const Vec3 from{random.uniform(0, 1), random.uniform(0, 1), 3};
+                block.u[i] = i == 2 ? 0.0 : random.uniform(0, 1);
+                block.v[i] = random.uniform(0, 1);
+                const Vec3 near{block.u[i] + random.uniform(-0.02, 0.02), block.v[i], 0};
+                rays[i] = {from, normalize(near - from)};
+                block.error[i] = i % 2 == 0 ? 1e-3 : 0.1;
+            }
+            block.rays = rays.data();
+            const PatchBlock given = block;
+            find_patch_points(piece.net, piece.polynomial, block);
+            for (std::size_t i = 0; i < block.count; ++i) {
+                Surface one, lane;
+                set_patch_surface(scene, piece, {given.u[i], given.v[i]}, rays[i], given.error[i],
+                                  one);
+                set_patch_surface(scene, piece, block, i, true, lane);
+                EXPECT_EQ(one.point, lane.point) << target << ' ' << k << ' ' << i;
+                EXPECT_EQ(one.normal, lane.normal) << target << ' ' << k << ' ' << i;
+                EXPECT_EQ(one.uv, lane.uv);
+                EXPECT_EQ(one.dpdu, lane.dpdu);
+                EXPECT_EQ(one.dpdv2, lane.dpdv2);
+                EXPECT_EQ(one.error, lane.error);
+            }
+        }
     }
 }
 
@@ -260,32 +358,6 @@ TEST(LaneCarpenter, HasTheLookAndTheLayersOfRayCasting) {
     EXPECT_LE(other_uvs, few);
 }
 
-TEST(LaneCarpenter, VeilsLetTheEyePassAsForRays) {
-    SceneMaker maker;
-    Material veil = glowing({1, 0, 0}), single = glowing({0, 1, 0});
-    veil.alpha_mode = AlphaMode::Blend;
-    veil.alpha.value = 0.25;
-    single.double_sided = false;
-    maker.add(square(-3, 3, 4), maker.material(veil));
-    maker.add(square(-2, 2, 2), MaterialId{0});
-    maker.add(square(-2, 1, 0), maker.material(single));
-    // Seen from behind.
-    maker.add(square(-1, 3, -3), MaterialId{1}, {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {}});
-    const Camera camera = unit_pixels(8);
-    Scene scene = maker.compile();
-    scene.background = {0, 0, 1};
-    const PixelBox all{0, 0, 8, 8};
-    Film film(8, 8, all), rays(8, 8, all);
-    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
-    (void)LaneCarpenter().render(job, film);
-    (void)RayCasting().render(job, rays);
-    for (int y = 0; y < 8; ++y) {
-        for (int x = 0; x < 8; ++x) EXPECT_EQ(film.at(x, y), rays.at(x, y)) << x << ',' << y;
-    }
-    // Two veils of 1/4 before green: 1/4 + 3/16 red, 9/16 green.
-    EXPECT_EQ(film.at(3, 4), (Rgb{0.4375, 0.5625, 0}));
-}
-
 /// A torus of bicubic patches that shares its points.
 PatchMesh closed_torus() {
     // Uniform cubic B-spline: every 4 x 4 of the points, as Bezier patches.
@@ -333,6 +405,129 @@ PatchMesh closed_torus() {
         }
     }
     return mesh;
+}
+
+/// Samples of the layers `uv` and `N` that differ from those of rays, and of the picture.
+struct Differences {
+    int pixels = 0, uvs = 0, normals = 0;
+};
+Differences differences(SceneMaker& maker, const Camera& camera, int size) {
+    Scene scene = maker.compile("wide_bvh");
+    scene.background = {0, 0, 1};
+    const PixelBox all{0, 0, size, size};
+    Film film(size, size, all), rays(size, size, all);
+    AovFilm layers(parse_aovs("uv,Ng"), all), ray_layers(parse_aovs("uv,Ng"), all);
+    RenderJob job{
+        .scene = scene, .camera = camera, .aovs = &layers, .description = &maker.description()};
+    (void)LaneCarpenter().render(job, film);
+    job.aovs = &ray_layers;
+    (void)RayCasting().render(job, rays);
+    Differences found;
+    const auto& channels = layers.layers().channels();
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const Rgb d = film.at(x, y) + -1.0 * rays.at(x, y);
+            found.pixels += !(std::abs(d.r) + std::abs(d.g) + std::abs(d.b) <= 0.02);
+            for (std::size_t c = 0; c < channels.size(); ++c) {
+                const auto at = static_cast<std::size_t>(y * size + x);
+                const double off =
+                    value_of(channels[c], at) - value_of(ray_layers.layers().channels()[c], at);
+                (channels[c].name.starts_with("uv") ? found.uvs : found.normals) +=
+                    !(std::abs(off) <= 0.01);
+            }
+        }
+    }
+    return found;
+}
+
+TEST(LaneCarpenter, ParametersAreThoseOfRays) {
+    SceneMaker maker;
+    maker.add(Rectangle{.corner = {-2, -2, -1}, .edge_u = {4, 0, 0}, .edge_v = {0, 4, 0}});
+    NurbsSurface surface;
+    surface.degree_u = 2;
+    surface.degree_v = 1;
+    surface.knots_u = {1, 1, 1, 1.5, 3, 3, 3};
+    surface.knots_v = {-2, -2, 0, 5, 5};
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            surface.points.push_back({0.9 * i - 1.4, 0.9 * j - 0.9, i % 2 == j % 2 ? 0.3 : 0.0});
+        }
+    }
+    maker.add(surface);
+    const Camera camera = look_along({0.4, 1.2, 5}, {-0.08, -0.24, -1}, {0, 1, 0}, 0.7, 1.0);
+    const Differences found = differences(maker, camera, 96);
+    EXPECT_LE(found.uvs, 60);
+    EXPECT_LE(found.normals, 100);
+    // The derivatives by u and v of the whole, against differences along the surface.
+    surface.prepare();
+    for (const double x : {-0.9, -0.2, 0.7}) {
+        const auto surface_at_x = [&](double at) {
+            const Ray ray{{at, -0.3, 5}, {0, 0, -1}};
+            ShapeHits hits;
+            surface.intersect(ray, hits);
+            EXPECT_EQ(hits.size(), 1u);
+            return surface.surface(ray, hits[0]);
+        };
+        const ShapeSurface low = surface_at_x(x), high = surface_at_x(x + 1e-5);
+        const Vec2 change = high.uv - low.uv;
+        const Vec3 along = change.x * low.dpdu + change.y * low.dpdv;
+        EXPECT_NEAR(along.x, 1e-5, 1e-8);
+        EXPECT_NEAR(along.y, 0.0, 1e-8);
+    }
+}
+
+TEST(LaneCarpenter, SingleSidedSurfacesAreThoseOfRays) {
+    Material single = glowing({0.1, 0.9, 0});
+    single.double_sided = false;
+    // Mirrored, and with a patch that runs against its neighbours.
+    for (const bool turned : {false, true}) {
+        SceneMaker maker;
+        PatchMesh mesh = closed_torus();
+        if (turned) {
+            for (std::size_t patch = 0; patch < mesh.patches.size() / 16; patch += 3) {
+                for (std::size_t i = 0; i < 4; ++i) {
+                    for (std::size_t j = 0; j < i; ++j) {
+                        std::swap(mesh.patches[16 * patch + 4 * i + j],
+                                  mesh.patches[16 * patch + 4 * j + i]);
+                    }
+                }
+            }
+        }
+        const Affine mirror = Affine::scale({turned ? 1.0 : -1.0, 1, 1});
+        maker.add(std::move(mesh), maker.material(single), mirror);
+        const Camera camera = look_along({1.1, 0.1, 5}, {-0.2, 0, -5}, {0, 1, 0}, 0.9, 1.0);
+        const Differences found = differences(maker, camera, 128);
+        EXPECT_LE(found.pixels, 16);
+        EXPECT_LE(found.normals, 250);
+        const Camera inside = look_along({1.2, 0.1, 0.1}, {0, 1, 0.1}, {0, 0, 1}, 1.2, 1.0);
+        EXPECT_LE(differences(maker, inside, 64).pixels, 4);
+    }
+}
+
+TEST(LaneCarpenter, VeilsLetTheEyePassAsForRays) {
+    SceneMaker maker;
+    Material veil = glowing({1, 0, 0}), single = glowing({0, 1, 0});
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.alpha.value = 0.25;
+    single.double_sided = false;
+    maker.add(square(-3, 3, 4), maker.material(veil));
+    maker.add(square(-2, 2, 2), MaterialId{0});
+    maker.add(square(-2, 1, 0), maker.material(single));
+    // Seen from behind.
+    maker.add(square(-1, 3, -3), MaterialId{1}, {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {}});
+    const Camera camera = unit_pixels(8);
+    Scene scene = maker.compile();
+    scene.background = {0, 0, 1};
+    const PixelBox all{0, 0, 8, 8};
+    Film film(8, 8, all), rays(8, 8, all);
+    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
+    (void)LaneCarpenter().render(job, film);
+    (void)RayCasting().render(job, rays);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) EXPECT_EQ(film.at(x, y), rays.at(x, y)) << x << ',' << y;
+    }
+    // Two veils of 1/4 before green: 1/4 + 3/16 red, 9/16 green.
+    EXPECT_EQ(film.at(3, 4), (Rgb{0.4375, 0.5625, 0}));
 }
 
 /// Pixels of the bright ground between eight dark ones.

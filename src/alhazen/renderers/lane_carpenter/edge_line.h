@@ -35,15 +35,16 @@ struct EdgeLine {
         return (x - x0) * dy >= (y - y0) * dx;
     }
     /// The first column of the row whose sample is right of the line; `columns` where none is.
-    [[nodiscard]] int first_right(const SampleGrid& grid, std::int32_t y,
-                                  double columns_per_unit) const {
+    [[nodiscard]] int first_right(const SampleGrid& grid, std::int32_t y) const {
         const int columns = grid.columns();
         if (dy == 0) return (y - y0) * dx <= 0 ? 0 : columns;
-        const std::int64_t far = (y - y0) * dx;
         const double x = static_cast<double>(x0) + slope * static_cast<double>(y - y0);
-        const std::int32_t* const xs = grid.xs();
-        const double place = (x - xs[0]) * columns_per_unit + 1.0;
+        const double place = grid.column_of(x) + 1.0;
         int k = place > 0.0 ? (place < columns ? static_cast<int>(place) : columns) : 0;
+        const double part = place - k;
+        if (k < columns && part > grid.column_slack() && part < 1.0 - grid.column_slack()) return k;
+        const std::int64_t far = (y - y0) * dx;
+        const std::int32_t* const xs = grid.xs();
         while (k > 0 && (xs[k - 1] - x0) * dy >= far) --k;
         while (k < columns && (xs[k] - x0) * dy < far) ++k;
         return k;

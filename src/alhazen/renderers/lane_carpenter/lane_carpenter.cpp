@@ -13,7 +13,7 @@ namespace {
 
 /// Scan lines that are shaded together.
 constexpr int kLinesAtOnce = 32;
-constexpr std::size_t kLinesOfThread = 4;
+constexpr int kLinesOfBlock = 4;
 /// Tolerances below this fraction of a pixel are not tried.
 constexpr double kLeastFlatness = 0x1p-14;
 
@@ -72,19 +72,27 @@ RenderReport LaneCarpenter::render(const RenderJob& job, Film& film) const {
     report.threads = threads.threads();
     std::vector<ScanRow> rows(kLinesAtOnce);
     std::vector<std::uint64_t> left_out(report.parts);
+    // One for each block of lines.
+    std::vector<std::unique_ptr<ScanShading>> shadings(kLinesAtOnce / kLinesOfBlock);
     for (int first = 0; first < grid.rows() && !job.stop_requested(); first += kLinesAtOnce) {
         const int count = std::min(kLinesAtOnce, grid.rows() - first);
         for (int k = 0; k < count; ++k) lines.next(rows[static_cast<std::size_t>(k)]);
         threads.run([&] {
-            parallel_for(static_cast<std::size_t>(count), kLinesOfThread,
-                         [&](std::size_t begin, std::size_t end) {
-                             ScanShading shading(job, scene, view, grid, options.flatness);
-                             for (std::size_t k = begin; k < end; ++k) {
-                                 const int row = first + static_cast<int>(k);
-                                 left_out[static_cast<std::size_t>(row)] =
-                                     shading.shade(rows[k], row, film);
-                             }
-                         });
+            const auto blocks = static_cast<std::size_t>(count + kLinesOfBlock - 1) / kLinesOfBlock;
+            parallel_for(blocks, 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t block = begin; block < end; ++block) {
+                    auto& shading = shadings[block];
+                    if (shading == nullptr) {
+                        shading =
+                            std::make_unique<ScanShading>(job, scene, view, grid, options.flatness);
+                    }
+                    const int from = static_cast<int>(block) * kLinesOfBlock;
+                    for (int k = from; k < std::min(from + kLinesOfBlock, count); ++k) {
+                        left_out[static_cast<std::size_t>(first + k)] =
+                            shading->shade(rows[static_cast<std::size_t>(k)], first + k, film);
+                    }
+                }
+            });
         });
         report.done += static_cast<std::size_t>(count);
         if (job.control.progress != nullptr) {

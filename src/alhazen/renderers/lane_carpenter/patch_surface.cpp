@@ -141,6 +141,26 @@ void to_triangle(Vec2& uv, Surface& surface) {
     uv.x *= rest;
 }
 
+/// The unit normal where the tangents span no plane; towards the eye for a patch without area.
+Vec3 limit_normal(const ScanPiece& piece, Vec2 uv, const Ray& ray) {
+    const Vec3 normal = patch_normal(piece.net, uv.x, uv.y);
+    return normal == Vec3{} ? -ray.direction : normal;
+}
+
+/// Texture coordinates and their derivatives, from those of the piece.
+void set_coordinates(const ScanSource& source, const ScanPiece& piece, Vec2 uv, Surface& surface) {
+    const Vec2 size = piece.hi - piece.lo;
+    if (size != Vec2{1, 1}) {
+        surface.dpdu = surface.dpdu / size.x;
+        surface.dpdv = surface.dpdv / size.y;
+    }
+    uv = {piece.lo.x + uv.x * size.x, piece.lo.y + uv.y * size.y};
+    if (source.is_triangle) to_triangle(uv, surface);
+    surface.uv = surface.uv2 = uv;
+    surface.dpdu2 = surface.dpdu;
+    surface.dpdv2 = surface.dpdv;
+}
+
 }  // namespace
 
 void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 uv, const Ray& ray,
@@ -158,7 +178,7 @@ void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 uv, 
         if (!step.found) break;
         surface.point = step.point;
         uv = {limited(uv.x + step.change.x), limited(uv.y + step.change.y)};
-        if (length_squared(step.offset) <= error * error) break;
+        if (length_squared(step.offset) <= kShortStep * kShortStep * error * error) break;
         at = tangents_at(piece, uv.x, uv.y);
         normal = cross(at.du, at.dv);
         squared = length_squared(normal);
@@ -166,25 +186,32 @@ void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 uv, 
     if (is_regular()) {
         normal = normal / std::sqrt(squared);
     } else {
-        normal = patch_normal(piece.net, uv.x, uv.y);
-        if (normal == Vec3{}) normal = -ray.direction;
+        normal = limit_normal(piece, uv, ray);
     }
-    surface.normal = source.mirrored ? -normal : normal;
+    surface.normal = source.mirrored != piece.inward ? -normal : normal;
     surface.shading_normal = surface.normal;
-    const Vec2 size = piece.hi - piece.lo;
-    if (size == Vec2{1, 1}) {
-        surface.dpdu = at.du;
-        surface.dpdv = at.dv;
-    } else {
-        surface.dpdu = at.du / size.x;
-        surface.dpdv = at.dv / size.y;
-    }
-    uv = {piece.lo.x + uv.x * size.x, piece.lo.y + uv.y * size.y};
-    if (source.is_triangle) to_triangle(uv, surface);
-    surface.uv = surface.uv2 = uv;
-    surface.dpdu2 = surface.dpdu;
-    surface.dpdv2 = surface.dpdv;
+    surface.dpdu = at.du;
+    surface.dpdv = at.dv;
+    set_coordinates(source, piece, uv, surface);
     surface.error = {error, error, error};
+}
+
+void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, const PatchBlock& block,
+                       std::size_t lane, bool with_uv, Surface& surface) {
+    const ScanSource& source = scene.sources[piece.source];
+    const Vec2 uv{block.u[lane], block.v[lane]};
+    const Vec3 normal = (block.regular >> lane & 1u) != 0
+                            ? PatchBlock::vector(block.normal, lane)
+                            : limit_normal(piece, uv, block.rays[lane]);
+    surface.point = PatchBlock::vector(block.point, lane);
+    surface.normal = source.mirrored != piece.inward ? -normal : normal;
+    surface.shading_normal = surface.normal;
+    const double error = block.error[lane];
+    surface.error = {error, error, error};
+    if (!with_uv) return;
+    surface.dpdu = PatchBlock::vector(block.du, lane);
+    surface.dpdv = PatchBlock::vector(block.dv, lane);
+    set_coordinates(source, piece, uv, surface);
 }
 
 }  // namespace alhazen

@@ -3,12 +3,13 @@
 ///
 /// Conventions: those of Surface. The point is where the eye ray meets the tangent plane at the
 /// given parameters, which are corrected alike: a step of Newton's method, and a second one where
-/// the first is longer than the bound of the error.
+/// the first is longer than an eighth of the bound of the error.
 /// Complexity: linear in the control points.
 
 #include <vector>
 
 #include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/lane_carpenter/patch_block.h"
 #include "alhazen/renderers/lane_carpenter/scan_scene.h"
 
 namespace alhazen {
@@ -17,5 +18,8 @@ namespace alhazen {
 /// its texture coordinates.
 void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, Vec2 parameters,
                        const Ray& ray, double error, Surface& surface);
+/// The same from a lane of a block whose points are found. Texture coordinates only `with_uv`.
+void set_patch_surface(const ScanScene& scene, const ScanPiece& piece, const PatchBlock& block,
+                       std::size_t lane, bool with_uv, Surface& surface);
 
 }  // namespace alhazen

@@ -33,6 +33,11 @@ class SampleGrid {
           frame_height_(film.frame_height()) {
         for (int i = 0; i < columns(); ++i) xs_.push_back(grid_at(i, 0, 0).x);
         for (int j = 0; j < rows(); ++j) ys_.push_back(grid_at(0, j, 0).y);
+        if (columns() > 1) {
+            columns_per_unit_ = (columns() - 1) / (double(xs_.back()) - xs_.front());
+            // Columns are off by half a unit each, places on lines by much less.
+            column_slack_ = 2.0 * columns_per_unit_;
+        }
     }
 
     [[nodiscard]] int columns() const { return crop_.width(); }
@@ -54,6 +59,10 @@ class SampleGrid {
     [[nodiscard]] std::int32_t y(int row) const { return ys_[static_cast<std::size_t>(row)]; }
 
     [[nodiscard]] const std::int32_t* xs() const { return xs_.data(); }
+    /// The column at a place, as a fraction; with one sample a pixel. Off by less than
+    /// column_slack().
+    [[nodiscard]] double column_of(double x) const { return (x - xs_.front()) * columns_per_unit_; }
+    [[nodiscard]] double column_slack() const { return column_slack_; }
 
     /// The extent of the samples, pixels of the frame.
     [[nodiscard]] double left() const {
@@ -82,20 +91,22 @@ class SampleGrid {
     [[nodiscard]] IndexRange range(const std::vector<std::int32_t>& at, int first, double lo,
                                    double hi) const {
         const int count = static_cast<int>(at.size());
-        const double begin = std::clamp(std::floor(lo) - first - 2.0, 0.0, double(count));
-        const double end = std::clamp(std::ceil(hi) - first + 2.0, 0.0, double(count));
-        IndexRange result{static_cast<int>(begin), static_cast<int>(end)};
+        const auto near = [&](double pixel) {
+            return static_cast<int>(std::clamp(pixel - first, 0.0, double(count)));
+        };
         const double unit = 1.0 / view_.grid_per_pixel();
         if (several_) {
-            while (!result.empty() && first + result.begin + 1 < lo - unit) ++result.begin;
-            while (!result.empty() && first + result.end - 1 > hi + unit) --result.end;
-            return result;
+            // Rows and columns are whole pixels.
+            return {near(std::ceil(lo - unit) - 1.0), near(std::floor(hi + unit) + 1.0)};
         }
         const double scale = view_.grid_per_pixel();
         const double least = lo * scale - 1.0, most = hi * scale + 1.0;
-        const auto place = [&](int k) { return double(at[static_cast<std::size_t>(k)]); };
-        while (!result.empty() && place(result.begin) < least) ++result.begin;
-        while (!result.empty() && place(result.end - 1) > most) --result.end;
+        const std::int32_t* const places = at.data();
+        IndexRange result{near(lo), near(hi)};
+        while (result.begin > 0 && places[result.begin - 1] >= least) --result.begin;
+        while (result.begin < count && places[result.begin] < least) ++result.begin;
+        while (result.end < count && places[result.end] <= most) ++result.end;
+        while (result.end > result.begin && places[result.end - 1] > most) --result.end;
         return result;
     }
 
@@ -106,6 +117,7 @@ class SampleGrid {
     bool several_;
     int frame_width_, frame_height_;
     std::vector<std::int32_t> xs_, ys_;
+    double columns_per_unit_ = 0, column_slack_ = 1;
 };
 
 }  // namespace alhazen

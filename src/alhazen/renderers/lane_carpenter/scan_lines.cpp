@@ -359,10 +359,6 @@ class ScanLines::Impl {
         row.veils.clear();
         if (!grid_.several()) {
             y_ = grid_.y(row_);
-            columns_per_unit_ =
-                grid_.columns() > 1
-                    ? (grid_.columns() - 1) / (double(grid_.x(grid_.columns() - 1)) - grid_.x(0))
-                    : 0.0;
             return;
         }
         const int samples = grid_.samples();
@@ -412,7 +408,7 @@ class ScanLines::Impl {
         if (grid_.several()) return draw_quad_samples(quad, slot, veil, row);
         std::array<int, 5> first;
         for (std::size_t k = 0; k < 5; ++k) {
-            first[k] = quad.lines[k].first_right(grid_, y_, columns_per_unit_);
+            first[k] = quad.lines[k].first_right(grid_, y_);
         }
         for (std::size_t t = 0; t < 2; ++t) {
             const ScanTriangle& triangle = quad.triangles[t];
@@ -501,7 +497,7 @@ class ScanLines::Impl {
             crossings_.clear();
             for (const EdgeLine& line : outline.lines) {
                 if (line.y0 < y_ && y_ <= line.y0 + line.dy) {
-                    crossings_.push_back(line.first_right(grid_, y_, columns_per_unit_));
+                    crossings_.push_back(line.first_right(grid_, y_));
                 }
             }
             std::sort(crossings_.begin(), crossings_.end());
@@ -567,7 +563,6 @@ class ScanLines::Impl {
     std::vector<std::uint32_t> active_quads_, active_outlines_;  ///< the polygon table
     int row_ = 0;
     std::int32_t y_ = 0;
-    double columns_per_unit_ = 0;
     std::vector<double> nearness_;      ///< [sample] of the nearest surface so far
     std::vector<std::uint32_t> owner_;  ///< [sample] 2 * quad + triangle, or an outline
     std::vector<GridPoint> places_;     ///< [sample], with several samples a pixel
@@ -593,8 +588,6 @@ std::uint64_t count_crack_samples(const ScanScene& scene, const ScreenView& view
     const auto rows = static_cast<std::size_t>(grid.rows());
     std::vector<std::uint64_t> steps(rows * (columns + 1));
     PatchTables patches(scene, view, grid, options, true);
-    const double columns_per_unit =
-        columns > 1 ? double(columns - 1) / (double(grid.x(grid.columns() - 1)) - grid.x(0)) : 0.0;
     ScanLineReport ignored;
     ScanQuad quad;
     const bool chords = options.cracks == Cracks::Clark;
@@ -608,7 +601,7 @@ std::uint64_t count_crack_samples(const ScanScene& scene, const ScreenView& view
                 const std::uint64_t weight = line.turned ? ~quad.seams[side] + 1 : quad.seams[side];
                 for (int j = quad.first_row; j < quad.end_row; ++j) {
                     if (!(line.y0 < grid.y(j) && grid.y(j) <= line.y0 + line.dy)) continue;
-                    const int column = line.first_right(grid, grid.y(j), columns_per_unit);
+                    const int column = line.first_right(grid, grid.y(j));
                     steps[static_cast<std::size_t>(j) * (columns + 1) +
                           static_cast<std::size_t>(column)] += weight;
                 }

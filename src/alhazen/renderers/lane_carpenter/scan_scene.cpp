@@ -131,7 +131,9 @@ class ScanGatherer {
 
     void add_shape(const AnyShape& shape, const Part& part, ScanSource source) {
         auto prepared = std::make_shared<AnyShape>(shape);
-        std::visit([](auto& s) { s.prepare(); }, *prepared);
+        if (must_prepare(shape, part.material)) {
+            std::visit([](auto& s) { s.prepare(); }, *prepared);
+        }
         source.shape = prepared.get();
         source.prepared = std::move(prepared);
         const AnyShape* own = source.shape;
@@ -140,7 +142,7 @@ class ScanGatherer {
                 source.is_patch = std::is_same_v<S, BezierPatch> || std::is_same_v<S, PatchMesh> ||
                                   std::is_same_v<S, NurbsSurface> ||
                                   std::is_same_v<S, BilinearPatch> ||
-                                  std::is_same_v<S, SteinerPatch>;
+                                  std::is_same_v<S, SteinerPatch> || std::is_same_v<S, Rectangle>;
                 source.is_triangle = std::is_same_v<S, SteinerPatch>;
                 source.is_by_ray = std::is_same_v<S, Lathe>;
                 if constexpr (std::is_same_v<S, NurbsSurface>) {
@@ -160,15 +162,54 @@ class ScanGatherer {
             *own);
     }
 
+    /// What is prepared for rays takes longer than the picture: patches need it only where it
+    /// matters which side is outside.
+    [[nodiscard]] bool must_prepare(const AnyShape& shape, MaterialId id) const {
+        if (std::holds_alternative<BezierPatch>(shape)) return false;
+        if (!std::holds_alternative<PatchMesh>(shape)) return true;
+        const Material& material = scene_.materials[static_cast<std::size_t>(id)];
+        return !material.double_sided || material.normal_map.texture != kNoTexture;
+    }
+
     template <class S>
     void add_pieces(const S& shape) {
         std::vector<BezierPiece> pieces;
         append_pieces(shape, pieces);
+        add_pieces(pieces, [](std::size_t) { return false; });
+    }
+    void add_pieces(const PatchMesh& mesh) {
+        std::vector<BezierPiece> pieces;
+        for (std::size_t k = 0; k < mesh.patch_count(); ++k) {
+            pieces.push_back({.net = mesh.net(k), .part = static_cast<std::uint32_t>(k)});
+        }
+        add_pieces(pieces, [&](std::size_t k) { return mesh.is_closed && mesh.inward[k]; });
+    }
+    /// Parameters from the first knot to the last one become those of the unit square.
+    void add_pieces(const NurbsSurface& s) {
+        std::vector<BezierPiece> pieces;
+        append_pieces(s, pieces);
+        const Vec2 lo{s.knots_u[s.degree_u], s.knots_v[s.degree_v]};
+        const Vec2 size{s.knots_u[s.knots_u.size() - s.degree_u - 1] - lo.x,
+                        s.knots_v[s.knots_v.size() - s.degree_v - 1] - lo.y};
+        for (BezierPiece& piece : pieces) {
+            for (Vec2* corner : {&piece.lo, &piece.hi}) {
+                *corner = {(corner->x - lo.x) / size.x, (corner->y - lo.y) / size.y};
+            }
+        }
+        add_pieces(pieces, [](std::size_t) { return false; });
+    }
+    template <class IsInward>
+    void add_pieces(const std::vector<BezierPiece>& pieces, IsInward&& is_inward) {
         const ScanSource& source = result_.sources.back();
         const auto index = static_cast<std::uint32_t>(result_.sources.size() - 1);
-        for (const BezierPiece& piece : pieces) {
-            result_.pieces.push_back({placed_net(piece.net, source.world_from_own), index,
-                                      piece.part, piece.lo, piece.hi, false});
+        for (std::size_t n = 0; n < pieces.size(); ++n) {
+            const BezierPiece& piece = pieces[n];
+            result_.pieces.push_back({.net = placed_net(piece.net, source.world_from_own),
+                                      .source = index,
+                                      .part = piece.part,
+                                      .lo = piece.lo,
+                                      .hi = piece.hi,
+                                      .inward = is_inward(n)});
             const BezierNet& net = result_.pieces.back().net;
             bool polynomial = true;
             for (int k = 0; k < net.count(); ++k) {

@@ -27,7 +27,6 @@ struct ScanSource {
     bool is_patch = false;     ///< u and v of its pieces are the shape's own parameters
     bool is_triangle = false;  ///< its piece is a triangle with a collapsed edge (steiner_patch)
     bool is_by_ray = false;    ///< the shape's own test completes the hit
-    bool is_trimmed = false;   ///< points outside of a region are cut away
 };
 
 /// A patch of a source.
@@ -36,6 +35,7 @@ struct ScanPiece {
     std::uint32_t source = 0, part = 0;
     Vec2 lo{0, 0}, hi{1, 1};
     bool polynomial = false;  ///< all weights are 1
+    bool inward = false;      ///< du x dv points into the solid
 };
 
 /// A flat polygon with the odd-even rule, or a triangle of a mesh.

@@ -58,6 +58,8 @@ ScanShading::ScanShading(const RenderJob& job, const ScanScene& scene, const Scr
     for (int i = 0; i < grid.columns() && !grid.several(); ++i) {
         columns_.push_back(eye_.column(grid.film_at(i, 0, 0).x));
     }
+    sums_.resize(columns_.size());
+    rays_.resize(columns_.size());
 }
 
 double ScanShading::distance(double nearness, const Ray& ray) const {
@@ -121,10 +123,7 @@ void ScanShading::set_point(const ScanSample& seen, const Ray& ray) {
         }
         surface.materials[0] = source.material;
     }
-    surface.part = scene_.sources[source_index].part;
-    surface.instance = scene_.sources[source_index].instance;
-    const PointNeeds needs{.uv = !job_.scene.textures.empty(), .constant = &constant_};
-    complete_shading_point(job_.scene, ray, {false, job_.cone.width_at(t_)}, needs, point_);
+    complete_point(source_index, ray);
 }
 
 Rgb ScanShading::radiance(std::span<const ScanVeil> veils, const ScanSample& seen, const Ray& ray,
@@ -152,23 +151,97 @@ Rgb ScanShading::radiance(std::span<const ScanVeil> veils, const ScanSample& see
     return sum + left * job_.scene.background;
 }
 
-std::uint64_t ScanShading::shade_plain(const ScanRow& row, int number, Film& film) {
-    std::uint64_t left_out = 0;
-    const Vec3 of_row = eye_.row(grid_.film_at(0, number, 0).y);
+void ScanShading::complete_point(std::uint32_t source_index, const Ray& ray) {
+    point_.surface.part = scene_.sources[source_index].part;
+    point_.surface.instance = scene_.sources[source_index].instance;
+    const PointNeeds needs{.uv = !job_.scene.textures.empty(), .constant = &constant_};
+    complete_shading_point(job_.scene, ray, {false, job_.cone.width_at(t_)}, needs, point_);
+}
+
+Rgb ScanShading::color_of_point() const {
     const Rgb& background = job_.scene.background;
-    Rgb* const pixels = film.from(film.crop().x0, film.crop().y0 + number);
-    const ScanSample* const seen = row.samples.data();
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-        Rgb color = background;
-        if (seen[i].item != ScanSample::kNothing) {
-            set_point(seen[i], eye_.ray(columns_[i] + of_row));
-            const double coverage = point_.material->coverage;
-            color = coverage * unhindered_light(job_.scene, ambient_, point_);
-            if (coverage < 1.0) color = color + (1.0 - coverage) * background;
+    const double coverage = point_.material->coverage;
+    const Rgb color = coverage * unhindered_light(job_.scene, ambient_, point_);
+    return coverage < 1.0 ? color + (1.0 - coverage) * background : color;
+}
+
+void ScanShading::shade_patch(std::span<const ScanSample> seen, std::span<const Ray> rays,
+                              Rgb* pixels) {
+    const ScanPiece& piece = scene_.pieces[seen[0].item];
+    const ScanSource& source = scene_.sources[piece.source];
+    Surface& surface = point_.surface;
+    if (surface.has_extras) reset_extras(surface);
+    surface.is_of_mesh = false;
+    const bool with_uv = !job_.scene.textures.empty();
+    while (!seen.empty()) {
+        block_.count = std::min(seen.size(), PatchBlock::kMost);
+        block_.rays = rays.data();
+        for (std::size_t k = 0; k < block_.count; ++k) {
+            block_.u[k] = seen[k].u;
+            block_.v[k] = seen[k].v;
+            block_.error[k] = flatness_ * view_.pixel_size(seen[k].nearness);
         }
-        BoxFilter filter;
-        left_out += !filter.add(color);
-        pixels[i] = filter.value();
+        find_patch_points(piece.net, piece.polynomial, block_);
+        for (std::size_t k = 0; k < block_.count; ++k) {
+            set_patch_surface(scene_, piece, block_, k, with_uv, surface);
+            surface.materials[0] = source.material;
+            t_ = distance(seen[k].nearness, rays[k]);
+            complete_point(piece.source, rays[k]);
+            pixels[k] = color_of_point();
+        }
+        pixels += block_.count;
+        seen = seen.subspan(block_.count);
+        rays = rays.subspan(block_.count);
+    }
+}
+
+bool ScanShading::is_of_patch(const ScanSample& seen) const {
+    return (seen.item & ScanSample::kFacet) == 0 &&
+           scene_.sources[scene_.pieces[seen.item].source].is_patch;
+}
+
+void ScanShading::shade_run(std::span<const ScanSample> seen, const Vec3* columns,
+                            const Vec3& of_row, Rgb* pixels) {
+    const std::span<Vec3> sums = std::span(sums_).first(seen.size());
+    for (std::size_t k = 0; k < seen.size(); ++k) sums[k] = columns[k] + of_row;
+    eye_.rays(sums, rays_.data());
+    const std::span<const Ray> rays = std::span(rays_).first(seen.size());
+    for (std::size_t k = 0; k < seen.size();) {
+        if (!is_of_patch(seen[k])) {
+            set_point(seen[k], rays[k]);
+            pixels[k] = color_of_point();
+            ++k;
+            continue;
+        }
+        std::size_t end = k + 1;
+        while (end < seen.size() && seen[end].item == seen[k].item) ++end;
+        shade_patch(seen.subspan(k, end - k), rays.subspan(k, end - k), pixels + k);
+        k = end;
+    }
+}
+
+std::uint64_t ScanShading::shade_plain(const ScanRow& row, int number, Film& film) {
+    const Vec3 of_row = eye_.row(grid_.film_at(0, number, 0).y);
+    Rgb* const pixels = film.from(film.crop().x0, film.crop().y0 + number);
+    BoxFilter of_background;
+    const bool bad_background = !of_background.add(job_.scene.background);
+    const Rgb background = of_background.value();
+    const std::span<const ScanSample> seen(row.samples);
+    std::uint64_t left_out = 0;
+    for (std::size_t i = 0, end = 0; i < seen.size(); i = end) {
+        if (seen[i].item == ScanSample::kNothing) {
+            pixels[i] = background;
+            left_out += bad_background;
+            end = i + 1;
+            continue;
+        }
+        while (end < seen.size() && seen[end].item != ScanSample::kNothing) ++end;
+        shade_run(seen.subspan(i, end - i), columns_.data() + i, of_row, pixels + i);
+        for (std::size_t k = i; k < end; ++k) {
+            BoxFilter filter;
+            left_out += !filter.add(pixels[k]);
+            pixels[k] = filter.value();
+        }
     }
     return left_out;
 }

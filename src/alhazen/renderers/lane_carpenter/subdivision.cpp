@@ -26,15 +26,42 @@ SidePoints side_points(PatchDegrees degrees, std::size_t side) {
     return {0, 1, degrees.v};
 }
 
-void halve_curve(const HomogeneousPoint* from, int degree, int stride, HomogeneousPoint* low,
-                 HomogeneousPoint* high) {
-    std::array<HomogeneousPoint, kMaxPatchOrder> row;
-    for (int i = 0; i <= degree; ++i) row[static_cast<std::size_t>(i)] = from[i * stride];
+/// Both halves of a curve of any degree.
+void halve_any(const HomogeneousPoint* from, int degree, int stride, HomogeneousPoint* low,
+               HomogeneousPoint* high) {
+    HomogeneousPoint row[kMaxPatchOrder];
+    for (int i = 0; i <= degree; ++i) row[i] = from[i * stride];
     for (int n = degree; n >= 0; --n) {
         low[(degree - n) * stride] = row[0];
-        high[n * stride] = row[static_cast<std::size_t>(n)];
-        for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
-            row[i] = 0.5 * (row[i] + row[i + 1]);
+        high[n * stride] = row[n];
+        for (int i = 0; i < n; ++i) row[i] = 0.5 * (row[i] + row[i + 1]);
+    }
+}
+/// The same of a cubic.
+void halve_cubic(const HomogeneousPoint* from, int stride, HomogeneousPoint* low,
+                 HomogeneousPoint* high) {
+    const HomogeneousPoint &p0 = from[0], &p1 = from[stride], &p2 = from[2 * stride],
+                           &p3 = from[3 * stride];
+    const HomogeneousPoint p01 = 0.5 * (p0 + p1), p12 = 0.5 * (p1 + p2), p23 = 0.5 * (p2 + p3);
+    const HomogeneousPoint p012 = 0.5 * (p01 + p12), p123 = 0.5 * (p12 + p23);
+    const HomogeneousPoint middle = 0.5 * (p012 + p123);
+    low[0] = p0;
+    low[stride] = p01;
+    low[2 * stride] = p012;
+    low[3 * stride] = middle;
+    high[0] = middle;
+    high[stride] = p123;
+    high[2 * stride] = p23;
+    high[3 * stride] = p3;
+}
+/// Curves that start `step` apart. The halves may not overlap the net.
+void halve_curves(const HomogeneousPoint* net, int count, int step, int degree, int stride,
+                  HomogeneousPoint* low, HomogeneousPoint* high) {
+    for (int k = 0; k < count * step; k += step) {
+        if (degree == 3) {
+            halve_cubic(net + k, stride, low + k, high + k);
+        } else {
+            halve_any(net + k, degree, stride, low + k, high + k);
         }
     }
 }
@@ -63,38 +90,40 @@ double net_length(PatchDegrees degrees, const HomogeneousPoint* net, bool along_
 
 void halve_net_u(PatchDegrees degrees, const HomogeneousPoint* net, HomogeneousPoint* low,
                  HomogeneousPoint* high) {
-    for (int j = 0; j <= degrees.v; ++j) {
-        halve_curve(net + j, degrees.u, degrees.v + 1, low + j, high + j);
-    }
+    halve_curves(net, degrees.v + 1, 1, degrees.u, degrees.v + 1, low, high);
 }
 
 void halve_net_v(PatchDegrees degrees, const HomogeneousPoint* net, HomogeneousPoint* low,
                  HomogeneousPoint* high) {
-    for (int i = 0; i <= degrees.u; ++i) {
-        const int k = i * (degrees.v + 1);
-        halve_curve(net + k, degrees.v, 1, low + k, high + k);
-    }
+    halve_curves(net, degrees.u + 1, degrees.v + 1, degrees.v, 1, low, high);
 }
 
-double Subdivision::squared_distance(const ScreenPoint& p, const ScreenPoint& a,
-                                     const ScreenPoint& b) const {
+ScreenChord::ScreenChord(const ScreenView& view, const ScreenPoint& a, const ScreenPoint& b) {
     const bool turned = comes_first(b, a);
-    const ScreenPoint& from = turned ? b : a;
+    from = turned ? b : a;
     const ScreenPoint& to = turned ? a : b;
-    const double scale = view_.pixels_of_nearness(0.5 * (from.nearness + to.nearness));
-    const Vec3 chord{to.x - from.x, to.y - from.y, scale * (to.nearness - from.nearness)};
+    scale = view.pixels_of_nearness(0.5 * (from.nearness + to.nearness));
+    along = {to.x - from.x, to.y - from.y, scale * (to.nearness - from.nearness)};
+    squared = dot(along, along);
+}
+
+bool ScreenChord::is_within(const ScreenPoint& p, double squared_distance) const {
     const Vec3 d{p.x - from.x, p.y - from.y, scale * (p.nearness - from.nearness)};
-    const double squared = dot(chord, chord);
-    const double share = squared > 0.0 ? std::clamp(dot(d, chord) / squared, 0.0, 1.0) : 0.0;
-    const Vec3 off = d - share * chord;
-    return dot(off, off);
+    const double place = dot(d, along);
+    if (place <= 0.0) return dot(d, d) <= squared_distance;
+    if (place >= squared) {
+        const Vec3 beyond = d - along;
+        return dot(beyond, beyond) <= squared_distance;
+    }
+    const Vec3 off = cross(d, along);
+    return dot(off, off) <= squared_distance * squared;
 }
 
 bool Subdivision::is_row_straight(const ScreenPoint* row, int degree, int stride) const {
+    if (degree == 1) return true;
+    const ScreenChord chord(view_, row[0], row[degree * stride]);
     for (int i = 1; i < degree; ++i) {
-        if (squared_distance(row[i * stride], row[0], row[degree * stride]) > squared_) {
-            return false;
-        }
+        if (!chord.is_within(row[i * stride], squared_)) return false;
     }
     return true;
 }

@@ -33,6 +33,19 @@ void halve_net_u(PatchDegrees degrees, const HomogeneousPoint* net, HomogeneousP
 void halve_net_v(PatchDegrees degrees, const HomogeneousPoint* net, HomogeneousPoint* low,
                  HomogeneousPoint* high);
 
+/// The segment between two points of the picture, in pixels of three dimensions; the same bits with
+/// the points exchanged.
+struct ScreenChord {
+    ScreenPoint from;
+    double scale = 0;  ///< pixels for a change of the nearness by 1
+    Vec3 along;
+    double squared = 0;  ///< its length
+
+    ScreenChord(const ScreenView& view, const ScreenPoint& a, const ScreenPoint& b);
+    /// Whether the square of the distance of `p` is at most `squared_distance`.
+    [[nodiscard]] bool is_within(const ScreenPoint& p, double squared_distance) const;
+};
+
 class Subdivision {
   public:
     /// `keeps_seams`: no sub-patch with an edge between samples is left out.
@@ -52,11 +65,6 @@ class Subdivision {
     /// Splits by `parent.step` into the children, which are not yet judged. Returns their number.
     int split(PatchDegrees degrees, const SubPatch& parent,
               const std::array<SubPatch*, 4>& children) const;
-
-    /// The square of the distance in pixels of `p` from the segment between a and b; the same bits
-    /// with a and b exchanged.
-    [[nodiscard]] double squared_distance(const ScreenPoint& p, const ScreenPoint& a,
-                                          const ScreenPoint& b) const;
 
   private:
     using Projected = std::array<ScreenPoint, kMaxPatchOrder * kMaxPatchOrder>;

@@ -124,9 +124,8 @@ ShapeSurface NurbsSurface::surface(const Ray& ray, const ShapeHit& hit) const {
     const Vec2 size{knots_u[knots_u.size() - degree_u - 1] - lo.x,
                     knots_v[knots_v.size() - degree_v - 1] - lo.y};
     surface.uv = {(hit.u - lo.x) / size.x, (hit.v - lo.y) / size.y};
-    const BezierPiece& piece = tree->piece_of(hit.part);
-    surface.dpdu = (size.x / (piece.hi.x - piece.lo.x)) * surface.dpdu;
-    surface.dpdv = (size.y / (piece.hi.y - piece.lo.y)) * surface.dpdv;
+    surface.dpdu = size.x * surface.dpdu;
+    surface.dpdv = size.y * surface.dpdv;
     return surface;
 }
 
