@@ -325,7 +325,7 @@ bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
     const Vec3& d = line_.direction;
     double nearest = kInfinity;
     PatchRoot next = root;
-    for (int step = 0; step < 8; ++step) {
+    for (int step = 0; step < 40; ++step) {
         const PatchValue at = weighted_value(net_, line_.origin, next.u, next.v);
         const Vec3 off = cross(at.point, d);
         const double distance = dot(off, off);

@@ -16,20 +16,31 @@ ShapeHit hit_of(const BezierPiece& piece, const PatchRoot& root) {
             piece.lo.y + v * (piece.hi.y - piece.lo.y), piece.part};
 }
 
-/// Bound of the rounding errors of `derivatives_at`: each of the steps of de Casteljau's algorithm
-/// is a convex combination with three roundings, the weights take part, and one division.
+/// Bound of the rounding errors of a point of `derivatives_at`. Each level of de Casteljau's
+/// algorithm is a convex combination with three roundings, for the numerator and the weight, and
+/// the weighted mean of the points' sizes is at most the largest.
 Vec3 evaluation_error(const BezierNet& net) {
     Vec3 most;
-    double least_weight = kInfinity, most_weight = 0.0;
     for (int k = 0; k < net.count(); ++k) {
-        const HomogeneousPoint& p = net.points[static_cast<std::size_t>(k)];
-        const Vec3 size = abs(Vec3{p.x, p.y, p.z});
+        const Vec3 size = abs(projected(net.points[static_cast<std::size_t>(k)]));
         most = {std::max(most.x, size.x), std::max(most.y, size.y), std::max(most.z, size.z)};
-        least_weight = std::min(least_weight, p.w);
-        most_weight = std::max(most_weight, p.w);
     }
-    const double steps = gamma_bound(4 * (net.degree_u + net.degree_v) + 2);
-    return (steps * (1.0 + most_weight / least_weight) / least_weight) * most;
+    return (2.0 * gamma_bound(3 * (net.degree_u + net.degree_v) + 1)) * most;
+}
+
+/// How far a crossing at a border may lie outside of its patch: see docs/design/patches.md.
+double border_reach(std::span<const BezierPiece> pieces, const Box3& box) {
+    double reach = 0.0, least = kInfinity, most = 0.0;
+    for (const BezierPiece& piece : pieces) {
+        for (int k = 0; k < piece.net.count(); ++k) {
+            const HomogeneousPoint& p = piece.net.points[static_cast<std::size_t>(k)];
+            reach = std::max(reach, length(Vec3{p.x, p.y, p.z}));
+            least = std::min(least, p.w);
+            most = std::max(most, p.w);
+        }
+    }
+    if (box.empty()) return 0.0;
+    return 0x1p-42 / least * (reach + most * (length(box.center()) + 2.0 * length(box.size())));
 }
 
 /// The order of crossings, also of those with equal t.
@@ -43,7 +54,9 @@ bool is_before(const ShapeHit& a, const ShapeHit& b) {
 
 PatchTree::PatchTree(std::vector<BezierPiece> pieces) : pieces_(std::move(pieces)) {
     for (const BezierPiece& piece : pieces_) box_.include(control_box(piece.net));
-    box_ = padded(box_, 1e-13);
+    const double reach = border_reach(pieces_, box_);
+    if (!box_.empty())
+        box_ = {box_.lo - Vec3{reach, reach, reach}, box_.hi + Vec3{reach, reach, reach}};
     index_ = std::make_shared<PatchIndex>(pieces_, box_);
 }
 
@@ -55,10 +68,8 @@ Interval PatchTree::extent(const Vec3& axis) const {
             range = {std::min(range.lo, x), std::max(range.hi, x)};
         }
     }
-    const double reach =
-        1e-13 * dot(abs(axis), Vec3{std::max(std::abs(box_.lo.x), std::abs(box_.hi.x)),
-                                    std::max(std::abs(box_.lo.y), std::abs(box_.hi.y)),
-                                    std::max(std::abs(box_.lo.z), std::abs(box_.hi.z))});
+    const Vec3 size = abs(axis);
+    const double reach = border_reach(pieces_, box_) * (size.x + size.y + size.z);
     return {range.lo - reach, range.hi + reach};
 }
 

@@ -10,7 +10,7 @@
 #include "alhazen/shapes/patches/bezier_patch.h"
 #include "alhazen/shapes/patches/patch_mesh.h"
 #include "alhazen/shapes/quadrics/sphere.h"
-#include "shapes/patches/closed_patches.h"
+#include "closed_patches.h"
 #include "support/any_ray.h"
 #include "support/test_data.h"
 
@@ -90,7 +90,9 @@ void expect_even(const PatchMesh& mesh, Random& random, int lines) {
         // Rays from either end see the same.
         ShapeHit first;
         EXPECT_EQ(find_first_hit(mesh, ray, first), !hits.empty());
-        if (!hits.empty()) EXPECT_TRUE(testing::same_bits(first, hits.front()));
+        if (!hits.empty()) {
+            EXPECT_TRUE(testing::same_bits(first, hits.front()));
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shapes/patches/closed_patches.h"
+#include "closed_patches.h"
 
 namespace alhazen {
 namespace {
