@@ -123,6 +123,7 @@ INSIDE = {
         "blobs": ["algebraic"],
         "meshes": ["core"],
         "patches": ["algebraic", "polygons", "swept"],
+        "patches/methods": ["patches"],
         "polygons": ["core"],
         "swept": ["core"],
     },

@@ -87,6 +87,13 @@ class CurveUses {
         }
     }
 
+    /// Whether every curve belongs to an even number of patches.
+    [[nodiscard]] bool all_even() const {
+        bool even = true;
+        for_each([&](std::span<const CurveUse> users) { even = even && users.size() % 2 == 0; });
+        return even;
+    }
+
   private:
     static std::uint64_t hash_of(std::span<const HomogeneousPoint> points) {
         std::uint64_t hash = 0;
@@ -179,6 +186,15 @@ std::vector<bool> inward_patches(std::span<const BezierPiece> pieces, const Curv
     return inward;
 }
 
+std::vector<BezierPiece> pieces_of(const PatchMesh& mesh) {
+    std::vector<BezierPiece> pieces;
+    pieces.reserve(mesh.patch_count());
+    for (std::size_t patch = 0; patch < mesh.patch_count(); ++patch) {
+        pieces.push_back({.net = mesh.net(patch), .part = static_cast<std::uint32_t>(patch)});
+    }
+    return pieces;
+}
+
 }  // namespace
 
 std::size_t PatchMesh::patch_count() const {
@@ -197,17 +213,19 @@ BezierNet PatchMesh::net(std::size_t patch) const {
     return net;
 }
 
+bool PatchMesh::closed() const {
+    if (tree != nullptr) return is_closed;
+    Diagnostics findings;
+    validate({}, findings);
+    if (findings.error_count() != 0) return false;
+    const std::vector<BezierPiece> pieces = pieces_of(*this);
+    return CurveUses(pieces).all_even();
+}
+
 void PatchMesh::prepare() {
-    std::vector<BezierPiece> pieces;
-    pieces.reserve(patch_count());
-    for (std::size_t patch = 0; patch < patch_count(); ++patch) {
-        pieces.push_back({.net = net(patch), .part = static_cast<std::uint32_t>(patch)});
-    }
-    tree = std::make_shared<PatchTree>(std::move(pieces));
+    tree = std::make_shared<PatchTree>(pieces_of(*this));
     const CurveUses uses(tree->pieces());
-    is_closed = true;
-    uses.for_each(
-        [&](std::span<const CurveUse> users) { is_closed = is_closed && users.size() % 2 == 0; });
+    is_closed = uses.all_even();
     inward.clear();
     if (is_closed) inward = inward_patches(tree->pieces(), uses, tree->box().center());
 }

@@ -43,7 +43,8 @@ struct PatchMesh {
 
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
-    [[nodiscard]] bool closed() const { return is_closed; }
+    /// Also of a mesh that is not prepared; false for one that is not valid.
+    [[nodiscard]] bool closed() const;
     [[nodiscard]] Box3 box() const { return tree->box(); }
     [[nodiscard]] Interval extent(const Vec3& axis) const { return tree->extent(axis); }
     void intersect(const Ray& ray, ShapeHits& hits) const { tree->intersect(ray, hits); }
