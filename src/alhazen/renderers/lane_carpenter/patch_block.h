@@ -15,7 +15,7 @@ namespace alhazen {
 
 /// A point whose step of Newton's method is no longer than this share of its error is not found
 /// again: the normal is that of the point before the step.
-inline constexpr double kShortStep = 1.0 / 8;
+inline constexpr double kShortStep = 1.0 / 4;
 
 struct alignas(64) PatchBlock {
     static constexpr std::size_t kMost = 8;

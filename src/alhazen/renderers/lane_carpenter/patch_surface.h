@@ -3,7 +3,7 @@
 ///
 /// Conventions: those of Surface. The point is where the eye ray meets the tangent plane at the
 /// given parameters, which are corrected alike: a step of Newton's method, and a second one where
-/// the first is longer than an eighth of the bound of the error.
+/// the first is longer than a quarter of the bound of the error.
 /// Complexity: linear in the control points.
 
 #include <vector>

@@ -406,21 +406,20 @@ class ScanLines::Impl {
     void draw_quad(const ScanQuad& quad, std::uint32_t slot, ScanRow& row) {
         const bool veil = scene_.sources[scene_.pieces[quad.piece].source].may_pass;
         if (grid_.several()) return draw_quad_samples(quad, slot, veil, row);
-        std::array<int, 5> first;
-        for (std::size_t k = 0; k < 5; ++k) {
-            first[k] = quad.lines[k].first_right(grid_, y_);
-        }
+        // Plain arrays: this is the innermost loop.
+        int first[5];
+        const EdgeLine* const edges = quad.lines.data();
+        for (std::size_t k = 0; k < 5; ++k) first[k] = edges[k].first_right(grid_, y_);
         for (std::size_t t = 0; t < 2; ++t) {
             const ScanTriangle& triangle = quad.triangles[t];
             if (triangle.empty) continue;
+            const std::uint8_t* const sides = triangle.lines.data();
+            const bool* const right = triangle.inner_right.data();
             int begin = 0, end = grid_.columns();
             for (std::size_t k = 0; k < 3; ++k) {
-                const int column = first[triangle.lines[k]];
-                if (triangle.inner_right[k]) {
-                    begin = std::max(begin, column);
-                } else {
-                    end = std::min(end, column);
-                }
+                const int column = first[sides[k]];
+                begin = right[k] && column > begin ? column : begin;
+                end = !right[k] && column < end ? column : end;
             }
             if (begin >= end) continue;
             const double at_row = triangle.nearness.gy * y_ + triangle.nearness.at_origin;

@@ -185,7 +185,8 @@ void ScanShading::shade_patch(std::span<const ScanSample> seen, std::span<const 
         for (std::size_t k = 0; k < block_.count; ++k) {
             set_patch_surface(scene_, piece, block_, k, with_uv, surface);
             surface.materials[0] = source.material;
-            t_ = distance(seen[k].nearness, rays[k]);
+            // Only textures ask for the distance.
+            if (with_uv) t_ = distance(seen[k].nearness, rays[k]);
             complete_point(piece.source, rays[k]);
             pixels[k] = color_of_point();
         }
