@@ -46,5 +46,9 @@ struct BezierPatch {
 [[nodiscard]] inline bool first_hit(const BezierPatch& shape, const Ray& ray, ShapeHit& hit) {
     return shape.tree->first_hit(ray, hit);
 }
+[[nodiscard]] inline std::uint32_t first_hits(const BezierPatch& shape,
+                                              std::span<const Ray* const> rays, ShapeHit* hits) {
+    return shape.tree->first_hits(rays, hits);
+}
 
 }  // namespace alhazen

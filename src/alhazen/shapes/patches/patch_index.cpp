@@ -41,10 +41,46 @@ PatchLine PatchIndex::line_of(const Ray& ray) const {
         line.origin = ray.origin + distance * line.direction;
         line.shift = distance * line.per_length;
     }
-    line.axis_x = perpendicular(line.direction);
-    line.axis_y = cross(line.direction, line.axis_x);
     line.tiny = 0x1p-46 * (reach_ + most_weight_ * length(line.origin));
     return line;
+}
+
+void PatchIndex::add_axes(PatchLine& line) {
+    line.axis_x = perpendicular(line.direction);
+    line.axis_y = cross(line.direction, line.axis_x);
+}
+
+float PatchIndex::place(const PatchLine& line, double t, double side) const {
+    const double x = (t - line.shift) * (frame_.scale / line.per_length);
+    return static_cast<float>(std::clamp(x + side * (1e-5 + 1e-6 * std::abs(x)), -1e30, 1e30));
+}
+
+PatchWalk PatchIndex::walk_of(const PatchLine& line, double t_min, double limit) const {
+    PatchWalk walk;
+    const Vec3 origin = in_frame(line.origin);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = line.direction[axis];
+        walk.from[axis] = static_cast<float>(origin[axis]);
+        walk.inverse[axis] =
+            static_cast<float>(1.0 / std::copysign(std::max(std::abs(d), 1e-18), d));
+    }
+    walk.least = place(line, t_min, -1.0);
+    walk.most = place(line, limit, 1.0);
+    walk.size = 1;
+    walk.stack[0] = {walk.least, 0};
+    return walk;
+}
+
+bool PatchIndex::side_by_side(std::span<const Ray* const> rays) {
+    constexpr std::size_t kFewest = 4;
+    constexpr double kNarrow = 0.99;
+    if (rays.size() < kFewest) return false;
+    const Vec3& first = rays[0]->direction;
+    const double least = kNarrow * kNarrow * dot(first, first);
+    return std::all_of(rays.begin() + 1, rays.end(), [&](const Ray* ray) {
+        const double along = dot(ray->direction, first);
+        return along > 0.0 && along * along > least * dot(ray->direction, ray->direction);
+    });
 }
 
 std::size_t PatchIndex::bytes() const {

@@ -3,6 +3,8 @@
 ///
 /// Conventions: internal to PatchTree.
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,18 +22,33 @@ class PatchIndex {
   public:
     PatchIndex(std::span<const BezierPiece> pieces, const Box3& box);
 
+    /// Without the axes of its plane, which most rays do not need.
     [[nodiscard]] PatchLine line_of(const Ray& ray) const;
+    static void add_axes(PatchLine& line);
     [[nodiscard]] std::span<const PatchLeaf> leaves() const { return leaves_; }
     [[nodiscard]] std::size_t bytes() const;
 
     /// Calls `found(piece, root)` for every root in [t_min, limit]; `found` returns the new limit.
     template <class F>
-    void search(std::span<const BezierPiece> pieces, const PatchLine& line, double t_min,
-                double limit, F&& found) const;
+    void search(std::span<const BezierPiece> pieces, PatchLine line, double t_min, double limit,
+                F&& found) const;
+
+    /// The same for lines side by side: calls `found(i, piece, root)` for every root of line i in
+    /// [rays[i]->t_min, limit of i] and perhaps for others; false, without a call, where the rays
+    /// are not side by side.
+    template <class F>
+    [[nodiscard]] bool search_together(std::span<const BezierPiece> pieces,
+                                       std::span<const Ray* const> rays, F&& found) const;
 
   private:
+    /// t in the frame of `line`, with a margin to the side.
+    [[nodiscard]] float place(const PatchLine& line, double t, double side) const;
+    [[nodiscard]] static bool side_by_side(std::span<const Ray* const> rays);
+    [[nodiscard]] PatchWalk walk_of(const PatchLine& line, double t_min, double limit) const;
+    [[nodiscard]] Vec3 in_frame(const Vec3& p) const { return frame_.scale * (p - frame_.center); }
+
     template <class F>
-    void visit_leaf(std::span<const BezierPiece> pieces, const PatchLine& line, const Vec3& origin,
+    void visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line, const Vec3& origin,
                     const PatchLeaf& leaf, F& found) const;
     /// A cell of a leaf whose bounds are those of the leaf times `share`.
     template <class F>
@@ -54,11 +71,12 @@ enum class LeafAnswer { None, Certified, Unique, Divide };
                                    double& a, double& b);
 
 template <class F>
-void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, const PatchLine& line,
+void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line,
                             const Vec3& origin, const PatchLeaf& leaf, F& found) const {
     double a = 0, b = 0;
     const LeafAnswer answer = test_leaf(leaf, origin, line.direction, a, b);
     if (answer == LeafAnswer::None) return;
+    if (line.axis_x == Vec3{}) add_axes(line);
     const PatchCell cell = leaf.cell();
     const BezierNet& net = pieces[leaf.piece].net;
     PatchRoot root;
@@ -103,35 +121,54 @@ void PatchIndex::visit_quarters(const BezierNet& net, const PatchLine& line, con
 }
 
 template <class F>
-void PatchIndex::search(std::span<const BezierPiece> pieces, const PatchLine& line, double t_min,
+void PatchIndex::search(std::span<const BezierPiece> pieces, PatchLine line, double t_min,
                         double limit, F&& found) const {
-    PatchWalk walk;
-    const Vec3 origin = frame_.scale * (line.origin - frame_.center);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double d = line.direction[axis];
-        walk.from[axis] = static_cast<float>(origin[axis]);
-        walk.inverse[axis] =
-            static_cast<float>(1.0 / std::copysign(std::max(std::abs(d), 1e-18), d));
-    }
-    // Along the line in the frame, with a margin.
-    const double per_t = frame_.scale / line.per_length;
-    const auto place = [&](double t, double side) {
-        const double x = (t - line.shift) * per_t;
-        return static_cast<float>(std::clamp(x + side * (1e-5 + 1e-6 * std::abs(x)), -1e30, 1e30));
-    };
-    walk.least = place(t_min, -1.0);
-    walk.most = place(limit, 1.0);
-    walk.size = 1;
-    walk.stack[0] = {walk.least, 0};
+    PatchWalk walk = walk_of(line, t_min, limit);
+    const Vec3 origin = in_frame(line.origin);
     const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
         const double t = found(piece, root);
-        if (t < limit) walk.most = place(limit = t, 1.0);
+        if (t < limit) walk.most = place(line, limit = t, 1.0);
     };
     const PatchKernels& kernels = patch_kernels();
     std::uint32_t leaf = 0;
     while (kernels.next_leaf(nodes_.data(), walk, leaf)) {
         visit_leaf(pieces, line, origin, leaves_[leaf], report);
     }
+}
+
+template <class F>
+bool PatchIndex::search_together(std::span<const BezierPiece> pieces,
+                                 std::span<const Ray* const> rays, F&& found) const {
+    if (!side_by_side(rays)) return false;
+    RayLanes lanes;
+    for (std::size_t i = 0; i < kRayLanes; ++i) lanes.set(i, *rays[i < rays.size() ? i : 0]);
+    PatchPacket packet;
+    const PatchKernels& kernels = patch_kernels();
+    if (!kernels.begin_packet(lanes, frame_, far_, packet)) return false;
+    std::array<PatchLine, kRayLanes> lines;
+    std::uint32_t ready = 0;
+    const std::uint32_t used = kAllRayLanes >> (kRayLanes - rays.size());
+    std::uint32_t leaf = 0;
+    float near = 0.0f;
+    while (kernels.next_leaf_of_packet(nodes_.data(), packet, leaf, near)) {
+        bool changed = false;
+        for_each_lane(used & kernels.lines_near(leaves_[leaf], packet), [&](std::size_t i) {
+            if (near > packet.most_of[i]) return;
+            if ((ready >> i & 1) == 0) lines[i] = line_of(*rays[i]);
+            ready |= 1u << i;
+            const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
+                const double t = found(i, piece, root);
+                const float most = place(lines[i], t, 1.0);
+                if (!(most < packet.most_of[i])) return;
+                packet.most_of[i] = most;
+                changed = true;
+            };
+            visit_leaf(pieces, lines[i], in_frame(lines[i].origin), leaves_[leaf], report);
+        });
+        if (!changed) continue;
+        packet.walk.most = *std::max_element(packet.most_of, packet.most_of + rays.size());
+    }
+    return true;
 }
 
 }  // namespace alhazen

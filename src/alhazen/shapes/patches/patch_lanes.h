@@ -6,9 +6,11 @@
 
 #include <cstdint>
 
+#include "alhazen/geometry/ray_lanes.h"
 #include "alhazen/shapes/patches/patch_borders.h"
 #include "alhazen/shapes/patches/patch_boxes.h"
 #include "alhazen/shapes/patches/patch_cells.h"
+#include "alhazen/shapes/patches/patch_leaves.h"
 #include "alhazen/shapes/patches/patch_value.h"
 
 namespace alhazen {
@@ -26,6 +28,15 @@ struct PatchWalk {
     float least, most;          ///< the range along the line
     int size;
     Waiting stack[kMostWaiting];
+};
+
+/// Lines side by side on their way through a tree of boxes together. The directions have the same
+/// signs.
+struct alignas(64) PatchPacket {
+    double origin[3][kRayLanes], direction[3][kRayLanes];  ///< in the frame
+    float most_of[kRayLanes];                              ///< the range along each line ends here
+    float from[2][3], inverse[2][3];                       ///< least and most of PatchWalk's
+    PatchWalk walk;                                        ///< the range of all; no origin
 };
 
 /// Bounds of a cell by its control points.
@@ -61,6 +72,15 @@ struct PatchQuarters {
 struct PatchKernels {
     /// The next leaf whose box the line passes through; false at the end.
     bool (*next_leaf)(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf);
+    /// Sets out eight rays; false where the signs of their directions differ. Farther than `far`
+    /// from the middle a line begins at the point nearest to it.
+    bool (*begin_packet)(const RayLanes& rays, const PatchFrame& frame, double far,
+                         PatchPacket& packet);
+    /// The same for a packet, nearest first; `near` is where the first line enters the box.
+    bool (*next_leaf_of_packet)(const PatchBoxes* nodes, PatchPacket& packet, std::uint32_t& leaf,
+                                float& near);
+    /// The lines for which `test_leaf` has another answer than None, and hardly any others.
+    std::uint32_t (*lines_near)(const PatchLeaf& leaf, const PatchPacket& packet);
     HomogeneousValue (*bicubic)(const BezierNet& net, double u, double v);
     /// For bicubic patches.
     void (*quarters)(const BezierNet& net, PatchQuarters& q);

@@ -58,6 +58,10 @@ struct PatchMesh {
 [[nodiscard]] inline bool first_hit(const PatchMesh& shape, const Ray& ray, ShapeHit& hit) {
     return shape.tree->first_hit(ray, hit);
 }
+[[nodiscard]] inline std::uint32_t first_hits(const PatchMesh& shape,
+                                              std::span<const Ray* const> rays, ShapeHit* hits) {
+    return shape.tree->first_hits(rays, hits);
+}
 
 /// Area, and flux volume: the volume enclosed where the mesh is closed.
 [[nodiscard]] PatchMeasures measures_of(const PatchMesh& mesh);

@@ -50,6 +50,14 @@ bool is_before(const ShapeHit& a, const ShapeHit& b) {
     return a.u != b.u ? a.u < b.u : a.v < b.v;
 }
 
+/// Keeps a crossing in the ray's range if it is the first so far; false for one out of range.
+bool keep_first(const Ray& ray, const ShapeHit& crossing, bool found, ShapeHit& hit) {
+    ShapeHit next;
+    if (report_crossing(ray, crossing, &next) == 0) return false;
+    if (!found || is_before(next, hit)) hit = next;
+    return true;
+}
+
 }  // namespace
 
 PatchTree::PatchTree(std::vector<BezierPiece> pieces) : pieces_(std::move(pieces)) {
@@ -87,15 +95,25 @@ bool PatchTree::first_hit(const Ray& ray, ShapeHit& hit) const {
     bool found = false;
     index_->search(pieces_, index_->line_of(ray), ray.t_min, ray.t_max,
                    [&](std::uint32_t piece, const PatchRoot& root) {
-                       ShapeHit next;
-                       if (report_crossing(ray, hit_of(pieces_[piece], root), &next) != 0 &&
-                           (!found || is_before(next, hit))) {
-                           hit = next;
-                           found = true;
-                       }
+                       found |= keep_first(ray, hit_of(pieces_[piece], root), found, hit);
                        return found ? hit.t : ray.t_max;
                    });
     return found;
+}
+
+std::uint32_t PatchTree::first_hits(std::span<const Ray* const> rays, ShapeHit* hits) const {
+    std::uint32_t met = 0;
+    const auto offer = [&](std::size_t i, std::uint32_t piece, const PatchRoot& root) {
+        const std::uint32_t bit = 1u << i;
+        const ShapeHit next = hit_of(pieces_[piece], root);
+        if (keep_first(*rays[i], next, (met & bit) != 0, hits[i])) met |= bit;
+        return (met & bit) != 0 ? hits[i].t : rays[i]->t_max;
+    };
+    if (index_->search_together(pieces_, rays, offer)) return met;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (first_hit(*rays[i], hits[i])) met |= 1u << i;
+    }
+    return met;
 }
 
 const BezierPiece& PatchTree::piece_of(std::uint32_t part) const {
