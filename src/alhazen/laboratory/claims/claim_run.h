@@ -114,6 +114,7 @@ void claim_b14(ClaimRun& run);
 void claim_c1(ClaimRun& run);
 void claim_c2(ClaimRun& run);
 void claim_c3(ClaimRun& run);
+void claim_c4(ClaimRun& run);
 void claim_h1(ClaimRun& run);
 
 /// The counter that claims use.
