@@ -13,7 +13,7 @@ namespace {
 
 using Sheared = ShearedVertex<double>;
 
-double cross_of(const Sheared& a, const Sheared& b) {
+double sheared_cross(const Sheared& a, const Sheared& b) {
     return difference_of_products(a.x, b.y, a.y, b.x);
 }
 Sheared blended(const Sheared& a, const Sheared& b, double t) {
@@ -31,9 +31,10 @@ int edge_crossings(const Sheared& a, const Sheared& b) {
     return side < 0 ? -1 : 0;
 }
 
-/// A place on the patch, and its distance from the ray in the plane.
+/// A place on the patch, its distance from the ray in the plane, and that of its parameters from
+/// the root's, which may lie outside.
 struct BilinearRoot {
-    double u = 0, v = 0, off = kInfinity;
+    double u = 0, v = 0, off = kInfinity, moved = kInfinity;
 };
 
 /// The patch as the ray sees it: the ray is the origin of the plane.
@@ -87,10 +88,9 @@ class SeenPatch {
 
 BilinearRoot SeenPatch::clamped(double u, double v) const {
     if (std::isnan(u) || std::isnan(v)) return {};
-    u = std::clamp(u, 0.0, 1.0);
-    v = std::clamp(v, 0.0, 1.0);
-    const Sheared p = at(u, v);
-    return {u, v, std::hypot(p.x, p.y)};
+    const double x = std::clamp(u, 0.0, 1.0), y = std::clamp(v, 0.0, 1.0);
+    const Sheared p = at(x, y);
+    return {x, y, std::hypot(p.x, p.y), std::max(std::abs(x - u), std::abs(y - v))};
 }
 
 BilinearRoot SeenPatch::polished(const BilinearRoot& root, double u, double v) const {
@@ -99,8 +99,9 @@ BilinearRoot SeenPatch::polished(const BilinearRoot& root, double u, double v) c
                       (1.0 - v) * (b_.y - a_.y) + v * (c_.y - d_.y), 0.0};
     const Sheared p_v{(1.0 - u) * (d_.x - a_.x) + u * (c_.x - b_.x),
                       (1.0 - u) * (d_.y - a_.y) + u * (c_.y - b_.y), 0.0};
-    const double area = cross_of(p_u, p_v);
-    const BilinearRoot next = clamped(u - cross_of(p, p_v) / area, v - cross_of(p_u, p) / area);
+    const double area = sheared_cross(p_u, p_v);
+    const BilinearRoot next =
+        clamped(u - sheared_cross(p, p_v) / area, v - sheared_cross(p_u, p) / area);
     return next.off < root.off ? next : root;
 }
 
@@ -119,8 +120,8 @@ BilinearRoot SeenPatch::root_on_ruling(double s, double w) const {
 
 bool SeenPatch::find_roots(bool forced, BilinearRoot* roots) const {
     // a x d (1-u)^2 + (a x c + b x d) u (1-u) + b x c u^2 = 0.
-    double first = cross_of(a_, d_), last = cross_of(b_, c_);
-    double middle = 0.5 * (cross_of(a_, c_) + cross_of(b_, d_));
+    double first = sheared_cross(a_, d_), last = sheared_cross(b_, c_);
+    double middle = 0.5 * (sheared_cross(a_, c_) + sheared_cross(b_, d_));
     const double scale = to_unit_size(first, middle, last);
     first *= scale;
     middle *= scale;
@@ -153,8 +154,12 @@ BilinearRoot SeenPatch::nearest_on_border() const {
     return nearest;
 }
 
-/// A root farther from the ray is none; in parts of `reach`. Rounding leaves some 2^-50.
+/// A place farther from the ray than this is no root; in parts of `reach`. Rounding leaves some
+/// 2^-50.
 constexpr double kOnPatch = 0x1p-44;
+/// A root whose parameters are farther outside is not on the patch; near a double root they are
+/// known to 2^-26.
+constexpr double kOnSquare = 0x1p-20;
 
 }  // namespace
 
@@ -213,6 +218,7 @@ int BilinearPatch::intersect(const Ray& ray, ShapeHit* hits) const {
         return report_crossing(ray, hit_at(roots[0]), hits);
     }
     if (!(roots[1].off <= most_off)) return 0;
+    if (!(std::max(roots[0].moved, roots[1].moved) <= kOnSquare)) return 0;
     ShapeHit near = hit_at(roots[0]), far = hit_at(roots[1]);
     if (far.t < near.t || (far.t == near.t && far.u < near.u)) std::swap(near, far);
     const int count = report_crossing(ray, near, hits);
