@@ -124,7 +124,7 @@ LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& dire
         return LeafAnswer::None;
     }
     const double bend = std::max(bend_u, bend_v);
-    if (!(bend <= kUnique * size)) return LeafAnswer::Divide;
+    if (!(bend < kUnique * size)) return LeafAnswer::Divide;
     a = along_u / det;
     b = along_v / det;
     return bend <= kCertified * size ? LeafAnswer::Certified : LeafAnswer::Unique;

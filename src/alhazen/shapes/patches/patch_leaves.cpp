@@ -120,15 +120,25 @@ void measure(Part& part, const PatchFrame& frame) {
     // Rounding of the center and the derivatives, and of the sums made of them.
     const double rounding = 0x1p-20 * (length(center) + length(u) + length(v));
     PartBends::Bends bend[3];
+    bool has_plane = square > 0.0;
     for (int k = 0; k < 3; ++k) {
         const Vec3 axis = axes[k] / square;
         bend[k] = bends.along(frame.scale * axis);
         const double bound = 1.000001 * bend[k].sum() + rounding * length(axis);
-        // Without a plane never certified.
-        leaf.bend[k] = bound < 1e6 ? static_cast<float>(bound) : 1e6f;
+        has_plane = has_plane && bound < 1e6;
+        leaf.bend[k] = has_plane ? static_cast<float>(bound) : 0.0f;
     }
     part.area = length(u) * length(v);
-    part.uncertified = part.area * uncertified_part(leaf, length(u), length(v), std::sqrt(square));
+    if (!has_plane) {
+        // The middle may be where the patch is folded to a line: its derivatives tell nothing.
+        leaf.set_without_plane();
+        const double size = frame.scale * length(control_box(part.net).size());
+        part.area = std::max(part.area, 0.125 * size * size);
+    }
+    part.uncertified = part.area;
+    if (has_plane) {
+        part.uncertified *= uncertified_part(leaf, length(u), length(v), std::sqrt(square));
+    }
     const int level_u = leaf.level_u, level_v = leaf.level_v;
     // A half's own parameter is measured by half of the derivative.
     const double size_u = length(u), size_v = length(v);

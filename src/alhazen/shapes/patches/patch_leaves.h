@@ -18,7 +18,8 @@ namespace alhazen {
 
 /// A part of a patch around the plane center + a du + b dv, with n = du x dv. The sum of second
 /// derivatives |S_aa| + 2 |S_ab| + |S_bb|, written as x du + y dv + z n, has x, y and z at most
-/// `bend`; the distance from the plane's point at (a, b) has at most half of them.
+/// `bend`; the distance from the plane's point at (a, b) has at most half of them. Without a plane,
+/// du and dv are zero: neither certified nor rejected for any line.
 struct PatchLeaf {
     float center[3], du[3], dv[3], bend[3];
     std::uint32_t piece;
@@ -28,6 +29,9 @@ struct PatchLeaf {
     [[nodiscard]] PatchCell cell() const {
         const double width_u = 1.0 / (1 << level_u), width_v = 1.0 / (1 << level_v);
         return {u * width_u, (u + 1) * width_u, v * width_v, (v + 1) * width_v};
+    }
+    void set_without_plane() {
+        for (int k = 0; k < 3; ++k) du[k] = dv[k] = bend[k] = 0.0f;
     }
 };
 static_assert(sizeof(PatchLeaf) == 56);
