@@ -167,9 +167,10 @@ struct RandomShape<NurbsSurface> {
         const bool clamped = random.below(4) != 0;
         std::vector<double> knots;
         double at = from.lattice ? 0.0 : random.uniform(-1, 1);
+        bool twice = false;
         for (int k = 0; k < count + degree + 1; ++k) {
             const bool inner = k > degree && k <= count;
-            const bool twice = inner && degree > 1 && k > degree + 1 && random.below(5) == 0;
+            twice = inner && degree > 1 && k > degree + 1 && !twice && random.below(5) == 0;
             if (k > 0 && (inner || !clamped) && !twice) {
                 at += from.lattice ? 1.0 : random.log_uniform(0.2, 2);
             }
