@@ -229,14 +229,17 @@ void quarters(const BezierNet& net, PatchQuarters& q) {
     };
     const Point bend_u = bend(across_v), bend_v = bend(across_u), half(0.5);
     const Point most = max_lanes(bend_u, bend_v);
-    // For the rounding of points and of cross products that cancel.
+    // For the rounding of points and of cross products that cancel; a root beside a border may
+    // belong to the quarter, thus the thousandth.
     const Point rounding = Point(1e-14) + Point(16.0 * q.tiny) * inverse;
     const auto near = [&](const Point& along, const Point& b) {
-        return abs(along) <= size + half * b + rounding;
+        return abs(along) <= Point(1.001) * size + half * b + rounding;
     };
     q.met = bits_of(near(along_u, bend_u) & near(along_v, bend_v));
-    q.sure = bits_of(most <= Point(kUnique) * size);
-    q.certain = bits_of(most <= Point(kCertified) * size);
+    // Newton's steps have less noise than a cell has margin.
+    const LaneMask<double, 4> clear = Point(0x1p12 * q.tiny) * inverse <= size;
+    q.sure = bits_of((most <= Point(kUnique) * size) & clear);
+    q.certain = bits_of((most <= Point(kCertified) * size) & clear);
     HWY_ALIGN double a[4], b[4];
     store_lanes(along_u / det, a);
     store_lanes(along_v / det, b);
