@@ -35,9 +35,10 @@ HWY_INLINE void extremes(const Point (&x)[4], double& least, double& most) {
 
 /// Keeps the largest of differences, as they are and solved for u and v.
 struct Largest {
-    Point size{0.0}, u{0.0}, v{0.0};
+    Point size, u, v;
     Point ux, uy, vx, vy, keep;
 
+    HWY_INLINE Largest() : size(0.0), u(0.0), v(0.0) {}
     HWY_INLINE void include(const Point& x, const Point& y) {
         size = max_lanes(size, keep * (abs(x) + abs(y)));
         u = max_lanes(u, keep * abs(ux * x + uy * y));

@@ -88,23 +88,6 @@ std::size_t PatchIndex::bytes() const {
            nodes_.capacity() * sizeof(PatchBoxes);
 }
 
-PatchQuarters PatchIndex::quarters_of(const PatchLeaf& leaf, const PatchLine& line,
-                                      const Vec3& origin, const PatchCell& cell,
-                                      double share) const {
-    PatchQuarters q;
-    q.frame_center = frame_.center;
-    q.frame_scale = frame_.scale;
-    q.origin = origin;
-    q.direction = line.direction;
-    q.du = {leaf.du[0], leaf.du[1], leaf.du[2]};
-    q.dv = {leaf.dv[0], leaf.dv[1], leaf.dv[2]};
-    q.normal = cross(q.du, q.dv);
-    for (int k = 0; k < 3; ++k) q.bend[k] = share * leaf.bend[k];
-    q.cell = cell;
-    q.tiny = frame_.scale * line.tiny;
-    return q;
-}
-
 LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& direction, double& a,
                      double& b) {
     const auto vec = [](const float(&x)[3]) { return Vec3{x[0], x[1], x[2]}; };

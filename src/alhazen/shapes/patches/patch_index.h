@@ -50,15 +50,6 @@ class PatchIndex {
     template <class F>
     void visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line, const Vec3& origin,
                     const PatchLeaf& leaf, F& found) const;
-    /// A cell of a leaf whose bounds are those of the leaf times `share`.
-    template <class F>
-    void visit_quarters(const BezierNet& net, const PatchLine& line, const Vec3& origin,
-                        const PatchLeaf& leaf, const PatchCell& cell, double share, F& found) const;
-
-    [[nodiscard]] PatchQuarters quarters_of(const PatchLeaf& leaf, const PatchLine& line,
-                                            const Vec3& origin, const PatchCell& cell,
-                                            double share) const;
-
     PatchFrame frame_;
     double reach_ = 0, most_weight_ = 0, far_ = 0;
     std::vector<PatchLeaf> leaves_;  ///< in the order of the tree
@@ -87,39 +78,8 @@ void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line
         if (met) found(leaf.piece, root);
         if (met || answer == LeafAnswer::Certified) return;
     }
-    const auto report = [&](const PatchRoot& r) { found(leaf.piece, r); };
-    // Off: with quarters one hard line of 200,000 crosses a closed mesh an odd number of times.
-    constexpr bool kQuarters = false;
-    if (kQuarters && net.degree_u == 3 && net.degree_v == 3) {
-        return visit_quarters(net, line, origin, leaf, cell, 1.0, report);
-    }
     CellSearch cells(net, line, cell);
-    while (cells.next(root)) report(root);
-}
-
-template <class F>
-void PatchIndex::visit_quarters(const BezierNet& net, const PatchLine& line, const Vec3& origin,
-                                const PatchLeaf& leaf, const PatchCell& cell, double share,
-                                F& found) const {
-    constexpr double kLeastShare = 0x1p-5;
-    PatchQuarters q = quarters_of(leaf, line, origin, cell, 0.25 * share);
-    patch_kernels().quarters(net, q);
-    for_each_lane(q.met, [&](std::size_t k) {
-        const PatchCell part = q.quarter(k);
-        PatchRoot root;
-        if ((q.sure >> k & 1) != 0) {
-            const double u = part.u0 + 0.5 * (1.0 + q.a[k]) * (part.u1 - part.u0);
-            const double v = part.v0 + 0.5 * (1.0 + q.b[k]) * (part.v1 - part.v0);
-            const bool met = certified_root(RootOf::Point, net, line, part, 0.0, u, v, root);
-            if (met) found(root);
-            if (met || (q.certain >> k & 1) != 0) return;
-        }
-        if (share > kLeastShare) {
-            return visit_quarters(net, line, origin, leaf, part, 0.25 * share, found);
-        }
-        CellSearch cells(net, line, part);
-        while (cells.next(root)) found(root);
-    });
+    while (cells.next(root)) found(leaf.piece, root);
 }
 
 template <class F>

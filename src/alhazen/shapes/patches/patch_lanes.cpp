@@ -130,125 +130,6 @@ HomogeneousValue bicubic(const BezierNet& net, double u, double v) {
     return {point(out[0]), point(out[1]), point(out[2])};
 }
 
-/// Points, or directions, of four places of a patch.
-struct Points {
-    Point x{0.0}, y{0.0}, z{0.0};
-
-    HWY_INLINE Points() {}
-    HWY_INLINE Points(const Point& px, const Point& py, const Point& pz) : x(px), y(py), z(pz) {}
-    HWY_INLINE explicit Points(const Vec3& p) : x(p.x), y(p.y), z(p.z) {}
-};
-HWY_INLINE Point dot(const Points& a, const Points& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-HWY_INLINE Points cross(const Points& a, const Points& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE Points minus(const Points& a, const Points& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-HWY_INLINE Points times(const Point& s, const Points& a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
-
-/// A sum of control points, for four places.
-struct WeightedPoints {
-    Points at;
-    Point w{0.0};
-
-    HWY_INLINE void add(const Point& factor, const WeightedPoints& p) {
-        at.x = at.x + factor * p.at.x;
-        at.y = at.y + factor * p.at.y;
-        at.z = at.z + factor * p.at.z;
-        w = w + factor * p.w;
-    }
-};
-
-HWY_INLINE void cubic_values(const Point& t, Point (&values)[4], Point (&derivatives)[4]) {
-    const Point s = Point(1.0) - t, three(3.0), two(2.0);
-    const Point ss = s * s, st = s * t, tt = t * t;
-    values[0] = ss * s;
-    values[1] = three * (ss * t);
-    values[2] = three * (s * tt);
-    values[3] = tt * t;
-    derivatives[0] = -(three * ss);
-    derivatives[1] = three * (ss - two * st);
-    derivatives[2] = three * (two * st - tt);
-    derivatives[3] = three * tt;
-}
-
-/// A patch at four places, as `bicubic`.
-HWY_INLINE void four_points(const BezierNet& net, const Point& u, const Point& v, WeightedPoints& s,
-                            WeightedPoints& s_u, WeightedPoints& s_v) {
-    Point bu[4]{u, u, u, u}, bv[4]{v, v, v, v}, cu[4]{u, u, u, u}, cv[4]{v, v, v, v};
-    cubic_values(u, bu, cu);
-    cubic_values(v, bv, cv);
-    for (std::size_t i = 0; i < 4; ++i) {
-        WeightedPoints row, row_v;
-        for (std::size_t j = 0; j < 4; ++j) {
-            const HomogeneousPoint& p = net.points[4 * i + j];
-            WeightedPoints point;
-            point.at = Points(Vec3{p.x, p.y, p.z});
-            point.w = Point(p.w);
-            row.add(bv[j], point);
-            row_v.add(cv[j], point);
-        }
-        s.add(bu[i], row);
-        s_u.add(cu[i], row);
-        s_v.add(bu[i], row_v);
-    }
-}
-
-/// `test_leaf` for the quarters of a leaf's cell, from the patch at their middles and the bounds of
-/// the leaf.
-void quarters(const BezierNet& net, PatchQuarters& q) {
-    const double width_u = 0.25 * (q.cell.u1 - q.cell.u0), width_v = 0.25 * (q.cell.v1 - q.cell.v0);
-    HWY_ALIGN double us[4], vs[4];
-    for (std::size_t k = 0; k < 4; ++k) {
-        us[k] = q.cell.u0 + (k < 2 ? width_u : 3.0 * width_u);
-        vs[k] = q.cell.v0 + (k % 2 == 0 ? width_v : 3.0 * width_v);
-    }
-    WeightedPoints s, s_u, s_v;
-    four_points(net, load_lanes<4>(us), load_lanes<4>(vs), s, s_u, s_v);
-    const Point inverse = Point(1.0) / s.w, scale(q.frame_scale);
-    const Points point = times(inverse, s.at);
-    const Points du =
-        times(Point(width_u * q.frame_scale) * inverse, minus(s_u.at, times(s_u.w, point)));
-    const Points dv =
-        times(Point(width_v * q.frame_scale) * inverse, minus(s_v.at, times(s_v.w, point)));
-    const Points offset =
-        minus(Points(q.origin), times(scale, minus(point, Points(q.frame_center))));
-    const Points direction(q.direction), basis_u(q.du), basis_v(q.dv), normal(q.normal);
-    const Points across_v = cross(dv, direction), across_u = cross(direction, du);
-    const Point det = dot(du, across_v), size = abs(det);
-    const Point along_u = dot(across_v, offset), along_v = dot(across_u, offset);
-    const auto bend = [&](const Points& across) {
-        return Point(q.bend[0]) * abs(dot(across, basis_u)) +
-               Point(q.bend[1]) * abs(dot(across, basis_v)) +
-               Point(q.bend[2]) * abs(dot(across, normal));
-    };
-    const Point bend_u = bend(across_v), bend_v = bend(across_u), half(0.5);
-    const Point most = max_lanes(bend_u, bend_v);
-    // For the rounding of points and of cross products that cancel; a root beside a border may
-    // belong to the quarter, thus the thousandth.
-    const Point rounding = Point(1e-14) + Point(16.0 * q.tiny) * inverse;
-    const auto near = [&](const Point& along, const Point& b) {
-        return abs(along) <= Point(1.001) * size + half * b + rounding;
-    };
-    q.met = bits_of(near(along_u, bend_u) & near(along_v, bend_v));
-    // Newton's steps have less noise than a cell has margin.
-    const LaneMask<double, 4> clear = Point(0x1p12 * q.tiny) * inverse <= size;
-    q.sure = bits_of((most <= Point(kUnique) * size) & clear);
-    q.certain = bits_of((most <= Point(kCertified) * size) & clear);
-    HWY_ALIGN double a[4], b[4];
-    store_lanes(along_u / det, a);
-    store_lanes(along_v / det, b);
-    for (std::size_t k = 0; k < 4; ++k) {
-        q.a[k] = a[k];
-        q.b[k] = b[k];
-    }
-}
-
 /// Directions of eight lines.
 struct LinePoints {
     Doubles x{0.0}, y{0.0}, z{0.0};
@@ -344,9 +225,9 @@ std::uint32_t lines_near(const PatchLeaf& leaf, const PatchPacket& packet) {
 }  // namespace
 
 const PatchKernels& patch_kernels_of_target() {
-    static constexpr PatchKernels kernels{&next_leaf,    &begin_packet, &next_leaf_of_packet,
-                                          &lines_near,   &bicubic,      &quarters,
-                                          &cubic_bounds, &halve_cubic};
+    static constexpr PatchKernels kernels{&next_leaf,  &begin_packet, &next_leaf_of_packet,
+                                          &lines_near, &bicubic,      &cubic_bounds,
+                                          &halve_cubic};
     return kernels;
 }
 

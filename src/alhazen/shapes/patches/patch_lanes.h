@@ -48,27 +48,6 @@ struct CellBounds {
     double extent_u, extent_v;         ///< |first differences|
 };
 
-/// The four quarters of a leaf's cell before a line, in the frame of the tree.
-struct PatchQuarters {
-    // Given.
-    Vec3 frame_center;
-    double frame_scale;
-    Vec3 origin, direction;
-    Vec3 du, dv, normal;  ///< the basis of the leaf's bounds
-    double bend[3];       ///< the bounds over the cell, in half-widths of a quarter
-    PatchCell cell;
-    double tiny;  ///< of the line, in the frame
-    // Found, for the quarters (low u, low v), (low u, high v), (high u, low v), (high u, high v).
-    double a[4], b[4];                 ///< the first step of Newton's method, in half-widths
-    std::uint32_t met, sure, certain;  ///< bits: may have a root; one at most; certified
-
-    [[nodiscard]] PatchCell quarter(std::size_t k) const {
-        const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
-        return {k < 2 ? cell.u0 : u, k < 2 ? u : cell.u1, k % 2 == 0 ? cell.v0 : v,
-                k % 2 == 0 ? v : cell.v1};
-    }
-};
-
 struct PatchKernels {
     /// The next leaf whose box the line passes through; false at the end.
     bool (*next_leaf)(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf);
@@ -81,9 +60,8 @@ struct PatchKernels {
                                 float& near);
     /// The lines for which `test_leaf` has another answer than None, and hardly any others.
     std::uint32_t (*lines_near)(const PatchLeaf& leaf, const PatchPacket& packet);
-    HomogeneousValue (*bicubic)(const BezierNet& net, double u, double v);
     /// For bicubic patches.
-    void (*quarters)(const BezierNet& net, PatchQuarters& q);
+    HomogeneousValue (*bicubic)(const BezierNet& net, double u, double v);
     /// Only `least` and `most` where these leave out the origin by more than `margin`.
     void (*cubic_bounds)(const PlaneNet& net, double margin, CellBounds& out);
     /// `low` may be `net`.
