@@ -161,6 +161,15 @@ constexpr double kOnPatch = 0x1p-44;
 /// known to 2^-26.
 constexpr double kOnSquare = 0x1p-20;
 
+/// How far a crossing may round out of the patch.
+double crossing_reach(const BilinearPatch& patch) {
+    double most = 0.0;
+    for (const Vec3& p : {patch.p00, patch.p10, patch.p01, patch.p11}) {
+        most = std::max(most, max_component(abs(p)));
+    }
+    return 1e-14 * most;
+}
+
 }  // namespace
 
 void BilinearPatch::prepare() {
@@ -182,18 +191,19 @@ void BilinearPatch::validate(const FileLocation& where, Diagnostics& diagnostics
 Box3 BilinearPatch::box() const {
     Box3 box;
     for (const Vec3& p : {p00, p10, p01, p11}) box.include(p);
-    return padded(box, 1e-14);
+    const double reach = crossing_reach(*this);
+    return {box.lo - Vec3{reach, reach, reach}, box.hi + Vec3{reach, reach, reach}};
 }
 
 Interval BilinearPatch::extent(const Vec3& axis) const {
     Interval range{kInfinity, -kInfinity};
-    double reach = 0.0;
     for (const Vec3& p : {p00, p10, p01, p11}) {
         const double x = dot(axis, p);
         range = {std::min(range.lo, x), std::max(range.hi, x)};
-        reach = std::max(reach, dot(abs(axis), abs(p)));
     }
-    return {range.lo - 1e-14 * reach, range.hi + 1e-14 * reach};
+    const Vec3 size = abs(axis);
+    const double reach = crossing_reach(*this) * (size.x + size.y + size.z);
+    return {range.lo - reach, range.hi + reach};
 }
 
 int BilinearPatch::intersect(const Ray& ray, ShapeHit* hits) const {

@@ -91,17 +91,14 @@ ShapeSurface SteinerPatch::surface(const Ray&, const ShapeHit& hit) const {
         surface.normal = patch_normal(tree->pieces()[0].net, v < 1.0 ? u / (1.0 - v) : 0.5, v);
     }
     surface.shading_normal = surface.normal;
-    // 1 - u - v, two steps of three terms, the weights likewise, and one division.
-    double least = kInfinity, most = 0.0;
-    Vec3 reach;
+    // Two steps of three terms, for the numerator and the weight, and one division; the mean of the
+    // points' sizes is at most the largest. Another 1 - u - v is another point of the surface.
+    Vec3 most;
     for (const HomogeneousPoint& p : control) {
-        least = std::min(least, p.w);
-        most = std::max(most, p.w);
-        for (int k = 0; k < 3; ++k) {
-            reach[k] = std::max(reach[k], std::abs(k == 0 ? p.x : k == 1 ? p.y : p.z));
-        }
+        const Vec3 x = abs(projected(p));
+        most = {std::max(most.x, x.x), std::max(most.y, x.y), std::max(most.z, x.z)};
     }
-    surface.error = (gamma_bound(16) * (1.0 + most / least) / least) * reach;
+    surface.error = (2.0 * gamma_bound(12)) * most;
     return surface;
 }
 
