@@ -7,7 +7,7 @@
 
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/shapes/patches/exact_forms.h"
-#include "shapes/patches/simple_patches.h"
+#include "simple_patches.h"
 
 namespace alhazen {
 namespace {

@@ -1,7 +1,7 @@
 // A million rays each: at shared edges and corners of bilinear patches, and at Steiner patches
 // beside their quartics.
 
-#include "shapes/patches/simple_patches.h"
+#include "simple_patches.h"
 
 namespace alhazen {
 namespace {

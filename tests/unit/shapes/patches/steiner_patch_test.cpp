@@ -5,7 +5,7 @@
 
 #include "alhazen/shapes/core/first_hit.h"
 #include "alhazen/shapes/quadrics/sphere.h"
-#include "shapes/patches/simple_patches.h"
+#include "simple_patches.h"
 #include "support/any_ray.h"
 
 namespace alhazen {
