@@ -126,6 +126,7 @@ INSIDE = {
         "patches/methods": ["patches"],
         "polygons": ["core"],
         "swept": ["core"],
+        "tessellation": ["meshes", "patches"],
     },
 }
 

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/session/convert.h"
+#include "alhazen/session/tessellated.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
@@ -15,6 +18,7 @@ struct ConvertArguments {
     SceneArguments scene;
     std::string output;
     bool quiet = false;
+    std::optional<double> tolerance;
     ConvertOptions convert;
 };
 
@@ -22,9 +26,16 @@ int run(const ConvertArguments& args) {
     // Check the names before any work.
     check_convert_target(args.scene.scene, args.output);
     Diagnostics diagnostics;
-    const SceneDescription description =
+    SceneDescription description =
         load_description(args.scene.scene, args.scene.load_options(), diagnostics);
     if (!args.quiet) print_warnings(diagnostics);
+    if (args.tolerance) {
+        const TessellationReport report = tessellate(description, *args.tolerance);
+        if (!args.quiet) {
+            tell("{} shapes became {} triangles within {:g} of them\n", report.shapes,
+                 report.triangles, *args.tolerance);
+        }
+    }
     const ConvertReport report = convert(description, args.output, args.convert);
     if (args.quiet) return kDone;
     if (!report.left_out.empty()) {
@@ -67,6 +78,11 @@ void add_convert(CLI::App& app, int& exit_status) {
         ->type_name("OUT");
     command->add_flag("--meshes-only", args->convert.meshes_only,
                       "Leave out shapes that are not meshes where the format holds only those");
+    command
+        ->add_option("--tolerance", args->tolerance,
+                     "Replace shapes by triangles at most this far from them, in units of the "
+                     "scene")
+        ->type_name("X");
     command->add_flag("-q,--quiet", args->quiet, "No warnings, no summary");
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }

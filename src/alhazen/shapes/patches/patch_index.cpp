@@ -45,6 +45,11 @@ PatchLine PatchIndex::line_of(const Ray& ray) const {
     return line;
 }
 
+bool PatchIndex::is_near(const PatchLine& line) const {
+    // A line through the box is at most a few times as far from the origin as the patches are.
+    return line.tiny <= 0x1p-20 * reach_ && length_squared(line.direction) > 0.5;
+}
+
 void PatchIndex::add_axes(PatchLine& line) {
     line.axis_x = perpendicular(line.direction);
     line.axis_y = cross(line.direction, line.axis_x);

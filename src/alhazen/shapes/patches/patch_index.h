@@ -25,6 +25,8 @@ class PatchIndex {
     /// Without the axes of its plane, which most rays do not need.
     [[nodiscard]] PatchLine line_of(const Ray& ray) const;
     static void add_axes(PatchLine& line);
+    /// False for a line that is far from all patches, and for one that has overflowed.
+    [[nodiscard]] bool is_near(const PatchLine& line) const;
     [[nodiscard]] std::span<const PatchLeaf> leaves() const { return leaves_; }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -85,6 +87,7 @@ void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line
 template <class F>
 void PatchIndex::search(std::span<const BezierPiece> pieces, PatchLine line, double t_min,
                         double limit, F&& found) const {
+    if (!is_near(line)) return;
     PatchWalk walk = walk_of(line, t_min, limit);
     const Vec3 origin = in_frame(line.origin);
     const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
@@ -118,6 +121,7 @@ bool PatchIndex::search_together(std::span<const BezierPiece> pieces,
             if (near > packet.most_of[i]) return;
             if ((ready >> i & 1) == 0) lines[i] = line_of(*rays[i]);
             ready |= 1u << i;
+            if (!is_near(lines[i])) return;
             const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
                 const double t = found(i, piece, root);
                 const float most = place(lines[i], t, 1.0);
