@@ -3,6 +3,7 @@
 
 Usage: bench/solids.py ALHAZEN [--sizes plate=1000,menger=1000@64,torus,...] [--side N] [--rounds N] [--lit] [--json FILE] [--markdown FILE] [--keep FOLDER]
 A scene is KIND[=SIZE][@SIDE], of plate, menger, spheres (so many leaves) and torus, quartic, sextic, blob (one surface).
+teapot=N: the patches of ALHAZEN_TEST_DATA (default ../shared/data) patches/teapot.bpt, which POV-Ray divides 2^N times each way.
 --lit shades the colours by a point light without shadows in both programs, so that normals are computed too.
 Seconds are the processor time of tracing that each program reports (without reading the scene); pixels are compared by colour.
 """
@@ -81,6 +82,25 @@ def blob_parts():
     return parts
 
 
+def teapot_patches():
+    """The sixteen points of each bicubic patch, moved before the camera."""
+    data = os.environ.get("ALHAZEN_TEST_DATA", os.path.join(os.path.dirname(__file__), "../../shared/data"))
+    with open(os.path.join(data, "patches/teapot.bpt"), encoding="ascii") as file:
+        numbers = list(map(float, file.read().split()))
+    place = lambda p: (0.5 * (p[0] - 0.2), 0.5 * p[1], 0.5 * (p[2] - 1.575))
+    return [[place(numbers[first + 3 * k:first + 3 * k + 3]) for k in range(16)] for first in range(3, len(numbers), 50)]
+
+
+def teapot(steps):
+    patches = teapot_patches()
+    points = ", ".join(vector(p) for patch in patches for p in patch)
+    ours = (f'patch_mesh {{ points = [{points}]; patches = [{", ".join(map(str, range(16 * len(patches))))}]; '
+            'material = "skin" }')
+    theirs = "\n".join(f"bicubic_patch {{ type 1 flatness 0 u_steps {steps} v_steps {steps} {', '.join(map(angle, patch))} "
+                       "texture { skin } }" for patch in patches)
+    return ours, theirs
+
+
 class Polynomial(dict):
     """{(i, j, k): c} for c x^i y^j z^k; has the operators that Python's eval of an expression needs."""
 
@@ -124,8 +144,10 @@ def pov_polynomial(expression, side):
             "texture { skin } }")
 
 
-def one_surface(kind):
+def one_surface(kind, size):
     """The surface in the native format and for POV-Ray."""
+    if kind == "teapot":
+        return teapot(size or 4)
     if kind == "torus":
         return ('torus { axis = (0, 1, 0); major_radius = 1.2; minor_radius = 0.45; material = "skin" }',
                 "torus { 1.2, 0.45 sturm texture { skin } }")
@@ -140,8 +162,8 @@ def one_surface(kind):
             f"clip_box = ((-{side}, -{side}, -{side}), ({side}, {side}, {side})) }}", pov_polynomial(expression, side))
 
 
-def write_one_surface(kind, path, pov_path, lit):
-    ours, theirs = one_surface(kind)
+def write_one_surface(kind, size, path, pov_path, lit):
+    ours, theirs = one_surface(kind, size)
     camera = "; ".join(f"{key} = ({value[0]}, {value[1]}, {value[2]})" for key, value in CAMERA.items())
     with open(path, "w", encoding="ascii") as out:
         out.write("alhazen 1\n" + native_head(CAMERA["eye"], lit, ["skin"]))
@@ -267,7 +289,7 @@ def main():
         if kind in GENERATORS:
             write_povray(generate(args.alhazen, kind, size or "1000", at(".alhazen"), args.lit), at(".pov"), args.lit)
         else:
-            write_one_surface(kind, at(".alhazen"), at(".pov"), args.lit)
+            write_one_surface(kind, size, at(".alhazen"), at(".pov"), args.lit)
         ours = [args.alhazen, "render", at(".alhazen"), "-o", at("_alhazen.pfm"), "--size", f"{side}x{side}",
                 "--renderer", "ray_casting", "-t", "1", "-q"]
         theirs = ["povray", f"+I{at('.pov')}", f"+O{at('_povray.ppm')}", f"+W{side}", f"+H{side}", "+WT1",

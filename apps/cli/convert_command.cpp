@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/session/convert.h"
+#include "alhazen/session/tessellated.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"
@@ -15,6 +18,7 @@ struct ConvertArguments {
     SceneArguments scene;
     std::string output;
     bool quiet = false;
+    std::optional<double> tolerance;
     ConvertOptions convert;
 };
 
@@ -22,13 +26,22 @@ int run(const ConvertArguments& args) {
     // Check the names before any work.
     check_convert_target(args.scene.scene, args.output);
     Diagnostics diagnostics;
-    const SceneDescription description =
+    SceneDescription description =
         load_description(args.scene.scene, args.scene.load_options(), diagnostics);
     if (!args.quiet) print_warnings(diagnostics);
+    if (args.tolerance) {
+        const TessellationReport report = tessellate(description, *args.tolerance);
+        if (!args.quiet) {
+            tell("{} shapes became {} triangles within {:g} of them\n", report.shapes,
+                 report.triangles, *args.tolerance);
+        }
+    }
     const ConvertReport report = convert(description, args.output, args.convert);
     if (args.quiet) return kDone;
     if (!report.left_out.empty()) {
-        tell("warning: left out, as they are not meshes: {}\n", report.left_out);
+        const bool patches = report.files.back().extension() == ".bpt";
+        tell("warning: left out, as they are not {}: {}\n", patches ? "patches" : "meshes",
+             report.left_out);
     }
     if (report.masked_parts > 0) {
         tell(
@@ -52,16 +65,24 @@ int run(const ConvertArguments& args) {
 
 void add_convert(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand(
-        "convert", "Write a scene in the native format, or its meshes as PLY, OBJ or STL");
+        "convert",
+        "Write a scene in the native format, its meshes as PLY, OBJ or STL, its patches as OBJ or "
+        ".bpt");
     const auto args = std::make_shared<ConvertArguments>();
     args->scene.add_to(*command, kDefaultAccelerator);
     command
         ->add_option("output", args->output,
-                     "File to write: .alhazen for the whole scene, .ply .obj .stl for its meshes")
+                     "File to write: .alhazen for the whole scene, .ply .obj .stl for its meshes, "
+                     ".obj .bpt for its patches")
         ->required()
         ->type_name("OUT");
     command->add_flag("--meshes-only", args->convert.meshes_only,
                       "Leave out shapes that are not meshes where the format holds only those");
+    command
+        ->add_option("--tolerance", args->tolerance,
+                     "Replace shapes by triangles at most this far from them, in units of the "
+                     "scene")
+        ->type_name("X");
     command->add_flag("-q,--quiet", args->quiet, "No warnings, no summary");
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }

@@ -13,6 +13,7 @@
 #include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"
 #include "alhazen/session/render.h"
+#include "alhazen/session/scan_line_figure.h"
 #include "alhazen/session/scene_files.h"
 #include "alhazen/session/statistics.h"
 #include "alhazen/session/stopwatch.h"
@@ -29,7 +30,7 @@ namespace {
 struct RenderArguments {
     SceneArguments scene;
     std::string output;
-    std::string size, crop, encoding, protocol, stats, aovs, view;
+    std::string size, crop, encoding, protocol, stats, tables, aovs, view;
     int depth = -1;
     int bits = 8;
     bool full_float = false, aov_png = false, quiet = false, no_counts = false;
@@ -103,6 +104,12 @@ std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
         }
         outputs.emplace_back(args.stats);
     }
+    if (!args.tables.empty()) {
+        if (std::find(outputs.begin(), outputs.end(), args.tables) != outputs.end()) {
+            throw Error(ErrorKind::Usage, "--tables and another output name the same file");
+        }
+        outputs.emplace_back(args.tables);
+    }
     for (const auto& path : outputs) check_writable(path);
     return outputs;
 }
@@ -151,7 +158,11 @@ int run(const RenderArguments& args) {
     // Check the options before any work.
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
-    const bool needs_aggregate = make_renderer(options.renderer)->needs_aggregate();
+    const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
+    const bool needs_aggregate = renderer->needs_aggregate();
+    if (!args.tables.empty() && !renderer->has_scan_lines()) {
+        throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
+    }
     check_accelerator(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);
@@ -186,6 +197,9 @@ int run(const RenderArguments& args) {
             statistics(args.scene.scene, loaded, options, result, write_seconds)
                     .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
                 "\n");
+    }
+    if (!args.tables.empty()) {
+        write_report(args.tables, scan_line_svg(*result.scan_lines, args.scene.scene));
     }
     if (result.counters.non_finite > 0 && !args.quiet) {
         tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);
@@ -264,6 +278,10 @@ void add_render(CLI::App& app, int& exit_status) {
     command->add_flag("--no-counts", args->no_counts,
                       "With --stats: count no tests, which takes time");
     command->add_option("--stats", args->stats, "Write statistics as JSON; - for stdout")
+        ->type_name("FILE");
+    command
+        ->add_option("--tables", args->tables,
+                     "Draw the tables of lane_carpenter over the scan lines as an animated SVG")
         ->type_name("FILE");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });

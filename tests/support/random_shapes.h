@@ -6,6 +6,7 @@
 
 #include "alhazen/shapes/shape_list.h"
 #include "support/random_exact_shapes.h"
+#include "support/random_patches.h"
 #include "support/shape_source.h"
 
 namespace alhazen::testing {

@@ -225,6 +225,11 @@ inline bool same(const BlobComponent& a, const BlobComponent& b) {
     return all_same(a.base, b.base, a.radius, b.radius, a.strength, b.strength, a.rod, b.rod) &&
            (!a.rod || same(a.top, b.top));
 }
+inline bool same(const TrimCurve& a, const TrimCurve& b) {
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
+}
 /// Shapes: all their fields.
 template <Shape S>
 bool same(const S& a, const S& b) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "alhazen/base/file.h"
+#include "alhazen/formats/bpt/bpt_importer.h"
 #include "alhazen/formats/brlcad/brlcad_importer.h"
 #include "alhazen/formats/gltf/scene/gltf_importer.h"
 #include "alhazen/formats/native/read/native_importer.h"
@@ -11,6 +12,7 @@
 #include "alhazen/formats/obj/obj_importer.h"
 #include "alhazen/formats/ply/ply_importer.h"
 #include "alhazen/formats/ray/ray_importer.h"
+#include "alhazen/formats/rib/rib_importer.h"
 #include "alhazen/formats/stl/stl_importer.h"
 #include "alhazen/formats/uw_yaml/uw_yaml_importer.h"
 
@@ -26,8 +28,10 @@ std::span<const Importer* const> importers() {
     static const PlyImporter ply;
     static const StlImporter stl;
     static const BrlcadImporter brlcad;
-    static const std::array<const Importer*, 9> table{&native, &ray, &uw_yaml, &nff,   &gltf,
-                                                      &obj,    &ply, &stl,     &brlcad};
+    static const BptImporter bpt;
+    static const RibImporter rib;
+    static const std::array<const Importer*, 11> table{&native, &ray, &uw_yaml, &nff, &gltf, &obj,
+                                                       &ply,    &stl, &brlcad,  &bpt, &rib};
     return table;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "alhazen/primitives/placed_surface.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/shapes/core/plain_surface.h"
 
@@ -156,11 +157,9 @@ void add_vertex_attributes(const TriangleMesh& mesh, std::uint32_t triangle, con
     }
 }
 
-void triangle_surface(const PrimitiveTable& table, std::uint32_t index, const Hit& hit,
+void triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, const Hit& hit,
                       Surface& surface) {
-    const PlacedMesh& placed = table.mesh_of(index);
     const TriangleMesh& mesh = *placed.mesh;
-    const std::uint32_t triangle = index - placed.first_triangle;
     set_shape_part(surface, [&] { return mesh.surface(triangle, hit); });
     share_coordinates(surface);
     surface.is_of_mesh = true;
@@ -208,7 +207,8 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
     const std::uint32_t kind = table.kind(hit.primitive);
     const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table.first(kind);
     if (kind == kTriangleKind) {
-        triangle_surface(table, index, hit, surface);
+        const PlacedMesh& placed = table.mesh_of(index);
+        triangle_surface(placed, index - placed.first_triangle, hit, surface);
     } else {
         analytic_surface(table, kind, index, ray, hit, with_uv, surface);
     }
@@ -229,6 +229,23 @@ void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, boo
     begin(surface);
     surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, surface);
     if (with_uv && !surface.is_of_mesh) share_coordinates(surface);
+}
+
+void set_shape_surface(const AnyShape& shape, const Placement* placement, const Ray& ray,
+                       const Hit& hit, bool with_uv, Surface& surface) {
+    begin(surface);
+    surface.is_of_mesh = false;
+    const Ray own = placement == nullptr ? ray : transformed(placement->inner_from_outer, ray);
+    std::visit([&](const auto& s) { shape_surface(s, own, hit, with_uv, surface); }, shape);
+    if (placement != nullptr) carry_outward(*placement, with_uv, surface);
+    if (with_uv) share_coordinates(surface);
+}
+
+void set_mesh_surface(const PlacedMesh& mesh, std::uint32_t triangle, const Placement* placement,
+                      const Hit& hit, Surface& surface) {
+    begin(surface);
+    triangle_surface(mesh, triangle, hit, surface);
+    if (placement != nullptr) carry_outward(*placement, true, surface);
 }
 
 std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& hit) {

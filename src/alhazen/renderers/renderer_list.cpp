@@ -3,29 +3,62 @@
 #include <array>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
 
 namespace alhazen {
 
+namespace {
+
+std::unique_ptr<Renderer> make_scan_lines(RendererSettings& settings, bool all_first) {
+    static constexpr const char* kCracks[] = {"show", "tighter", "clark"};
+    static constexpr const char* kSplits[] = {"one", "both"};
+    ScanLineOptions options;
+    options.all_first = all_first;
+    options.flatness = settings.number("flatness", options.flatness, 1e-3, 100.0);
+    options.cracks = static_cast<Cracks>(
+        settings.choice("cracks", static_cast<std::size_t>(options.cracks), kCracks));
+    options.find_cracks = options.cracks == Cracks::Show;
+    options.split = static_cast<SplitRule>(settings.choice("split", 0, kSplits));
+    return std::make_unique<LaneCarpenter>(options);
+}
+
+}  // namespace
+
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 2> table{{
+    static constexpr std::array<RendererEntry, 4> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
-         [] { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
+         [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
-         [] { return std::unique_ptr<Renderer>(std::make_unique<RayCasting>()); }},
+         [](RendererSettings&) {
+             return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
+         }},
+        {"lane_carpenter",
+         "the same picture in scan lines, patches split where these meet them (Lane and Carpenter "
+         "1980); flatness=PIXELS, cracks=show|tighter|clark, split=one|both",
+         [](RendererSettings& settings) { return make_scan_lines(settings, false); }},
+        {"clark",
+         "the same with all patches split before the first scan line (Clark 1979); the same "
+         "settings",
+         [](RendererSettings& settings) { return make_scan_lines(settings, true); }},
     }};
     return table;
 }
 
-std::unique_ptr<Renderer> make_renderer(const std::string& name) {
+std::unique_ptr<Renderer> make_renderer(const std::string& text) {
+    RendererSettings settings(text);
     std::string known;
     for (const RendererEntry& entry : renderers()) {
-        if (name == entry.name) return entry.make();
+        if (settings.name() == entry.name) {
+            std::unique_ptr<Renderer> renderer = entry.make(settings);
+            settings.finish();
+            return renderer;
+        }
         known += known.empty() ? "" : ", ";
         known += entry.name;
     }
-    throw Error(ErrorKind::Usage, "unknown renderer '" + name + "'; known: " + known);
+    throw Error(ErrorKind::Usage, "unknown renderer '" + settings.name() + "'; known: " + known);
 }
 
 }  // namespace alhazen

@@ -74,10 +74,15 @@ class SolidValidator {
             std::visit(
                 [&]<class S>(const S& s) {
                     if (s.closed()) return;
+                    const char* hint = S::kClosed ? "; it would when it is closed (capped)" : "";
+                    if (std::is_same_v<S, PatchMesh>) {
+                        hint =
+                            "; each boundary curve must belong to an even number of patches "
+                            "(alhazen info names those that do not)";
+                    }
                     error(part.location,
                           fmt::format("{} bounds no volume, so it cannot be part of a solid{}",
-                                      S::kName,
-                                      S::kClosed ? "; it would when it is closed (capped)" : ""));
+                                      S::kName, hint));
                 },
                 *shape);
         } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {

@@ -15,6 +15,7 @@
 #include "alhazen/session/convert_output.h"
 #include "alhazen/session/masked_parts.h"
 #include "alhazen/session/placed_meshes.h"
+#include "alhazen/session/placed_surfaces.h"
 #include "alhazen/session/scene_files.h"
 
 namespace alhazen {
@@ -23,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSuffixes = ".alhazen (the whole scene), .ply .obj .stl (its meshes)";
+constexpr const char* kSuffixes =
+    ".alhazen (the whole scene), .ply .obj .stl (its meshes; .obj also patches), .bpt (patches)";
 /// Limit of placed meshes in a mesh file: about 200 bytes each during conversion.
 constexpr std::uint64_t kMaxPlacedMeshes = 4'000'000;
 
@@ -43,17 +45,20 @@ ConvertReport write_native(const SceneDescription& description, ConvertOutput& o
 
 // Mesh formats.
 
-void check_counts(const PlacedCounts& counts, const fs::path& path, const ConvertOptions& options) {
+/// `surfaces`: number of patches and surfaces that the file holds beside triangles.
+void check_counts(const PlacedCounts& counts, std::size_t surfaces, const fs::path& path,
+                  const ConvertOptions& options) {
     const std::string shapes = shapes_in_words(counts);
+    const char* held = surfaces > 0 ? "triangles and patches" : "triangles";
     if (!shapes.empty() && !options.meshes_only) {
         throw Error(
             ErrorKind::Usage,
-            fmt::format("{} holds triangles only; the scene also has {}: {}.alhazen keeps "
+            fmt::format("{} holds {} only; the scene also has {}: {}.alhazen keeps "
                         "everything",
-                        path.string(), shapes,
+                        path.string(), held, shapes,
                         options.offers_meshes_only ? "--meshes-only leaves them out, " : ""));
     }
-    if (counts.triangles == 0) {
+    if (counts.triangles == 0 && surfaces == 0) {
         throw Error(ErrorKind::Scene,
                     fmt::format("{}: the scene has no triangles to write", path.string()));
     }
@@ -110,18 +115,23 @@ std::string write_materials(const SceneDescription& description,
 ConvertReport write_meshes(const SceneDescription& description, const std::string& suffix,
                            const fs::path& path, const ConvertOptions& options,
                            ConvertOutput& output) {
-    const PlacedCounts counts = count_placed(description);
-    check_counts(counts, path, options);
+    PlacedCounts counts = count_placed(description);
+    const std::vector<std::string> names = material_words(description);
+    std::vector<NamedSurface> surfaces;
+    if (suffix == ".obj") {
+        surfaces = placed_surfaces(description, fits_obj_surface, names, counts);
+    }
+    check_counts(counts, surfaces.size(), path, options);
     output.report().triangles = counts.triangles;
     output.report().left_out = shapes_in_words(counts);
     output.report().masked_parts = masked_parts(description);
-    const std::vector<std::string> names = material_words(description);
     const std::vector<NamedMesh> meshes = placed_meshes(description, names);
     std::string bytes;
     if (suffix == ".stl") {
         bytes = stl_bytes(meshes);
     } else if (suffix == ".obj") {
         bytes = obj_text(meshes, write_materials(description, names, output));
+        bytes += obj_surfaces_text(surfaces);
     } else if (meshes.size() == 1 && meshes.front().placement == Affine{} &&
                meshes.front().mesh->vertex_materials.empty()) {
         bytes = ply_bytes(*meshes.front().mesh);  // with its tangents, bit for bit
@@ -131,11 +141,40 @@ ConvertReport write_meshes(const SceneDescription& description, const std::strin
     return output.finish(bytes_of(bytes));
 }
 
+/// Bezier patches without weights.
+ConvertReport write_patches(const SceneDescription& description, const fs::path& path,
+                            const ConvertOptions& options, ConvertOutput& output) {
+    PlacedCounts counts = count_placed(description);
+    const std::vector<NamedSurface> surfaces =
+        placed_surfaces(description, fits_bpt, material_words(description), counts);
+    std::string others = shapes_in_words(counts);
+    if (counts.meshes > 0) {
+        others += fmt::format("{}{} mesh{}", others.empty() ? "" : ", ", counts.meshes,
+                              counts.meshes > 1 ? "es" : "");
+    }
+    if (!others.empty() && !options.meshes_only) {
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("{} holds Bezier patches without weights only; the scene also has "
+                        "{}: {}.alhazen keeps everything",
+                        path.string(), others,
+                        options.offers_meshes_only ? "--meshes-only leaves them out, " : ""));
+    }
+    if (surfaces.empty()) {
+        throw Error(ErrorKind::Scene,
+                    fmt::format("{}: the scene has no patches to write", path.string()));
+    }
+    output.report().left_out = others;
+    output.report().masked_parts = masked_parts(description);
+    return output.finish(bytes_of(bpt_text(surfaces)));
+}
+
 }  // namespace
 
 void check_convert_target(const fs::path& scene, const fs::path& path) {
     const std::string suffix = lower_suffix(path);
-    if (suffix != ".alhazen" && suffix != ".ply" && suffix != ".obj" && suffix != ".stl") {
+    if (suffix != ".alhazen" && suffix != ".ply" && suffix != ".obj" && suffix != ".stl" &&
+        suffix != ".bpt") {
         throw Error(ErrorKind::Usage, fmt::format("cannot convert to '{}'; possible are {}",
                                                   path.string(), kSuffixes));
     }
@@ -153,6 +192,7 @@ ConvertReport convert(const SceneDescription& description, const fs::path& path,
     ConvertOutput output(path, suffix);
     output.check_inputs(files_of_scene(description));
     if (suffix == ".alhazen") return write_native(description, output);
+    if (suffix == ".bpt") return write_patches(description, path, options, output);
     return write_meshes(description, suffix, path, options, output);
 }
 

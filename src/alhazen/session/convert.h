@@ -1,6 +1,6 @@
 #pragma once
-/// Converts a loaded scene to another format: all of it as native text, or its meshes as PLY, OBJ
-/// or STL.
+/// Converts a loaded scene to another format: all of it as native text, its meshes as PLY, OBJ
+/// or STL, its patches as OBJ or .bpt.
 ///
 /// Conventions: OUT.alhazen refers to its meshes (binary PLY) and pictures (PNG, EXR) in OUT_files/
 /// next to it, OUT.obj to its materials in OUT.mtl and its pictures likewise, all relative: file

@@ -8,6 +8,7 @@
 #include "alhazen/base/overloaded.h"
 #include "alhazen/session/masked_parts.h"
 #include "alhazen/session/mesh_figures.h"
+#include "alhazen/session/patch_figures.h"
 #include "alhazen/session/unique_bytes.h"
 #include "alhazen/verification/exact_bounds.h"
 
@@ -87,6 +88,35 @@ json all_closed(const std::vector<MeshFigures>& figures) {
         known = known && f.edges.has_value();
     }
     return known ? json(true) : json(nullptr);
+}
+
+/// Patches, patch meshes and bilinear patches, each in its own frame.
+json patches_json(const SceneDescription& d, bool all) {
+    json patches = json::array();
+    for (const ObjectDescription& object : d.objects) {
+        for (const Part& part : object.parts) {
+            const auto* shape = std::get_if<AnyShape>(&part.what);
+            if (shape == nullptr) continue;
+            const bool few = patch_figures(*shape, false).value_or(PatchFigures{}).patches <=
+                             kMaxMeasuredPatches;
+            const auto figures = patch_figures(*shape, all || few);
+            if (!figures) continue;
+            json curves = json::array();
+            for (const auto& [from, to] : figures->first_open) {
+                curves.push_back({vector_json(from), vector_json(to)});
+            }
+            const auto known = [](const auto& value) { return value ? json(*value) : json(); };
+            patches.push_back({{"name", part.name},
+                               {"patches", figures->patches},
+                               {"control_points", figures->control_points},
+                               {"area", known(figures->area)},
+                               {"volume", known(figures->flux_volume)},
+                               {"closed", known(figures->closed)},
+                               {"open_curves", known(figures->open_curves)},
+                               {"first_open", std::move(curves)}});
+        }
+    }
+    return patches;
 }
 
 json materials_json(const SceneDescription& d) {
@@ -211,6 +241,7 @@ void add_geometry(json& info, const LoadedScene& loaded, const InfoOptions& opti
     info["mesh_volume"] = placed ? json(placed->volume) : json(nullptr);
     info["meshes_closed"] = all_closed(figures);
     info["meshes"] = meshes_json(d, figures);
+    info["patches"] = patches_json(d, options.all);
 }
 
 void add_looks(json& info, const SceneDescription& d) {

@@ -138,6 +138,25 @@ void add_geometry(Report& report, const json& info) {
             number(m["volume"]),
             m.contains("amiss") ? m["amiss"].get<std::string>() : closed_text(m["closed"]));
     });
+    if (info["patches"].empty()) return;
+    report.list("patches", info["patches"], [](const json& p) {
+        const bool open = !p["closed"].is_null() && !p["closed"].get<bool>();
+        std::string text = fmt::format(
+            "{} with {}, area {}, volume {}, {}",
+            of(p["patches"].get<std::uint64_t>(), "patch", "patches"),
+            of(p["control_points"].get<std::uint64_t>(), "control point", "control points"),
+            number(p["area"]), number(p["volume"]), closed_text(p["closed"]));
+        if (!open) return text;
+        text += fmt::format(": {} of one patch only", of(p["open_curves"].get<std::uint64_t>(),
+                                                         "boundary curve", "boundary curves"));
+        const json& first = p["first_open"];
+        const std::size_t shown = std::min<std::size_t>(first.size(), 3);
+        for (std::size_t k = 0; k < shown; ++k) {
+            text += fmt::format("{} {} to {}", k == 0 ? "," : ";", point(first[k][0]),
+                                point(first[k][1]));
+        }
+        return text + (shown < first.size() ? "; ..." : "");
+    });
 }
 
 void add_looks(Report& report, const json& info) {

@@ -101,7 +101,7 @@ std::string shapes_in_words(const PlacedCounts& counts) {
         const std::uint64_t n = counts.shapes[i];
         if (n == 0) continue;
         std::string name = kNames[i];
-        if (n > 1) name += name.back() == 'x' ? "es" : "s";
+        if (n > 1) name += name.back() == 'x' || name.back() == 'h' ? "es" : "s";
         words += (words.empty() ? "" : ", ") + std::to_string(n) + " " + name;
     }
     return words;

@@ -113,6 +113,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     result.tiles = report.parts;
     result.tiles_done = report.done;
     result.complete = report.complete();
+    result.scan_lines = report.scan_lines;
     result.layers = std::move(aovs.layers());
     return result;
 }

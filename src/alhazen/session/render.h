@@ -1,6 +1,7 @@
 #pragma once
 /// Renders one image of a scene with options from the command line.
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@
 namespace alhazen {
 
 struct LoadedScene;
+struct ScanLineReport;
 
 /// A published way of counting that fixes size, sampling and depth.
 enum class Protocol {
@@ -54,6 +56,7 @@ struct RenderResult {
     int threads = 0;
     bool complete = true;                   ///< false after a stop; tiles not done are black
     std::size_t tiles_done = 0, tiles = 0;  ///< or parts, as counted by the renderer
+    std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
 };
 
 /// Width / height of an image without a camera: that of the options, of the file, or 4 / 3.

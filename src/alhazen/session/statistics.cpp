@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/aggregates/accelerator_bytes.h"
+#include "alhazen/renderers/core/scan_line_report.h"
 #include "alhazen/session/unique_bytes.h"
 
 namespace alhazen {
@@ -49,6 +50,24 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
     if (has_aggregate) census.accelerator_bytes = accelerator_bytes(*loaded.scene.aggregate);
     const std::optional<double> each = bytes_per_effective_primitive(census);
     const json bytes_each = each ? json(*each) : json(nullptr);
+    json scan_lines;  // null: the renderer has none
+    if (result.scan_lines) {
+        const ScanLineReport& r = *result.scan_lines;
+        scan_lines = {{"scan_lines", r.lines.size()},
+                      {"flatness", r.flatness},
+                      {"passes", r.passes},
+                      {"patches", r.patches},
+                      {"patches_split_u", r.split_u},
+                      {"patches_split_v", r.split_v},
+                      {"polygons_of_patches", r.quads},
+                      {"polygons_of_scene", r.facets},
+                      {"most_patches", r.most_patches},
+                      {"most_active_patches", r.most_active},
+                      {"most_polygons", r.most_polygons},
+                      {"most_patches_and_polygons", r.most_held},
+                      {"most_bytes", r.most_bytes},
+                      {"crack_samples", r.counted_cracks ? json(r.crack_samples) : json()}};
+    }
     return {
         {"scene", scene_name},
         {"renderer", options.renderer},
@@ -62,6 +81,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"complete", result.complete},
         {"rays", rays},
         {"tests", tests_json},
+        {"scan_lines", scan_lines},
         {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
         {"memory",

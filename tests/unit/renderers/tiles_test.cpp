@@ -56,7 +56,7 @@ template <class Use>
 void for_tiled_renderers(Use&& use) {
     int count = 0;
     for (const RendererEntry& entry : renderers()) {
-        const auto renderer = entry.make();
+        const auto renderer = make_renderer(entry.name);
         const auto* tiled = dynamic_cast<const TiledRenderer*>(renderer.get());
         if (tiled == nullptr) continue;
         use(*tiled, entry.name);

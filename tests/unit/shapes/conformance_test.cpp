@@ -192,7 +192,8 @@ TEST_P(ShapeConformance, MostAimedRaysHit) {
         ShapeHits hits;
         hit += count_hits(shape, random_ray(shape, random), hits) > 0;
     }
-    EXPECT_GT(hit, 400);
+    // A triangle fills half of the box at most that a quadrilateral fills.
+    EXPECT_GT(hit, std::string_view(GetParam().name) == SteinerPatch::kName ? 200 : 400);
 }
 
 TEST_P(ShapeConformance, HitsAscendAndSolidsAreEnteredAndLeftByTurns) {
@@ -323,6 +324,11 @@ TEST_P(ShapeConformance, NormalsOfClosedShapesFaceOutward) {
                         if (!shape.closed()) return;
                         const bool inside = shape.begins_inside(ray);
                         for (int i = 0; i < n; ++i) {
+                            // Crossings at one distance, up to rounding, come in any order.
+                            const double near = 1e-12 * (1.0 + std::abs(hits[i].t));
+                            const bool alone = (i == 0 || hits[i].t - hits[i - 1].t > near) &&
+                                               (i + 1 == n || hits[i + 1].t - hits[i].t > near);
+                            if (!alone) continue;
                             const double cosine =
                                 dot(shape.surface(ray, hits[i]).normal, normalize(ray.direction));
                             // Seen from far away, a grazing ray may round to the other side of the

@@ -68,7 +68,7 @@ int check_shape(const S& shape, Random& random, int blocks) {
 }
 
 template <class S>
-void check_random_shapes(std::uint64_t seed) {
+void check_random_shapes(std::uint64_t seed, int least_hits = 3000) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         Random random(seed);
@@ -78,7 +78,7 @@ void check_random_shapes(std::uint64_t seed) {
                          std::to_string(i));
             hit_count += check_shape(testing::random_shape<S>({random, i % 2 == 1}), random, 40);
         }
-        EXPECT_GT(hit_count, 3000) << S::kName;
+        EXPECT_GT(hit_count, least_hits) << S::kName;
     }
 }
 
@@ -207,6 +207,11 @@ TEST(FirstHits, OfSurfacesOfEveryDegreeAreThoseOfEachRayAlone) {
             }
         }
     }
+}
+
+TEST(FirstHits, OfPatchesAreThoseOfEachRayAlone) {
+    check_random_shapes<BezierPatch>(7, 1000);
+    check_random_shapes<PatchMesh>(8, 1000);
 }
 
 TEST(FirstHits, OfRaysOfExtremeLengthsAreThoseOfEachRayAlone) {

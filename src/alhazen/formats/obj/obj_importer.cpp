@@ -6,6 +6,7 @@
 #include "alhazen/formats/mesh/mesh_scene.h"
 #include "alhazen/formats/obj/obj_materials.h"
 #include "alhazen/formats/obj/obj_reader.h"
+#include "alhazen/formats/obj/obj_surfaces.h"
 #include "alhazen/formats/text/text_cursor.h"
 
 namespace alhazen {
@@ -23,7 +24,7 @@ bool begins_with_numbers(std::string_view word, TextCursor cursor) {
 }  // namespace
 
 bool looks_like_obj(std::string_view bytes) {
-    static constexpr std::array<std::string_view, 6> kFirst{"mtllib", "usemtl", "o",
+    static constexpr std::array<std::string_view, 7> kFirst{"mtllib", "usemtl", "o", "cstype",
                                                             "g",      "s",      "vp"};
     TextCursor cursor(bytes.substr(0, 65536));
     // Reads up to the first statement that is unique to OBJ.
@@ -55,20 +56,33 @@ SceneDescription ObjImporter::import(const ImportSource& source, Diagnostics& di
     if (diagnostics.error_count() != errors_before) return scene;
     const bool colored = !statements.colors.empty();
     const std::size_t points = statements.positions.size();
+    std::vector<ObjSurface> surfaces = make_obj_surfaces(statements, file, diagnostics);
+    if (diagnostics.error_count() != errors_before) return scene;
     std::vector<ObjPart> parts = make_obj_parts(statements, file, diagnostics);
     if (diagnostics.error_count() != errors_before) return scene;
-    if (parts.empty()) {
+    if (parts.empty() && surfaces.empty()) {
         report_no_faces(source, points, diagnostics);
         return scene;
     }
     ObjMaterials materials(source, scene, diagnostics, colored);
     materials.load(statements.libraries);
+    const auto name_of = [&](const std::string& group, const std::string& material) {
+        const std::string& name = group.empty() ? material : group;
+        return name.empty() ? source.path.stem().string() : name;
+    };
     for (ObjPart& part : parts) {
         const std::string& material = statements.materials[part.material];
-        std::string part_name = part.name.empty() ? material : part.name;
-        if (part_name.empty()) part_name = source.path.stem().string();
-        add_mesh(scene, std::move(part.mesh), std::move(part_name), materials.use(material),
+        add_mesh(scene, std::move(part.mesh), name_of(part.name, material), materials.use(material),
                  {file, int(std::min<std::uint32_t>(part.line, 0x7FFFFFFF)), 0});
+    }
+    for (ObjSurface& surface : surfaces) {
+        const std::string& material = statements.materials[surface.material];
+        Part part;
+        part.what = std::move(surface.shape);
+        part.name = name_of(statements.names[surface.name], material);
+        part.material = materials.use(material);
+        part.location = surface.location;
+        scene.objects.front().parts.push_back(std::move(part));
     }
     return scene;
 }

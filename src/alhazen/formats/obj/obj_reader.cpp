@@ -217,6 +217,10 @@ TriangleMesh read_obj(std::string_view bytes, const std::string& file, const Imp
     const std::size_t errors_before = diagnostics.error_count();
     ObjStatements statements = read_obj_statements(bytes, file, options, diagnostics);
     if (diagnostics.error_count() != errors_before) return {};
+    if (!statements.free_form.surfaces.empty()) {
+        diagnostics.warning({file, statements.free_form.surfaces.front().line, 0},
+                            "a mesh has no free-form surfaces: they are left out");
+    }
     std::vector<ObjPart> parts = PartMaker(statements, file, diagnostics).make(true);
     if (diagnostics.error_count() != errors_before) return {};
     if (parts.empty()) {

@@ -3,14 +3,13 @@
 /// material, or a single one.
 ///
 /// Source: "Object Files (.obj)", Advanced Visualizer manual, appendix B1, Wavefront, 1992.
-/// Differs: polygons only; lines, points and free-form surfaces are skipped. Vertices may have
-/// colours. Without any `s` statement faces are flat.
-/// Conventions: a mesh vertex is a combination of v, vt and vn used by a face, in the order of
-/// first use; a single mesh without vt and vn keeps the vertices of the file. w and the third
-/// texture coordinate are ignored. Positive indices may refer forward; negative ones count back
-/// from the face. A corner without a normal gets the sum of the area-weighted normals of the faces
-/// of its smoothing group around its position, across parts; without a smoothing group, the normal
-/// of its face.
+/// Differs: polygons only; free-form surfaces: obj_surfaces.h; lines and points are skipped.
+/// Vertices may have colours. Without any `s` statement faces are flat. Conventions: a mesh vertex
+/// is a combination of v, vt and vn used by a face, in the order of first use; a single mesh
+/// without vt and vn keeps the vertices of the file. w and the third texture coordinate are
+/// ignored. Positive indices may refer forward; negative ones count back from the face. A corner
+/// without a normal gets the sum of the area-weighted normals of the faces of its smoothing group
+/// around its position, across parts; without a smoothing group, the normal of its face.
 /// Complexity: linear in time and memory, independent of the number of groups and material
 /// switches.
 

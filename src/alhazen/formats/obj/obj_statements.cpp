@@ -17,11 +17,9 @@ constexpr std::int64_t kMaxIndex = 0x7FFFFFFE;
 constexpr std::size_t kMaxLibraries = 1000;
 
 /// Statements without effect on the image.
-constexpr std::array<std::string_view, 26> kIgnored{
-    "l",    "p",      "mg",     "vp",         "t",        "bevel",     "c_interp",
-    "lod",  "usemap", "maplib", "shadow_obj", "d_interp", "trace_obj", "parm",
-    "end",  "con",    "cstype", "deg",        "bmat",     "step",      "hole",
-    "trim", "scrv",   "sp",     "stech",      "ctech"};
+constexpr std::array<std::string_view, 13> kIgnored{
+    "l",      "p",      "mg",         "t",        "bevel",     "c_interp", "lod",
+    "usemap", "maplib", "shadow_obj", "d_interp", "trace_obj", "call"};
 
 /// Numbers distinct strings.
 class NameTable {
@@ -51,7 +49,12 @@ class StatementReader {
           options_(options),
           diagnostics_(diagnostics),
           names_(result_.names),
-          materials_(result_.materials) {}
+          materials_(result_.materials),
+          free_form_(
+              result_.free_form, [this](const auto& at, const auto& what) { error(at, what); },
+              [this](const auto& at, const auto& what) {
+                  diagnostics_.warning(at.location(file_), what);
+              }) {}
 
     ObjStatements read() {
         reserve();
@@ -59,6 +62,7 @@ class StatementReader {
             if (!cursor_.skip_blanks() || cursor_.peek() == '#') continue;
             read_statement();
         }
+        free_form_.finish(cursor_);
         if (errors_ == kMaxObjErrors) error("too many errors; the rest of the file is not read");
         if (!known_ && errors_ == 0) {
             diagnostics_.error({file_, 0, 0}, "the file has no OBJ statement");
@@ -114,6 +118,9 @@ class StatementReader {
             run_.material = materials_.number_of(rest_of_line());
         } else if (keyword == "mtllib") {
             read_library();
+        } else if (free_form_.read(keyword, start, cursor_,
+                                   {result_.positions.size(), run_.name, run_.material})) {
+            (void)room_in(result_.free_form.points.size() + result_.free_form.knots.size());
         } else if (std::find(kIgnored.begin(), kIgnored.end(), keyword) == kIgnored.end()) {
             known = false;
             unknown(start);
@@ -125,15 +132,20 @@ class StatementReader {
         const int count = read_numbers(3);
         if (count == 0 || !room_in(result_.positions.size())) return;
         result_.positions.push_back({numbers_[0], numbers_[1], numbers_[2]});
-        // Four numbers: the fourth is a weight. Six: a colour.
+        // Four or seven numbers: the fourth is a weight. The last three of six or seven: a colour.
+        if (count == 4 || count == 7) {
+            result_.weights.resize(result_.positions.size() - 1, 1.0);
+            result_.weights.push_back(numbers_[3]);
+        }
         if (count < 6) {
             if (!result_.colors.empty()) result_.colors.emplace_back();
             return;
         }
         if (result_.colors.empty()) result_.colors.reserve(result_.positions.capacity());
         result_.colors.resize(result_.positions.size() - 1);
-        result_.colors.push_back({float(numbers_[3]), float(numbers_[4]), float(numbers_[5]), 1});
-        brightest_ = std::max({brightest_, numbers_[3], numbers_[4], numbers_[5]});
+        const double* const c = &numbers_[count == 7 ? 4 : 3];
+        result_.colors.push_back({float(c[0]), float(c[1]), float(c[2]), 1});
+        brightest_ = std::max({brightest_, c[0], c[1], c[2]});
     }
     /// Converts colours from display encoding; range 0..1, or 0..255 if any value is above 1.
     void finish_colors() {
@@ -153,8 +165,8 @@ class StatementReader {
         if (count == 0 || !room_in(result_.uvs.size())) return;
         result_.uvs.push_back({numbers_[0], count > 1 ? numbers_[1] : 0.0});
     }
-    /// Reads at least `least` numbers and keeps the first six; other text on the line is an error.
-    /// Returns the number of numbers; 0 after an error.
+    /// Reads at least `least` numbers and keeps the first seven; other text on the line is an
+    /// error. Returns the number of numbers; 0 after an error.
     int read_numbers(int least) {
         int count = 0;
         for (; cursor_.skip_blanks() && cursor_.peek() != '#'; ++count) {
@@ -163,7 +175,7 @@ class StatementReader {
                 error("expected a number, found " + cursor_.shown_word());
                 return 0;
             }
-            if (count < 6) numbers_[std::size_t(count)] = value;
+            if (count < 7) numbers_[std::size_t(count)] = value;
         }
         if (count >= least) return count;
         error("expected " + std::to_string(least) + " numbers, found " + std::to_string(count));
@@ -293,8 +305,9 @@ class StatementReader {
         diagnostics_.warning(start.location(file_), "the statement " + start.shown_word() +
                                                         " is not known; it and others are ignored");
     }
-    void error(const std::string& message) {
-        diagnostics_.error(cursor_.location(file_), message);
+    void error(const std::string& message) { error(cursor_, message); }
+    void error(const TextCursor& at, const std::string& message) {
+        diagnostics_.error(at.location(file_), message);
         ++errors_;
     }
 
@@ -305,9 +318,10 @@ class StatementReader {
     Diagnostics& diagnostics_;
     ObjStatements result_;
     NameTable names_, materials_;
+    ObjFreeFormReader free_form_;
     ObjRun run_;
     std::string object_;
-    std::array<double, 6> numbers_{};
+    std::array<double, 7> numbers_{};
     double brightest_ = 0.0;
     int errors_ = 0;
     bool known_ = false;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/obj/obj_free_form.h"
 
 namespace alhazen {
 
@@ -57,6 +58,7 @@ struct ObjLibrary {
 
 struct ObjStatements {
     std::vector<Vec3> positions;
+    std::vector<double> weights;      ///< [position], or fewer: the others are 1
     std::vector<VertexColor> colors;  ///< [position], linear; empty if no vertex has one
     std::vector<Vec2> uvs;
     std::vector<Vec3> normals;
@@ -66,6 +68,7 @@ struct ObjStatements {
     std::vector<std::string> names;      ///< the first is empty
     std::vector<std::string> materials;  ///< the first is empty
     std::vector<ObjLibrary> libraries;
+    ObjFreeForm free_form;
 
     /// Calls use(run, first corner, end corner, line) for each face.
     template <class Use>

@@ -111,6 +111,10 @@ void claim_b11(ClaimRun& run);
 void claim_b12(ClaimRun& run);
 void claim_b13(ClaimRun& run);
 void claim_b14(ClaimRun& run);
+void claim_c1(ClaimRun& run);
+void claim_c2(ClaimRun& run);
+void claim_c3(ClaimRun& run);
+void claim_c4(ClaimRun& run);
 void claim_h1(ClaimRun& run);
 
 /// The counter that claims use.

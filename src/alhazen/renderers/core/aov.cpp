@@ -8,61 +8,13 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/renderers/core/aov_geometry.h"
 #include "alhazen/renderers/core/local_shading.h"
 #include "alhazen/renderers/core/renderer.h"
 
 namespace alhazen {
 
-namespace {
-
-/// Distance in front of the eye along the normal of the image plane.
-class DepthScale {
-  public:
-    explicit DepthScale(const Camera& camera) {
-        const PicturePlane plane = picture_plane(camera);
-        eye_ = plane.eye;
-        axis_ = normalize(cross(plane.up, plane.right));
-        if (dot(axis_, plane.forward) < 0.0) axis_ = -axis_;
-    }
-    [[nodiscard]] double depth(const Vec3& point) const { return dot(point - eye_, axis_); }
-
-  private:
-    Vec3 eye_, axis_;
-};
-
-/// Sums over the samples of a pixel.
-struct PixelGeometry {
-    int samples = 0, hits = 0;
-    double depth = 0, error = 0;
-    Vec3 normal, geometric, position;
-    Vec2 uv;
-    Rgb albedo;
-    std::uint32_t object = 0, material = 0, instance = 0;
-
-    void add_ids(const Surface& surface) {
-        object = surface.part + 1;
-        instance = surface.instance + 1;
-        std::size_t heaviest = 0;
-        for (std::size_t i = 1; i < static_cast<std::size_t>(surface.material_count); ++i) {
-            if (surface.weights[i] > surface.weights[heaviest]) heaviest = i;
-        }
-        material = static_cast<std::uint32_t>(surface.materials[heaviest]) + 1;
-    }
-
-    void add(const ShadingPoint& point, const DepthScale& scale) {
-        const Surface& surface = point.surface;
-        depth += scale.depth(surface.point);
-        normal += point.normal;
-        geometric += point.geometric;
-        position += surface.point;
-        uv = {uv.x + surface.uv.x, uv.y + surface.uv.y};
-        albedo += point.material->albedo;
-        error = std::max(error, length(surface.error));
-        ++hits;
-    }
-};
-
-void write(AovFilm& film, int i, int j, const PixelGeometry& g) {
+void write_geometry(AovFilm& film, int i, int j, const PixelGeometry& g) {
     const double share = g.hits > 0 ? 1.0 / g.hits : 0.0;
     const auto set = [&](AovKind kind, std::initializer_list<double> values) {
         film.set(kind, i, j, {values.begin(), values.size()});
@@ -81,8 +33,6 @@ void write(AovFilm& film, int i, int j, const PixelGeometry& g) {
     film.set_whole(AovKind::MaterialId, i, j, g.material);
     film.set_whole(AovKind::InstanceId, i, j, g.instance);
 }
-
-}  // namespace
 
 std::span<const AovEntry> aov_table() {
     using enum SampleType;
@@ -236,7 +186,7 @@ void AovRecorder::record_geometry(int i, int j, std::span<const Vec2> places) {
         if (names_ids) geometry.add_ids(seen.point.surface);
         geometry.add(seen.point, scale);
     }
-    write(*job_.aovs, i, j, geometry);
+    write_geometry(*job_.aovs, i, j, geometry);
 }
 
 }  // namespace alhazen

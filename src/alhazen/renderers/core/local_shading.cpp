@@ -160,8 +160,13 @@ void set_media(const Scene& scene, ShadingPoint& point) {
 
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point) {
-    point.inside = arrival.inside;
     set_surface(*scene.aggregate, ray, hit, needs.uv, point.surface);
+    complete_shading_point(scene, ray, arrival, needs, point);
+}
+
+void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& arrival,
+                            const PointNeeds& needs, ShadingPoint& point) {
+    point.inside = arrival.inside;
     std::array<UvFootprint, 2> footprint;
     const bool varies =
         set_material(scene, ray.direction, arrival.width, needs.constant, footprint, point);
@@ -257,6 +262,20 @@ Rgb reflected_fraction(const ShadingConventions& conventions, const ShadingPoint
         fraction += (falloff * highlight) * m.specular;
     }
     return fraction;
+}
+
+Rgb unhindered_light(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& point) {
+    Rgb sum = unshadowed_terms(scene.conventions.shading, ambient, point);
+    for (const Light& light : scene.lights) {
+        if (!illuminates(light)) continue;
+        const LightSample l =
+            sample(light, point.surface.point, scene.conventions.shading.clamp_attenuation);
+        const double cosine = dot(point.normal, l.to_light);
+        if (cosine > 0.0) {
+            sum += l.intensity * reflected_fraction(scene.conventions.shading, point, l, cosine);
+        }
+    }
+    return sum;
 }
 
 }  // namespace alhazen

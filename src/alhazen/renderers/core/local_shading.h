@@ -86,6 +86,10 @@ struct PointNeeds {
 void set_shading_point(const Scene& scene, const Ray& ray, const Hit& hit, const Arrival& arrival,
                        const PointNeeds& needs, ShadingPoint& point);
 
+/// The same where `point.surface` is already set, by a renderer that finds surfaces without rays.
+void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& arrival,
+                            const PointNeeds& needs, ShadingPoint& point);
+
 /// The surface that a ray sees.
 struct VisibleHit {
     Hit hit;
@@ -113,5 +117,9 @@ inline constexpr double kLeastTransmittance = 1.0 / 4096;
 [[nodiscard]] Rgb reflected_fraction(const ShadingConventions& conventions,
                                      const ShadingPoint& point, const LightSample& light,
                                      double cosine);
+
+/// Emission, the ambient terms and the light of all lamps that reaches the point unhindered.
+[[nodiscard]] Rgb unhindered_light(const Scene& scene, std::span<const Rgb> ambient,
+                                   const ShadingPoint& point);
 
 }  // namespace alhazen

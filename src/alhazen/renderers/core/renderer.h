@@ -14,6 +14,7 @@
 #include "alhazen/imaging/film/film.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/core/renderer_settings.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
@@ -25,6 +26,8 @@ struct RenderControl {
     const StopFlag* stop = nullptr;    ///< read before each batch of rays; may be null
     ProgressSink* progress = nullptr;  ///< phase "render"; may be null
 };
+
+struct ScanLineReport;
 
 /// The scene, the view and the settings of a render.
 struct RenderJob {
@@ -50,6 +53,7 @@ struct RenderReport {
     RayCounters counters;
     std::size_t done = 0, parts = 0;  ///< of the work, as reported to RenderControl::progress
     int threads = 1;                  ///< largest number in force
+    std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
 
     /// False after a stop.
     [[nodiscard]] bool complete() const { return done == parts; }
@@ -65,18 +69,22 @@ class Renderer {
     /// False: `render` takes a scene without an aggregate, so none is built for it; geometry is
     /// read from RenderJob::description.
     [[nodiscard]] virtual bool needs_aggregate() const { return true; }
+    /// True: reports have RenderReport::scan_lines.
+    [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };
 
 /// A renderer by name, and what it does in one line.
 struct RendererEntry {
     const char* name;
     const char* description;
-    std::unique_ptr<Renderer> (*make)();
+    /// Throws Error (Usage) for an invalid setting.
+    std::unique_ptr<Renderer> (*make)(RendererSettings& settings);
 };
 
 /// The table of renderers. ADD A RENDERER HERE (renderer_list.cpp: one line).
 [[nodiscard]] std::span<const RendererEntry> renderers();
-/// Throws Error (Usage) listing the names for an unknown one.
-[[nodiscard]] std::unique_ptr<Renderer> make_renderer(const std::string& name);
+/// The renderer of "NAME" or "NAME:SETTING=VALUE,...". Throws Error (Usage) listing the names for
+/// an unknown one, the settings of a renderer for an unknown setting.
+[[nodiscard]] std::unique_ptr<Renderer> make_renderer(const std::string& text);
 
 }  // namespace alhazen

@@ -13,20 +13,6 @@ namespace {
 
 constexpr std::size_t kRaysAtOnce = 256;
 
-Rgb shade(const Scene& scene, std::span<const Rgb> ambient, const ShadingPoint& point) {
-    Rgb sum = unshadowed_terms(scene.conventions.shading, ambient, point);
-    for (const Light& light : scene.lights) {
-        if (!illuminates(light)) continue;
-        const LightSample l =
-            sample(light, point.surface.point, scene.conventions.shading.clamp_attenuation);
-        const double cosine = dot(point.normal, l.to_light);
-        if (cosine > 0.0) {
-            sum += l.intensity * reflected_fraction(scene.conventions.shading, point, l, cosine);
-        }
-    }
-    return sum;
-}
-
 /// Casts eye rays.
 class Caster {
   public:
@@ -82,7 +68,7 @@ class Caster {
     void meet(const OnWay& o, const Ray& ray, const ShadingPoint& point, double t,
               std::span<Rgb> radiance) {
         const double coverage = point.material->coverage;
-        radiance[o.sample] += (o.left * coverage) * shade(job_.scene, ambient_, point);
+        radiance[o.sample] += (o.left * coverage) * unhindered_light(job_.scene, ambient_, point);
         const double left = o.left * (1.0 - coverage);
         if (!(left >= kLeastTransmittance)) return;
         behind_.push_back({o.sample, left, o.cone.from(t)});

@@ -268,7 +268,7 @@ void write_teapot(std::uint64_t n, NffText& out) {
         write_squares(n, odd, out);
     }
     out.fill({.color = {1, 0.5, 0.1}, .diffuse = 0.75, .specular = 0.25, .shininess = 3.0827});
-    for (const BezierPatch& patch : teapot_patches()) {
+    for (const TeapotPatch& patch : teapot_patches()) {
         write_patch(evaluate(patch, static_cast<int>(n)), out);
     }
 }

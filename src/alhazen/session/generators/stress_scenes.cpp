@@ -29,7 +29,7 @@ TriangleMesh teapot_mesh(std::uint64_t triangles) {
     const std::uint64_t cells = static_cast<std::uint64_t>(
         std::ceil(std::sqrt(static_cast<double>(triangles) / 64.0 + 1.0)) + 1.0);
     TriangleMesh mesh;
-    for (const BezierPatch& patch : teapot_patches()) {
+    for (const TeapotPatch& patch : teapot_patches()) {
         const PatchGrid grid = evaluate(patch, static_cast<int>(cells));
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), grid.points.begin(), grid.points.end());

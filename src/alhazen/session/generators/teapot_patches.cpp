@@ -48,9 +48,9 @@ constexpr Half kUpperSpout{{{2.7, 2.4, 3.3, 2.4, 0.25},
                             {2.8, 2.4, 3.2, 2.4, 0.15}}};
 
 /// Adds four quarters, the first from +x towards -y (`sense` -1) or +y (`sense` 1).
-void add_turned(const TeapotProfile& profile, double sense, std::vector<BezierPatch>& patches) {
+void add_turned(const TeapotProfile& profile, double sense, std::vector<TeapotPatch>& patches) {
     for (int quarter = 0; quarter < 4; ++quarter) {
-        BezierPatch patch;
+        TeapotPatch patch;
         for (std::size_t i = 0; i < 4; ++i) {
             const ProfilePoint& p = profile[i];
             const Vec2 row[] = {
@@ -66,8 +66,8 @@ void add_turned(const TeapotProfile& profile, double sense, std::vector<BezierPa
 }
 
 /// Adds the half at negative y, then its mirror image, traversed in the opposite direction.
-void add_halves(const Half& half, std::vector<BezierPatch>& patches) {
-    BezierPatch near_half, far_half;
+void add_halves(const Half& half, std::vector<TeapotPatch>& patches) {
+    TeapotPatch near_half, far_half;
     for (std::size_t i = 0; i < 4; ++i) {
         const HalfRow& r = half[i];
         near_half[i] = {
@@ -96,7 +96,7 @@ Square times(const Square& a, const Square& b) {
 }
 
 /// Power-basis coefficients of one coordinate.
-Square coefficients(const BezierPatch& patch, int axis) {
+Square coefficients(const TeapotPatch& patch, int axis) {
     Square points;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j < 4; ++j) points[i][j] = patch[i][j][axis];
@@ -124,8 +124,8 @@ Weights derivatives(double t) {
 
 }  // namespace
 
-std::vector<BezierPatch> teapot_patches() {
-    std::vector<BezierPatch> patches;
+std::vector<TeapotPatch> teapot_patches() {
+    std::vector<TeapotPatch> patches;
     for (const TeapotProfile& profile : {kRim, kShoulder, kBelly}) add_turned(profile, -1, patches);
     for (const Half& half : {kUpperHandle, kLowerHandle, kLowerSpout, kUpperSpout}) {
         add_halves(half, patches);
@@ -135,7 +135,7 @@ std::vector<BezierPatch> teapot_patches() {
     return patches;
 }
 
-PatchGrid evaluate(const BezierPatch& patch, int cells) {
+PatchGrid evaluate(const TeapotPatch& patch, int cells) {
     const std::array<Square, 3> c{coefficients(patch, 0), coefficients(patch, 1),
                                   coefficients(patch, 2)};
     const auto at = [&](const Weights& u, const Weights& v) {

@@ -16,10 +16,10 @@
 namespace alhazen {
 
 /// Row by row: the first index is that of u.
-using BezierPatch = std::array<std::array<Vec3, 4>, 4>;
+using TeapotPatch = std::array<std::array<Vec3, 4>, 4>;
 
 /// Rim (4 patches), body (8), handle (4), spout (4), lid (8), bottom (4).
-[[nodiscard]] std::vector<BezierPatch> teapot_patches();
+[[nodiscard]] std::vector<TeapotPatch> teapot_patches();
 
 /// Points and normals of a patch on a lattice of parameters.
 struct PatchGrid {
@@ -33,6 +33,6 @@ struct PatchGrid {
 
 /// Unit normals point out of the pot; up or down where the patch is degenerate (its rows converge
 /// to a point).
-[[nodiscard]] PatchGrid evaluate(const BezierPatch& patch, int cells);
+[[nodiscard]] PatchGrid evaluate(const TeapotPatch& patch, int cells);
 
 }  // namespace alhazen

@@ -57,6 +57,31 @@ TEST(NativeImporter, ReadsMeshFilesAndReportsMissingOnes) {
     EXPECT_EQ(import_native("texture \"t\" { }").errors(), 1u);
 }
 
+TEST(NativeImporter, ReadsPatchFiles) {
+    const Folder folder;
+    const std::string flat = "1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n";
+    folder.write("flat.bpt", "1\n" + flat);
+    folder.write("two.bpt", "2\n" + flat + "2 1\n0 0 0\n0 1 0\n1 0 1\n1 1 1\n2 0 0\n2 1 0\n");
+    const Imported good = import_native_file(
+        folder.write("a.alhazen", "alhazen 1 patch_mesh { file = \"flat.bpt\" }"));
+    EXPECT_EQ(good.messages(), "");
+    const auto* shape = std::get_if<AnyShape>(&good.parts().at(0).what);
+    ASSERT_NE(shape, nullptr);
+    const auto* mesh = std::get_if<PatchMesh>(shape);
+    ASSERT_NE(mesh, nullptr);
+    EXPECT_EQ(mesh->degree_u, 1u);
+    EXPECT_EQ(mesh->points.size(), 4u);
+    const auto error_of = [&](const std::string& block) {
+        return import_native_file(folder.write("b.alhazen", "alhazen 1\n" + block)).messages();
+    };
+    EXPECT_NE(error_of("patch_mesh { file = \"two.bpt\" }").find("2 pairs of degrees"),
+              std::string::npos);
+    EXPECT_NE(error_of("patch_mesh { file = \"flat.bpt\"; degree_u = 3 }").find("not both"),
+              std::string::npos);
+    EXPECT_NE(error_of("patch_mesh { file = \"none.bpt\" }").find("none.bpt"), std::string::npos);
+    EXPECT_NE(error_of("patch_mesh { file = \"../flat.bpt\" }").find("error"), std::string::npos);
+}
+
 TEST(NativeImporter, IncludesFilesRelativeToTheIncludingOne) {
     const Folder folder;
     folder.write("parts/inner.alhazen", "alhazen 1 material \"m\" { diffuse = .3 } sphere { }");

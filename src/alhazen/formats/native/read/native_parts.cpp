@@ -8,6 +8,7 @@
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/formats/native/read/native_meshes.h"
 #include "alhazen/formats/native/read/native_objects.h"
+#include "alhazen/formats/native/read/native_patch_file.h"
 #include "alhazen/formats/native/read/native_settings.h"
 #include "alhazen/formats/native/read/native_shapes.h"
 #include "alhazen/formats/native/read/native_transform.h"
@@ -32,6 +33,7 @@ void read_shape(const NativeBlock& block, NativeContext& context, NativeScope& s
     Part part = placed_part(reader, block, scope);
     AnyShape shape = read_native_shape(block.type, reader);
     read_native_height_picture(reader, context, scope, shape);
+    read_native_patch_file(reader, context, scope, block.location, shape);
     part.what = std::move(shape);
     part.material = read_part_material(reader, context, scope);
     reader.finish();

@@ -15,9 +15,25 @@ namespace alhazen {
 
 // ---- one field
 
+void read_native_count(BlockReader& reader, std::string_view key, std::uint32_t& count);
+void read_native_list(BlockReader& reader, std::string_view key, std::vector<Vec3>& list);
+void read_native_list(BlockReader& reader, std::string_view key, std::vector<double>& list);
+void read_native_list(BlockReader& reader, std::string_view key, std::vector<std::uint32_t>& list);
+void read_native_list(BlockReader& reader, std::string_view key, std::vector<TrimLoop>& list);
+
 template <class S, class T>
 void read_native_field(BlockReader& reader, const Field<S, T>& field, S& shape) {
     reader.read(field.name, shape.*field.member);
+}
+/// A number or an index, from 0.
+template <class S>
+void read_native_field(BlockReader& reader, const Field<S, std::uint32_t>& field, S& shape) {
+    read_native_count(reader, field.name, shape.*field.member);
+}
+/// `[a, b, ...]`; loops of trimming curves: `[[polyline((u, v), ...), curve { ... }], ...]`.
+template <class S, class T>
+void read_native_field(BlockReader& reader, const Field<S, std::vector<T>>& field, S& shape) {
+    read_native_list(reader, field.name, shape.*field.member);
 }
 /// `((x, y, z), (x, y, z))`: the lower and the upper corner.
 void read_native_field(BlockReader& reader, const Field<Quadric, Box3>& field, Quadric& shape);
@@ -39,6 +55,11 @@ template <class T>
 }
 [[nodiscard]] std::string native_field_text(const std::string& value);
 [[nodiscard]] std::string native_field_text(const Box3& box);
+[[nodiscard]] std::string native_field_text(std::uint32_t count);
+[[nodiscard]] std::string native_field_text(const std::vector<Vec3>& list);
+[[nodiscard]] std::string native_field_text(const std::vector<double>& list);
+[[nodiscard]] std::string native_field_text(const std::vector<std::uint32_t>& list);
+[[nodiscard]] std::string native_field_text(const std::vector<TrimLoop>& loops);
 [[nodiscard]] std::string native_field_text(const std::vector<ClipPlane>& planes);
 [[nodiscard]] std::string native_field_text(const Profile& profile);
 [[nodiscard]] std::string native_field_text(const std::vector<BlobComponent>& components);
@@ -47,6 +68,10 @@ template <class T>
 template <class T>
 [[nodiscard]] bool is_native_default(const T& value, const T& usual) {
     return native_field_text(value) == native_field_text(usual);
+}
+template <class T>
+[[nodiscard]] bool is_native_default(const std::vector<T>& value, const std::vector<T>& usual) {
+    return value.empty() && usual.empty();
 }
 /// An unbounded box cannot be written.
 inline bool is_native_default(const Box3& box, const Box3&) {

@@ -1,0 +1,41 @@
+#include "alhazen/formats/native/read/native_patch_file.h"
+
+#include "alhazen/base/file.h"
+#include "alhazen/formats/bpt/bpt_reader.h"
+
+namespace alhazen {
+
+void read_native_patch_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
+                            const FileLocation& where, AnyShape& shape) {
+    auto* mesh = std::get_if<PatchMesh>(&shape);
+    if (mesh == nullptr || !reader.has("file")) return;
+    std::string file;
+    if (!reader.read("file", file)) return;
+    const TextNode place = *reader.find("file");
+    for (const char* field : {"degree_u", "degree_v", "points", "weights", "patches"}) {
+        if (reader.has(field)) {
+            reader.error(place,
+                         "a patch_mesh has a file or '" + std::string(field) + "', not both");
+            return;
+        }
+    }
+    try {
+        const auto path = resolve_inside(context.roots, scope.folder, file);
+        context.diagnostics.note_file(path);
+        std::vector<BptMesh> meshes =
+            read_bpt(read_file(path), path.string(), context.options, context.diagnostics);
+        if (meshes.size() > 1) {
+            reader.error(place, file + " has patches of " + std::to_string(meshes.size()) +
+                                    " pairs of degrees, a patch_mesh has one; 'alhazen convert' "
+                                    "makes a scene of them");
+        } else if (!meshes.empty()) {
+            *mesh = std::move(meshes[0].mesh);
+        }
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::Resource) throw;
+        reader.error(place, error.what());
+    }
+    context.count_elements(mesh->points.size(), where);
+}
+
+}  // namespace alhazen

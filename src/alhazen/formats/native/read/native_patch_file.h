@@ -1,0 +1,12 @@
+#pragma once
+/// Patches of a native patch_mesh from a .bpt file.
+
+#include "alhazen/formats/native/read/native_context.h"
+
+namespace alhazen {
+
+/// Reads `file` where the block, which stands at `where`, has one: its patches, all of one degree.
+void read_native_patch_file(BlockReader& reader, NativeContext& context, const NativeScope& scope,
+                            const FileLocation& where, AnyShape& shape);
+
+}  // namespace alhazen

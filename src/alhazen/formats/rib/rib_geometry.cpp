@@ -1,0 +1,295 @@
+#include "alhazen/formats/rib/rib_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace alhazen {
+
+namespace {
+
+/// A whole number of [least, most] as an argument.
+bool read_rib_count(const RibRequest& request, std::size_t argument, const char* what, int least,
+                    int most, int& out, RibScene& scene) {
+    const std::optional<double> number = request.number(argument);
+    const bool good =
+        number && *number >= least && *number <= most && *number == std::floor(*number);
+    if (good) {
+        out = int(*number);
+        return true;
+    }
+    scene.error(
+        argument < request.arguments.size() ? request.arguments[argument].place : request.place,
+        std::string(request.name) + ": " + what + " must be a whole number from " +
+            std::to_string(least) + " to " + std::to_string(most));
+    return false;
+}
+
+/// The control points "P" or "Pw" among the parameters from `first` on.
+bool read_rib_points(const RibRequest& request, std::size_t first,
+                     std::vector<HomogeneousPoint>& points, RibScene& scene) {
+    for (std::size_t k = first; k + 1 < request.arguments.size(); k += 2) {
+        const std::string* declared = request.string(k);
+        if (declared == nullptr) break;
+        const std::string name = declared->substr(declared->find_last_of(' ') + 1);
+        const std::size_t width = name == "P" ? 3 : name == "Pw" ? 4 : 0;
+        if (width == 0) continue;
+        const std::span<const double> n = request.list(k + 1);
+        if (n.empty() || n.size() % width != 0) {
+            scene.error(request.arguments[k + 1].place,
+                        "\"" + name + "\" has " + std::to_string(n.size()) + " numbers; expected " +
+                            std::to_string(width) + " for each point");
+            return false;
+        }
+        for (std::size_t i = 0; i < n.size(); i += width) {
+            points.push_back({n[i], n[i + 1], n[i + 2], width == 4 ? n[i + 3] : 1.0});
+        }
+        return true;
+    }
+    scene.error(request.place, std::string(request.name) + ": expected \"P\" or \"Pw\"");
+    return false;
+}
+
+bool has_rib_points(const RibRequest& request, std::size_t found, std::uint64_t wanted,
+                    RibScene& scene) {
+    if (found == wanted) return true;
+    scene.error(request.place, std::string(request.name) + " has " + std::to_string(found) +
+                                   " points; expected " + std::to_string(wanted));
+    return false;
+}
+
+/// "bicubic" or "bilinear".
+std::optional<bool> is_rib_bicubic(const RibRequest& request, RibScene& scene) {
+    const std::string* type = request.string(0);
+    if (type != nullptr && (*type == "bicubic" || *type == "bilinear")) return *type == "bicubic";
+    scene.error(request.place,
+                std::string(request.name) + ": expected \"bicubic\" or \"bilinear\"");
+    return std::nullopt;
+}
+
+/// The patch whose first control point is (u, v) of a net of nu * nv points, wrapped around.
+BezierNet rib_net(const RibState& state, bool bicubic, const std::vector<HomogeneousPoint>& points,
+                  std::size_t nu, std::size_t nv, std::size_t u, std::size_t v) {
+    const auto point = [&](std::size_t i, std::size_t j) {
+        return points[(v + j) % nv * nu + (u + i) % nu];
+    };
+    if (bicubic) {
+        std::array<HomogeneousPoint, 16> p;
+        for (std::size_t k = 0; k < 16; ++k) p[k] = point(k / 4, k % 4);
+        return bezier_of(state.basis_u, state.basis_v, p);
+    }
+    BezierNet net;
+    net.degree_u = net.degree_v = 1;
+    for (std::size_t k = 0; k < 4; ++k) net.points[k] = point(k / 2, k % 2);
+    return net;
+}
+
+void read_rib_patch(const RibRequest& request, const RibState& state, RibScene& scene) {
+    const std::optional<bool> bicubic = is_rib_bicubic(request, scene);
+    std::vector<HomogeneousPoint> points;
+    if (!bicubic || !read_rib_points(request, 1, points, scene)) return;
+    const std::size_t side = *bicubic ? 4 : 2;
+    if (!has_rib_points(request, points.size(), side * side, scene)) return;
+    scene.add_patch(state, rib_net(state, *bicubic, points, side, side, 0, 0), request.place);
+}
+
+/// One direction of a patch mesh.
+struct RibSpan {
+    int points = 0, patches = 0, step = 1;
+};
+
+bool read_rib_span(const RibRequest& request, std::size_t argument, bool bicubic, int step,
+                   RibSpan& span, RibScene& scene) {
+    constexpr int kMost = 100'000'000;
+    const int order = bicubic ? 4 : 2;
+    if (!read_rib_count(request, argument, "the number of points", 2, kMost, span.points, scene)) {
+        return false;
+    }
+    const std::string* wrap = request.string(argument + 1);
+    if (wrap == nullptr || (*wrap != "periodic" && *wrap != "nonperiodic")) {
+        scene.error(request.place, "PatchMesh: expected \"periodic\" or \"nonperiodic\"");
+        return false;
+    }
+    span.step = bicubic ? step : 1;
+    const bool periodic = *wrap == "periodic";
+    const int rest = periodic ? span.points : span.points - order;
+    if (rest < 0 || rest % span.step != 0) {
+        scene.error(request.arguments[argument].place,
+                    "PatchMesh: " + std::to_string(span.points) + " points with the step " +
+                        std::to_string(span.step) + " make no whole number of patches");
+        return false;
+    }
+    span.patches = periodic ? rest / span.step : rest / span.step + 1;
+    return true;
+}
+
+void read_rib_patch_mesh(const RibRequest& request, const RibState& state, RibScene& scene) {
+    const std::optional<bool> bicubic = is_rib_bicubic(request, scene);
+    RibSpan u, v;
+    std::vector<HomogeneousPoint> points;
+    if (!bicubic || !read_rib_span(request, 1, *bicubic, state.step_u, u, scene) ||
+        !read_rib_span(request, 3, *bicubic, state.step_v, v, scene) ||
+        !read_rib_points(request, 5, points, scene) ||
+        !has_rib_points(request, points.size(), std::uint64_t(u.points) * std::uint64_t(v.points),
+                        scene)) {
+        return;
+    }
+    const int before = scene.errors();
+    for (int j = 0; j < v.patches && scene.errors() == before; ++j) {
+        for (int i = 0; i < u.patches && scene.errors() == before; ++i) {
+            scene.add_patch(
+                state,
+                rib_net(state, *bicubic, points, std::size_t(u.points), std::size_t(v.points),
+                        std::size_t(i) * std::size_t(u.step), std::size_t(j) * std::size_t(v.step)),
+                request.place);
+        }
+    }
+}
+
+// --- NURBS.
+
+/// n, order, knots, least and greatest parameter from the argument `first` on.
+struct RibKnots {
+    int points = 0, order = 0;
+    std::vector<double> knots;
+    double least = 0, most = 0;
+};
+
+bool check_rib_knots(const RibKnots& k, const RibPlace& place, RibScene& scene) {
+    if (k.knots.size() != std::size_t(k.points) + std::size_t(k.order)) {
+        scene.error(place, "expected " + std::to_string(k.points + k.order) + " knots for " +
+                               std::to_string(k.points) + " points of order " +
+                               std::to_string(k.order) + ", found " +
+                               std::to_string(k.knots.size()));
+        return false;
+    }
+    for (std::size_t i = 1; i < k.knots.size(); ++i) {
+        if (k.knots[i] >= k.knots[i - 1]) continue;
+        scene.error(place, "knot " + std::to_string(i) + " falls below the one before");
+        return false;
+    }
+    const double lo = k.knots[std::size_t(k.order) - 1], hi = k.knots[std::size_t(k.points)];
+    if (k.least >= lo && k.least < k.most && k.most <= hi) return true;
+    scene.error(place, "the range of the parameter must be within that of the knots");
+    return false;
+}
+
+bool read_rib_knots(const RibRequest& request, std::size_t first, RibKnots& out, RibScene& scene) {
+    constexpr int kMost = 1'000'000;
+    if (!read_rib_count(request, first, "the number of points", 2, kMost, out.points, scene) ||
+        !read_rib_count(request, first + 1, "the order", 2, kMaxPatchOrder, out.order, scene)) {
+        return false;
+    }
+    const std::span<const double> knots = request.list(first + 2);
+    out.knots.assign(knots.begin(), knots.end());
+    const std::optional<double> least = request.number(first + 3), most = request.number(first + 4);
+    if (!least || !most) {
+        scene.error(request.place, "NuPatch: expected a range of the parameter after the knots");
+        return false;
+    }
+    out.least = *least;
+    out.most = *most;
+    return check_rib_knots(out, request.arguments[first + 2].place, scene);
+}
+
+/// Whether the range of the parameters is that of the knots.
+bool is_whole(const RibKnots& k) {
+    return k.least == k.knots[std::size_t(k.order) - 1] && k.most == k.knots[std::size_t(k.points)];
+}
+
+void set_rib_trims(const RibState& state, const RibKnots& u, const RibKnots& v, NurbsSurface& s) {
+    if (state.trims != nullptr) s.trims = *state.trims;
+    const bool trimmed = !s.trims.empty();
+    if (trimmed ? state.keeps_inside : is_whole(u) && is_whole(v)) return;
+    // Odd-even: within the range of the parameters, and not inside of the loops.
+    s.trims.insert(s.trims.begin(), TrimLoop{TrimCurve{.points = {{u.least, v.least},
+                                                                  {u.most, v.least},
+                                                                  {u.most, v.most},
+                                                                  {u.least, v.most},
+                                                                  {u.least, v.least}}}});
+}
+
+void read_rib_nu_patch(const RibRequest& request, const RibState& state, RibScene& scene) {
+    RibKnots u, v;
+    std::vector<HomogeneousPoint> points;
+    const bool knots = read_rib_knots(request, 0, u, scene);
+    if (!read_rib_knots(request, 5, v, scene) || !knots ||
+        !read_rib_points(request, 10, points, scene) ||
+        !has_rib_points(request, points.size(), std::uint64_t(u.points) * std::uint64_t(v.points),
+                        scene)) {
+        return;
+    }
+    NurbsSurface s;
+    s.degree_u = std::uint32_t(u.order - 1);
+    s.degree_v = std::uint32_t(v.order - 1);
+    set_rib_trims(state, u, v, s);
+    bool rational = false;
+    for (std::size_t i = 0; i < std::size_t(u.points); ++i) {
+        for (std::size_t j = 0; j < std::size_t(v.points); ++j) {
+            const HomogeneousPoint& p = points[j * std::size_t(u.points) + i];
+            if (!(p.w > 0.0)) {
+                scene.error(request.place, "the weights of a surface must be positive, not " +
+                                               std::to_string(p.w));
+                return;
+            }
+            rational = rational || p.w != 1.0;
+            s.points.push_back(projected(p));
+            s.weights.push_back(p.w);
+        }
+    }
+    if (!rational) s.weights.clear();
+    s.knots_u = std::move(u.knots);
+    s.knots_v = std::move(v.knots);
+    scene.add_shape(state, AnyShape{std::move(s)}, request.place);
+}
+
+// --- Quadrics.
+
+std::optional<AnyShape> rib_quadric(const RibRequest& request) {
+    std::array<double, 5> n{};
+    std::size_t count = 0;
+    while (count < n.size() && request.number(count)) {
+        n[count] = *request.number(count);
+        ++count;
+    }
+    const auto whole = [&](std::size_t arguments) {
+        return count == arguments && std::fabs(n[arguments - 1]) >= 360.0;
+    };
+    const std::string_view name = request.name;
+    if (name == "Sphere" && whole(4) && n[1] <= -std::fabs(n[0]) && n[2] >= std::fabs(n[0])) {
+        return Sphere{{0, 0, 0}, std::fabs(n[0])};
+    }
+    if (name == "Cone" && whole(3)) {
+        return Cone{{0, 0, 0}, {0, 0, n[0]}, std::fabs(n[1]), 0.0, false};
+    }
+    if (name == "Cylinder" && whole(4)) {
+        return Cylinder{{0, 0, n[1]}, {0, 0, n[2]}, std::fabs(n[0]), false};
+    }
+    if (name == "Disk" && whole(3)) return Disc{{0, 0, n[0]}, {0, 0, 1}, std::fabs(n[1]), 0.0};
+    if (name == "Torus" && whole(5) && std::fabs(n[3] - n[2]) >= 360.0 && n[1] <= n[0]) {
+        return Torus{{0, 0, 0}, {0, 0, 1}, n[0], n[1]};
+    }
+    if (name == "Paraboloid" && whole(4) && n[1] == 0.0) {
+        return Paraboloid{{0, 0, 0}, {0, 0, n[2]}, {n[0], 0, 0}, {0, n[0], 0}, false};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool read_rib_geometry(const RibRequest& request, const RibState& state, RibScene& scene) {
+    if (request.name == "Patch") {
+        read_rib_patch(request, state, scene);
+    } else if (request.name == "PatchMesh") {
+        read_rib_patch_mesh(request, state, scene);
+    } else if (request.name == "NuPatch") {
+        read_rib_nu_patch(request, state, scene);
+    } else if (std::optional<AnyShape> shape = rib_quadric(request)) {
+        scene.add_shape(state, std::move(*shape), request.place);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+}  // namespace alhazen

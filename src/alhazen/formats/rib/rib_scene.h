@@ -1,0 +1,87 @@
+#pragma once
+/// The scene description that the requests of a RIB file make: patches gathered to patch meshes,
+/// other shapes, materials of colours, objects and instances.
+///
+/// Conventions: patches of the same object, transform, colour and degrees are one patch mesh over
+/// shared control points (patch_welder.h), so that what is closed in the file is a solid here.
+
+#include <array>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "alhazen/formats/core/importer.h"
+#include "alhazen/formats/patches/cubic_basis.h"
+#include "alhazen/formats/patches/patch_welder.h"
+#include "alhazen/formats/rib/rib_requests.h"
+
+namespace alhazen {
+
+/// What AttributeBegin saves and AttributeEnd restores.
+struct RibState {
+    Affine transform;  ///< object_from_current, or world_from_current
+    Rgb color{0.7, 0.7, 0.7};
+    CubicBasis basis_u, basis_v;
+    int step_u = 3, step_v = 3;
+    bool reversed = false;
+    std::shared_ptr<const std::vector<TrimLoop>> trims;
+    bool keeps_inside = false;  ///< of the trimming loops; else what is inside is cut away
+};
+
+class RibScene {
+  public:
+    RibScene(const ImportSource& source, SceneDescription& scene, Diagnostics& diagnostics)
+        : scene_(scene),
+          file_(source.path.string()),
+          name_(source.path.stem().string()),
+          limit_(source.options.max_elements),
+          diagnostics_(diagnostics) {}
+
+    /// Throws Error (Resource) beyond max_elements control points.
+    void add_patch(const RibState& state, const BezierNet& net, const RibPlace& place);
+    void add_shape(const RibState& state, AnyShape shape, const RibPlace& place);
+
+    /// False when an object is open already, or none is.
+    bool begin_object(const std::string& name, const RibPlace& place);
+    bool end_object();
+    /// False when there is no such object.
+    bool add_instance(const RibState& state, const std::string& name, const RibPlace& place);
+    [[nodiscard]] bool in_object() const { return current_ != 0; }
+
+    /// Moves the patch meshes to their parts.
+    void finish();
+
+    void error(const RibPlace& place, const std::string& message);
+    void warning(const RibPlace& place, const std::string& message);
+    [[nodiscard]] int errors() const { return errors_; }
+    [[nodiscard]] SceneDescription& description() { return scene_; }
+
+  private:
+    struct Meshed {
+        PatchWelder welder;
+        std::size_t object, part;
+    };
+    using Key = std::array<double, 17>;
+
+    Part& add_part(const RibState& state, const RibPlace& place);
+    MaterialId material_of(const Rgb& color);
+    Meshed& mesh_of(const RibState& state, const BezierNet& net, const RibPlace& place);
+    void count(std::uint64_t points, const RibPlace& place);
+    [[nodiscard]] FileLocation at(const RibPlace& place) const {
+        return {file_, place.line, place.column};
+    }
+
+    SceneDescription& scene_;
+    std::string file_, name_;
+    std::uint64_t limit_, points_ = 0;
+    Diagnostics& diagnostics_;
+    std::deque<Meshed> meshes_;
+    std::map<Key, std::size_t> mesh_numbers_;
+    std::map<std::array<double, 3>, MaterialId> materials_;
+    std::map<std::string, std::size_t> objects_;
+    std::size_t current_ = 0;  ///< the object that gets the parts
+    int errors_ = 0;
+};
+
+}  // namespace alhazen

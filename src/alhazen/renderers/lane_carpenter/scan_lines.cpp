@@ -1,0 +1,622 @@
+#include "alhazen/renderers/lane_carpenter/scan_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+
+#include "alhazen/renderers/lane_carpenter/scan_polygon.h"
+#include "alhazen/renderers/lane_carpenter/subdivision.h"
+#include "alhazen/sampling/random.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+/// Slots that are used again.
+template <class T>
+class Slots {
+  public:
+    [[nodiscard]] std::uint32_t take() {
+        ++live_;
+        most_ = std::max(most_, live_);
+        if (free_.empty()) {
+            items_.emplace_back();
+            return static_cast<std::uint32_t>(items_.size() - 1);
+        }
+        const std::uint32_t index = free_.back();
+        free_.pop_back();
+        return index;
+    }
+    void give_back(std::uint32_t index) {
+        free_.push_back(index);
+        --live_;
+    }
+    [[nodiscard]] T& operator[](std::uint32_t index) { return items_[index]; }
+    [[nodiscard]] std::size_t live() const { return live_; }
+    [[nodiscard]] std::size_t most() const { return most_; }
+
+  private:
+    std::vector<T> items_;
+    std::vector<std::uint32_t> free_;
+    std::size_t live_ = 0, most_ = 0;
+};
+
+/// Weights of the boundary curves that patches share; 0: a curve of one patch.
+class BoundarySeams {
+  public:
+    explicit BoundarySeams(const ScanScene& scene) {
+        for (std::uint32_t k = 0; k < scene.pieces.size(); ++k) {
+            for (int side = 0; side < 4; ++side) add(scene.pieces[k].net, k, side);
+        }
+    }
+    [[nodiscard]] std::array<std::uint64_t, 4> of(std::uint32_t piece) const {
+        const auto found = weights_.find(piece);
+        return found == weights_.end() ? std::array<std::uint64_t, 4>{} : found->second;
+    }
+
+  private:
+    struct Side {
+        std::uint32_t piece;
+        int side;
+        bool backward;
+    };
+    using Key = std::vector<double>;
+
+    void add(const BezierNet& net, std::uint32_t piece, int side) {
+        std::array<HomogeneousPoint, kMaxPatchOrder> curve;
+        const int count = boundary_curve(net, side, curve);
+        Key forward, backward;
+        for (int k = 0; k < count; ++k) {
+            const HomogeneousPoint& a = curve[static_cast<std::size_t>(k)];
+            const HomogeneousPoint& b = curve[static_cast<std::size_t>(count - 1 - k)];
+            for (const double x : {a.x + 0.0, a.y + 0.0, a.z + 0.0, a.w}) forward.push_back(x);
+            for (const double x : {b.x + 0.0, b.y + 0.0, b.z + 0.0, b.w}) backward.push_back(x);
+        }
+        const Side own{piece, side, backward < forward};
+        const auto [waiting, is_new] = open_.try_emplace(std::min(forward, backward), own);
+        if (is_new) return;
+        const Side other = waiting->second;
+        open_.erase(waiting);
+        const std::uint64_t weight = mix64(std::uint64_t{piece} * 4 + std::uint64_t(side) + 1);
+        set(own, weight);
+        set(other, ~weight + 1);
+    }
+    void set(const Side& side, std::uint64_t weight) {
+        weights_[side.piece][static_cast<std::size_t>(side.side)] =
+            side.backward ? ~weight + 1 : weight;
+    }
+
+    std::map<Key, Side> open_;
+    std::map<std::uint32_t, std::array<std::uint64_t, 4>> weights_;
+};
+
+std::size_t largest_net(const ScanScene& scene) {
+    int most = 4;
+    for (const ScanPiece& piece : scene.pieces) most = std::max(most, piece.net.count());
+    return static_cast<std::size_t>(most);
+}
+
+/// The patch table and the active-patch table: hands out flat sub-patches.
+class PatchTables {
+  public:
+    PatchTables(const ScanScene& scene, const ScreenView& view, const SampleGrid& grid,
+                const ScanLineOptions& options, bool keeps_seams)
+        : scene_(scene),
+          view_(view),
+          grid_(grid),
+          subdivision_(view, grid, options, options.flatness, keeps_seams),
+          pool_(largest_net(scene)),
+          buckets_(static_cast<std::size_t>(grid.rows()), kNone) {
+        std::unique_ptr<BoundarySeams> seams;
+        if (keeps_seams) seams = std::make_unique<BoundarySeams>(scene);
+        for (std::uint32_t k = 0; k < scene.pieces.size(); ++k) add_piece(k, seams.get());
+    }
+
+    [[nodiscard]] PatchDegrees degrees(const SubPatch& patch) const {
+        const BezierNet& net = scene_.pieces[patch.piece].net;
+        return {net.degree_u, net.degree_v};
+    }
+
+    /// Splits what begins at rows up to `row`; calls `draw(patch)` with what is flat.
+    template <class Draw>
+    void advance(int row, ScanLineReport& report, Draw&& draw) {
+        std::uint32_t& first = buckets_[static_cast<std::size_t>(row)];
+        while (first != kNone) {
+            active_.push_back(first);
+            first = pool_.at(first).next;
+            --waiting_;
+        }
+        most_active_ = active_.size();
+        while (!active_.empty()) {
+            const std::uint32_t index = active_.back();
+            active_.pop_back();
+            SubPatch& patch = pool_.at(index);
+            if (patch.step == PatchStep::Draw) {
+                draw(patch);
+            } else {
+                split(patch, row, report);
+            }
+            pool_.give_back(index);
+            most_active_ = std::max(most_active_, active_.size());
+        }
+    }
+
+    /// Largest size of the active-patch table at the last scan line.
+    [[nodiscard]] std::size_t most_active() const { return most_active_; }
+    [[nodiscard]] std::size_t waiting() const { return waiting_; }
+    [[nodiscard]] SubPatchPool& pool() { return pool_; }
+
+  private:
+    void add_piece(std::uint32_t piece, const BoundarySeams* seams) {
+        const BezierNet& net = scene_.pieces[piece].net;
+        const std::uint32_t index = pool_.take();
+        SubPatch& patch = pool_.at(index);
+        patch = {.piece = piece, .points = patch.points};
+        if (seams != nullptr) patch.seams = seams->of(piece);
+        for (int k = 0; k < net.count(); ++k) {
+            patch.points[k] = view_.on_screen(net.points[static_cast<std::size_t>(k)]);
+        }
+        subdivision_.judge({net.degree_u, net.degree_v}, patch);
+        place(index, -1);
+    }
+
+    void split(const SubPatch& patch, int row, ScanLineReport& report) {
+        report.split_u += patch.step != PatchStep::SplitV;
+        report.split_v += patch.step != PatchStep::SplitU;
+        std::array<std::uint32_t, 4> indices;
+        std::array<SubPatch*, 4> children;
+        const std::size_t count = patch.step == PatchStep::SplitBoth ? 4 : 2;
+        for (std::size_t k = 0; k < count; ++k) {
+            indices[k] = pool_.take();
+            children[k] = &pool_.at(indices[k]);
+        }
+        const PatchDegrees own = degrees(patch);
+        subdivision_.split(own, patch, children);
+        for (std::size_t k = 0; k < count; ++k) {
+            subdivision_.judge(own, *children[k]);
+            place(indices[k], row);
+        }
+    }
+
+    /// Into the active table where it has begun, else into its bucket.
+    void place(std::uint32_t index, int row) {
+        SubPatch& patch = pool_.at(index);
+        if (patch.step == PatchStep::None) {
+            pool_.give_back(index);
+        } else if (patch.first_row <= row) {
+            active_.push_back(index);
+        } else {
+            std::uint32_t& first = buckets_[static_cast<std::size_t>(patch.first_row)];
+            patch.next = first;
+            first = index;
+            ++waiting_;
+        }
+    }
+
+    const ScanScene& scene_;
+    ScreenView view_;
+    const SampleGrid& grid_;
+    Subdivision subdivision_;
+    SubPatchPool pool_;
+    std::vector<std::uint32_t> buckets_;  ///< [row] the patch table
+    std::vector<std::uint32_t> active_;
+    std::size_t waiting_ = 0, most_active_ = 0;
+};
+
+}  // namespace
+
+class ScanLines::Impl {
+  public:
+    Impl(const ScanScene& scene, const ScreenView& view, const SampleGrid& grid,
+         const ScanLineOptions& options)
+        : scene_(scene),
+          view_(view),
+          grid_(grid),
+          xs_(grid.xs()),
+          most_nearness_(view.most_nearness()),
+          with_chords_(options.cracks == Cracks::Clark),
+          patches_(scene, view, grid, options, false),
+          quad_buckets_(static_cast<std::size_t>(grid.rows()), kNone),
+          outline_buckets_(static_cast<std::size_t>(grid.rows()), kNone) {
+        report_.patches = scene.pieces.size();
+        report_.flatness = options.flatness;
+        report_.lines.resize(static_cast<std::size_t>(grid.rows()));
+        for (std::uint32_t k = 0; k < scene.facets.size(); ++k) add_facet(k);
+        const auto count = static_cast<std::size_t>(grid.columns() * grid.samples());
+        nearness_.resize(count);
+        owner_.resize(count);
+        if (grid.several()) places_.resize(count);
+        if (options.all_first) {
+            for (int row = 0; row < grid.rows(); ++row) split_at(row);
+        }
+        split_ahead_ = options.all_first;
+    }
+
+    void next(ScanRow& row) {
+        if (!split_ahead_) split_at(row_);
+        enter(quad_buckets_, quads_, active_quads_);
+        enter(outline_buckets_, outlines_, active_outlines_);
+        count_tables();
+        begin_row(row);
+        for (const std::uint32_t quad : active_quads_) draw_quad(quads_[quad], quad, row);
+        for (const std::uint32_t outline : active_outlines_) {
+            draw_outline(outlines_[outline], outline, row);
+        }
+        resolve(row);
+        ++row_;
+        leave(quads_, active_quads_);
+        leave(outlines_, active_outlines_);
+    }
+
+    [[nodiscard]] ScanLineReport& report() {
+        report_.most_patches = patches_.pool().most();
+        report_.most_polygons = quads_.most() + outlines_.most();
+        report_.most_bytes = most_bytes_;
+        return report_;
+    }
+
+  private:
+    static constexpr std::uint32_t kOutline = 0x80000000u;
+
+    void add_facet(std::uint32_t index) {
+        const ScanFacet& facet = scene_.facets[index];
+        std::vector<std::vector<HomogeneousPoint>> loops;
+        Vec3 point = facet.point, normal = facet.normal;
+        if (facet.loops == 0) {
+            const auto corners = triangle_corners(scene_.sources[facet.source], facet.part);
+            loops.emplace_back();
+            for (const Vec3& p : corners) {
+                loops.back().push_back(view_.on_screen(homogeneous(p)));
+            }
+            point = corners[0];
+            normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        }
+        for (std::uint32_t k = 0; k < facet.loops; ++k) {
+            loops.emplace_back();
+            for (const HomogeneousPoint& p : scene_.loops[facet.first + k]) {
+                loops.back().push_back(view_.on_screen(p));
+            }
+        }
+        ScanOutline outline;
+        if (!set_outline(view_, grid_, loops, view_.nearness_of(point, normal), outline)) return;
+        outline.facet = index;
+        const std::uint32_t slot = outlines_.take();
+        outlines_[slot] = std::move(outline);
+        put(outline_buckets_, outlines_, slot, 0);
+        ++report_.facets;
+    }
+
+    template <class T>
+    void put(std::vector<std::uint32_t>& buckets, Slots<T>& slots, std::uint32_t slot, int row) {
+        T& item = slots[slot];
+        std::uint32_t& first = buckets[static_cast<std::size_t>(std::max(row, item.first_row))];
+        item.next = first;
+        first = slot;
+    }
+
+    void split_at(int row) {
+        patches_.advance(row, report_, [&](const SubPatch& patch) {
+            const std::uint32_t slot = quads_.take();
+            ScanQuad& quad = quads_[slot];
+            const PatchDegrees degrees = patches_.degrees(patch);
+            set_quad(view_, grid_, degrees.u, degrees.v, patch, with_chords_, quad);
+            if (quad.end_row <= row || (quad.triangles[0].empty && quad.triangles[1].empty)) {
+                quads_.give_back(slot);
+                return;
+            }
+            ++report_.quads;
+            put(quad_buckets_, quads_, slot, row);
+            note_held();
+        });
+        note_held();
+    }
+
+    void note_held() {
+        const std::uint64_t patches = patches_.pool().live();
+        const std::uint64_t polygons = quads_.live() + outlines_.live();
+        report_.most_held = std::max(report_.most_held, patches + polygons);
+        most_bytes_ = std::max(
+            most_bytes_, patches * patches_.pool().bytes_each() + quads_.live() * sizeof(ScanQuad));
+    }
+
+    template <class T>
+    void enter(std::vector<std::uint32_t>& buckets, Slots<T>& slots,
+               std::vector<std::uint32_t>& active) {
+        for (std::uint32_t k = buckets[static_cast<std::size_t>(row_)]; k != kNone;
+             k = slots[k].next) {
+            active.push_back(k);
+        }
+    }
+    template <class T>
+    void leave(Slots<T>& slots, std::vector<std::uint32_t>& active) {
+        std::size_t kept = 0;
+        for (const std::uint32_t k : active) {
+            if (slots[k].end_row > row_) {
+                active[kept++] = k;
+            } else {
+                slots.give_back(k);
+            }
+        }
+        active.resize(kept);
+    }
+
+    void count_tables() {
+        ScanLineTables& tables = report_.lines[static_cast<std::size_t>(row_)];
+        tables.waiting = static_cast<std::uint32_t>(patches_.waiting());
+        tables.active = static_cast<std::uint32_t>(split_ahead_ ? 0 : patches_.most_active());
+        tables.polygons =
+            static_cast<std::uint32_t>(active_quads_.size() + active_outlines_.size());
+        report_.most_active = std::max<std::uint64_t>(report_.most_active, patches_.most_active());
+    }
+
+    // ---- a row of samples
+    void begin_row(ScanRow& row) {
+        std::fill(nearness_.begin(), nearness_.end(), -std::numeric_limits<double>::infinity());
+        std::fill(owner_.begin(), owner_.end(), kNone);
+        row.veils.clear();
+        if (!grid_.several()) {
+            y_ = grid_.y(row_);
+            return;
+        }
+        const int samples = grid_.samples();
+        for (int i = 0; i < grid_.columns(); ++i) {
+            for (int s = 0; s < samples; ++s) {
+                places_[static_cast<std::size_t>(i * samples + s)] = grid_.grid_at(i, row_, s);
+            }
+        }
+    }
+
+    /// The place in the tables of a piece or a facet, which breaks ties of depth.
+    [[nodiscard]] std::uint32_t rank(std::uint32_t owner) {
+        return (owner & kOutline) != 0 ? outlines_[owner & ~kOutline].facet | kOutline
+                                       : quads_[owner >> 1].piece;
+    }
+    /// Whether a surface takes a sample from `owner` at the same depth.
+    [[nodiscard]] bool wins_tie(std::uint32_t surface, std::uint32_t owner) {
+        return owner == kNone || rank(surface) < rank(owner);
+    }
+
+    void see(std::uint32_t sample, double nearness, std::uint32_t owner) {
+        double& nearest = nearness_[sample];
+        if (nearness < nearest || nearness > most_nearness_) return;
+        if (nearness == nearest && !wins_tie(owner, owner_[sample])) return;
+        nearest = nearness;
+        owner_[sample] = owner;
+    }
+
+    /// As `see` for the columns of a triangle.
+    void see_columns(const IndexRange& columns, const ScanTriangle& triangle, double at_row,
+                     std::uint32_t owner) {
+        double* const nearest = nearness_.data();
+        std::uint32_t* const owners = owner_.data();
+        const double gx = triangle.nearness.gx, least = triangle.least, most = triangle.most;
+        for (int i = columns.begin; i < columns.end; ++i) {
+            double nearness = gx * xs_[i] + at_row;
+            nearness = nearness < least ? least : nearness > most ? most : nearness;
+            if (nearness < nearest[i] || nearness > most_nearness_) continue;
+            if (nearness == nearest[i] && !wins_tie(owner, owners[i])) continue;
+            nearest[i] = nearness;
+            owners[i] = owner;
+        }
+    }
+
+    void draw_quad(const ScanQuad& quad, std::uint32_t slot, ScanRow& row) {
+        const bool veil = scene_.sources[scene_.pieces[quad.piece].source].may_pass;
+        if (grid_.several()) return draw_quad_samples(quad, slot, veil, row);
+        // Plain arrays: this is the innermost loop.
+        int first[5];
+        const EdgeLine* const edges = quad.lines.data();
+        for (std::size_t k = 0; k < 5; ++k) first[k] = edges[k].first_right(grid_, y_);
+        for (std::size_t t = 0; t < 2; ++t) {
+            const ScanTriangle& triangle = quad.triangles[t];
+            if (triangle.empty) continue;
+            const std::uint8_t* const sides = triangle.lines.data();
+            const bool* const right = triangle.inner_right.data();
+            int begin = 0, end = grid_.columns();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int column = first[sides[k]];
+                begin = right[k] && column > begin ? column : begin;
+                end = !right[k] && column < end ? column : end;
+            }
+            if (begin >= end) continue;
+            const double at_row = triangle.nearness.gy * y_ + triangle.nearness.at_origin;
+            if (!veil) {
+                see_columns({begin, end}, triangle, at_row,
+                            slot << 1 | static_cast<std::uint32_t>(t));
+                continue;
+            }
+            for (int i = begin; i < end; ++i) {
+                const double nearness = triangle.nearness.gx * xs_[i] + at_row;
+                meet(static_cast<std::uint32_t>(i),
+                     std::clamp(nearness, triangle.least, triangle.most), slot, t, true, row);
+            }
+        }
+    }
+
+    void meet(std::uint32_t sample, double nearness, std::uint32_t quad, std::size_t triangle,
+              bool veil, ScanRow& row) {
+        if (!veil) return see(sample, nearness, quad << 1 | static_cast<std::uint32_t>(triangle));
+        if (nearness > most_nearness_) return;
+        const GridPoint at = place(sample);
+        const Vec2 uv = quads_[quad].parameters_at(triangle, at.x, at.y);
+        row.veils.push_back({sample, {quads_[quad].piece, nearness, uv.x, uv.y}});
+    }
+
+    [[nodiscard]] GridPoint place(std::uint32_t sample) const {
+        return grid_.several() ? places_[sample] : GridPoint{grid_.x(static_cast<int>(sample)), y_};
+    }
+
+    /// The samples of the pixels that a polygon may cover.
+    template <class Corners>
+    [[nodiscard]] IndexRange samples_of(const Corners& xs) const {
+        const double pixel = 1.0 / view_.grid_per_pixel();
+        const IndexRange columns = grid_.columns_in(xs.first * pixel, xs.second * pixel);
+        return {columns.begin * grid_.samples(), columns.end * grid_.samples()};
+    }
+
+    void draw_quad_samples(const ScanQuad& quad, std::uint32_t slot, bool veil, ScanRow& row) {
+        std::pair<double, double> xs{quad.corners[0].at.x, quad.corners[0].at.x};
+        for (const auto& corner : quad.corners) {
+            xs.first = std::min(xs.first, double(corner.at.x));
+            xs.second = std::max(xs.second, double(corner.at.x));
+        }
+        const IndexRange range = samples_of(xs);
+        for (int i = range.begin; i < range.end; ++i) {
+            const GridPoint& at = places_[static_cast<std::size_t>(i)];
+            for (std::size_t t = 0; t < 2; ++t) {
+                const ScanTriangle& triangle = quad.triangles[t];
+                bool inside = !triangle.empty;
+                for (std::size_t k = 0; k < 3 && inside; ++k) {
+                    inside = quad.lines[triangle.lines[k]].is_right(at.x, at.y) ==
+                             triangle.inner_right[k];
+                }
+                if (!inside) continue;
+                const double nearness = triangle.nearness.gx * at.x + triangle.nearness.gy * at.y +
+                                        triangle.nearness.at_origin;
+                meet(static_cast<std::uint32_t>(i),
+                     std::clamp(nearness, triangle.least, triangle.most), slot, t, veil, row);
+            }
+        }
+    }
+
+    void draw_outline(const ScanOutline& outline, std::uint32_t slot, ScanRow& row) {
+        const bool veil = scene_.sources[scene_.facets[outline.facet].source].may_pass;
+        const auto meet_at = [&](int sample, const GridPoint& at) {
+            const double nearness = outline.nearness.gx * at.x + outline.nearness.gy * at.y +
+                                    outline.nearness.at_origin;
+            const auto k = static_cast<std::uint32_t>(sample);
+            if (!veil) return see(k, nearness, slot | kOutline);
+            if (nearness > most_nearness_) return;
+            row.veils.push_back({k, {outline.facet | ScanSample::kFacet, nearness, 0, 0}});
+        };
+        if (!grid_.several()) {
+            crossings_.clear();
+            for (const EdgeLine& line : outline.lines) {
+                if (line.y0 < y_ && y_ <= line.y0 + line.dy) {
+                    crossings_.push_back(line.first_right(grid_, y_));
+                }
+            }
+            std::sort(crossings_.begin(), crossings_.end());
+            for (std::size_t k = 0; k + 1 < crossings_.size(); k += 2) {
+                for (int i = crossings_[k]; i < crossings_[k + 1]; ++i) {
+                    meet_at(i, {grid_.x(i), y_});
+                }
+            }
+            return;
+        }
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const GridPoint& at = places_[i];
+            bool inside = false;
+            for (const EdgeLine& line : outline.lines) {
+                if (line.y0 < at.y && at.y <= line.y0 + line.dy) {
+                    inside = inside != line.is_right(at.x, at.y);
+                }
+            }
+            if (inside) meet_at(static_cast<int>(i), at);
+        }
+    }
+
+    void resolve(ScanRow& row) {
+        row.samples.resize(owner_.size());
+        for (std::uint32_t k = 0; k < owner_.size(); ++k) {
+            ScanSample& sample = row.samples[k];
+            const std::uint32_t owner = owner_[k];
+            sample.item = ScanSample::kNothing;
+            if (owner == kNone) continue;
+            sample.nearness = nearness_[k];
+            if ((owner & kOutline) != 0) {
+                sample.item = outlines_[owner & ~kOutline].facet | ScanSample::kFacet;
+                continue;
+            }
+            const ScanQuad& quad = quads_[owner >> 1];
+            const GridPoint at = place(k);
+            const Vec2 uv = quad.parameters_at(owner & 1u, at.x, at.y);
+            sample.item = quad.piece;
+            sample.u = uv.x;
+            sample.v = uv.y;
+        }
+        if (row.veils.empty()) return;
+        std::erase_if(row.veils, [&](const ScanVeil& veil) {
+            return owner_[veil.sample] != kNone && veil.seen.nearness < nearness_[veil.sample];
+        });
+        std::sort(row.veils.begin(), row.veils.end(), [](const ScanVeil& a, const ScanVeil& b) {
+            if (a.sample != b.sample) return a.sample < b.sample;
+            if (a.seen.nearness != b.seen.nearness) return a.seen.nearness > b.seen.nearness;
+            return a.seen.item < b.seen.item;
+        });
+    }
+
+    const ScanScene& scene_;
+    ScreenView view_;
+    const SampleGrid& grid_;
+    const std::int32_t* xs_;  ///< of the grid
+    double most_nearness_;    ///< of what is before the eye
+    bool with_chords_, split_ahead_ = false;
+    PatchTables patches_;
+    Slots<ScanQuad> quads_;
+    Slots<ScanOutline> outlines_;
+    std::vector<std::uint32_t> quad_buckets_, outline_buckets_;  ///< [row]
+    std::vector<std::uint32_t> active_quads_, active_outlines_;  ///< the polygon table
+    int row_ = 0;
+    std::int32_t y_ = 0;
+    std::vector<double> nearness_;      ///< [sample] of the nearest surface so far
+    std::vector<std::uint32_t> owner_;  ///< [sample] 2 * quad + triangle, or an outline
+    std::vector<GridPoint> places_;     ///< [sample], with several samples a pixel
+    std::vector<int> crossings_;
+    std::uint64_t most_bytes_ = 0;
+    ScanLineReport report_;
+};
+
+ScanLines::ScanLines(const ScanScene& scene, const ScreenView& view, const SampleGrid& grid,
+                     const ScanLineOptions& options)
+    : impl_(std::make_unique<Impl>(scene, view, grid, options)) {}
+ScanLines::~ScanLines() = default;
+void ScanLines::next(ScanRow& row) {
+    impl_->next(row);
+}
+ScanLineReport& ScanLines::report() {
+    return impl_->report();
+}
+
+std::uint64_t count_crack_samples(const ScanScene& scene, const ScreenView& view,
+                                  const SampleGrid& grid, ScanLineOptions options) {
+    const auto columns = static_cast<std::size_t>(grid.columns());
+    const auto rows = static_cast<std::size_t>(grid.rows());
+    std::vector<std::uint64_t> steps(rows * (columns + 1));
+    PatchTables patches(scene, view, grid, options, true);
+    ScanLineReport ignored;
+    ScanQuad quad;
+    const bool chords = options.cracks == Cracks::Clark;
+    for (int row = 0; row < grid.rows(); ++row) {
+        patches.advance(row, ignored, [&](const SubPatch& patch) {
+            const PatchDegrees degrees = patches.degrees(patch);
+            set_quad(view, grid, degrees.u, degrees.v, patch, chords, quad);
+            for (std::size_t side = 0; side < 4; ++side) {
+                const EdgeLine& line = quad.lines[side];
+                if (quad.seams[side] == 0 || line.dy == 0) continue;
+                const std::uint64_t weight = line.turned ? ~quad.seams[side] + 1 : quad.seams[side];
+                for (int j = quad.first_row; j < quad.end_row; ++j) {
+                    if (!(line.y0 < grid.y(j) && grid.y(j) <= line.y0 + line.dy)) continue;
+                    const int column = line.first_right(grid, grid.y(j));
+                    steps[static_cast<std::size_t>(j) * (columns + 1) +
+                          static_cast<std::size_t>(column)] += weight;
+                }
+            }
+        });
+    }
+    std::uint64_t found = 0;
+    for (std::size_t j = 0; j < rows; ++j) {
+        std::uint64_t sum = 0, base = 0;
+        for (std::size_t i = 0; i < columns; ++i) {
+            sum += steps[j * (columns + 1) + i];
+            if (i == 0) base = sum;
+            found += sum != base;
+        }
+    }
+    return found;
+}
+
+}  // namespace alhazen

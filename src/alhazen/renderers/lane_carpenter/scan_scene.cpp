@@ -1,0 +1,350 @@
+#include "alhazen/renderers/lane_carpenter/scan_scene.h"
+
+#include <algorithm>
+
+#include "alhazen/base/error.h"
+#include "alhazen/geometry/polygon/convex_corners.h"
+#include "alhazen/math/unit_vector.h"
+#include "alhazen/shapes/patches/exact_forms.h"
+
+namespace alhazen {
+
+namespace {
+
+BezierNet placed_net(const BezierNet& net, const Affine& world_from_own) {
+    BezierNet result = net;
+    for (int k = 0; k < net.count(); ++k) {
+        HomogeneousPoint& p = result.points[static_cast<std::size_t>(k)];
+        const Vec3 v =
+            world_from_own.linear * Vec3{p.x, p.y, p.z} + p.w * world_from_own.translation;
+        p = {v.x, v.y, v.z, p.w};
+    }
+    return result;
+}
+
+/// Two unit vectors that span the plane of a normal.
+std::array<Vec3, 2> plane_axes(const Vec3& normal) {
+    const Vec3 a = perpendicular(normal);
+    return {a, cross(normal, a)};
+}
+
+bool passes(const Material& material) {
+    return material.alpha_mode != AlphaMode::Opaque || !material.double_sided;
+}
+
+/// Walks the objects of a description as the compiler of scenes does.
+class ScanGatherer {
+  public:
+    ScanGatherer(const SceneDescription& description, const Scene& scene, const Vec3& eye)
+        : d_(description), scene_(scene), eye_(eye), uses_(description.objects.size()) {
+        std::uint32_t next = 0;
+        for (const ObjectDescription& object : d_.objects) {
+            first_part_.push_back(next);
+            next += static_cast<std::uint32_t>(object.parts.size());
+            for (const Part& part : object.parts) {
+                if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                    ++uses_[static_cast<std::size_t>(*child)];
+                }
+            }
+        }
+    }
+
+    ScanScene gather() {
+        add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
+        if (!refused_.empty()) {
+            throw Error(ErrorKind::Usage,
+                        "scan lines take patches, the shapes that are patches, and polygons; "
+                        "these are neither: " +
+                            refused_);
+        }
+        return std::move(result_);
+    }
+
+  private:
+    void refuse(const std::string& what, const std::string& name, const FileLocation& where) {
+        if (!refused_.empty()) refused_ += "; ";
+        refused_ += what;
+        if (!name.empty()) refused_ += " '" + name + "'";
+        if (where.line > 0) refused_ += " (line " + std::to_string(where.line) + ")";
+    }
+
+    void add_object(std::size_t index, const Affine& world_from_object, RayMask mask,
+                    const std::uint32_t* instance) {
+        const ObjectDescription& object = d_.objects[index];
+        if (object.combine != Combine::Group) {
+            refuse("solid of constructive geometry", object.name, object.location);
+            return;
+        }
+        std::uint32_t number = first_part_[index];
+        for (const Part& part : object.parts) {
+            add_part(part, number++, world_from_object * part.object_from_part,
+                     mask & part.visible_to, instance);
+        }
+    }
+
+    void add_part(const Part& part, std::uint32_t number, const Affine& world_from_part,
+                  RayMask mask, const std::uint32_t* instance) {
+        if ((mask & mask_of(RayKind::Eye)) == 0) return;
+        if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+            const auto index = static_cast<std::size_t>(*child);
+            const ObjectDescription& object = d_.objects[index];
+            const bool dissolved =
+                uses_[index] == 1 && object.combine == Combine::Group && object.accelerator.empty();
+            const std::uint32_t* around = instance != nullptr || dissolved ? instance : &number;
+            add_object(index, world_from_part, mask, around);
+            return;
+        }
+        ScanSource source;
+        source.world_from_own = world_from_part;
+        source.placed = world_from_part != Affine{};
+        source.own_from_world = inverse(world_from_part);
+        source.mirrored = determinant(world_from_part.linear) < 0.0;
+        source.material = part.material;
+        source.part = number;
+        source.instance = instance != nullptr ? *instance : number;
+        if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
+            source.may_pass = passes(scene_.materials[static_cast<std::size_t>(part.material)]);
+            add_shape(*shape, part, std::move(source));
+        } else {
+            source.mesh =
+                d_.meshes[static_cast<std::size_t>(std::get<MeshIndex>(part.what))].mesh.get();
+            add_mesh(std::move(source));
+        }
+    }
+
+    void add_mesh(ScanSource source) {
+        const TriangleMesh& mesh = *source.mesh;
+        const std::vector<std::uint32_t>& own = mesh.vertex_materials;
+        if (own.empty()) {
+            source.may_pass = passes(scene_.materials[static_cast<std::size_t>(source.material)]);
+        }
+        source.may_pass = source.may_pass || std::any_of(own.begin(), own.end(), [&](auto id) {
+                              return passes(scene_.materials[id]);
+                          });
+        const auto index = static_cast<std::uint32_t>(result_.sources.size());
+        for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+            result_.facets.push_back({.source = index, .part = static_cast<std::uint32_t>(k)});
+        }
+        for (const Vec3& p : mesh.positions) reach(source.world_from_own.point(p));
+        result_.sources.push_back(std::move(source));
+    }
+
+    void add_shape(const AnyShape& shape, const Part& part, ScanSource source) {
+        auto prepared = std::make_shared<AnyShape>(shape);
+        if (must_prepare(shape, part.material)) {
+            std::visit([](auto& s) { s.prepare(); }, *prepared);
+        }
+        source.shape = prepared.get();
+        source.prepared = std::move(prepared);
+        const AnyShape* own = source.shape;
+        std::visit(
+            [&]<class S>(const S& s) {
+                source.is_patch = std::is_same_v<S, BezierPatch> || std::is_same_v<S, PatchMesh> ||
+                                  std::is_same_v<S, NurbsSurface> ||
+                                  std::is_same_v<S, BilinearPatch> ||
+                                  std::is_same_v<S, SteinerPatch> || std::is_same_v<S, Rectangle>;
+                source.is_triangle = std::is_same_v<S, SteinerPatch>;
+                source.is_by_ray = std::is_same_v<S, Lathe>;
+                if constexpr (std::is_same_v<S, NurbsSurface>) {
+                    if (!s.trims.empty()) {
+                        refuse("nurbs_surface with trims", part.name, part.location);
+                        return;
+                    }
+                }
+                result_.sources.push_back(std::move(source));
+                if constexpr (HasPatchForm<S>) {
+                    add_pieces(s);
+                } else if (!add_facets(s)) {
+                    result_.sources.pop_back();
+                    refuse(S::kName, part.name, part.location);
+                }
+            },
+            *own);
+    }
+
+    /// What is prepared for rays takes longer than the picture: patches need it only where it
+    /// matters which side is outside.
+    [[nodiscard]] bool must_prepare(const AnyShape& shape, MaterialId id) const {
+        if (std::holds_alternative<BezierPatch>(shape)) return false;
+        if (!std::holds_alternative<PatchMesh>(shape)) return true;
+        const Material& material = scene_.materials[static_cast<std::size_t>(id)];
+        return !material.double_sided || material.normal_map.texture != kNoTexture;
+    }
+
+    template <class S>
+    void add_pieces(const S& shape) {
+        std::vector<BezierPiece> pieces;
+        append_pieces(shape, pieces);
+        add_pieces(pieces, [](std::size_t) { return false; });
+    }
+    void add_pieces(const PatchMesh& mesh) {
+        std::vector<BezierPiece> pieces;
+        for (std::size_t k = 0; k < mesh.patch_count(); ++k) {
+            pieces.push_back({.net = mesh.net(k), .part = static_cast<std::uint32_t>(k)});
+        }
+        add_pieces(pieces, [&](std::size_t k) { return mesh.is_closed && mesh.inward[k]; });
+    }
+    /// Parameters from the first knot to the last one become those of the unit square.
+    void add_pieces(const NurbsSurface& s) {
+        std::vector<BezierPiece> pieces;
+        append_pieces(s, pieces);
+        const Vec2 lo{s.knots_u[s.degree_u], s.knots_v[s.degree_v]};
+        const Vec2 size{s.knots_u[s.knots_u.size() - s.degree_u - 1] - lo.x,
+                        s.knots_v[s.knots_v.size() - s.degree_v - 1] - lo.y};
+        for (BezierPiece& piece : pieces) {
+            for (Vec2* corner : {&piece.lo, &piece.hi}) {
+                *corner = {(corner->x - lo.x) / size.x, (corner->y - lo.y) / size.y};
+            }
+        }
+        add_pieces(pieces, [](std::size_t) { return false; });
+    }
+    template <class IsInward>
+    void add_pieces(const std::vector<BezierPiece>& pieces, IsInward&& is_inward) {
+        const ScanSource& source = result_.sources.back();
+        const auto index = static_cast<std::uint32_t>(result_.sources.size() - 1);
+        for (std::size_t n = 0; n < pieces.size(); ++n) {
+            const BezierPiece& piece = pieces[n];
+            result_.pieces.push_back({.net = placed_net(piece.net, source.world_from_own),
+                                      .source = index,
+                                      .part = piece.part,
+                                      .lo = piece.lo,
+                                      .hi = piece.hi,
+                                      .inward = is_inward(n)});
+            const BezierNet& net = result_.pieces.back().net;
+            bool polynomial = true;
+            for (int k = 0; k < net.count(); ++k) {
+                polynomial = polynomial && net.points[static_cast<std::size_t>(k)].w == 1.0;
+                reach(projected(net.points[static_cast<std::size_t>(k)]));
+            }
+            result_.pieces.back().polynomial = polynomial;
+        }
+    }
+
+    // ---- facets: points and normals in the frame of the shape
+    template <class S>
+    bool add_facets(const S&) {
+        return false;
+    }
+    bool add_facets(const Plane& s) {
+        add_plane(s.point, s.unit_normal);
+        return true;
+    }
+    bool add_facets(const HalfSpace& s) {
+        add_plane(s.face.point, s.face.unit_normal);
+        return true;
+    }
+    bool add_facets(const Polygon& s) {
+        std::vector<std::vector<HomogeneousPoint>> loops;
+        std::size_t first = 0;
+        for (const std::size_t end : s.loop_ends) {
+            loops.emplace_back();
+            for (std::size_t k = first; k < end; ++k) {
+                loops.back().push_back(homogeneous(s.vertices[k]));
+            }
+            first = end;
+        }
+        add_facet(s.point, s.normal, 0, loops);
+        return true;
+    }
+    bool add_facets(const BoxShape& s) {
+        for (int face = 0; face < 6; ++face) {
+            const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+            Vec3 normal;
+            normal[axis] = face % 2 == 1 ? 1.0 : -1.0;
+            std::vector<HomogeneousPoint> loop;
+            for (int k = 0; k < 4; ++k) {
+                Vec3 p;
+                p[axis] = face % 2 == 1 ? s.hi[axis] : s.lo[axis];
+                p[u] = k == 1 || k == 2 ? s.hi[u] : s.lo[u];
+                p[v] = k >= 2 ? s.hi[v] : s.lo[v];
+                loop.push_back(homogeneous(p));
+            }
+            add_facet(projected(loop[0]), normal, static_cast<std::uint32_t>(face), {loop});
+        }
+        return true;
+    }
+    bool add_facets(const Polyhedron& s) {
+        const ConvexCorners corners = convex_corners(s.faces);
+        if (!corners.bounded) return false;
+        std::size_t first = 0;
+        for (std::size_t face = 0; face < corners.face_ends.size(); ++face) {
+            std::vector<HomogeneousPoint> loop;
+            for (std::size_t k = first; k < corners.face_ends[face]; ++k) {
+                loop.push_back(homogeneous(corners.corners[k]));
+            }
+            first = corners.face_ends[face];
+            if (loop.size() < 3) continue;
+            add_facet(s.faces[face].point, s.faces[face].normal, static_cast<std::uint32_t>(face),
+                      {loop});
+        }
+        return true;
+    }
+
+    /// Four quarters that reach to infinity.
+    void add_plane(const Vec3& point, const Vec3& normal) {
+        const auto [a, b] = plane_axes(normal);
+        const std::array<Vec3, 4> around{a, b, -a, -b};
+        std::vector<std::vector<HomogeneousPoint>> loops;
+        for (std::size_t k = 0; k < 4; ++k) {
+            loops.push_back({homogeneous(point), homogeneous_direction(around[k]),
+                             homogeneous_direction(around[(k + 1) % 4])});
+        }
+        for (const auto& loop : loops) add_facet(point, normal, 0, {loop});
+    }
+    static HomogeneousPoint homogeneous_direction(const Vec3& v) { return {v.x, v.y, v.z, 0.0}; }
+
+    void add_facet(const Vec3& point, const Vec3& normal, std::uint32_t part,
+                   const std::vector<std::vector<HomogeneousPoint>>& loops) {
+        const ScanSource& source = result_.sources.back();
+        ScanFacet facet;
+        facet.source = static_cast<std::uint32_t>(result_.sources.size() - 1);
+        facet.part = part;
+        facet.first = static_cast<std::uint32_t>(result_.loops.size());
+        facet.loops = static_cast<std::uint32_t>(loops.size());
+        facet.point = source.world_from_own.point(point);
+        facet.normal = unit_or(transpose_times(source.own_from_world.linear, normal), {0, 0, 1});
+        for (const auto& loop : loops) {
+            result_.loops.emplace_back();
+            for (const HomogeneousPoint& p : loop) {
+                const Vec3 v = source.world_from_own.linear * Vec3{p.x, p.y, p.z} +
+                               p.w * source.world_from_own.translation;
+                result_.loops.back().push_back({v.x, v.y, v.z, p.w});
+                if (p.w != 0.0) reach(v / p.w);
+            }
+        }
+        result_.facets.push_back(facet);
+    }
+
+    void reach(const Vec3& point) {
+        result_.farthest = std::max(result_.farthest, length(point - eye_));
+    }
+
+    const SceneDescription& d_;
+    const Scene& scene_;
+    Vec3 eye_;
+    std::vector<std::uint32_t> uses_, first_part_;
+    ScanScene result_;
+    std::string refused_;
+};
+
+}  // namespace
+
+bool ScanScene::any_may_pass() const {
+    return std::any_of(sources.begin(), sources.end(),
+                       [](const ScanSource& source) { return source.may_pass; });
+}
+
+ScanScene scan_scene(const SceneDescription& description, const Scene& scene, const Vec3& eye) {
+    return ScanGatherer(description, scene, eye).gather();
+}
+
+std::array<Vec3, 3> triangle_corners(const ScanSource& source, std::uint32_t triangle) {
+    const auto& corners = source.mesh->triangles[triangle];
+    std::array<Vec3, 3> result;
+    for (std::size_t k = 0; k < 3; ++k) {
+        result[k] = source.world_from_own.point(source.mesh->positions[corners[k]]);
+    }
+    return result;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,21 @@
+#pragma once
+/// All patches and NURBS surfaces of a scene with instances expanded, for files of patches.
+
+#include <string>
+#include <vector>
+
+#include "alhazen/formats/patch_files/patch_export.h"
+#include "alhazen/session/placed_meshes.h"
+
+namespace alhazen {
+
+/// Limit of placed control points of a file.
+inline constexpr std::uint64_t kMaxPlacedControlPoints = 400'000'000;
+
+/// The shapes that `fits`, in the order of the parts; they are removed from `counts`.
+/// `material_names` [MaterialId]. Throws Error (Resource) beyond the limit.
+[[nodiscard]] std::vector<NamedSurface> placed_surfaces(
+    const SceneDescription& description, bool (*fits)(const AnyShape&),
+    const std::vector<std::string>& material_names, PlacedCounts& counts);
+
+}  // namespace alhazen

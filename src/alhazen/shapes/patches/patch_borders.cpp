@@ -1,0 +1,170 @@
+#include "alhazen/shapes/patches/patch_borders.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/math/quadratic.h"
+
+namespace alhazen {
+
+PlaneNet plane_net(const BezierNet& net, const PatchLine& line) {
+    PlaneNet plane;
+    plane.degree_u = net.degree_u;
+    plane.degree_v = net.degree_v;
+    for (int k = 0; k < net.count(); ++k) {
+        const HomogeneousPoint& p = net.points[static_cast<std::size_t>(k)];
+        const Vec3 offset = Vec3{p.x, p.y, p.z} - p.w * line.origin;
+        plane.at[static_cast<std::size_t>(k)] = {dot(line.axis_x, offset),
+                                                 dot(line.axis_y, offset)};
+    }
+    return plane;
+}
+
+PlaneNet border_net(const BezierNet& net, const PatchLine& line) {
+    PatchLine beside = line;
+    beside.origin += line.tiny * (line.axis_x + 0.37 * line.axis_y);
+    return plane_net(net, beside);
+}
+
+namespace {
+
+using PlaneRow = std::array<PlanePoint, kMaxPatchOrder>;
+
+/// By midpoints: the same bits from either end, and never outside of the hull of `row`.
+void halve_plane_row(const PlaneRow& row, int degree, PlaneRow& left, PlaneRow& right) {
+    PlaneRow work = row;
+    for (int level = 0; level <= degree; ++level) {
+        const auto last = static_cast<std::size_t>(degree - level);
+        left[static_cast<std::size_t>(level)] = work[0];
+        right[last] = work[last];
+        for (std::size_t k = 0; k < last; ++k) work[k] = 0.5 * (work[k] + work[k + 1]);
+    }
+}
+
+/// The curve's point at a parameter of the grid.
+PlanePoint point_of_row(PlaneRow row, int degree, double at) {
+    if (at == 0.0) return row[0];
+    double lo = 0.0, hi = 1.0;
+    PlaneRow left, right;
+    while (at != hi) {
+        const double middle = 0.5 * (lo + hi);
+        halve_plane_row(row, degree, left, right);
+        const bool in_left = at <= middle;
+        row = in_left ? left : right;
+        (in_left ? hi : lo) = middle;
+    }
+    return row[static_cast<std::size_t>(degree)];
+}
+
+/// The control points of the line u = `at`.
+PlaneRow row_at_u(const PlaneNet& net, double at) {
+    PlaneRow result;
+    const auto order_v = static_cast<std::size_t>(net.degree_v) + 1;
+    for (std::size_t j = 0; j < order_v; ++j) {
+        PlaneRow row;
+        for (std::size_t i = 0; i <= static_cast<std::size_t>(net.degree_u); ++i) {
+            row[i] = net.at[i * order_v + j];
+        }
+        result[j] = point_of_row(row, net.degree_u, at);
+    }
+    return result;
+}
+/// Those of the line v = `at`.
+PlaneRow row_at_v(const PlaneNet& net, double at) {
+    PlaneRow result;
+    const auto order_v = static_cast<std::size_t>(net.degree_v) + 1;
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(net.degree_u); ++i) {
+        PlaneRow row;
+        for (std::size_t j = 0; j < order_v; ++j) row[j] = net.at[i * order_v + j];
+        result[i] = point_of_row(row, net.degree_v, at);
+    }
+    return result;
+}
+
+/// The line u = at or v = at of a patch, as the polyline through its points on the grid. A point is
+/// found by halving in u first, on either kind of line: one value, whoever asks.
+class Border {
+  public:
+    Border(const PlaneNet& net, bool along_v, double at, double tiny)
+        : net_(net),
+          along_v_(along_v),
+          at_(at),
+          degree_(along_v ? net.degree_v : net.degree_u),
+          // The points of an inner line v = at were halved in the other order.
+          slack_(along_v || at == 0.0 || at == 1.0 ? 0.0 : 0.25 * tiny),
+          row_(along_v ? row_at_u(net, at) : row_at_v(net, at)) {
+        // Points of the polyline are about tiny / 32 apart.
+        double fastest = 0.0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(degree_); ++k) {
+            const PlanePoint d = row_[k + 1] - row_[k];
+            fastest = std::max({fastest, std::abs(d.x), std::abs(d.y)});
+        }
+        const int level = fastest > 0.0 ? std::ilogb(32.0 * degree_ * fastest / tiny) + 1 : 0;
+        last_ = std::ldexp(1.0, -std::clamp(level, 8, kMaxBorderLevel));
+    }
+
+    /// Crossings of the positive x axis upward, less those downward, in the part over [from, to].
+    [[nodiscard]] int crossings(double from, double to) const {
+        PlaneRow row = row_, left, right;
+        double lo = 0.0, hi = 1.0;
+        while (lo != from || hi != to) {
+            const double middle = 0.5 * (lo + hi);
+            halve_plane_row(row, degree_, left, right);
+            const bool in_left = to <= middle;
+            row = in_left ? left : right;
+            (in_left ? hi : lo) = middle;
+        }
+        return count(row, lo, hi);
+    }
+
+  private:
+    [[nodiscard]] PlanePoint point(const PlaneRow& row, bool last, double parameter) const {
+        if (slack_ == 0.0) return row[last ? static_cast<std::size_t>(degree_) : 0];
+        return point_of_row(row_at_u(net_, parameter), net_.degree_v, at_);
+    }
+    /// Whether the point has y >= 0; from the curve's own halves where these are sure of it.
+    [[nodiscard]] bool is_up(const PlaneRow& row, bool last, double parameter) const {
+        const double y = row[last ? static_cast<std::size_t>(degree_) : 0].y;
+        if (std::abs(y) > slack_) return y > 0.0;
+        return point(row, last, parameter).y >= 0.0;
+    }
+
+    [[nodiscard]] int count(const PlaneRow& row, double lo, double hi) const {
+        PlanePoint least = row[0], most = row[0];
+        for (std::size_t k = 1; k <= static_cast<std::size_t>(degree_); ++k) {
+            least = {std::min(least.x, row[k].x), std::min(least.y, row[k].y)};
+            most = {std::max(most.x, row[k].x), std::max(most.y, row[k].y)};
+        }
+        if (least.y > slack_ || most.y < -slack_ || most.x < -slack_) return 0;
+        if (least.x > slack_) return int{is_up(row, true, hi)} - int{is_up(row, false, lo)};
+        if (hi - lo <= last_) {
+            const PlanePoint a = point(row, false, lo), b = point(row, true, hi);
+            const double side = difference_of_products(a.x, b.y, b.x, a.y);
+            const bool a_up = a.y >= 0.0, b_up = b.y >= 0.0;
+            return (b_up ? side > 0.0 : side < 0.0) ? int{b_up} - int{a_up} : 0;
+        }
+        PlaneRow left, right;
+        halve_plane_row(row, degree_, left, right);
+        const double middle = 0.5 * (lo + hi);
+        return count(left, lo, middle) + count(right, middle, hi);
+    }
+
+    const PlaneNet& net_;
+    bool along_v_;
+    double at_;
+    int degree_;
+    double slack_, last_;
+    PlaneRow row_;
+};
+
+}  // namespace
+
+bool passes_through(const PlaneNet& whole, const PatchCell& cell, double tiny) {
+    const int sum = Border(whole, false, cell.v0, tiny).crossings(cell.u0, cell.u1) +
+                    Border(whole, true, cell.u1, tiny).crossings(cell.v0, cell.v1) -
+                    Border(whole, false, cell.v1, tiny).crossings(cell.u0, cell.u1) -
+                    Border(whole, true, cell.u0, tiny).crossings(cell.v0, cell.v1);
+    return sum % 2 != 0;
+}
+
+}  // namespace alhazen

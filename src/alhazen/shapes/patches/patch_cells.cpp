@@ -1,0 +1,345 @@
+#include "alhazen/shapes/patches/patch_cells.h"
+
+#include "alhazen/shapes/patches/patch_lanes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alhazen {
+
+namespace {
+
+enum class Place { Inside, Outside, Unclear };
+
+/// Where a root lies to a cell: clear where its distance in the plane of the line, from each side,
+/// is beyond rounding, `scale` times `line.tiny`.
+Place place_of(const PatchValue& at, double scale, const PatchLine& line, const PatchCell& cell,
+               double u, double v) {
+    const double x_u = dot(line.axis_x, at.du), y_u = dot(line.axis_y, at.du);
+    const double x_v = dot(line.axis_x, at.dv), y_v = dot(line.axis_y, at.dv);
+    // A quarter for the change of the derivatives across the cell.
+    const double area = 0.25 * std::abs(x_u * y_v - x_v * y_u);
+    const double inside_u = std::min(u - cell.u0, cell.u1 - u) * area;
+    const double inside_v = std::min(v - cell.v0, cell.v1 - v) * area;
+    const double margin = 4.0 * scale * line.tiny;
+    const double margin_u = margin * std::sqrt(x_v * x_v + y_v * y_v);
+    const double margin_v = margin * std::sqrt(x_u * x_u + y_u * y_u);
+    if (inside_u > margin_u && inside_v > margin_v) return Place::Inside;
+    if (inside_u < -margin_u || inside_v < -margin_v) return Place::Outside;
+    return Place::Unclear;
+}
+
+double t_at(const Vec3& from_origin, const PatchLine& line) {
+    return line.shift + dot(from_origin, line.direction) * line.per_length;
+}
+
+}  // namespace
+
+bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line, const PatchCell& cell,
+                    double noise, double u, double v, PatchRoot& root) {
+    const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
+    const Vec3& d = line.direction;
+    // Distance of the root, if there is one, from the estimate, in widths.
+    double reach = 0.25 * kCertified + kCellMargin, last = 1.0;
+    for (int step = 0; step < 40; ++step) {
+        const double far_u = reach * width_u, far_v = reach * width_v;
+        if (!(u >= cell.u0 - far_u && u <= cell.u1 + far_u && v >= cell.v0 - far_v &&
+              v <= cell.v1 + far_v)) {
+            return false;
+        }
+        u = std::clamp(u, cell.u0 - kCellMargin * width_u, cell.u1 + kCellMargin * width_u);
+        v = std::clamp(v, cell.v0 - kCellMargin * width_v, cell.v1 + kCellMargin * width_v);
+        PatchValue at;
+        if (what == RootOf::Point) {
+            at = patch_value(net, u, v);
+            at.point = at.point - line.origin;
+        } else {
+            at = weighted_value(net, line.origin, u, v);
+        }
+        const Vec3 across_v = cross(at.dv, d), across_u = cross(d, at.du);
+        const double inverse = -1.0 / dot(at.du, across_v);
+        const double du = dot(across_v, at.point) * inverse;
+        const double dv = dot(across_u, at.point) * inverse;
+        u += du;
+        v += dv;
+        reach = std::max({0.7 * reach, kCellMargin, noise});
+        const double moved = std::max(std::abs(du) / width_u, std::abs(dv) / width_v);
+        // Done, unless the steps still shrink as they do before rounding stops them.
+        const bool stalled = last < 0x1p-4 && moved > 0.25 * last;
+        last = moved;
+        if (moved > 0x1p-23 && !stalled) continue;
+        const double scale = what == RootOf::Point ? 1.0 / at.weight : 1.0;
+        const Place place = place_of(at, scale, line, cell, u, v);
+        if (place == Place::Outside) return false;
+        if (place == Place::Unclear && !passes_through(border_net(net, line), cell, line.tiny)) {
+            return false;
+        }
+        if (what == RootOf::Point) {
+            root.t = t_at(at.point + du * at.du + dv * at.dv, line);
+        } else {
+            root.t = t_at(patch_value(net, u, v).point - line.origin, line);
+        }
+        root.u = u;
+        root.v = v;
+        return true;
+    }
+    return false;
+}
+
+namespace {
+
+void halve_cell_net(const PlaneNet& net, bool along_u, PlaneNet& low, PlaneNet& high) {
+    if (net.degree_u == 3 && net.degree_v == 3) {
+        return patch_kernels().halve_cubic(net, along_u, low, high);
+    }
+    low.degree_u = high.degree_u = net.degree_u;
+    low.degree_v = high.degree_v = net.degree_v;
+    const int degree = along_u ? net.degree_u : net.degree_v;
+    const int rows = along_u ? net.degree_v : net.degree_u;
+    const int row_stride = along_u ? 1 : net.degree_v + 1;
+    const int stride = along_u ? net.degree_v + 1 : 1;
+    for (int r = 0; r <= rows; ++r) {
+        PlanePoint work[kMaxPatchOrder];
+        const auto index = [&](int k) {
+            return static_cast<std::size_t>(r * row_stride + k * stride);
+        };
+        for (int k = 0; k <= degree; ++k) work[k] = net.at[index(k)];
+        for (int level = 0; level <= degree; ++level) {
+            low.at[index(level)] = work[0];
+            high.at[index(degree - level)] = work[degree - level];
+            for (int k = 0; k < degree - level; ++k) work[k] = 0.5 * (work[k] + work[k + 1]);
+        }
+    }
+}
+
+double cross2(const PlanePoint& a, const PlanePoint& b) {
+    return a.x * b.y - a.y * b.x;
+}
+double size_of(const PlanePoint& a) {
+    return std::abs(a.x) + std::abs(a.y);
+}
+
+/// The bounds of a cell of any degree.
+CellBounds bounds_of(const PlaneNet& net) {
+    const auto n = static_cast<std::size_t>(net.degree_u),
+               m = static_cast<std::size_t>(net.degree_v);
+    const auto at = [&](std::size_t i, std::size_t j) { return net.at[i * (m + 1) + j]; };
+    CellBounds out{};
+    double bu[kMaxPatchOrder], bv[kMaxPatchOrder], cu[kMaxPatchOrder], cv[kMaxPatchOrder];
+    bernstein_values(net.degree_u, 0.5, bu, cu);
+    bernstein_values(net.degree_v, 0.5, bv, cv);
+    for (std::size_t i = 0; i <= n; ++i) {
+        for (std::size_t j = 0; j <= m; ++j) {
+            out.f = out.f + (bu[i] * bv[j]) * at(i, j);
+            out.f_u = out.f_u + (0.5 * cu[i] * bv[j]) * at(i, j);
+            out.f_v = out.f_v + (0.5 * bu[i] * cv[j]) * at(i, j);
+        }
+    }
+    const PlanePoint along = size_of(out.f_u) > size_of(out.f_v) ? out.f_u : out.f_v;
+    const double scale = size_of(along), det = cross2(out.f_u, out.f_v);
+    const PlanePoint aside =
+        scale > 0.0 ? PlanePoint{-along.y / scale, along.x / scale} : PlanePoint{0.5, 0.5};
+    const double inverse = det != 0.0 ? 1.0 / det : 0.0;
+    const auto larger = [](double& most, double x) { most = std::max(most, x); };
+    const auto include = [&](int k, double& size, const PlanePoint& d) {
+        larger(size, size_of(d));
+        larger(out.bend_u[k], std::abs(inverse * cross2(d, out.f_v)));
+        larger(out.bend_v[k], std::abs(inverse * cross2(out.f_u, d)));
+    };
+    std::fill_n(out.least, 3, kInfinity);
+    std::fill_n(out.most, 3, -kInfinity);
+    for (std::size_t i = 0; i <= n; ++i) {
+        for (std::size_t j = 0; j <= m; ++j) {
+            const PlanePoint p = at(i, j);
+            const double x[3] = {p.x, p.y, p.x * aside.x + p.y * aside.y};
+            for (int axis = 0; axis < 3; ++axis) {
+                larger(out.most[axis], x[axis]);
+                out.least[axis] = std::min(out.least[axis], x[axis]);
+            }
+            if (i < n) larger(out.extent_u, size_of(at(i + 1, j) - p));
+            if (j < m) larger(out.extent_v, size_of(at(i, j + 1) - p));
+            if (i + 2 <= n) include(0, out.size_uu, at(i + 2, j) - 2.0 * at(i + 1, j) + p);
+            if (j + 2 <= m) include(2, out.size_vv, at(i, j + 2) - 2.0 * at(i, j + 1) + p);
+            if (i < n && j < m) {
+                include(1, out.size_uv, at(i + 1, j + 1) - at(i, j + 1) - at(i + 1, j) + p);
+            }
+        }
+    }
+    return out;
+}
+
+/// What the control points of a cell tell.
+class CellFacts {
+  public:
+    CellFacts(const PlaneNet& net, double tiny)
+        : n_(net.degree_u), m_(net.degree_v), margin_(1.5 * tiny) {
+        if (n_ == 3 && m_ == 3) {
+            patch_kernels().cubic_bounds(net, margin_, bounds_);
+        } else {
+            bounds_ = bounds_of(net);
+        }
+    }
+
+    enum class Hull { Beside, Thin, Around };
+    /// Beside: no root, all on one side of a line through the origin, by more than 1.5 `tiny`.
+    /// Thin: all within 2 `tiny` of a line through the origin.
+    [[nodiscard]] Hull hull(double tiny) const {
+        bool thin = false;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double least = bounds_.least[axis], most = bounds_.most[axis];
+            if (least > margin_ || most < -margin_) return Hull::Beside;
+            thin = thin || std::max(-least, most) <= 2.0 * tiny;
+        }
+        return thin ? Hull::Thin : Hull::Around;
+    }
+    enum class Newton { Certified, NoRoot, Unsure };
+    /// Whether Newton's method is certified; sets the first step from the middle, in half-widths,
+    /// and about the distance of the cell's borders from its middle. No root: that step is farther
+    /// than it is from any root in the cell, by more than `tiny`.
+    Newton newton(double tiny, PlanePoint& step, double& radius) const {
+        const PlanePoint &f = bounds_.f, &f_u = bounds_.f_u, &f_v = bounds_.f_v;
+        const double det = cross2(f_u, f_v), size = size_of(f_u) * size_of(f_v);
+        if (!(std::abs(det) > 0x1p-40 * size)) return Newton::Unsure;
+        step = {-cross2(f, f_v) / det, -cross2(f_u, f) / det};
+        radius = std::abs(det) / std::max(size_of(f_u), size_of(f_v));
+        // Over the cell with its margin, Bernstein coefficients bound the change with this factor.
+        const double growth = 0.25 * (1.0 + 2.5 * kCellMargin * (n_ + m_));
+        const double uu = growth * (n_ * (n_ - 1)), uv = 2.0 * growth * (n_ * m_);
+        const double vv = growth * (m_ * (m_ - 1));
+        const auto sum = [&](const double(&b)[3]) { return uu * b[0] + uv * b[1] + vv * b[2]; };
+        const double bend_u = sum(bounds_.bend_u), bend_v = sum(bounds_.bend_v);
+        const double margin = 1.001 + 8.0 * tiny / radius;
+        if (std::abs(step.x) > margin + 0.5 * bend_u || std::abs(step.y) > margin + 0.5 * bend_v) {
+            return Newton::NoRoot;
+        }
+        return std::max(bend_u, bend_v) <= kCertified ? Newton::Certified : Newton::Unsure;
+    }
+    /// Whether to halve in u: where it bends more, else where it is longer.
+    [[nodiscard]] bool split_u() const {
+        const double bend_u = n_ * (n_ - 1) * bounds_.size_uu;
+        const double bend_v = m_ * (m_ - 1) * bounds_.size_vv;
+        if (std::max(bend_u, bend_v) > n_ * m_ * bounds_.size_uv) return bend_u > bend_v;
+        return n_ * bounds_.extent_u > m_ * bounds_.extent_v;
+    }
+
+  private:
+    int n_, m_;
+    double margin_;
+    CellBounds bounds_;
+};
+
+constexpr double kSmallestCell = 1.0 / static_cast<double>(1LL << kMaxCellLevel);
+
+/// The halves of a cell.
+std::array<PatchCell, 2> halves_of(const PatchCell& cell, bool along_u) {
+    const double u = 0.5 * (cell.u0 + cell.u1), v = 0.5 * (cell.v0 + cell.v1);
+    if (along_u) return {PatchCell{cell.u0, u, cell.v0, cell.v1}, {u, cell.u1, cell.v0, cell.v1}};
+    return {PatchCell{cell.u0, cell.u1, cell.v0, v}, {cell.u0, cell.u1, v, cell.v1}};
+}
+
+}  // namespace
+
+CellSearch::CellSearch(const BezierNet& net, const PatchLine& line, const PatchCell& cell)
+    : net_(net), line_(line) {
+    size_ = 1;
+    stack_[0].net = plane_net(net, line);
+    // Down to the cell; the other halves are dropped.
+    PatchCell& at = stack_[0].cell;
+    at = {0, 1, 0, 1};
+    const auto inside = [&] {
+        return at.u0 == cell.u0 && at.u1 == cell.u1 && at.v0 == cell.v0 && at.v1 == cell.v1;
+    };
+    while (!inside()) {
+        const bool along_u = at.u0 != cell.u0 || at.u1 != cell.u1;
+        push_halves(along_u);
+        size_ = 1;
+        if (along_u ? cell.u0 >= at.u1 : cell.v0 >= at.v1) stack_[0] = stack_[1];
+    }
+}
+
+/// Replaces the last entry by its halves.
+void CellSearch::push_halves(bool along_u) {
+    Entry& low = stack_[size_ - 1];
+    Entry& high = stack_[size_++];
+    halve_cell_net(low.net, along_u, low.net, high.net);
+    const auto halves = halves_of(low.cell, along_u);
+    low.cell = halves[0];
+    high.cell = halves[1];
+}
+
+bool CellSearch::next(PatchRoot& root) {
+    while (size_ > 0) {
+        const Entry& top = stack_[size_ - 1];
+        const PatchCell& cell = top.cell;
+        const double width_u = cell.u1 - cell.u0, width_v = cell.v1 - cell.v0;
+        const CellFacts facts(top.net, line_.tiny);
+        const auto hull = facts.hull(line_.tiny);
+        if (hull == CellFacts::Hull::Beside) {
+            --size_;
+            continue;
+        }
+        PlanePoint step;
+        double radius = 0.0;
+        auto newton = CellFacts::Newton::Unsure;
+        if (hull == CellFacts::Hull::Around) newton = facts.newton(line_.tiny, step, radius);
+        if (newton == CellFacts::Newton::NoRoot) {
+            --size_;
+            continue;
+        }
+        if (newton == CellFacts::Newton::Certified) {
+            const double u = cell.u0 + 0.5 * (1.0 + step.x) * width_u;
+            const double v = cell.v0 + 0.5 * (1.0 + step.y) * width_v;
+            --size_;
+            const double noise = 2.0 * line_.tiny / radius;
+            const bool met = noise > 0x1p-6 ? settle(cell, root)
+                                            : certified_root(RootOf::WeightedPoint, net_, line_,
+                                                             cell, noise, u, v, root);
+            if (met) return true;
+            continue;
+        }
+        bool along_u = facts.split_u();
+        if ((along_u ? width_u : width_v) <= kSmallestCell) along_u = !along_u;
+        if (hull == CellFacts::Hull::Thin || ++cells_ > kMostCells ||
+            (along_u ? width_u : width_v) <= kSmallestCell) {
+            --size_;
+            if (settle(cell, root)) return true;
+            continue;
+        }
+        push_halves(along_u);
+    }
+    return false;
+}
+
+/// Reports one root where the winding number is odd: in the half where it is odd, and so on, then
+/// by Newton's method kept inside of the cell.
+bool CellSearch::settle(PatchCell cell, PatchRoot& root) const {
+    const PlaneNet whole = border_net(net_, line_);
+    if (!passes_through(whole, cell, line_.tiny)) return false;
+    constexpr double kFine = 0x1p-18;
+    while (std::max(cell.u1 - cell.u0, cell.v1 - cell.v0) > kFine) {
+        const auto halves = halves_of(cell, cell.u1 - cell.u0 >= cell.v1 - cell.v0);
+        cell = halves[passes_through(whole, halves[0], line_.tiny) ? 0 : 1];
+    }
+    root.u = 0.5 * (cell.u0 + cell.u1);
+    root.v = 0.5 * (cell.v0 + cell.v1);
+    const Vec3& d = line_.direction;
+    double nearest = kInfinity;
+    PatchRoot next = root;
+    for (int step = 0; step < 40; ++step) {
+        const PatchValue at = weighted_value(net_, line_.origin, next.u, next.v);
+        const Vec3 off = cross(at.point, d);
+        const double distance = dot(off, off);
+        if (!(distance < nearest)) break;
+        nearest = distance;
+        root = next;
+        const Vec3 across_v = cross(at.dv, d), across_u = cross(d, at.du);
+        const double det = dot(at.du, across_v);
+        if (det == 0.0) break;
+        next.u = std::clamp(next.u - dot(across_v, at.point) / det, cell.u0, cell.u1);
+        next.v = std::clamp(next.v - dot(across_u, at.point) / det, cell.v0, cell.v1);
+    }
+    root.t = t_at(patch_value(net_, root.u, root.v).point - line_.origin, line_);
+    return true;
+}
+
+}  // namespace alhazen

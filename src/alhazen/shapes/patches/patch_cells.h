@@ -1,0 +1,70 @@
+#pragma once
+/// The crossings of a line with a cell of a patch: Newton's method where it provably finds the one
+/// root, halving where that is not proven.
+///
+/// Source: Toth, "On Ray Tracing Parametric Surfaces", SIGGRAPH 1985 (a test that Newton's method
+/// converges, else halving); Gale and Nikaido, "The Jacobian Matrix and Global Univalence of
+/// Mappings", Mathematische Annalen 159, 1965 (why the test implies at most one root).
+/// Differs: the test bounds the derivative's change over the cell by Bernstein coefficients, in
+/// place of interval arithmetic; a root near a border is settled by winding numbers
+/// (patch_borders.h).
+/// Conventions: docs/design/patches.md has the proofs and bounds.
+
+#include "alhazen/shapes/patches/patch_borders.h"
+#include "alhazen/shapes/patches/patch_value.h"
+
+namespace alhazen {
+
+/// A crossing, in the parameters of the patch.
+struct PatchRoot {
+    double t = 0, u = 0, v = 0;
+};
+
+/// In a cell's own parameters from -1 to 1, with the line's two equations solved for them at its
+/// middle: the cell is certified where the second derivatives' sum |F_aa| + 2 |F_ab| + |F_bb| is at
+/// most this, for each of the two, over the cell with its margin. Then there is at most one root;
+/// it is within half of this of the first step of Newton's method from the middle, which converges.
+inline constexpr double kCertified = 0.5;
+/// Up to this there is at most one root, but Newton's method may not find it.
+inline constexpr double kUnique = 0.95;
+/// Part of a cell's width that is added on each side.
+inline constexpr double kCellMargin = 0x1p-10;
+
+/// What is certified: the point, or the point times its weight, from the line's origin. The same
+/// for patches without weights.
+enum class RootOf { Point, WeightedPoint };
+
+/// Finds the root in a certified cell from (u, v), the first step of Newton's method from its
+/// middle. `noise` is the rounding error of a step in widths of the cell, where above kCellMargin.
+[[nodiscard]] bool certified_root(RootOf what, const BezierNet& net, const PatchLine& line,
+                                  const PatchCell& cell, double noise, double u, double v,
+                                  PatchRoot& root);
+
+/// Calls for each root in a cell: halves it until its parts are certified or tiny.
+class CellSearch {
+  public:
+    CellSearch(const BezierNet& net, const PatchLine& line, const PatchCell& cell);
+
+    /// Finds the next root; false where there are no more.
+    bool next(PatchRoot& root);
+
+  private:
+    struct Entry {
+        PlaneNet net;
+        PatchCell cell;
+    };
+    // Each halving leaves one entry.
+    static constexpr int kMostEntries = 2 * kMaxCellLevel + 3;
+    // Only patches that are mere curves need more.
+    static constexpr int kMostCells = 4000;
+
+    void push_halves(bool along_u);
+    [[nodiscard]] bool settle(PatchCell cell, PatchRoot& root) const;
+
+    const BezierNet& net_;
+    const PatchLine& line_;
+    int size_ = 0, cells_ = 0;
+    Entry stack_[kMostEntries];
+};
+
+}  // namespace alhazen

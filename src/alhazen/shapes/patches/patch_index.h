@@ -1,0 +1,140 @@
+#pragma once
+/// The leaves of patches in a tree of boxes, and the search for the roots of a line.
+///
+/// Conventions: internal to PatchTree.
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "alhazen/geometry/ray.h"
+#include "alhazen/geometry/ray_lanes.h"
+#include "alhazen/shapes/patches/patch_boxes.h"
+#include "alhazen/shapes/patches/patch_cells.h"
+#include "alhazen/shapes/patches/patch_lanes.h"
+#include "alhazen/shapes/patches/patch_leaves.h"
+#include "alhazen/shapes/patches/patch_tree.h"
+
+namespace alhazen {
+
+class PatchIndex {
+  public:
+    PatchIndex(std::span<const BezierPiece> pieces, const Box3& box);
+
+    /// Without the axes of its plane, which most rays do not need.
+    [[nodiscard]] PatchLine line_of(const Ray& ray) const;
+    static void add_axes(PatchLine& line);
+    /// False for a line that is far from all patches, and for one that has overflowed.
+    [[nodiscard]] bool is_near(const PatchLine& line) const;
+    [[nodiscard]] std::span<const PatchLeaf> leaves() const { return leaves_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+    /// Calls `found(piece, root)` for every root in [t_min, limit]; `found` returns the new limit.
+    template <class F>
+    void search(std::span<const BezierPiece> pieces, PatchLine line, double t_min, double limit,
+                F&& found) const;
+
+    /// The same for lines side by side: calls `found(i, piece, root)` for every root of line i in
+    /// [rays[i]->t_min, limit of i] and perhaps for others; false, without a call, where the rays
+    /// are not side by side.
+    template <class F>
+    [[nodiscard]] bool search_together(std::span<const BezierPiece> pieces,
+                                       std::span<const Ray* const> rays, F&& found) const;
+
+  private:
+    /// t in the frame of `line`, with a margin to the side.
+    [[nodiscard]] float place(const PatchLine& line, double t, double side) const;
+    [[nodiscard]] static bool side_by_side(std::span<const Ray* const> rays);
+    [[nodiscard]] PatchWalk walk_of(const PatchLine& line, double t_min, double limit) const;
+    [[nodiscard]] Vec3 in_frame(const Vec3& p) const { return frame_.scale * (p - frame_.center); }
+
+    template <class F>
+    void visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line, const Vec3& origin,
+                    const PatchLeaf& leaf, F& found) const;
+    PatchFrame frame_;
+    double reach_ = 0, most_weight_ = 0, far_ = 0;
+    std::vector<PatchLeaf> leaves_;  ///< in the order of the tree
+    std::vector<PatchBoxes> nodes_;
+};
+
+/// The part of the leaf test that needs no patch.
+enum class LeafAnswer { None, Certified, Unique, Divide };
+[[nodiscard]] LeafAnswer test_leaf(const PatchLeaf& leaf, const Vec3& origin, const Vec3& direction,
+                                   double& a, double& b);
+
+template <class F>
+void PatchIndex::visit_leaf(std::span<const BezierPiece> pieces, PatchLine& line,
+                            const Vec3& origin, const PatchLeaf& leaf, F& found) const {
+    double a = 0, b = 0;
+    const LeafAnswer answer = test_leaf(leaf, origin, line.direction, a, b);
+    if (answer == LeafAnswer::None) return;
+    if (line.axis_x == Vec3{}) add_axes(line);
+    const PatchCell cell = leaf.cell();
+    const BezierNet& net = pieces[leaf.piece].net;
+    PatchRoot root;
+    if (answer != LeafAnswer::Divide) {
+        const double u = cell.u0 + 0.5 * (1.0 + a) * (cell.u1 - cell.u0);
+        const double v = cell.v0 + 0.5 * (1.0 + b) * (cell.v1 - cell.v0);
+        const bool met = certified_root(RootOf::Point, net, line, cell, 0.0, u, v, root);
+        if (met) found(leaf.piece, root);
+        if (met || answer == LeafAnswer::Certified) return;
+    }
+    CellSearch cells(net, line, cell);
+    while (cells.next(root)) found(leaf.piece, root);
+}
+
+template <class F>
+void PatchIndex::search(std::span<const BezierPiece> pieces, PatchLine line, double t_min,
+                        double limit, F&& found) const {
+    if (!is_near(line)) return;
+    PatchWalk walk = walk_of(line, t_min, limit);
+    const Vec3 origin = in_frame(line.origin);
+    const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
+        const double t = found(piece, root);
+        if (t < limit) walk.most = place(line, limit = t, 1.0);
+    };
+    const PatchKernels& kernels = patch_kernels();
+    std::uint32_t leaf = 0;
+    while (kernels.next_leaf(nodes_.data(), walk, leaf)) {
+        visit_leaf(pieces, line, origin, leaves_[leaf], report);
+    }
+}
+
+template <class F>
+bool PatchIndex::search_together(std::span<const BezierPiece> pieces,
+                                 std::span<const Ray* const> rays, F&& found) const {
+    if (!side_by_side(rays)) return false;
+    RayLanes lanes;
+    for (std::size_t i = 0; i < kRayLanes; ++i) lanes.set(i, *rays[i < rays.size() ? i : 0]);
+    PatchPacket packet;
+    const PatchKernels& kernels = patch_kernels();
+    if (!kernels.begin_packet(lanes, frame_, far_, packet)) return false;
+    std::array<PatchLine, kRayLanes> lines;
+    std::uint32_t ready = 0;
+    const std::uint32_t used = kAllRayLanes >> (kRayLanes - rays.size());
+    std::uint32_t leaf = 0;
+    float near = 0.0f;
+    while (kernels.next_leaf_of_packet(nodes_.data(), packet, leaf, near)) {
+        bool changed = false;
+        for_each_lane(used & kernels.lines_near(leaves_[leaf], packet), [&](std::size_t i) {
+            if (near > packet.most_of[i]) return;
+            if ((ready >> i & 1) == 0) lines[i] = line_of(*rays[i]);
+            ready |= 1u << i;
+            if (!is_near(lines[i])) return;
+            const auto report = [&](std::uint32_t piece, const PatchRoot& root) {
+                const double t = found(i, piece, root);
+                const float most = place(lines[i], t, 1.0);
+                if (!(most < packet.most_of[i])) return;
+                packet.most_of[i] = most;
+                changed = true;
+            };
+            visit_leaf(pieces, lines[i], in_frame(lines[i].origin), leaves_[leaf], report);
+        });
+        if (!changed) continue;
+        packet.walk.most = *std::max_element(packet.most_of, packet.most_of + rays.size());
+    }
+    return true;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,249 @@
+#include "alhazen/shapes/patches/patch_lanes.h"
+
+// Compiles the rest of this file once per target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "alhazen/shapes/patches/patch_lanes.cpp"
+#include <hwy/foreach_target.h>  // IWYU pragma: keep
+// After foreach_target.h.
+#include "alhazen/simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace alhazen {
+namespace HWY_NAMESPACE {
+namespace {
+
+static_assert(kBoxChildren == kLaneCount);
+
+/// Puts children on the stack, the nearest on top.
+HWY_INLINE void push_children(const PatchBoxes& node, const Floats& near, std::uint32_t met,
+                              PatchWalk& walk) {
+    if (met == 0) return;
+    HWY_ALIGN float nears[kLaneCount];
+    store_lanes(near, nears);
+    const int begin = walk.size;
+    for (; met != 0; met &= met - 1) {
+        const int k = __builtin_ctz(met);
+        int place = walk.size++;
+        for (; place > begin && walk.stack[place - 1].near < nears[k]; --place) {
+            walk.stack[place] = walk.stack[place - 1];
+        }
+        walk.stack[place] = {nears[k], node.child[k]};
+    }
+}
+
+/// Puts the children that the line meets on the stack.
+HWY_INLINE void open_node(const PatchBoxes& node, PatchWalk& walk) {
+    Floats near(walk.least), far(walk.most);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats from(walk.from[axis]), inverse(walk.inverse[axis]);
+        const bool down = walk.inverse[axis] < 0.0f;
+        const Floats first = load_lanes(down ? node.hi[axis] : node.lo[axis]);
+        const Floats second = load_lanes(down ? node.lo[axis] : node.hi[axis]);
+        near = max_lanes(near, (first - from) * inverse);
+        far = min_lanes(far, (second - from) * inverse);
+    }
+    push_children(node, near, bits_of(near <= far), walk);
+}
+
+/// The same for the boxes that a line of a packet may meet.
+HWY_INLINE void open_node(const PatchBoxes& node, PatchPacket& packet) {
+    PatchWalk& walk = packet.walk;
+    Floats near(walk.least), far(walk.most);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats slow(packet.inverse[0][axis]), fast(packet.inverse[1][axis]);
+        const bool down = packet.inverse[1][axis] < 0.0f;
+        const Floats first = load_lanes(down ? node.hi[axis] : node.lo[axis]);
+        const Floats second = load_lanes(down ? node.lo[axis] : node.hi[axis]);
+        const Floats in = first - Floats(packet.from[down ? 0 : 1][axis]);
+        const Floats out = second - Floats(packet.from[down ? 1 : 0][axis]);
+        near = max_lanes(near, min_lanes(in * slow, in * fast));
+        far = min_lanes(far, max_lanes(out * slow, out * fast));
+    }
+    push_children(node, near, bits_of(near <= far), walk);
+}
+
+bool next_leaf_of_packet(const PatchBoxes* nodes, PatchPacket& packet, std::uint32_t& leaf,
+                         float& near) {
+    PatchWalk& walk = packet.walk;
+    while (walk.size > 0) {
+        const PatchWalk::Waiting next = walk.stack[--walk.size];
+        if (next.near > walk.most) continue;
+        if ((next.child & kLeafChild) != 0) {
+            leaf = next.child & ~kLeafChild;
+            near = next.near;
+            return true;
+        }
+        open_node(nodes[next.child], packet);
+    }
+    return false;
+}
+
+bool next_leaf(const PatchBoxes* nodes, PatchWalk& walk, std::uint32_t& leaf) {
+    while (walk.size > 0) {
+        const PatchWalk::Waiting next = walk.stack[--walk.size];
+        if (next.near > walk.most) continue;
+        if ((next.child & kLeafChild) != 0) {
+            leaf = next.child & ~kLeafChild;
+            return true;
+        }
+        open_node(nodes[next.child], walk);
+    }
+    return false;
+}
+
+using Point = Lanes<double, 4>;
+
+HWY_INLINE void cubic_values(double t, double (&values)[4], double (&derivatives)[4]) {
+    const double s = 1.0 - t;
+    const double ss = s * s, st = s * t, tt = t * t;
+    values[0] = ss * s;
+    values[1] = 3.0 * (ss * t);
+    values[2] = 3.0 * (s * tt);
+    values[3] = tt * t;
+    derivatives[0] = -3.0 * ss;
+    derivatives[1] = 3.0 * (ss - 2.0 * st);
+    derivatives[2] = 3.0 * (2.0 * st - tt);
+    derivatives[3] = 3.0 * tt;
+}
+
+HomogeneousValue bicubic(const BezierNet& net, double u, double v) {
+    double bu[4], bv[4], cu[4], cv[4];
+    cubic_values(u, bu, cu);
+    cubic_values(v, bv, cv);
+    Point s(0.0), s_u(0.0), s_v(0.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+        Point row(0.0), row_v(0.0);
+        for (std::size_t j = 0; j < 4; ++j) {
+            const Point p = load_unaligned<4>(&net.points[4 * i + j].x);
+            row = row + Point(bv[j]) * p;
+            row_v = row_v + Point(cv[j]) * p;
+        }
+        s = s + Point(bu[i]) * row;
+        s_u = s_u + Point(cu[i]) * row;
+        s_v = s_v + Point(bu[i]) * row_v;
+    }
+    HWY_ALIGN double out[3][4];
+    store_lanes(s, out[0]);
+    store_lanes(s_u, out[1]);
+    store_lanes(s_v, out[2]);
+    const auto point = [](const double(&p)[4]) { return HomogeneousPoint{p[0], p[1], p[2], p[3]}; };
+    return {point(out[0]), point(out[1]), point(out[2])};
+}
+
+/// Directions of eight lines.
+struct LinePoints {
+    Doubles x{0.0}, y{0.0}, z{0.0};
+
+    HWY_INLINE LinePoints(const Doubles& px, const Doubles& py, const Doubles& pz)
+        : x(px), y(py), z(pz) {}
+    HWY_INLINE explicit LinePoints(const double (&p)[3][kRayLanes])
+        : x(load_lanes(p[0])), y(load_lanes(p[1])), z(load_lanes(p[2])) {}
+};
+HWY_INLINE Doubles dot(const LinePoints& a, const LinePoints& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+HWY_INLINE LinePoints cross(const LinePoints& a, const LinePoints& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Least and most of eight.
+HWY_INLINE void range_of(const Doubles& values, float& least, float& most) {
+    HWY_ALIGN float x[kRayLanes];
+    store_lanes(as_floats(values), x);
+    least = most = x[0];
+    for (std::size_t i = 1; i < kRayLanes; ++i) {
+        least = x[i] < least ? x[i] : least;
+        most = x[i] > most ? x[i] : most;
+    }
+}
+
+/// Places along the lines with a margin to the side, as floats can hold them.
+HWY_INLINE Doubles places(const Doubles& x, double side) {
+    const Doubles wide = x + Doubles(side) * (Doubles(1e-5) + Doubles(1e-6) * abs(x));
+    return min_lanes(max_lanes(wide, Doubles(-1e30)), Doubles(1e30));
+}
+
+bool begin_packet(const RayLanes& rays, const PatchFrame& frame, double far, PatchPacket& packet) {
+    const LinePoints center(Doubles(frame.center.x), Doubles(frame.center.y),
+                            Doubles(frame.center.z));
+    const LinePoints d(rays.direction), from(rays.origin);
+    const Doubles per_length = Doubles(1.0) / sqrt(dot(d, d)), zero(0.0), scale(frame.scale);
+    const LinePoints direction(per_length * d.x, per_length * d.y, per_length * d.z);
+    const LinePoints out(from.x - center.x, from.y - center.y, from.z - center.z);
+    const Doubles ahead =
+        select_lanes(dot(out, out) > Doubles(far * far), -dot(out, direction), zero);
+    const Doubles* outs[3] = {&out.x, &out.y, &out.z};
+    const Doubles* directions[3] = {&direction.x, &direction.y, &direction.z};
+    bool together = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Doubles& x = *directions[axis];
+        const Doubles origin = scale * (*outs[axis] + ahead * x);
+        store_lanes(origin, packet.origin[axis]);
+        store_lanes(x, packet.direction[axis]);
+        const Doubles size = max_lanes(abs(x), Doubles(1e-18));
+        range_of(origin, packet.from[0][axis], packet.from[1][axis]);
+        range_of(Doubles(1.0) / select_lanes(x < zero, -size, size), packet.inverse[0][axis],
+                 packet.inverse[1][axis]);
+        together = together && !(packet.inverse[0][axis] < 0.0f && packet.inverse[1][axis] > 0.0f);
+    }
+    const Doubles per_t = scale / per_length, shift = ahead * scale;
+    const Doubles begin = places(load_lanes(rays.t_min) * per_t - shift, -1.0);
+    const Doubles end = places(load_lanes(rays.t_max) * per_t - shift, 1.0);
+    PatchWalk& walk = packet.walk;
+    float ignored = 0.0f;
+    range_of(begin, walk.least, ignored);
+    range_of(end, ignored, walk.most);
+    store_lanes(as_floats(end), packet.most_of);
+    walk.size = 1;
+    walk.stack[0] = {walk.least, 0};
+    return together;
+}
+
+/// `test_leaf` with more room for rounding, as the lines were set out by themselves.
+std::uint32_t lines_near(const PatchLeaf& leaf, const PatchPacket& packet) {
+    const auto all = [](const float(&p)[3]) {
+        return LinePoints(Doubles(double{p[0]}), Doubles(double{p[1]}), Doubles(double{p[2]}));
+    };
+    const LinePoints du = all(leaf.du), dv = all(leaf.dv), center = all(leaf.center);
+    const LinePoints origin(packet.origin), direction(packet.direction);
+    const LinePoints offset(origin.x - center.x, origin.y - center.y, origin.z - center.z);
+    const LinePoints across_v = cross(dv, direction), across_u = cross(direction, du);
+    const LinePoints normal = cross(du, dv);
+    const Doubles size = abs(dot(normal, direction)), half(0.5), rounding(1e-13);
+    const Doubles along_u = dot(across_v, offset), along_v = dot(across_u, offset);
+    const Doubles bend_n(double{leaf.bend[2]});
+    const Doubles normal_u = abs(dot(across_u, normal)) * bend_n;
+    const Doubles normal_v = abs(dot(across_v, normal)) * bend_n;
+    const Doubles bend_u = size * Doubles(double{leaf.bend[0]}) + normal_v;
+    const Doubles bend_v = size * Doubles(double{leaf.bend[1]}) + normal_u;
+    return bits_of((abs(along_u) <= size + half * bend_u + rounding) &
+                   (abs(along_v) <= size + half * bend_v + rounding));
+}
+
+#include "alhazen/shapes/patches/patch_halving-inl.h"
+
+}  // namespace
+
+const PatchKernels& patch_kernels_of_target() {
+    static constexpr PatchKernels kernels{&next_leaf,  &begin_packet, &next_leaf_of_packet,
+                                          &lines_near, &bicubic,      &cubic_bounds,
+                                          &halve_cubic};
+    return kernels;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace alhazen
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace alhazen {
+
+HWY_EXPORT(patch_kernels_of_target);
+
+const PatchKernels& patch_kernels() {
+    // Called for every ray: the dispatch is cached.
+    return HWY_DYNAMIC_DISPATCH(patch_kernels_of_target)();
+}
+
+}  // namespace alhazen
+#endif

@@ -1,0 +1,147 @@
+#include "alhazen/shapes/patches/patch_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/shapes/core/shape_numerics.h"
+#include "alhazen/shapes/patches/patch_index.h"
+
+namespace alhazen {
+
+namespace {
+
+ShapeHit hit_of(const BezierPiece& piece, const PatchRoot& root) {
+    const double u = std::clamp(root.u, 0.0, 1.0), v = std::clamp(root.v, 0.0, 1.0);
+    return {root.t, piece.lo.x + u * (piece.hi.x - piece.lo.x),
+            piece.lo.y + v * (piece.hi.y - piece.lo.y), piece.part};
+}
+
+/// Bound of the rounding errors of a point of `derivatives_at`. Each level of de Casteljau's
+/// algorithm is a convex combination with three roundings, for the numerator and the weight, and
+/// the weighted mean of the points' sizes is at most the largest.
+Vec3 evaluation_error(const BezierNet& net) {
+    Vec3 most;
+    for (int k = 0; k < net.count(); ++k) {
+        const Vec3 size = abs(projected(net.points[static_cast<std::size_t>(k)]));
+        most = {std::max(most.x, size.x), std::max(most.y, size.y), std::max(most.z, size.z)};
+    }
+    return (2.0 * gamma_bound(3 * (net.degree_u + net.degree_v) + 1)) * most;
+}
+
+/// How far a crossing at a border may lie outside of its patch: see docs/design/patches.md.
+double border_reach(std::span<const BezierPiece> pieces, const Box3& box) {
+    double reach = 0.0, least = kInfinity, most = 0.0;
+    for (const BezierPiece& piece : pieces) {
+        for (int k = 0; k < piece.net.count(); ++k) {
+            const HomogeneousPoint& p = piece.net.points[static_cast<std::size_t>(k)];
+            reach = std::max(reach, length(Vec3{p.x, p.y, p.z}));
+            least = std::min(least, p.w);
+            most = std::max(most, p.w);
+        }
+    }
+    if (box.empty()) return 0.0;
+    return 0x1p-42 / least * (reach + most * (length(box.center()) + 2.0 * length(box.size())));
+}
+
+/// The order of crossings, also of those with equal t.
+bool is_before(const ShapeHit& a, const ShapeHit& b) {
+    if (a.t != b.t) return a.t < b.t;
+    if (a.part != b.part) return a.part < b.part;
+    return a.u != b.u ? a.u < b.u : a.v < b.v;
+}
+
+/// Keeps a crossing in the ray's range if it is the first so far; false for one out of range.
+bool keep_first(const Ray& ray, const ShapeHit& crossing, bool found, ShapeHit& hit) {
+    ShapeHit next;
+    if (report_crossing(ray, crossing, &next) == 0) return false;
+    if (!found || is_before(next, hit)) hit = next;
+    return true;
+}
+
+}  // namespace
+
+PatchTree::PatchTree(std::vector<BezierPiece> pieces) : pieces_(std::move(pieces)) {
+    for (const BezierPiece& piece : pieces_) box_.include(control_box(piece.net));
+    const double reach = border_reach(pieces_, box_);
+    if (!box_.empty())
+        box_ = {box_.lo - Vec3{reach, reach, reach}, box_.hi + Vec3{reach, reach, reach}};
+    index_ = std::make_shared<PatchIndex>(pieces_, box_);
+}
+
+Interval PatchTree::extent(const Vec3& axis) const {
+    Interval range{kInfinity, -kInfinity};
+    for (const BezierPiece& piece : pieces_) {
+        for (int k = 0; k < piece.net.count(); ++k) {
+            const double x = dot(axis, projected(piece.net.points[static_cast<std::size_t>(k)]));
+            range = {std::min(range.lo, x), std::max(range.hi, x)};
+        }
+    }
+    const Vec3 size = abs(axis);
+    const double reach = border_reach(pieces_, box_) * (size.x + size.y + size.z);
+    return {range.lo - reach, range.hi + reach};
+}
+
+void PatchTree::intersect(const Ray& ray, ShapeHits& hits) const {
+    const std::size_t first = hits.size();
+    index_->search(pieces_, index_->line_of(ray), ray.t_min, ray.t_max,
+                   [&](std::uint32_t piece, const PatchRoot& root) {
+                       hits.grow(report_crossing(ray, hit_of(pieces_[piece], root), hits.room(1)));
+                       return ray.t_max;
+                   });
+    std::sort(hits.begin() + first, hits.end(), is_before);
+}
+
+bool PatchTree::first_hit(const Ray& ray, ShapeHit& hit) const {
+    bool found = false;
+    index_->search(pieces_, index_->line_of(ray), ray.t_min, ray.t_max,
+                   [&](std::uint32_t piece, const PatchRoot& root) {
+                       found |= keep_first(ray, hit_of(pieces_[piece], root), found, hit);
+                       return found ? hit.t : ray.t_max;
+                   });
+    return found;
+}
+
+std::uint32_t PatchTree::first_hits(std::span<const Ray* const> rays, ShapeHit* hits) const {
+    std::uint32_t met = 0;
+    const auto offer = [&](std::size_t i, std::uint32_t piece, const PatchRoot& root) {
+        const std::uint32_t bit = 1u << i;
+        const ShapeHit next = hit_of(pieces_[piece], root);
+        if (keep_first(*rays[i], next, (met & bit) != 0, hits[i])) met |= bit;
+        return (met & bit) != 0 ? hits[i].t : rays[i]->t_max;
+    };
+    if (index_->search_together(pieces_, rays, offer)) return met;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (first_hit(*rays[i], hits[i])) met |= 1u << i;
+    }
+    return met;
+}
+
+const BezierPiece& PatchTree::piece_of(std::uint32_t part) const {
+    if (part < pieces_.size() && pieces_[part].part == part) return pieces_[part];
+    return *std::partition_point(pieces_.begin(), pieces_.end(),
+                                 [&](const BezierPiece& p) { return p.part < part; });
+}
+
+ShapeSurface PatchTree::surface(const Ray&, const ShapeHit& hit) const {
+    const BezierPiece& piece = piece_of(hit.part);
+    const auto within = [](double x, double lo, double hi) {
+        return std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
+    };
+    const double u = within(hit.u, piece.lo.x, piece.hi.x);
+    const double v = within(hit.v, piece.lo.y, piece.hi.y);
+    const PatchPoint p = derivatives_at(piece.net, u, v);
+    ShapeSurface surface;
+    surface.point = p.point;
+    surface.normal = surface.shading_normal = patch_normal(piece.net, u, v);
+    surface.uv = {hit.u, hit.v};
+    surface.dpdu = p.du / (piece.hi.x - piece.lo.x);
+    surface.dpdv = p.dv / (piece.hi.y - piece.lo.y);
+    surface.error = evaluation_error(piece.net);
+    return surface;
+}
+
+std::size_t PatchTree::bytes() const {
+    return sizeof *this + pieces_.capacity() * sizeof(BezierPiece) + index_->bytes();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,58 @@
+#pragma once
+/// Rational Bezier patches prepared for rays: the crossings of bezier_patch, patch_mesh and
+/// nurbs_surface.
+///
+/// Source: Toth, "On Ray Tracing Parametric Surfaces", SIGGRAPH 1985; Barth and Stuerzlinger,
+/// "Efficient Ray Tracing for Bezier and B-Spline Surfaces", 1993; see docs/design/patches.md.
+/// Conventions: hits are ascending in t; part = `BezierPiece::part`, unique; u and v are mapped
+/// from the unit square of the piece to [lo, hi]. Crossings closer than rounding are both reported
+/// or none. A line through a border that two pieces share crosses exactly one of them.
+/// Complexity: O(log pieces) for a ray; at most 4 kB a bicubic piece.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "alhazen/shapes/core/shape.h"
+#include "alhazen/shapes/patches/bezier_net.h"
+
+namespace alhazen {
+
+/// One rational Bezier patch of a surface.
+struct BezierPiece {
+    BezierNet net;
+    std::uint32_t part = 0;
+    Vec2 lo{0, 0}, hi{1, 1};  ///< the surface's parameters at the corners of the piece
+};
+
+class PatchIndex;  // the leaves, and the boxes around them
+
+class PatchTree {
+  public:
+    /// Precondition: parts ascend.
+    explicit PatchTree(std::vector<BezierPiece> pieces);
+
+    [[nodiscard]] const Box3& box() const { return box_; }
+    /// Range of dot(axis, p) over the control points, rounded outward.
+    [[nodiscard]] Interval extent(const Vec3& axis) const;
+    /// Appends all crossings with the ray.
+    void intersect(const Ray& ray, ShapeHits& hits) const;
+    /// The first crossing, as `intersect` finds it.
+    [[nodiscard]] bool first_hit(const Ray& ray, ShapeHit& hit) const;
+    /// The same for one to eight rays: the set of those that hit.
+    [[nodiscard]] std::uint32_t first_hits(std::span<const Ray* const> rays, ShapeHit* hits) const;
+    /// The surface at a crossing, with its parameters as texture coordinates.
+    [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
+
+    [[nodiscard]] std::span<const BezierPiece> pieces() const { return pieces_; }
+    /// The piece of that part.
+    [[nodiscard]] const BezierPiece& piece_of(std::uint32_t part) const;
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    std::vector<BezierPiece> pieces_;
+    Box3 box_;
+    std::shared_ptr<const PatchIndex> index_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,201 @@
+#include "alhazen/shapes/patches/trim_arcs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/math/orientation.h"
+#include "alhazen/shapes/patches/bspline_pieces.h"
+
+namespace alhazen {
+
+namespace {
+
+Vec2 in_plane(const HomogeneousPoint& p) {
+    return p.w == 1.0 ? Vec2{p.x, p.y} : Vec2{p.x / p.w, p.y / p.w};
+}
+
+void fit_box(TrimArc& arc) {
+    arc.lo = {std::min(arc.begin.x, arc.end.x), std::min(arc.begin.y, arc.end.y)};
+    arc.hi = {std::max(arc.begin.x, arc.end.x), std::max(arc.begin.y, arc.end.y)};
+    for (const HomogeneousPoint& point : arc.points) {
+        const Vec2 p = in_plane(point);
+        arc.lo = {std::min(arc.lo.x, p.x), std::min(arc.lo.y, p.y)};
+        arc.hi = {std::max(arc.hi.x, p.x), std::max(arc.hi.y, p.y)};
+    }
+}
+
+/// Largest distance of a control point from the middle of the chord's nearest third, an upper bound
+/// of the distance from the chord.
+double bend_of(const TrimArc& arc) {
+    const Vec2 chord = arc.end - arc.begin;
+    const double length2 = chord.x * chord.x + chord.y * chord.y;
+    double most = 0.0;
+    for (const HomogeneousPoint& point : arc.points) {
+        const Vec2 p = in_plane(point) - arc.begin;
+        const double along = p.x * chord.x + p.y * chord.y;
+        const double s = length2 > 0.0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+        most = std::max(most, std::hypot(p.x - s * chord.x, p.y - s * chord.y));
+    }
+    return most;
+}
+
+void append_flat(TrimArc arc, double flatness, int depth, std::vector<TrimArc>& arcs) {
+    if (arc.straight() || depth == 0 || bend_of(arc) <= flatness) {
+        arcs.push_back(std::move(arc));
+        return;
+    }
+    auto [first, second] = halved(arc);
+    append_flat(std::move(first), flatness, depth - 1, arcs);
+    append_flat(std::move(second), flatness, depth - 1, arcs);
+}
+
+double weight_of(const TrimCurve& curve, std::size_t k) {
+    return curve.weights.empty() ? 1.0 : curve.weights[k];
+}
+
+/// The control points of the Bezier pieces of a curve, end to end.
+std::vector<HomogeneousRow> bezier_rows(const TrimCurve& curve) {
+    HomogeneousRow row;
+    for (std::size_t k = 0; k < curve.points.size(); ++k) {
+        row.push_back(
+            homogeneous(Vec3{curve.points[k].x, curve.points[k].y, 0.0}, weight_of(curve, k)));
+    }
+    const auto degree = static_cast<std::ptrdiff_t>(curve.degree);
+    std::vector<HomogeneousRow> rows;
+    if (curve.knots.empty()) {
+        for (std::ptrdiff_t k = 0; k + degree < std::ssize(row); k += degree) {
+            rows.emplace_back(row.begin() + k, row.begin() + k + degree + 1);
+        }
+        return rows;
+    }
+    std::vector<double> knots = curve.knots;
+    const double lo = knots[curve.degree], hi = knots[knots.size() - curve.degree - 1];
+    insert_all_knots(knots, row, static_cast<int>(curve.degree));
+    for (const KnotSpan& span : knot_spans(knots, static_cast<int>(curve.degree), lo, hi)) {
+        const auto first = static_cast<std::ptrdiff_t>(span.first);
+        rows.emplace_back(row.begin() + first, row.begin() + first + degree + 1);
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::pair<TrimArc, TrimArc> halved(const TrimArc& arc) {
+    TrimArc first{
+        .points = {}, .begin = arc.begin, .end = {}, .lo = {}, .hi = {}, .loop = arc.loop};
+    TrimArc second{.points = {}, .begin = {}, .end = arc.end, .lo = {}, .hi = {}, .loop = arc.loop};
+    std::vector<HomogeneousPoint> row = arc.points;
+    const std::size_t count = row.size();
+    first.points.resize(count);
+    second.points.resize(count);
+    for (std::size_t level = 0; level < count; ++level) {
+        first.points[level] = row[0];
+        second.points[count - 1 - level] = row[count - 1 - level];
+        for (std::size_t k = 0; k + 1 + level < count; ++k) row[k] = 0.5 * (row[k] + row[k + 1]);
+    }
+    first.end = second.begin = in_plane(first.points.back());
+    fit_box(first);
+    fit_box(second);
+    return {std::move(first), std::move(second)};
+}
+
+Vec2 begin_of(const TrimCurve& curve) {
+    return in_plane(bezier_rows(curve).front().front());
+}
+Vec2 end_of(const TrimCurve& curve) {
+    return in_plane(bezier_rows(curve).back().back());
+}
+
+std::vector<TrimArc> trim_arcs(std::span<const TrimLoop> loops, double flatness) {
+    constexpr int kMaxDepth = 24;
+    std::vector<TrimArc> arcs;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        std::vector<TrimArc> pieces;
+        for (const TrimCurve& curve : loops[l]) {
+            for (HomogeneousRow& row : bezier_rows(curve)) {
+                TrimArc arc;
+                arc.points = std::move(row);
+                arc.loop = static_cast<std::uint32_t>(l);
+                pieces.push_back(std::move(arc));
+            }
+        }
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            pieces[k].begin = in_plane(pieces[k].points.front());
+            // The next piece's first point, so that both have one value.
+            pieces[k].end = in_plane(pieces[(k + 1) % pieces.size()].points.front());
+            fit_box(pieces[k]);
+        }
+        for (TrimArc& arc : pieces) append_flat(std::move(arc), flatness, kMaxDepth, arcs);
+    }
+    return arcs;
+}
+
+namespace {
+
+/// Looks for a proper crossing of two arcs.
+class ArcCrossing {
+  public:
+    explicit ArcCrossing(double size) : flatness_(1e-9 * size) {}
+
+    bool find(const TrimArc& a, const TrimArc& b, int depth, Vec2& point) {
+        // Arcs that run along each other are not followed for ever: that is no proper crossing.
+        if (++steps_ > 20000) return false;
+        if (a.hi.x < b.lo.x || b.hi.x < a.lo.x || a.hi.y < b.lo.y || b.hi.y < a.lo.y) return false;
+        const bool flat_a = is_flat(a), flat_b = is_flat(b);
+        if ((flat_a && flat_b) || depth == 0) {
+            const int a0 = orientation(b.begin, b.end, a.begin);
+            const int a1 = orientation(b.begin, b.end, a.end);
+            const int b0 = orientation(a.begin, a.end, b.begin);
+            const int b1 = orientation(a.begin, a.end, b.end);
+            point = 0.5 * (a.begin + a.end);
+            return a0 * a1 < 0 && b0 * b1 < 0;
+        }
+        const bool divide_a = !flat_a && (flat_b || extent(a) >= extent(b));
+        const auto [first, second] = halved(divide_a ? a : b);
+        return divide_a ? find(first, b, depth - 1, point) || find(second, b, depth - 1, point)
+                        : find(a, first, depth - 1, point) || find(a, second, depth - 1, point);
+    }
+
+  private:
+    static double extent(const TrimArc& arc) {
+        return std::max(arc.hi.x - arc.lo.x, arc.hi.y - arc.lo.y);
+    }
+    [[nodiscard]] bool is_flat(const TrimArc& arc) const {
+        return arc.straight() || bend_of(arc) <= flatness_;
+    }
+
+    double flatness_;
+    int steps_ = 0;
+};
+
+}  // namespace
+
+std::vector<TrimCrossing> trim_crossings(std::span<const TrimArc> arcs, double size) {
+    std::vector<std::uint32_t> order(arcs.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::uint32_t>(k);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(arcs[a].lo.x, a) < std::pair(arcs[b].lo.x, b);
+    });
+    std::vector<TrimCrossing> found;
+    const auto is_known = [&](std::uint32_t a, std::uint32_t b) {
+        return std::any_of(found.begin(), found.end(), [&](const TrimCrossing& crossing) {
+            return crossing.first == a && crossing.second == b;
+        });
+    };
+    std::vector<std::uint32_t> active;
+    for (const std::uint32_t k : order) {
+        std::erase_if(active, [&](std::uint32_t a) { return arcs[a].hi.x < arcs[k].lo.x; });
+        for (const std::uint32_t other : active) {
+            const std::uint32_t a = std::min(arcs[k].loop, arcs[other].loop);
+            const std::uint32_t b = std::max(arcs[k].loop, arcs[other].loop);
+            Vec2 point;
+            if (!is_known(a, b) && ArcCrossing(size).find(arcs[k], arcs[other], 120, point)) {
+                found.push_back({a, b, point});
+            }
+        }
+        active.push_back(k);
+    }
+    return found;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,49 @@
+#pragma once
+/// The curves of trimming loops, divided into arcs that are nearly straight.
+///
+/// Source: see bspline_pieces.h; de Casteljau's algorithm.
+/// Conventions: an arc begins, bit for bit, where the one before it in its loop ends. Internal to
+/// shapes/patches.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "alhazen/shapes/patches/nurbs_surface.h"
+
+namespace alhazen {
+
+inline constexpr std::uint32_t kMaxTrimDegree = 15;
+/// Ends of curves in a loop may be apart by this part of the domain, for files round them.
+inline constexpr double kMaxTrimGap = 1e-6;
+
+/// A rational Bezier curve of the parameter plane.
+struct TrimArc {
+    std::vector<HomogeneousPoint> points;  ///< z = 0
+    Vec2 begin, end;  ///< the first and the last point, as neighbours have them
+    Vec2 lo, hi;      ///< box of the control points and of both ends
+    std::uint32_t loop = 0;
+
+    [[nodiscard]] bool straight() const { return points.size() == 2; }
+};
+
+/// Both halves at the middle of the parameter; they share a point.
+[[nodiscard]] std::pair<TrimArc, TrimArc> halved(const TrimArc& arc);
+
+/// First and last point of a curve. Precondition: its degree, knots, points and weights are good.
+[[nodiscard]] Vec2 begin_of(const TrimCurve& curve);
+[[nodiscard]] Vec2 end_of(const TrimCurve& curve);
+
+/// The arcs of all loops, in order; each is within `flatness` of its chord. Gaps between curves are
+/// closed.
+[[nodiscard]] std::vector<TrimArc> trim_arcs(std::span<const TrimLoop> loops, double flatness);
+
+/// Two loops, or one twice, that cross at a point.
+struct TrimCrossing {
+    std::uint32_t first, second;
+    Vec2 point;
+};
+/// The first crossing of each pair of loops. Complexity: sorted by u; linear where few overlap.
+[[nodiscard]] std::vector<TrimCrossing> trim_crossings(std::span<const TrimArc> arcs, double size);
+
+}  // namespace alhazen

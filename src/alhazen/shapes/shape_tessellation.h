@@ -1,0 +1,25 @@
+#pragma once
+/// Triangles within a tolerance of a shape.
+///
+/// Source: see patch_tessellation.h; the patches that a shape is: exact_forms.h.
+/// Conventions: triangles are counterclockwise from outside, with the normals of the exact surface
+/// at their vertices. The mesh of a closed shape is closed where vertices of equal position are
+/// one. Faces of boxes and polygons are exact.
+
+#include <cstdint>
+#include <string>
+
+#include "alhazen/shapes/meshes/triangle_mesh.h"
+#include "alhazen/shapes/shape_list.h"
+
+namespace alhazen {
+
+inline constexpr const char* kTooManyTriangles = "needs more triangles than the limit";
+
+/// Appends triangles within `tolerance`, in object space, of a prepared, valid shape. Returns an
+/// empty text, or why there are none: "is endless". Nothing is appended then.
+/// Precondition: tolerance > 0.
+[[nodiscard]] std::string append_triangles(const AnyShape& shape, double tolerance,
+                                           std::uint64_t max_triangles, TriangleMesh& mesh);
+
+}  // namespace alhazen

@@ -1,0 +1,19 @@
+#pragma once
+/// Bounds of the second derivatives of rational Bezier patches, from their control points.
+///
+/// Source: Filip, Magedson and Markot, "Surface algorithms using bounds on derivatives", Computer
+/// Aided Geometric Design 3(4), 1986. Differs: rational patches, by the quotient rule about the
+/// middle of the control points' box.
+/// Conventions: by the parameters of the unit square; lengths of vectors.
+
+#include "alhazen/shapes/patches/bezier_net.h"
+
+namespace alhazen {
+
+/// Bounds of the derivatives of a patch over its unit square.
+struct PatchDerivativeBounds {
+    double uu = 0, uv = 0, vv = 0;
+};
+[[nodiscard]] PatchDerivativeBounds second_derivative_bounds(const BezierNet& net);
+
+}  // namespace alhazen

@@ -1,0 +1,97 @@
+/// Patches written as .bpt and OBJ and read back.
+
+#include "alhazen/formats/patch_files/patch_export.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/formats/bpt/bpt_importer.h"
+#include "alhazen/formats/obj/obj_importer.h"
+#include "support/random_shapes.h"
+#include "support/same_description.h"
+#include "unit/formats/text_scene.h"
+
+namespace alhazen {
+namespace {
+
+using testing::RandomShape;
+
+/// Bits of the nets of all patches.
+std::vector<HomogeneousPoint> nets_of(const PatchMesh& mesh) {
+    std::vector<HomogeneousPoint> all;
+    for (std::size_t k = 0; k < mesh.patch_count(); ++k) {
+        const BezierNet net = mesh.net(k);
+        all.insert(all.end(), net.points.begin(), net.points.begin() + net.count());
+    }
+    return all;
+}
+
+std::vector<HomogeneousPoint> nets_of(const BezierPatch& patch) {
+    const BezierNet net = patch.net();
+    return {net.points.begin(), net.points.begin() + net.count()};
+}
+
+template <class Importer>
+testing::Imported read_back(const AnyShape& shape, const Affine& placement = {}) {
+    const std::vector<NamedSurface> surfaces{{"name", &shape, placement, ""}};
+    const bool bpt = std::is_same_v<Importer, BptImporter>;
+    const std::string text = bpt ? bpt_text(surfaces) : obj_surfaces_text(surfaces);
+    auto read = testing::import_text<Importer>(text, bpt ? "a.bpt" : "a.obj");
+    EXPECT_EQ(read.messages(), "") << text.substr(0, 2000);
+    return read;
+}
+
+const PatchMesh& mesh_of(const testing::Imported& read) {
+    return std::get<PatchMesh>(std::get<AnyShape>(read.parts().at(0).what));
+}
+
+TEST(PatchExport, PatchesComeBackBitForBit) {
+    testing::Random random(20);
+    for (int i = 0; i < 60; ++i) {
+        auto mesh = RandomShape<PatchMesh>::make({random, i % 2 == 1});
+        auto patch = RandomShape<BezierPatch>::make({random, i % 2 == 1});
+        EXPECT_EQ(nets_of(mesh_of(read_back<ObjImporter>(AnyShape{mesh}))), nets_of(mesh));
+        EXPECT_EQ(nets_of(mesh_of(read_back<ObjImporter>(AnyShape{patch}))), nets_of(patch));
+        EXPECT_EQ(fits_bpt(AnyShape{mesh}), mesh.weights.empty());
+        mesh.weights.clear();
+        patch.weights.clear();
+        EXPECT_EQ(nets_of(mesh_of(read_back<BptImporter>(AnyShape{mesh}))), nets_of(mesh));
+        EXPECT_EQ(nets_of(mesh_of(read_back<BptImporter>(AnyShape{patch}))), nets_of(patch));
+    }
+}
+
+TEST(PatchExport, NurbsSurfacesComeBackWithTheirLoops) {
+    testing::Random random(21);
+    for (int i = 0; i < 60; ++i) {
+        auto s = RandomShape<NurbsSurface>::make({random, i % 2 == 1});
+        const auto read = read_back<ObjImporter>(AnyShape{s});
+        auto back = std::get<NurbsSurface>(std::get<AnyShape>(read.parts().at(0).what));
+        // Curves of the file have knots.
+        ASSERT_EQ(back.trims.size(), s.trims.size());
+        for (std::size_t k = 0; k < s.trims.size(); ++k) {
+            ASSERT_EQ(back.trims[k].size(), s.trims[k].size());
+            for (std::size_t c = 0; c < s.trims[k].size(); ++c) {
+                EXPECT_EQ(back.trims[k][c].points, s.trims[k][c].points);
+                EXPECT_EQ(back.trims[k][c].weights, s.trims[k][c].weights);
+            }
+        }
+        back.trims = s.trims = {};
+        EXPECT_TRUE(testing::same(back, s)) << i;
+    }
+}
+
+TEST(PatchExport, AMirroringPlacementExchangesUAndV) {
+    testing::Random random(22);
+    const auto patch = RandomShape<BezierPatch>::make({random, false});
+    const Affine mirror = Affine::scale({-1, 1, 1});
+    const auto read = read_back<ObjImporter>(AnyShape{patch}, mirror);
+    const BezierNet net = mesh_of(read).net(0), own = patch.net();
+    ASSERT_EQ(net.degree_u, own.degree_v);
+    for (int i = 0; i <= own.degree_u; ++i) {
+        for (int j = 0; j <= own.degree_v; ++j) {
+            EXPECT_EQ(projected(net.at(j, i)), mirror.point(projected(own.at(i, j))));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,669 @@
+#include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/primitives/surface.h"
+#include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/renderers/lane_carpenter/edge_line.h"
+#include "alhazen/renderers/lane_carpenter/patch_surface.h"
+#include "alhazen/renderers/lane_carpenter/scan_lines.h"
+#include "alhazen/renderers/lane_carpenter/subdivision.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/simd/targets.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::SceneMaker;
+
+/// A camera whose pixels are squares of side 1 in a picture of `size` x `size`: (x, y) in the
+/// middle is (0, 0).
+OrthographicCamera unit_pixels(int size) {
+    const double side = size;
+    return {{0, 0, 100}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
+}
+
+struct Picture {
+    Film film;
+    ScanLineReport counts;
+};
+
+Picture picture_of(SceneMaker& maker, const Camera& camera, int size,
+                   const ScanLineOptions& options = {}, AovFilm* aovs = nullptr, int samples = 1) {
+    Scene scene = maker.compile();
+    scene.background = {0, 0, 1};
+    Picture picture{Film(size, size, {0, 0, size, size}), {}};
+    const RenderJob job{.scene = scene,
+                        .camera = camera,
+                        .samples_per_pixel = samples,
+                        .aovs = aovs,
+                        .description = &maker.description()};
+    const RenderReport report = LaneCarpenter(options).render(job, picture.film);
+    EXPECT_TRUE(report.complete());
+    picture.counts = *report.scan_lines;
+    return picture;
+}
+
+Material glowing(const Rgb& color) {
+    Material material;
+    material.emission.color = color;
+    return material;
+}
+
+Rectangle square(double lo, double hi, double z) {
+    return {.corner = {lo, lo, z}, .edge_u = {hi - lo, 0, 0}, .edge_v = {0, hi - lo, 0}};
+}
+
+/// A sheet over [-32, 32]^2 that is a parabola in x, of height 4 in the middle.
+BezierPatch arch(bool along_v = false) {
+    BezierPatch patch;
+    patch.degree_u = along_v ? 1 : 2;
+    patch.degree_v = along_v ? 2 : 1;
+    const Vec3 a{-32, -32, 0}, b{0, -32, 8}, c{32, -32, 0}, up{0, 64, 0};
+    patch.points = along_v ? std::vector<Vec3>{a, b, c, a + up, b + up, c + up}
+                           : std::vector<Vec3>{a, a + up, b, b + up, c, c + up};
+    return patch;
+}
+
+TEST(ScreenView, ProjectsAsComputedByHand) {
+    const PerspectiveCamera camera{{0, 0, 5}, {0, 0, -1}, {2, 0, 0}, {0, 2, 0}};
+    const ScreenView view(camera, 200, 100, 10.0);
+    // 2 before the eye; 1 of 4 to the right of the middle, 1/2 of 4 above.
+    const HomogeneousPoint p = view.on_screen(homogeneous({1, 0.5, 3}));
+    EXPECT_DOUBLE_EQ(p.x / p.w, 150.0);
+    EXPECT_DOUBLE_EQ(p.y / p.w, 37.5);
+    EXPECT_DOUBLE_EQ(p.z / p.w, 0.5);
+    const NearnessPlane plane = view.nearness_of({1, 0.5, 3}, normalize(Vec3{0.3, -0.2, 0.9}));
+    EXPECT_NEAR(plane.gx * 150.0 + plane.gy * 37.5 + plane.at_origin, 0.5, 1e-15);
+    EXPECT_DOUBLE_EQ(view.pixel_size(0.5), 2.0 * 2.0 / 100.0);
+    const ScreenView parallel(unit_pixels(8), 8, 8, 10.0);
+    const HomogeneousPoint q = parallel.on_screen(homogeneous({1, 2, 40}, 3.0));
+    EXPECT_DOUBLE_EQ(q.x / q.w, 5.0);
+    EXPECT_DOUBLE_EQ(q.y / q.w, 2.0);
+    EXPECT_DOUBLE_EQ(q.z / q.w, -60.0);
+}
+
+TEST(LaneCarpenter, AFlatPatchIsOnePolygonAndCoversItsPixels) {
+    SceneMaker maker;
+    maker.add(square(-2, 2, 0), maker.material(glowing({1, 0, 0})));
+    const Picture picture = picture_of(maker, unit_pixels(8), 8);
+    EXPECT_EQ(picture.counts.quads, 1u);
+    EXPECT_EQ(picture.counts.split_u + picture.counts.split_v, 0u);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) {
+            const bool inside = x >= 2 && x < 6 && y >= 2 && y < 6;
+            EXPECT_EQ(picture.film.at(x, y), (inside ? Rgb{1, 0, 0} : Rgb{0, 0, 1}));
+        }
+    }
+}
+
+TEST(LaneCarpenter, SplitsOnlyAlongTheDirectionThatIsNotFlat) {
+    // The middle control point is 8 pixels off the chord; each halving leaves a quarter at most: 2,
+    // then 0.5.
+    for (const bool along_v : {false, true}) {
+        SceneMaker maker;
+        maker.add(arch(along_v));
+        ScanLineOptions options;
+        options.flatness = 0.5;
+        const Picture picture = picture_of(maker, unit_pixels(80), 80, options);
+        EXPECT_EQ(picture.counts.quads, 4u);
+        EXPECT_EQ(along_v ? picture.counts.split_v : picture.counts.split_u, 3u);
+        EXPECT_EQ(along_v ? picture.counts.split_u : picture.counts.split_v, 0u);
+        options.split = SplitRule::Both;
+        EXPECT_EQ(picture_of(maker, unit_pixels(80), 80, options).counts.quads, 16u);
+    }
+}
+
+TEST(ScreenChord, DistancesCountDepthAndDoNotDependOnTheDirection) {
+    const ScreenView view(unit_pixels(8), 8, 8, 10.0);
+    const ScreenPoint a{0, 0, -10}, b{6, 8, -10}, c{3, 4, -13}, d{12, 16, -10}, e{-3, -4, -10};
+    const ScreenChord chord(view, a, b);
+    for (const auto& [point, squared] : {std::pair{c, 9.0}, {d, 100.0}, {e, 25.0}}) {
+        EXPECT_TRUE(chord.is_within(point, squared));
+        EXPECT_FALSE(chord.is_within(point, squared - 1e-9));
+    }
+    EXPECT_TRUE(ScreenChord(view, a, a).is_within(e, 25.0));
+    EXPECT_FALSE(ScreenChord(view, a, a).is_within(e, 24.0));
+    RandomStream random(4);
+    for (int k = 0; k < 1000; ++k) {
+        const auto point = [&] {
+            return ScreenPoint{random.uniform(0, 9), random.uniform(0, 9), random.uniform(-9, -1)};
+        };
+        const ScreenPoint p = point(), q = point(), r = point();
+        const double squared = random.uniform(0, 50);
+        EXPECT_EQ(ScreenChord(view, q, r).is_within(p, squared),
+                  ScreenChord(view, r, q).is_within(p, squared));
+    }
+}
+
+TEST(EdgeLine, FindsTheFirstSampleOnTheRight) {
+    using PixelSample = SamplingConventions::PixelSample;
+    for (const auto where : {PixelSample::Center, PixelSample::FrameCorners}) {
+        for (const int size : {1, 2, 61}) {
+            Scene scene;
+            scene.conventions.sampling.pixel_sample = where;
+            const ScreenView view(unit_pixels(size), size, size, 10.0);
+            const RenderJob job{scene, unit_pixels(size)};
+            const Film film(size, size, {0, 0, size, size});
+            const SampleGrid grid(job, film, view);
+            RandomStream random(11);
+            for (int k = 0; k < 4000; ++k) {
+                // Every other line passes exactly through a sample.
+                GridPoint from{view.to_grid(random.uniform(-9, 70)),
+                               view.to_grid(random.uniform(-9, 70))};
+                GridPoint to{view.to_grid(random.uniform(-9, 70)),
+                             view.to_grid(random.uniform(-9, 70))};
+                const int row = k % size, column = k / 3 % size;
+                if (k % 2 == 0) {
+                    const auto dx = static_cast<std::int32_t>(random.below(7000));
+                    const auto dy = static_cast<std::int32_t>(random.below(7000));
+                    from = {grid.x(column) - 3 * dx, grid.y(row) - 3 * dy};
+                    to = {grid.x(column) + 5 * dx, grid.y(row) + 5 * dy};
+                }
+                const EdgeLine line(from, to);
+                int first = 0;
+                while (first < size && !line.is_right(grid.x(first), grid.y(row))) ++first;
+                if (line.dy == 0) continue;
+                EXPECT_EQ(line.first_right(grid, grid.y(row)), first);
+            }
+        }
+    }
+}
+
+/// A patch with random points around a plane; weights of 1/2 to 2 where it is rational.
+BezierNet bumpy(int degree_u, int degree_v, bool rational, RandomStream& random) {
+    BezierNet net;
+    net.degree_u = degree_u;
+    net.degree_v = degree_v;
+    for (int i = 0; i <= degree_u; ++i) {
+        for (int j = 0; j <= degree_v; ++j) {
+            const Vec3 p{double(i) / degree_u, double(j) / degree_v, random.uniform(-0.2, 0.2)};
+            net.at(i, j) = homogeneous(p, rational ? random.uniform(0.5, 2) : 1.0);
+        }
+    }
+    return net;
+}
+
+TEST(PatchBlock, LanesHaveTheBitsOfSinglePoints) {
+    RandomStream random(5);
+    for (const std::string& target : simd_targets()) {
+        const SimdTargetOverride override(target);
+        for (int k = 0; k < 200; ++k) {
+            ScanScene scene;
+            scene.sources.push_back({.mirrored = k % 3 == 0, .is_patch = true});
+            ScanPiece piece{.lo = {0.25, 0}, .hi = {0.5, 1}, .polynomial = k % 2 == 0};
+            const int degree = k % 4 == 0 ? 3 : 1 + k % 7;
+            piece.net = bumpy(degree, k % 5 == 0 ? 3 : degree, !piece.polynomial, random);
+            // An edge that is a point: no normal there.
+            if (k % 11 == 0) {
+                for (int j = 1; j <= piece.net.degree_v; ++j)
+                    piece.net.at(0, j) = piece.net.at(0, 0);
+            }
+            PatchBlock block;
+            block.count = 1 + static_cast<std::size_t>(k) % PatchBlock::kMost;
+            std::vector<Ray> rays(block.count);
+            for (std::size_t i = 0; i < block.count; ++i) {
+                const Vec3 from{random.uniform(0, 1), random.uniform(0, 1), 3};
+                block.u[i] = i == 2 ? 0.0 : random.uniform(0, 1);
+                block.v[i] = random.uniform(0, 1);
+                const Vec3 near{block.u[i] + random.uniform(-0.02, 0.02), block.v[i], 0};
+                rays[i] = {from, normalize(near - from)};
+                block.error[i] = i % 2 == 0 ? 1e-3 : 0.1;
+            }
+            block.rays = rays.data();
+            const PatchBlock given = block;
+            find_patch_points(piece.net, piece.polynomial, block);
+            for (std::size_t i = 0; i < block.count; ++i) {
+                Surface one, lane;
+                set_patch_surface(scene, piece, {given.u[i], given.v[i]}, rays[i], given.error[i],
+                                  one);
+                set_patch_surface(scene, piece, block, i, true, lane);
+                EXPECT_EQ(one.point, lane.point) << target << ' ' << k << ' ' << i;
+                EXPECT_EQ(one.normal, lane.normal) << target << ' ' << k << ' ' << i;
+                EXPECT_EQ(one.uv, lane.uv);
+                EXPECT_EQ(one.dpdu, lane.dpdu);
+                EXPECT_EQ(one.dpdv2, lane.dpdv2);
+                EXPECT_EQ(one.error, lane.error);
+            }
+        }
+    }
+}
+
+/// The samples that show the same part and patch as rays, as a share; and as a share of these, the
+/// ones whose depth, along the normal, is within twice the flatness.
+struct Agreement {
+    double same = 0, close = 0;
+};
+Agreement agreement(SceneMaker& maker, const Camera& camera, int size,
+                    const ScanLineOptions& options) {
+    const Scene scene = maker.compile("wide_bvh");
+    const Film film(size, size, {0, 0, size, size});
+    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
+    const ScanScene geometry = scan_scene(maker.description(), scene, picture_plane(camera).eye);
+    const ScreenView view(camera, size, size, geometry.farthest);
+    const SampleGrid grid(job, film, view);
+    ScanLines lines(geometry, view, grid, options);
+    ScanRow row;
+    int same = 0, close = 0;
+    for (int y = 0; y < size; ++y) {
+        lines.next(row);
+        for (int x = 0; x < size; ++x) {
+            const Vec2 p = grid.film_at(x, y, 0);
+            const Ray ray = eye_ray(camera, p.x, p.y);
+            Hit hit;
+            const bool found = scene.aggregate->closest(ray, hit, nullptr);
+            const ScanSample& seen = row.samples[static_cast<std::size_t>(x)];
+            if (found != (seen.item != ScanSample::kNothing)) continue;
+            if (!found) {
+                ++same;
+                ++close;
+                continue;
+            }
+            const bool flat = (seen.item & ScanSample::kFacet) != 0;
+            const std::uint32_t item = seen.item & ~ScanSample::kFacet;
+            const std::uint32_t source =
+                flat ? geometry.facets[item].source : geometry.pieces[item].source;
+            const std::uint32_t part =
+                flat ? geometry.facets[item].part : geometry.pieces[item].part;
+            const Surface surface = surface_at(*scene.aggregate, ray, hit);
+            const bool same_patch = geometry.sources[source].mesh != nullptr || part == hit.part;
+            if (geometry.sources[source].part != surface.part || !same_patch) continue;
+            ++same;
+            const double t = view.parallel() ? -seen.nearness
+                                             : 1.0 / (seen.nearness * view.depth_of(ray.direction));
+            const double off = std::abs(t - hit.t) * std::abs(dot(ray.direction, surface.normal));
+            close += off <= 2.0 * options.flatness * view.pixel_size(seen.nearness);
+        }
+    }
+    return {static_cast<double>(same) / (size * size), static_cast<double>(close) / same};
+}
+
+void add_mixture(SceneMaker& maker) {
+    Material plain;
+    plain.diffuse.color = {0.8, 0.7, 0.6};
+    plain.specular.color = {0.3, 0.3, 0.3};
+    plain.shininess.value = 20;
+    maker.add(Plane{.point = {0, -1.1, 0}, .normal = {0, 1, 0}}, maker.material(plain));
+    maker.add(Torus{.major_radius = 1.0, .minor_radius = 0.35}, MaterialId{0},
+              Affine::rotate({1, 0.2, 0}, 0.9));
+    maker.add(Sphere{.center = {0, 0, 0}, .radius = 0.5}, maker.material(plain));
+    maker.add(BoxShape{.lo = {-1.6, -1.1, -1}, .hi = {-1.1, -0.3, -0.5}});
+    maker.add(Cylinder{.base = {1.3, -1.1, -0.4}, .top = {1.4, 0.4, -0.6}, .radius = 0.3});
+    maker.add(maker.mesh(testing::tetrahedron()), MaterialId{1},
+              Affine::translate({1.2, 1.1, 0}) * Affine::scale({0.3, 0.3, 0.3}));
+    maker.light(PointLight{.position = {3, 4, 5}});
+}
+
+TEST(LaneCarpenter, ShowsTheSurfacesThatRaysMeet) {
+    SceneMaker maker;
+    add_mixture(maker);
+    ScanLineOptions options;
+    options.flatness = 0.1;
+    const Camera perspective = look_along({0.4, 1.2, 5}, {-0.08, -0.24, -1}, {0, 1, 0}, 0.7, 1.0);
+    const Camera parallel = look_along_parallel({0.4, 1.2, 5}, {-0.08, -0.24, -1}, {0, 1, 0}, 4, 1);
+    for (const Camera& camera : {perspective, parallel}) {
+        const Agreement found = agreement(maker, camera, 256, options);
+        EXPECT_GE(found.same, 0.999);
+        EXPECT_GE(found.close, 0.9995);
+    }
+}
+
+double value_of(const LayerChannel& channel, std::size_t at) {
+    if (channel.type == SampleType::Uint) return channel.whole[at];
+    return double{channel.values[at]};
+}
+
+TEST(LaneCarpenter, HasTheLookAndTheLayersOfRayCasting) {
+    SceneMaker maker;
+    add_mixture(maker);
+    Scene scene = maker.compile("wide_bvh");
+    scene.background = {0.1, 0.2, 0.3};
+    const Camera camera = look_along({0.4, 1.2, 5}, {-0.08, -0.24, -1}, {0, 1, 0}, 0.7, 1.0);
+    constexpr int kSize = 96;
+    const PixelBox all{0, 0, kSize, kSize};
+    Film film(kSize, kSize, all), rays(kSize, kSize, all);
+    AovFilm layers(parse_aovs("all"), all), ray_layers(parse_aovs("all"), all);
+    RenderJob job{
+        .scene = scene, .camera = camera, .aovs = &layers, .description = &maker.description()};
+    ScanLineOptions options;
+    options.flatness = 0.05;
+    (void)LaneCarpenter(options).render(job, film);
+    job.aovs = &ray_layers;
+    (void)RayCasting().render(job, rays);
+    int other_pixels = 0, other_ids = 0, other_depths = 0, other_uvs = 0;
+    const auto& channels = layers.layers().channels();
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            const Rgb d = film.at(x, y) + -1.0 * rays.at(x, y);
+            const auto at = static_cast<std::size_t>(y * kSize + x);
+            other_pixels += std::abs(d.r) + std::abs(d.g) + std::abs(d.b) > 0.02;
+            for (std::size_t c = 0; c < channels.size(); ++c) {
+                const double a = value_of(channels[c], at);
+                const double b = value_of(ray_layers.layers().channels()[c], at);
+                other_ids += channels[c].name.starts_with("id.") && a != b;
+                other_depths += channels[c].name == "depth.Z" && std::abs(a - b) > 0.01;
+                other_uvs += channels[c].name == "uv.U" && std::abs(a - b) > 0.01;
+            }
+        }
+    }
+    const int few = kSize * kSize / 200;
+    EXPECT_LE(other_pixels, few);
+    EXPECT_LE(other_ids, 3 * few);
+    EXPECT_LE(other_depths, few);
+    EXPECT_LE(other_uvs, few);
+}
+
+/// A torus of bicubic patches that shares its points.
+PatchMesh closed_torus() {
+    // Uniform cubic B-spline: every 4 x 4 of the points, as Bezier patches.
+    constexpr int kAround = 7, kThrough = 5;
+    const auto point = [](int i, int j) {
+        const double a = 2 * 3.14159265358979 * i / kAround;
+        const double b = 2 * 3.14159265358979 * j / kThrough;
+        const double r = 1.2 + 0.7 * std::cos(b);
+        return Vec3{r * std::cos(a), r * std::sin(a), 0.7 * std::sin(b)};
+    };
+    const auto bezier = [](const std::array<Vec3, 4>& p) {
+        return std::array<Vec3, 4>{(p[0] + 4 * p[1] + p[2]) / 6, (2 * p[1] + p[2]) / 3,
+                                   (p[1] + 2 * p[2]) / 3, (p[1] + 4 * p[2] + p[3]) / 6};
+    };
+    PatchMesh mesh;
+    // Equal bits for what neighbours share: each corner, edge and inner point is made once.
+    const auto spline = [&](int i, int j) {
+        std::array<std::array<Vec3, 4>, 4> rows;
+        for (int a = 0; a < 4; ++a) {
+            std::array<Vec3, 4> row;
+            for (int b = 0; b < 4; ++b) {
+                row[std::size_t(b)] = point((i + a) % kAround, (j + b) % kThrough);
+            }
+            rows[std::size_t(a)] = bezier(row);
+        }
+        std::array<std::array<Vec3, 4>, 4> net;
+        for (std::size_t b = 0; b < 4; ++b) {
+            const auto column = bezier({rows[0][b], rows[1][b], rows[2][b], rows[3][b]});
+            for (std::size_t a = 0; a < 4; ++a) net[a][b] = column[a];
+        }
+        return net;
+    };
+    for (int k = 0; k < 9 * kAround * kThrough; ++k) mesh.points.emplace_back();
+    const int columns = 3 * kThrough;
+    for (int i = 0; i < kAround; ++i) {
+        for (int j = 0; j < kThrough; ++j) {
+            const auto net = spline(i, j);
+            for (int a = 0; a < 4; ++a) {
+                for (int b = 0; b < 4; ++b) {
+                    const int index = (3 * i + a) % (3 * kAround) * columns + (3 * j + b) % columns;
+                    mesh.points[std::size_t(index)] = net[std::size_t(a)][std::size_t(b)];
+                    mesh.patches.push_back(std::uint32_t(index));
+                }
+            }
+        }
+    }
+    return mesh;
+}
+
+/// Samples of the layers `uv` and `N` that differ from those of rays, and of the picture.
+struct Differences {
+    int pixels = 0, uvs = 0, normals = 0;
+};
+Differences differences(SceneMaker& maker, const Camera& camera, int size) {
+    Scene scene = maker.compile("wide_bvh");
+    scene.background = {0, 0, 1};
+    const PixelBox all{0, 0, size, size};
+    Film film(size, size, all), rays(size, size, all);
+    AovFilm layers(parse_aovs("uv,Ng"), all), ray_layers(parse_aovs("uv,Ng"), all);
+    RenderJob job{
+        .scene = scene, .camera = camera, .aovs = &layers, .description = &maker.description()};
+    (void)LaneCarpenter().render(job, film);
+    job.aovs = &ray_layers;
+    (void)RayCasting().render(job, rays);
+    Differences found;
+    const auto& channels = layers.layers().channels();
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const Rgb d = film.at(x, y) + -1.0 * rays.at(x, y);
+            found.pixels += !(std::abs(d.r) + std::abs(d.g) + std::abs(d.b) <= 0.02);
+            for (std::size_t c = 0; c < channels.size(); ++c) {
+                const auto at = static_cast<std::size_t>(y * size + x);
+                const double off =
+                    value_of(channels[c], at) - value_of(ray_layers.layers().channels()[c], at);
+                (channels[c].name.starts_with("uv") ? found.uvs : found.normals) +=
+                    !(std::abs(off) <= 0.01);
+            }
+        }
+    }
+    return found;
+}
+
+TEST(LaneCarpenter, ParametersAreThoseOfRays) {
+    SceneMaker maker;
+    maker.add(Rectangle{.corner = {-2, -2, -1}, .edge_u = {4, 0, 0}, .edge_v = {0, 4, 0}});
+    NurbsSurface surface;
+    surface.degree_u = 2;
+    surface.degree_v = 1;
+    surface.knots_u = {1, 1, 1, 1.5, 3, 3, 3};
+    surface.knots_v = {-2, -2, 0, 5, 5};
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            surface.points.push_back({0.9 * i - 1.4, 0.9 * j - 0.9, i % 2 == j % 2 ? 0.3 : 0.0});
+        }
+    }
+    maker.add(surface);
+    const Camera camera = look_along({0.4, 1.2, 5}, {-0.08, -0.24, -1}, {0, 1, 0}, 0.7, 1.0);
+    const Differences found = differences(maker, camera, 96);
+    EXPECT_LE(found.uvs, 60);
+    EXPECT_LE(found.normals, 100);
+    // The derivatives by u and v of the whole, against differences along the surface.
+    surface.prepare();
+    for (const double x : {-0.9, -0.2, 0.7}) {
+        const auto surface_at_x = [&](double at) {
+            const Ray ray{{at, -0.3, 5}, {0, 0, -1}};
+            ShapeHits hits;
+            surface.intersect(ray, hits);
+            EXPECT_EQ(hits.size(), 1u);
+            return surface.surface(ray, hits[0]);
+        };
+        const ShapeSurface low = surface_at_x(x), high = surface_at_x(x + 1e-5);
+        const Vec2 change = high.uv - low.uv;
+        const Vec3 along = change.x * low.dpdu + change.y * low.dpdv;
+        EXPECT_NEAR(along.x, 1e-5, 1e-8);
+        EXPECT_NEAR(along.y, 0.0, 1e-8);
+    }
+}
+
+TEST(LaneCarpenter, SingleSidedSurfacesAreThoseOfRays) {
+    Material single = glowing({0.1, 0.9, 0});
+    single.double_sided = false;
+    // Mirrored, and with a patch that runs against its neighbours.
+    for (const bool turned : {false, true}) {
+        SceneMaker maker;
+        PatchMesh mesh = closed_torus();
+        if (turned) {
+            for (std::size_t patch = 0; patch < mesh.patches.size() / 16; patch += 3) {
+                for (std::size_t i = 0; i < 4; ++i) {
+                    for (std::size_t j = 0; j < i; ++j) {
+                        std::swap(mesh.patches[16 * patch + 4 * i + j],
+                                  mesh.patches[16 * patch + 4 * j + i]);
+                    }
+                }
+            }
+        }
+        const Affine mirror = Affine::scale({turned ? 1.0 : -1.0, 1, 1});
+        maker.add(std::move(mesh), maker.material(single), mirror);
+        const Camera camera = look_along({1.1, 0.1, 5}, {-0.2, 0, -5}, {0, 1, 0}, 0.9, 1.0);
+        const Differences found = differences(maker, camera, 128);
+        EXPECT_LE(found.pixels, 16);
+        EXPECT_LE(found.normals, 250);
+        const Camera inside = look_along({1.2, 0.1, 0.1}, {0, 1, 0.1}, {0, 0, 1}, 1.2, 1.0);
+        EXPECT_LE(differences(maker, inside, 64).pixels, 4);
+    }
+}
+
+TEST(LaneCarpenter, VeilsLetTheEyePassAsForRays) {
+    SceneMaker maker;
+    Material veil = glowing({1, 0, 0}), single = glowing({0, 1, 0});
+    veil.alpha_mode = AlphaMode::Blend;
+    veil.alpha.value = 0.25;
+    single.double_sided = false;
+    maker.add(square(-3, 3, 4), maker.material(veil));
+    maker.add(square(-2, 2, 2), MaterialId{0});
+    maker.add(square(-2, 1, 0), maker.material(single));
+    // Seen from behind.
+    maker.add(square(-1, 3, -3), MaterialId{1}, {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, {}});
+    const Camera camera = unit_pixels(8);
+    Scene scene = maker.compile();
+    scene.background = {0, 0, 1};
+    const PixelBox all{0, 0, 8, 8};
+    Film film(8, 8, all), rays(8, 8, all);
+    const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
+    (void)LaneCarpenter().render(job, film);
+    (void)RayCasting().render(job, rays);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) EXPECT_EQ(film.at(x, y), rays.at(x, y)) << x << ',' << y;
+    }
+    // Two veils of 1/4 before green: 1/4 + 3/16 red, 9/16 green.
+    EXPECT_EQ(film.at(3, 4), (Rgb{0.4375, 0.5625, 0}));
+}
+
+/// Pixels of the bright ground between eight dark ones.
+int ground_pixels(SceneMaker& maker, Cracks cracks, int views, std::uint64_t& counted) {
+    constexpr int kSize = 192;
+    Scene scene = compile_without_geometry(maker.description());
+    scene.background = {1, 1, 1};
+    int found = 0;
+    RandomStream random(7);
+    for (int k = 0; k < views; ++k) {
+        const Vec3 direction{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+        const Vec3 from = 6.0 * normalize(direction);
+        const Camera camera = look_along(from, -from, {0.1, 0.3, 0.9}, 0.7, 1.0);
+        Film film(kSize, kSize, {0, 0, kSize, kSize});
+        const RenderJob job{.scene = scene, .camera = camera, .description = &maker.description()};
+        ScanLineOptions options;
+        options.cracks = cracks;
+        options.flatness = 1.0;
+        options.find_cracks = true;
+        counted += LaneCarpenter(options).render(job, film).scan_lines->crack_samples;
+        for (int y = 1; y + 1 < kSize; ++y) {
+            for (int x = 1; x + 1 < kSize; ++x) {
+                int ground = 0;
+                for (int n = 0; n < 9; ++n) {
+                    ground += film.at(x + n % 3 - 1, y + n / 3 - 1) == scene.background;
+                }
+                found += ground == 1 && film.at(x, y) == scene.background;
+            }
+        }
+    }
+    return found;
+}
+
+TEST(LaneCarpenter, CracksShowUnlessTheyAreClosed) {
+    SceneMaker maker;
+    Material dark = glowing({0.1, 0, 0});
+    dark.double_sided = false;  // else the far side is seen through a crack
+    maker.add(closed_torus(), maker.material(dark));
+    std::uint64_t counted = 0, none = 0;
+    EXPECT_GT(ground_pixels(maker, Cracks::Show, 4, counted), 0);
+    EXPECT_GT(counted, 0u);
+    EXPECT_EQ(ground_pixels(maker, Cracks::Tighter, 2, none), 0);
+    EXPECT_EQ(none, 0u);
+    EXPECT_EQ(ground_pixels(maker, Cracks::Clark, 20, none), 0);
+}
+
+TEST(LaneCarpenter, PatchesThroughTheEyePlaneAreCut) {
+    SceneMaker maker;
+    maker.add(Sphere{.radius = 2}, maker.material(glowing({1, 1, 0})));
+    maker.add(Torus{.major_radius = 1.0, .minor_radius = 0.3}, maker.material(glowing({1, 0, 0})));
+    const Camera inside = look_along({0.1, -1.2, 0.5}, {0.1, 1, -0.4}, {0, 0, 1}, 1.6, 1.0);
+    ScanLineOptions options;
+    options.flatness = 0.1;
+    const Agreement found = agreement(maker, inside, 128, options);
+    EXPECT_GE(found.same, 0.997);
+    EXPECT_GE(found.close, 0.999);
+    const Picture picture = picture_of(maker, inside, 128);
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 128; ++x) EXPECT_NE(picture.film.at(x, y), (Rgb{0, 0, 1}));
+    }
+}
+
+TEST(LaneCarpenter, ThreadsAndCropsGiveTheSameBits) {
+    SceneMaker maker;
+    add_mixture(maker);
+    const Scene scene = maker.compile();
+    const Camera camera = look_along({0.4, 1.2, 5}, {-0.08, -0.24, -1}, {0, 1, 0}, 0.7, 1.0);
+    for (const int samples : {1, 4}) {
+        RenderJob job{.scene = scene,
+                      .camera = camera,
+                      .samples_per_pixel = samples,
+                      .description = &maker.description()};
+        Film one(70, 60, {0, 0, 70, 60}), many = one, crop(70, 60, {21, 13, 55, 50});
+        job.control.threads = 1;
+        const RenderReport first = LaneCarpenter().render(job, one);
+        job.control.threads = 4;
+        const RenderReport second = LaneCarpenter().render(job, many);
+        (void)LaneCarpenter().render(job, crop);
+        EXPECT_EQ(first.scan_lines->most_held, second.scan_lines->most_held);
+        for (int y = 0; y < 60; ++y) {
+            for (int x = 0; x < 70; ++x) {
+                ASSERT_EQ(one.at(x, y), many.at(x, y));
+                const PixelBox& box = crop.crop();
+                if (x < box.x0 || x >= box.x1 || y < box.y0 || y >= box.y1) continue;
+                ASSERT_EQ(one.at(x, y), crop.at(x, y)) << x << ',' << y;
+            }
+        }
+    }
+}
+
+TEST(LaneCarpenter, ClarkGivesTheSamePictureFromMorePatches) {
+    SceneMaker maker;
+    maker.add(closed_torus());
+    const Camera camera = look_along({2, -4, 3}, {-2, 4, -3}, {0, 0, 1}, 0.7, 1.0);
+    ScanLineOptions options;
+    const Picture lazy = picture_of(maker, camera, 200, options);
+    options.all_first = true;
+    const Picture first = picture_of(maker, camera, 200, options);
+    for (int y = 0; y < 200; ++y) {
+        for (int x = 0; x < 200; ++x) ASSERT_EQ(lazy.film.at(x, y), first.film.at(x, y));
+    }
+    EXPECT_EQ(lazy.counts.quads, first.counts.quads);
+    EXPECT_GT(first.counts.most_held, 4 * lazy.counts.most_held);
+    EXPECT_EQ(lazy.counts.lines.size(), 200u);
+}
+
+TEST(LaneCarpenter, RefusesByNameWhatIsNoPatch) {
+    SceneMaker maker;
+    (void)maker.material({});
+    maker.add(Blob{});
+    maker.add(Superellipsoid{});
+    const ObjectIndex solid = maker.object("cut");
+    maker.description().objects.back().combine = Combine::Difference;
+    maker.add(solid);
+    try {
+        (void)scan_scene(maker.description(), compile_without_geometry(maker.description()), {});
+        FAIL();
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        EXPECT_EQ(error.kind(), ErrorKind::Usage);
+        for (const char* name : {"blob", "superellipsoid", "'cut'"}) {
+            EXPECT_NE(text.find(name), std::string::npos) << text;
+        }
+    }
+}
+
+TEST(RendererSettings, AreCheckedByTheirRenderer) {
+    EXPECT_NO_THROW((void)make_renderer("lane_carpenter:flatness=0.5,cracks=show,split=both"));
+    EXPECT_NO_THROW((void)make_renderer("clark"));
+    for (const char* text :
+         {"lane_carpenter:flatness=0", "lane_carpenter:flatness=x", "lane_carpenter:cracks=none",
+          "lane_carpenter:flat=1", "lane_carpenter:flatness", "lane_carpenter:split=one,split=one",
+          "whitted:flatness=1", "lane"}) {
+        EXPECT_THROW((void)make_renderer(text), Error) << text;
+    }
+}
+
+}  // namespace
+}  // namespace alhazen

@@ -1,0 +1,252 @@
+// Crossings of patches: against shapes that are the same surface, closed meshes crossed evenly,
+// halves of a patch, degenerate patches, models.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "alhazen/shapes/algebraic/torus.h"
+#include "alhazen/shapes/core/first_hit.h"
+#include "alhazen/shapes/patches/bezier_patch.h"
+#include "alhazen/shapes/patches/patch_mesh.h"
+#include "alhazen/shapes/quadrics/sphere.h"
+#include "closed_patches.h"
+#include "support/any_ray.h"
+#include "support/test_data.h"
+
+namespace alhazen {
+namespace {
+
+using testing::Random;
+
+std::vector<ShapeHit> all_hits(const auto& shape, const Ray& ray) {
+    ShapeHits hits;
+    append_hits(shape, ray, hits);
+    return {hits.begin(), hits.end()};
+}
+
+/// The same crossings, except for lines that are nearly tangent.
+template <class Exact>
+void expect_same_crossings(const Exact& exact, const PatchMesh& patches, Random& random) {
+    int compared = 0;
+    for (int i = 0; i < 20000; ++i) {
+        Ray ray = testing::any_ray(exact.box(), random);
+        const double scale = length(ray.direction);
+        // Both lists without limits: a crossing at a limit may be on either side.
+        ray.t_min = -kInfinity;
+        ray.t_max = kInfinity;
+        const auto expected = all_hits(exact, ray), found = all_hits(patches, ray);
+        EXPECT_EQ(found.size() % 2, 0u) << i;
+        bool tangent = false;
+        const auto look = [&](const auto& shape, const std::vector<ShapeHit>& hits) {
+            for (const ShapeHit& hit : hits) {
+                const Vec3 normal = shape.surface(ray, hit).normal;
+                tangent = tangent || std::abs(dot(normal, ray.direction)) < 1e-3 * scale;
+            }
+        };
+        look(exact, expected);
+        look(patches, found);
+        if (tangent) continue;
+        ASSERT_EQ(found.size(), expected.size()) << i;
+        const double far = length(ray.origin) + 1.0;
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            EXPECT_NEAR(found[k].t * scale, expected[k].t * scale, 1e-12 * far) << i;
+            const Vec3 a = patches.surface(ray, found[k]).point;
+            const Vec3 b = exact.surface(ray, expected[k]).point;
+            EXPECT_LT(length(a - b), 1e-12 * far) << i;
+            const Vec3 n = patches.surface(ray, found[k]).normal;
+            EXPECT_GT(dot(n, exact.surface(ray, expected[k]).normal), 1.0 - 1e-9) << i;
+        }
+        compared += static_cast<int>(found.size());
+    }
+    EXPECT_GT(compared, 2000);
+}
+
+TEST(PatchCrossings, OfAnExactTorusAreThoseOfTheTorus) {
+    Torus torus;
+    torus.major_radius = 1.0;
+    torus.minor_radius = 0.4;
+    torus.prepare();
+    const PatchMesh patches = testing::torus_of_patches(1.0, 0.4);
+    EXPECT_TRUE(patches.closed());
+    Random random(1);
+    expect_same_crossings(torus, patches, random);
+}
+
+TEST(PatchCrossings, OfAnExactSphereAreThoseOfTheSphere) {
+    const PatchMesh patches = testing::sphere_of_patches();
+    EXPECT_TRUE(patches.closed());
+    Random random(2);
+    expect_same_crossings(Sphere{}, patches, random);
+}
+
+void expect_even(const PatchMesh& mesh, Random& random, int lines) {
+    ASSERT_TRUE(mesh.closed());
+    for (int i = 0; i < lines; ++i) {
+        const Ray ray = testing::hard_line(mesh, random);
+        const auto hits = all_hits(mesh, ray);
+        EXPECT_EQ(hits.size() % 2, 0u) << i;
+        for (std::size_t k = 1; k < hits.size(); ++k) EXPECT_LE(hits[k - 1].t, hits[k].t);
+        // Rays from either end see the same.
+        ShapeHit first;
+        EXPECT_EQ(find_first_hit(mesh, ray, first), !hits.empty());
+        if (!hits.empty()) {
+            EXPECT_TRUE(testing::same_bits(first, hits.front()));
+        }
+    }
+}
+
+TEST(PatchCrossings, ClosedMeshesAreCrossedEvenly) {
+    Random random(3);
+    expect_even(testing::torus_of_patches(1.0, 0.4), random, 4000);
+    expect_even(testing::sphere_of_patches(), random, 4000);
+    for (const double change : {0.0, 0.1, 0.4}) {
+        expect_even(testing::random_closed_patches(random, change), random, 2000);
+    }
+}
+
+TEST(PatchCrossings, NormalsOfClosedMeshesPointOutward) {
+    PatchMesh mesh = testing::sphere_of_patches();
+    // Patches turned at random: their points in the other order of u.
+    Random random(7);
+    for (std::size_t patch = 0; patch < mesh.patch_count(); ++patch) {
+        if (random.coin()) continue;
+        std::uint32_t* points = &mesh.patches[9 * patch];
+        for (int j = 0; j < 3; ++j) std::swap(points[j], points[6 + j]);
+    }
+    mesh.prepare();
+    ASSERT_TRUE(mesh.closed());
+    for (int i = 0; i < 1000; ++i) {
+        const Ray ray{2.0 * random.unit_vector(), random.unit_vector(), -kInfinity, kInfinity};
+        for (const ShapeHit& hit : all_hits(mesh, ray)) {
+            const ShapeSurface surface = mesh.surface(ray, hit);
+            EXPECT_GT(dot(surface.normal, surface.point), 0.999);
+        }
+    }
+}
+
+TEST(PatchCrossings, OfHalvesAreThoseOfTheWhole) {
+    Random random(4);
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Vec3> points;
+        const int n = 1 + random.below(7), m = 1 + random.below(7);
+        std::vector<double> weights;
+        for (int k = 0; k < (n + 1) * (m + 1); ++k) {
+            const double i = static_cast<double>(k / (m + 1)) / n, j = 1.0 * (k % (m + 1)) / m;
+            points.push_back(Vec3{i, j, 0.0} + 0.5 * random.in_cube(1.0));
+            weights.push_back(round % 2 == 0 ? 1.0 : random.log_uniform(0.3, 3));
+        }
+        const BezierNet net = bezier_net(n, m, points, weights);
+        const PatchTree whole({{.net = net}});
+        const auto [low, high] = round % 3 == 0 ? halved_v(net) : halved_u(net);
+        const PatchTree halves({{.net = low, .part = 0}, {.net = high, .part = 1}});
+        for (int i = 0; i < 1000; ++i) {
+            const Vec3 target = point_at(net, random.uniform(), random.uniform());
+            const Vec3 direction = random.unit_vector();
+            const Ray ray{target - 3.0 * direction, direction, -kInfinity, kInfinity};
+            ShapeHits a, b;
+            whole.intersect(ray, a);
+            halves.intersect(ray, b);
+            bool tangent = false;
+            for (const ShapeHit& hit : a) {
+                const Vec3 normal = whole.surface(ray, hit).normal;
+                tangent = tangent || std::abs(dot(normal, direction)) < 1e-3;
+            }
+            if (tangent) continue;
+            ASSERT_EQ(a.size(), b.size()) << round << " " << i;
+            for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k].t, b[k].t, 1e-12);
+        }
+    }
+}
+
+TEST(PatchCrossings, OfPatchesWithoutAreaEnd) {
+    // Points, lines and planes seen edge-on, with lines along them.
+    const std::vector<std::vector<Vec3>> patches{
+        std::vector<Vec3>(16, Vec3{1, 2, 3}),
+        [] {
+            std::vector<Vec3> line;
+            for (int k = 0; k < 16; ++k) line.push_back({0.1 * k, 0, 0});
+            return line;
+        }(),
+        [] {
+            std::vector<Vec3> plane;
+            for (int k = 0; k < 16; ++k) plane.push_back({1.0 * (k / 4), 1.0 * (k % 4), 0});
+            return plane;
+        }()};
+    Random random(5);
+    for (const std::vector<Vec3>& points : patches) {
+        BezierPatch patch;
+        patch.points = points;
+        patch.prepare();
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 from = random.on_lattice(3, 0.5);
+            all_hits(patch, {from, random.lattice_direction(), -kInfinity, kInfinity});
+            all_hits(patch, {from, points[5] - from + 1e-9 * random.in_cube(1), 0, 2});
+        }
+    }
+}
+
+std::vector<BezierPiece> model(const char* name) {
+    std::ifstream in(testing::test_data() / "patches" / name);
+    int count = 0;
+    in >> count;
+    std::vector<BezierPiece> pieces;
+    for (int k = 0; k < count; ++k) {
+        int n = 0, m = 0;
+        in >> n >> m;
+        std::vector<Vec3> points(static_cast<std::size_t>((n + 1) * (m + 1)));
+        for (Vec3& p : points) in >> p.x >> p.y >> p.z;
+        pieces.push_back({.net = bezier_net(n, m, points), .part = static_cast<std::uint32_t>(k)});
+    }
+    return pieces;
+}
+
+TEST(PatchCrossings, ModelsHaveTheirMeasuresAndFitIntoFourKilobytesAPatch) {
+    ALHAZEN_NEEDS_DATA("patches/teapot.bpt");
+    const struct {
+        const char* name;
+        double volume, area;
+    } models[] = {{"teapot.bpt", -25.9298127534, 52.88330309},
+                  {"teacup_sjbaker.bpt", 0.22532172992, 9.981697616}};
+    for (const auto& [name, volume, area] : models) {
+        const auto pieces = model(name);
+        PatchMeasures sum;
+        for (const BezierPiece& piece : pieces) {
+            const PatchMeasures part = measures_of(piece.net);
+            sum.area += part.area;
+            sum.flux_volume += part.flux_volume;
+        }
+        EXPECT_NEAR(sum.flux_volume, volume, 1e-9);
+        EXPECT_NEAR(sum.area, area, 1e-8);  // as many digits as are known
+        EXPECT_LE(PatchTree(pieces).bytes(), 4096 * pieces.size());
+    }
+}
+
+/// Area and flux volume by lines that are spread evenly over a sphere around the model.
+TEST(PatchCrossings, AreaOfTheTeapotByLinesIsItsArea) {
+    ALHAZEN_NEEDS_DATA("patches/teapot.bpt");
+    const PatchTree tree(model("teapot.bpt"));
+    const Vec3 center = tree.box().center();
+    const double radius = 0.51 * length(tree.box().size());
+    Random random(6);
+    constexpr int kLines = 60000;
+    double sum = 0.0, squares = 0.0;
+    for (int i = 0; i < kLines; ++i) {
+        const Vec3 direction = random.unit_vector(), x = perpendicular(direction);
+        const Vec3 y = cross(direction, x);
+        const double r = radius * std::sqrt(random.uniform()), a = random.uniform(0, 2 * kPi);
+        const Vec3 origin = center + (r * std::cos(a)) * x + (r * std::sin(a)) * y;
+        ShapeHits hits;
+        tree.intersect({origin, direction, -kInfinity, kInfinity}, hits);
+        // Cauchy: the mean number of crossings is half of the area over that of the disc.
+        const double area = 2.0 * kPi * radius * radius * static_cast<double>(hits.size());
+        sum += area;
+        squares += area * area;
+    }
+    const double mean = sum / kLines;
+    const double error = std::sqrt((squares / kLines - mean * mean) / kLines);
+    EXPECT_NEAR(mean, 52.88330309, 4.0 * error);
+}
+
+}  // namespace
+}  // namespace alhazen

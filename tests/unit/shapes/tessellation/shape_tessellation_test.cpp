@@ -1,0 +1,127 @@
+// Triangles of shapes: within the tolerance, closed where the shape is, refused by name.
+
+#include "alhazen/shapes/shape_tessellation.h"
+
+#include <gtest/gtest.h>
+
+#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/tessellation/patch_tessellation.h"
+#include "support/random_patches.h"
+#include "support/random_shapes.h"
+
+namespace alhazen {
+namespace {
+
+using testing::Random;
+using testing::RandomShape;
+
+constexpr std::uint64_t kLimit = 2'000'000;
+
+/// Largest distance of points of the triangles from the patch at the same parameters, which is not
+/// less than that from the patch.
+double largest_distance(const BezierPiece& piece, const TriangleMesh& mesh, Random& random) {
+    double most = 0.0;
+    for (const auto& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            double a = random.uniform(), b = random.uniform();
+            if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
+            const double c = 1.0 - a - b;
+            const auto mean = [&](const auto& values) {
+                return a * values[t[0]] + b * values[t[1]] + c * values[t[2]];
+            };
+            const Vec2 uv = mean(mesh.uvs);
+            const auto within = [](double x, double lo, double hi) {
+                return std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
+            };
+            const Vec3 exact = point_at(piece.net, within(uv.x, piece.lo.x, piece.hi.x),
+                                        within(uv.y, piece.lo.y, piece.hi.y));
+            most = std::max(most, length(exact - mean(mesh.positions)));
+        }
+    }
+    return most;
+}
+
+TEST(PatchTessellation, IsWithinTheTolerance) {
+    Random random(1);
+    std::size_t triangles = 0;
+    for (int i = 0; i < 60; ++i) {
+        const auto patch = RandomShape<BezierPatch>::make({random, i % 2 == 1});
+        const BezierPiece piece{.net = patch.net()};
+        const double size = max_component(control_box(piece.net).size());
+        for (const double tolerance : {0.1 * size, 0.01 * size}) {
+            TriangleMesh mesh;
+            if (!append_triangles(piece, tolerance, kLimit, mesh)) continue;
+            EXPECT_LE(largest_distance(piece, mesh, random), tolerance * (1 + 1e-9)) << i;
+            triangles += mesh.triangles.size();
+        }
+    }
+    EXPECT_GT(triangles, 10000u);
+}
+
+template <class S>
+TriangleMesh mesh_of(S shape, double tolerance) {
+    shape.prepare();
+    TriangleMesh mesh;
+    EXPECT_EQ(append_triangles(AnyShape{shape}, tolerance, kLimit, mesh), "");
+    EXPECT_EQ(mesh.normals.size(), mesh.positions.size());
+    EXPECT_EQ(mesh.uvs.size(), mesh.positions.size());
+    return mesh;
+}
+
+TEST(ShapeTessellation, ClosedShapesGiveClosedMeshesOfTheirVolume) {
+    Sphere sphere{.center = {1, 2, 3}, .radius = 1.5};
+    Torus torus;
+    torus.prepare();
+    const double tube = torus.minor_radius, ring = torus.major_radius;
+    Cylinder cylinder{.base = {0, 0, 0}, .top = {1, 2, 2}, .radius = 0.75};
+    BoxShape box{.lo = {-1, 0.1, 0.3}, .hi = {0.7, 2, 3.3}};
+    for (const double tolerance : {1e-1, 1e-2, 1e-3}) {
+        const auto check = [&](const TriangleMesh& mesh, double volume, double area_of_shape) {
+            EXPECT_TRUE(mesh.closed());
+            EXPECT_NEAR(signed_volume(mesh), volume, area_of_shape * tolerance + 1e-12);
+        };
+        check(mesh_of(sphere, tolerance), 4.0 / 3.0 * kPi * 3.375, 4 * kPi * 2.25);
+        check(mesh_of(torus, tolerance), 2 * kPi * kPi * ring * tube * tube,
+              4 * kPi * kPi * ring * tube);
+        check(mesh_of(cylinder, tolerance), kPi * 0.5625 * 3, 2 * kPi * 0.75 * 3.75);
+        check(mesh_of(box, tolerance), 1.7 * 1.9 * 2.7, 0.0);
+    }
+}
+
+TEST(ShapeTessellation, NormalsAreThoseOfTheSurface) {
+    const TriangleMesh mesh = mesh_of(Sphere{.center = {0, 0, 0}, .radius = 2}, 0.01);
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+        ASSERT_LT(length(mesh.normals[k] - 0.5 * mesh.positions[k]), 1e-12);
+    }
+}
+
+TEST(ShapeTessellation, StraightCurvesOfUnevenSpeedDoNotGrow) {
+    // Control points on a line, crowded at one end.
+    BezierPatch patch{.degree_u = 3, .degree_v = 1};
+    for (const double x : {0.0, 0.01, 0.02, 1.0}) {
+        patch.points.push_back({x, 0, 0});
+        patch.points.push_back({x, 1, 0.5 * x});
+    }
+    const TriangleMesh mesh = mesh_of(patch, 1e-3);
+    EXPECT_LT(mesh.triangles.size(), 20000u);
+}
+
+TEST(ShapeTessellation, NamesWhatItCannot) {
+    const auto refusal = [](AnyShape shape) {
+        std::visit([](auto& s) { s.prepare(); }, shape);
+        TriangleMesh mesh;
+        const std::string text = append_triangles(shape, 0.1, kLimit, mesh);
+        EXPECT_TRUE(mesh.positions.empty() && mesh.triangles.empty());
+        return text;
+    };
+    EXPECT_EQ(refusal(Plane{}), "is endless");
+    EXPECT_EQ(refusal(Superellipsoid{}), "has no triangulation yet");
+    Sphere sphere;
+    sphere.prepare();
+    TriangleMesh mesh;
+    EXPECT_EQ(append_triangles(AnyShape{sphere}, 1e-9, 1000, mesh), kTooManyTriangles);
+    EXPECT_TRUE(mesh.positions.empty());
+}
+
+}  // namespace
+}  // namespace alhazen
