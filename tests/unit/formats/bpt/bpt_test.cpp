@@ -120,7 +120,9 @@ TEST(Bpt, TheModelsHaveTheAreaAndVolumeOfTheirDescription) {
         const auto& mesh =
             std::get<PatchMesh>(std::get<AnyShape>(scene.objects.at(0).parts.at(0).what));
         EXPECT_EQ(mesh.patch_count(), model.patches) << model.file;
-        if (model.points != 0) EXPECT_EQ(mesh.points.size(), model.points) << model.file;
+        if (model.points != 0) {
+            EXPECT_EQ(mesh.points.size(), model.points) << model.file;
+        }
         const PatchMeasures measures = measures_of(mesh);
         if (model.area == 0) continue;
         EXPECT_NEAR(measures.area, model.area, 1e-8) << model.file;
