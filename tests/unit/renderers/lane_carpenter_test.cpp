@@ -346,8 +346,9 @@ TEST(LaneCarpenter, HasTheLookAndTheLayersOfRayCasting) {
                 const double a = value_of(channels[c], at);
                 const double b = value_of(ray_layers.layers().channels()[c], at);
                 other_ids += channels[c].name.starts_with("id.") && a != b;
-                other_depths += channels[c].name == "depth.Z" && std::abs(a - b) > 0.01;
-                other_uvs += channels[c].name == "uv.U" && std::abs(a - b) > 0.01;
+                const bool other = a != b && !(std::abs(a - b) <= 0.01);
+                other_depths += channels[c].name == "depth.Z" && other;
+                other_uvs += channels[c].name == "uv.U" && other;
             }
         }
     }

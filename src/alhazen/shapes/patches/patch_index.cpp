@@ -30,9 +30,15 @@ PatchIndex::PatchIndex(std::span<const BezierPiece> pieces, const Box3& box) {
 
 PatchLine PatchIndex::line_of(const Ray& ray) const {
     PatchLine line;
-    const double size = length(ray.direction);
-    line.direction = ray.direction / size;
-    line.per_length = 1.0 / size;
+    Vec3 direction = ray.direction;
+    double unit = 1.0;
+    if (const double square = length_squared(direction); !(square > 1e-200 && square < 1e200)) {
+        unit = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+        direction = direction / unit;
+    }
+    const double size = length(direction);
+    line.direction = direction / size;
+    line.per_length = 1.0 / size / unit;
     line.origin = ray.origin;
     const Vec3 to_center = frame_.center - ray.origin;
     if (length(to_center) > far_) {
@@ -47,7 +53,8 @@ PatchLine PatchIndex::line_of(const Ray& ray) const {
 
 bool PatchIndex::is_near(const PatchLine& line) const {
     // A line through the box is at most a few times as far from the origin as the patches are.
-    return line.tiny <= 0x1p-20 * reach_ && length_squared(line.direction) > 0.5;
+    return line.tiny <= 0x1p-20 * reach_ && std::isfinite(line.per_length) &&
+           length_squared(line.direction) > 0.5;
 }
 
 void PatchIndex::add_axes(PatchLine& line) {

@@ -66,7 +66,7 @@ TEST(NativeImporter, LoadsTheScenesOfTheRepository) {
 TEST(NativeImporter, ShowsEveryShapeInTheScenesOfTheRepository) {
     std::vector<bool> seen(AnalyticShapes::kCount);
     for (const auto& entry :
-         std::filesystem::directory_iterator(testing::source_folder() / "scenes")) {
+         std::filesystem::recursive_directory_iterator(testing::source_folder() / "scenes")) {
         if (entry.path().extension() != ".alhazen") continue;
         const Imported i = import_native_file(entry.path());
         for (const ObjectDescription& object : i.scene.objects) {

@@ -129,6 +129,7 @@ void WideNodeOf<Width>::set_order() {
         float along[Width];
         for (std::size_t i = 0; i < Width; ++i) {
             along[i] = 0;
+            if (i >= used) continue;
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const float center2 = planes[k][i] + planes[k + 3][i];
                 along[i] += (octant >> k & 1) != 0 ? -center2 : center2;
