@@ -76,7 +76,10 @@ Ray grazing_ray(Random& random, const PrimitiveTable& table) {
     const double away = random.log_uniform(1, random.below(4) == 0 ? 1e5 : 30);
     Ray hit{middle + away * size * random.unit_vector(), {}, 0, kInf}, miss = hit;
     for (int i = 0; i < 100; ++i) {
-        hit.direction = middle + random.in_cube(0.5 * size) - hit.origin;
+        // Within the box, not within a cube: a shape may be a sliver.
+        Vec3 target = random.in_cube(0.5 * size);
+        if (box.bounded()) target = random.in_cube(0.5) * box.size();
+        hit.direction = middle + target - hit.origin;
         if (meets(hit)) break;
     }
     miss.direction = middle + 2 * size * random.unit_vector() - miss.origin;
