@@ -635,6 +635,63 @@ TEST(LaneCarpenter, ClarkGivesTheSamePictureFromMorePatches) {
     EXPECT_EQ(lazy.counts.lines.size(), 200u);
 }
 
+/// A wavy sheet of 3 x 2 pieces, whose loops keep the inside of a diamond without a disc.
+NurbsSurface trimmed_sheet() {
+    NurbsSurface sheet;
+    sheet.degree_u = sheet.degree_v = 2;
+    sheet.knots_u = {2, 2, 2, 3, 4, 5, 5, 5};
+    sheet.knots_v = {0, 0, 0, 0.5, 1, 1, 1};
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            sheet.points.push_back({i - 2.0, j - 1.5, (i + j) % 2 == 0 ? 0.4 : -0.4});
+            sheet.weights.push_back(1.0 + 0.5 * (i % 2));
+        }
+    }
+    const TrimCurve border{
+        .points = {{3.5, 0.02}, {4.9, 0.5}, {3.5, 0.98}, {2.1, 0.5}, {3.5, 0.02}}};
+    TrimCurve disc{.degree = 2, .knots = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}};
+    const double c = std::sqrt(0.5);
+    for (const Vec2& p :
+         {Vec2{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}}) {
+        disc.points.push_back({3.6 + 0.4 * p.x, 0.5 + 0.15 * p.y});
+        disc.weights.push_back(p.x != 0 && p.y != 0 ? c : 1.0);
+    }
+    sheet.trims = {{border}, {disc}};
+    return sheet;
+}
+
+TEST(LaneCarpenter, TrimmedSurfacesShowWhatLiesBehindThem) {
+    SceneMaker maker;
+    maker.add(trimmed_sheet(), maker.material(glowing({1, 0, 0})));
+    maker.add(Sphere{.center = {0.2, 0.1, -1.5}, .radius = 0.5},
+              maker.material(glowing({0, 1, 0})));
+    Scene scene = maker.compile("wide_bvh");
+    const Camera camera = look_along({0.6, -0.8, 6}, {-0.1, 0.13, -1}, {0, 1, 0}, 0.7, 1.0);
+    for (const int samples : {1, 4}) {
+        constexpr int kSize = 200;
+        const PixelBox all{0, 0, kSize, kSize};
+        Film film(kSize, kSize, all), rays(kSize, kSize, all);
+        const RenderJob job{.scene = scene,
+                            .camera = camera,
+                            .samples_per_pixel = samples,
+                            .description = &maker.description()};
+        (void)LaneCarpenter().render(job, film);
+        (void)RayCasting().render(job, rays);
+        int other = 0, red = 0, green = 0;
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                const Rgb d = film.at(x, y) + -1.0 * rays.at(x, y);
+                other += std::abs(d.r) + std::abs(d.g) + std::abs(d.b) > 0.3;
+                red += rays.at(x, y).r > 0.5;
+                green += rays.at(x, y).g > 0.5;
+            }
+        }
+        EXPECT_GT(red, kSize * kSize / 20);
+        EXPECT_GT(green, kSize * kSize / 200);
+        EXPECT_LE(other, kSize * kSize / 1000) << samples;
+    }
+}
+
 TEST(LaneCarpenter, RefusesByNameWhatIsNoPatch) {
     SceneMaker maker;
     (void)maker.material({});

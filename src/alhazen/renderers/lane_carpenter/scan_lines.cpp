@@ -404,7 +404,7 @@ class ScanLines::Impl {
     }
 
     void draw_quad(const ScanQuad& quad, std::uint32_t slot, ScanRow& row) {
-        const bool veil = scene_.sources[scene_.pieces[quad.piece].source].may_pass;
+        const bool veil = scene_.may_pass(scene_.pieces[quad.piece]);
         if (grid_.several()) return draw_quad_samples(quad, slot, veil, row);
         // Plain arrays: this is the innermost loop.
         int first[5];

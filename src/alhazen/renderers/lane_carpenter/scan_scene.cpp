@@ -6,6 +6,7 @@
 #include "alhazen/geometry/polygon/convex_corners.h"
 #include "alhazen/math/unit_vector.h"
 #include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/trim_region.h"
 
 namespace alhazen {
 
@@ -145,12 +146,6 @@ class ScanGatherer {
                                   std::is_same_v<S, SteinerPatch> || std::is_same_v<S, Rectangle>;
                 source.is_triangle = std::is_same_v<S, SteinerPatch>;
                 source.is_by_ray = std::is_same_v<S, Lathe>;
-                if constexpr (std::is_same_v<S, NurbsSurface>) {
-                    if (!s.trims.empty()) {
-                        refuse("nurbs_surface with trims", part.name, part.location);
-                        return;
-                    }
-                }
                 result_.sources.push_back(std::move(source));
                 if constexpr (HasPatchForm<S>) {
                     add_pieces(s);
@@ -191,12 +186,19 @@ class ScanGatherer {
         const Vec2 lo{s.knots_u[s.degree_u], s.knots_v[s.degree_v]};
         const Vec2 size{s.knots_u[s.knots_u.size() - s.degree_u - 1] - lo.x,
                         s.knots_v[s.knots_v.size() - s.degree_v - 1] - lo.y};
+        std::vector<bool> trimmed;
         for (BezierPiece& piece : pieces) {
+            trimmed.push_back(s.region != nullptr &&
+                              s.region->cover(piece.lo, piece.hi) != TrimRegion::Cover::All);
             for (Vec2* corner : {&piece.lo, &piece.hi}) {
                 *corner = {(corner->x - lo.x) / size.x, (corner->y - lo.y) / size.y};
             }
         }
+        const std::size_t first = result_.pieces.size();
         add_pieces(pieces, [](std::size_t) { return false; });
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            result_.pieces[first + k].trimmed = trimmed[k];
+        }
     }
     template <class IsInward>
     void add_pieces(const std::vector<BezierPiece>& pieces, IsInward&& is_inward) {
@@ -328,11 +330,6 @@ class ScanGatherer {
 };
 
 }  // namespace
-
-bool ScanScene::any_may_pass() const {
-    return std::any_of(sources.begin(), sources.end(),
-                       [](const ScanSource& source) { return source.may_pass; });
-}
 
 ScanScene scan_scene(const SceneDescription& description, const Scene& scene, const Vec3& eye) {
     return ScanGatherer(description, scene, eye).gather();

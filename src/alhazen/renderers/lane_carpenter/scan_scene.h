@@ -35,6 +35,7 @@ struct ScanPiece {
     std::uint32_t source = 0, part = 0;
     Vec2 lo{0, 0}, hi{1, 1};
     bool polynomial = false;  ///< all weights are 1
+    bool trimmed = false;     ///< trimming loops of the NURBS surface leave a part of it out
     bool inward = false;      ///< du x dv points into the solid
 };
 
@@ -54,7 +55,10 @@ struct ScanScene {
     std::vector<std::vector<HomogeneousPoint>> loops;  ///< world space; w = 0: at infinity
     double farthest = 0;  ///< distance from the eye that no finite corner exceeds
 
-    [[nodiscard]] bool any_may_pass() const;
+    /// Whether what lies behind a point of the piece may be seen there.
+    [[nodiscard]] bool may_pass(const ScanPiece& piece) const {
+        return piece.trimmed || sources[piece.source].may_pass;
+    }
 };
 
 /// Throws Error (Usage) naming every part that cannot take part.

@@ -133,6 +133,7 @@ Rgb ScanShading::radiance(std::span<const ScanVeil> veils, const ScanSample& see
     bool told = geometry == nullptr;
     const auto meet = [&](const ScanSample& sample) {
         set_point(sample, ray);
+        if (is_trimmed_away(sample)) return true;
         const double coverage = point_.material->coverage;
         if (!(coverage > 0.0)) return true;
         if (!told) {
@@ -199,6 +200,14 @@ void ScanShading::shade_patch(std::span<const ScanSample> seen, std::span<const 
 bool ScanShading::is_of_patch(const ScanSample& seen) const {
     return (seen.item & ScanSample::kFacet) == 0 &&
            scene_.sources[scene_.pieces[seen.item].source].is_patch;
+}
+
+bool ScanShading::is_trimmed_away(const ScanSample& seen) const {
+    if ((seen.item & ScanSample::kFacet) != 0) return false;
+    const ScanPiece& piece = scene_.pieces[seen.item];
+    if (!piece.trimmed) return false;
+    const Vec2 uv = point_.surface.uv;
+    return !std::get<NurbsSurface>(*scene_.sources[piece.source].shape).keeps_uv(uv);
 }
 
 void ScanShading::shade_run(std::span<const ScanSample> seen, const Vec3* columns,

@@ -33,6 +33,8 @@ class ScanShading {
     /// Samples of one patch.
     void shade_patch(std::span<const ScanSample> seen, std::span<const Ray> rays, Rgb* pixels);
     [[nodiscard]] bool is_of_patch(const ScanSample& seen) const;
+    /// Whether trimming loops leave out `point_`.
+    [[nodiscard]] bool is_trimmed_away(const ScanSample& seen) const;
     /// Of `point_`, before the background.
     [[nodiscard]] Rgb color_of_point() const;
     /// Sets `point_`.

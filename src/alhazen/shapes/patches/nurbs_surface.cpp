@@ -97,6 +97,17 @@ bool NurbsSurface::keeps(const ShapeHit& hit) const {
     return region->contains({within(hit.u, knots_u, degree_u), within(hit.v, knots_v, degree_v)});
 }
 
+bool NurbsSurface::keeps_uv(const Vec2& uv) const {
+    const auto parameter = [](double x, const std::vector<double>& knots, std::uint32_t degree) {
+        const double lo = knots[degree], hi = knots[knots.size() - degree - 1];
+        return lo + x * (hi - lo);
+    };
+    ShapeHit hit;
+    hit.u = parameter(uv.x, knots_u, degree_u);
+    hit.v = parameter(uv.y, knots_v, degree_v);
+    return keeps(hit);
+}
+
 void NurbsSurface::intersect(const Ray& ray, ShapeHits& hits) const {
     const std::size_t first = hits.size();
     tree->intersect(ray, hits);

@@ -63,6 +63,8 @@ struct NurbsSurface {
     void intersect(const Ray& ray, ShapeHits& hits) const;
     /// Whether the loops leave the surface there.
     [[nodiscard]] bool keeps(const ShapeHit& hit) const;
+    /// The same for texture coordinates.
+    [[nodiscard]] bool keeps_uv(const Vec2& uv) const;
     [[nodiscard]] ShapeSurface surface(const Ray& ray, const ShapeHit& hit) const;
 };
 
