@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "alhazen/aggregates/accelerator_table.h"
@@ -30,8 +31,12 @@ int run(const ConvertArguments& args) {
         load_description(args.scene.scene, args.scene.load_options(), diagnostics);
     if (!args.quiet) print_warnings(diagnostics);
     if (args.tolerance) {
-        const TessellationReport report = tessellate(description, *args.tolerance);
+        // A native file holds shapes without triangles too; --meshes-only leaves them out.
+        const bool keep_others = args.convert.meshes_only ||
+                                 std::filesystem::path(args.output).extension() == ".alhazen";
+        const TessellationReport report = tessellate(description, *args.tolerance, keep_others);
         if (!args.quiet) {
+            for (const std::string& line : report.kept) tell("warning: {}\n", line);
             tell("{} shapes became {} triangles within {:g} of them\n", report.shapes,
                  report.triangles, *args.tolerance);
         }

@@ -46,6 +46,46 @@ class Conversions(CommandLineCase):
             info = json.loads(run("info", out, "--json").stdout)
             self.assertEqual(info["triangles"], 12)
 
+    def test_shapes_and_solids_become_triangles_within_a_tolerance(self):
+        scene = self.write("solid.alhazen", '''alhazen 1
+sphere { center = (3, 0, 0); radius = 1 }
+superellipsoid { center = (-3, 0, 0); east = 0.5; north = 0.5 }
+difference "bored" {
+    transform = translate(0, 4, 0)
+    box { lo = (-1, -1, -1); hi = (1, 1, 1) }
+    cylinder { base = (0, 0, -2); top = (0, 0, 2); radius = 0.5 }
+}
+''')
+        result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.05")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("3 shapes became", result.stderr)
+        volumes = []
+        for path in scene, self.path("out.ply"):
+            result = run("measure", path, "--error", "1e-3", "--json", self.path("measured.json"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            solids = json.loads(self.read("measured.json"))["solids"]
+            volumes.append(sum(solid["volume"]["value"] for solid in solids))
+        exact, volume = volumes
+        self.assertAlmostEqual(volume, exact, delta=0.05 * (12.6 + 12 + 29))
+
+    def test_what_has_no_triangles_is_refused_or_stays(self):
+        scene = self.write("plane.alhazen", "alhazen 1\nsphere { radius = 1 }\nplane \"floor\" { point = (0, -1, 0) }\n")
+        result = run("convert", scene, self.path("out.ply"), "--tolerance", "0.1")
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("plane.alhazen:3:1: error: plane 'floor': no triangles: the shape is endless", result.stderr)
+        self.assertFalse(os.path.exists(self.path("out.ply")))
+        for out in "out.alhazen", "out.ply":
+            options = ["--meshes-only"] if out.endswith("ply") else []
+            result = run("convert", scene, self.path(out), "--tolerance", "0.1", *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("warning: ", result.stderr)
+            self.assertIn("plane 'floor': no triangles", result.stderr)
+        info = json.loads(run("info", self.path("out.alhazen"), "--json").stdout)
+        self.assertEqual(info["parts"], {"mesh": 1, "plane": 1})
+        for bad in "0", "-1", "nan", "x":
+            result = run("convert", scene, self.path("bad.ply"), "--tolerance", bad)
+            self.assertEqual(result.returncode, 2, bad)
+
     def test_a_picture_never_replaces_a_file_of_the_scene(self):
         self.assertEqual(self.render(output="wood.png", size="8x8").returncode, 0)
         os.rename(self.path("wood.png"), self.path("wood.depth.png"))

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "alhazen/base/error.h"
+#include "alhazen/scene/scene.h"
 #include "alhazen/shapes/shape_tessellation.h"
+#include "alhazen/solids/solid_triangles.h"
 
 namespace alhazen {
 
@@ -92,29 +95,144 @@ class ObjectStretches {
     std::vector<std::uint64_t> waiting_;
 };
 
+/// A scene of one shape.
+SceneDescription shape_alone(const AnyShape& shape) {
+    SceneDescription alone;
+    alone.materials.emplace_back();
+    alone.objects.emplace_back();
+    alone.objects[0].parts.push_back({.what = shape});
+    alone.root = ObjectIndex{0};
+    return alone;
+}
+
+/// A scene of one object and what it is made of.
+SceneDescription object_alone(const SceneDescription& scene, std::size_t index) {
+    SceneDescription alone;
+    alone.materials = scene.materials;
+    alone.textures = scene.textures;
+    alone.meshes = scene.meshes;
+    alone.objects.emplace_back();
+    alone.root = ObjectIndex{0};
+    std::map<std::size_t, std::size_t> number;
+    std::vector<std::size_t> taken;
+    const auto number_of = [&](std::size_t object) {
+        const auto [found, is_new] = number.try_emplace(object, taken.size() + 1);
+        if (is_new) taken.push_back(object);
+        return static_cast<ObjectIndex>(found->second);
+    };
+    alone.objects[0].parts.push_back({.what = number_of(index)});
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+        ObjectDescription object = scene.objects[taken[k]];
+        for (Part& part : object.parts) {
+            if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                part.what = number_of(static_cast<std::size_t>(*child));
+            }
+        }
+        alone.objects.push_back(std::move(object));
+    }
+    return alone;
+}
+
 class Tessellation {
   public:
-    Tessellation(SceneDescription& scene, double tolerance, std::uint64_t max_triangles)
-        : scene_(scene), tolerance_(tolerance), max_triangles_(max_triangles) {}
+    Tessellation(SceneDescription& scene, double tolerance, bool keep_others,
+                 std::uint64_t max_triangles)
+        : scene_(scene),
+          tolerance_(tolerance),
+          keep_others_(keep_others),
+          max_triangles_(max_triangles) {}
 
     TessellationReport run() {
         const ObjectStretches stretches(scene_);
-        for (std::size_t k = 0; k < scene_.objects.size(); ++k) {
-            if (stretches[k] == 0.0) continue;
-            ObjectDescription& object = scene_.objects[k];
-            if (object.combine != Combine::Group) {
-                refuse(object.location, object.name, "a solid made of others has none");
-                continue;
-            }
-            for (Part& part : object.parts) replace(part, stretches[k]);
+        std::vector<std::size_t> groups, solids;
+        find_pictured(groups, solids);
+        // First: their operands are as in the file.
+        for (const std::size_t k : solids) replace_solid(k, stretches[k]);
+        for (const std::size_t k : groups) {
+            for (Part& part : scene_.objects[k].parts) replace(part, stretches[k]);
         }
-        if (!refused_.empty()) {
+        if (!refused_.empty() && !keep_others_) {
             throw Error(ErrorKind::Scene, "not all shapes have triangles:\n" + refused_);
         }
         return report_;
     }
 
   private:
+    /// Groups that are placed other than as operands of solids, and the solids in them.
+    void find_pictured(std::vector<std::size_t>& groups, std::vector<std::size_t>& solids) const {
+        std::vector<bool> seen(scene_.objects.size());
+        std::vector<std::size_t> open{static_cast<std::size_t>(scene_.root)};
+        seen[open[0]] = true;
+        while (!open.empty()) {
+            const std::size_t k = open.back();
+            open.pop_back();
+            if (scene_.objects[k].combine != Combine::Group) {
+                solids.push_back(k);
+                continue;
+            }
+            groups.push_back(k);
+            for (const Part& part : scene_.objects[k].parts) {
+                const auto* child = std::get_if<ObjectIndex>(&part.what);
+                if (child == nullptr || seen[static_cast<std::size_t>(*child)]) continue;
+                seen[static_cast<std::size_t>(*child)] = true;
+                open.push_back(static_cast<std::size_t>(*child));
+            }
+        }
+        std::sort(groups.begin(), groups.end());
+        std::sort(solids.begin(), solids.end());
+    }
+
+    /// Triangles of a closed shape or a solid of the scene by its crossings with lines. Returns why
+    /// there are none.
+    std::string append_by_lines(const SceneDescription& alone, double tolerance,
+                                TriangleMesh& mesh) const {
+        const SolidList solids(compile(alone, {.own_accelerators = false}).aggregate);
+        if (solids.count() != 1) return "bounds no volume";
+        const IsolatedSolid solid(solids, SolidId{0});
+        if (!solid.box().empty() && !solid.box().bounded()) return "is endless";
+        const std::uint64_t most = max_triangles_ - report_.triangles;
+        return make_solid_triangles(solid, tolerance, most, mesh) ? "" : kTooManyTriangles;
+    }
+
+    void replace_solid(std::size_t index, double stretch) {
+        ObjectDescription& object = scene_.objects[index];
+        auto mesh = std::make_shared<TriangleMesh>();
+        const std::string failed =
+            append_by_lines(object_alone(scene_, index), tolerance_ / stretch, *mesh);
+        if (!accept(failed, object.location, object.name, "the solid ", *mesh)) return;
+        Part part{.what = MeshIndex{0}, .name = object.name, .location = object.location};
+        std::vector<std::uint32_t>& materials = mesh->vertex_materials;
+        if (!materials.empty()) part.material = MaterialId{materials[0]};
+        if (std::all_of(materials.begin(), materials.end(),
+                        [&](std::uint32_t m) { return m == materials[0]; })) {
+            materials.clear();
+        }
+        place(std::move(mesh), part);
+        object.parts = {part};
+        object.combine = Combine::Group;
+    }
+
+    /// Whether there is a mesh; says why not.
+    bool accept(const std::string& failed, const FileLocation& where, const std::string& name,
+                const char* what, const TriangleMesh& mesh) {
+        if (failed == kTooManyTriangles) {
+            throw Error(ErrorKind::Resource,
+                        fmt::format("{}: with this tolerance the scene has more than {} triangles",
+                                    to_string(where), max_triangles_));
+        }
+        if (!failed.empty()) {
+            refuse(where, name, what + failed);
+            return false;
+        }
+        ++report_.shapes;
+        report_.triangles += mesh.triangles.size();
+        return true;
+    }
+    void place(std::shared_ptr<TriangleMesh> mesh, Part& part) {
+        scene_.meshes.push_back({part.name, std::move(mesh), part.location});
+        part.what = static_cast<MeshIndex>(scene_.meshes.size() - 1);
+    }
+
     void replace(Part& part, double stretch) {
         const auto* shape = std::get_if<AnyShape>(&part.what);
         if (shape == nullptr) return;
@@ -127,25 +245,22 @@ class Tessellation {
             prepared);
         auto mesh = std::make_shared<TriangleMesh>();
         const double tolerance = tolerance_ / (stretch * largest_stretch(part.object_from_part));
-        const std::string failed =
+        std::string failed =
             append_triangles(prepared, tolerance, max_triangles_ - report_.triangles, *mesh);
-        if (failed == kTooManyTriangles) {
-            throw Error(ErrorKind::Resource,
-                        fmt::format("{}: with this tolerance the scene has more than {} triangles",
-                                    to_string(part.location), max_triangles_));
+        if (failed == kNeedsLines) {
+            failed = append_by_lines(shape_alone(*shape), tolerance, *mesh);
+            mesh->vertex_materials.clear();
         }
-        if (!failed.empty()) {
-            refuse(part.location, part.name.empty() ? kind : kind + (" '" + part.name + "'"),
-                   "the shape " + failed);
-            return;
-        }
-        ++report_.shapes;
-        report_.triangles += mesh->triangles.size();
-        scene_.meshes.push_back({part.name, std::move(mesh), part.location});
-        part.what = static_cast<MeshIndex>(scene_.meshes.size() - 1);
+        const std::string name = part.name.empty() ? kind : kind + (" '" + part.name + "'");
+        if (accept(failed, part.location, name, "the shape ", *mesh)) place(std::move(mesh), part);
     }
 
     void refuse(const FileLocation& where, const std::string& what, const std::string& why) {
+        if (keep_others_) {
+            report_.kept.push_back(
+                fmt::format("{}: {}: no triangles: {}", to_string(where), what, why));
+            return;
+        }
         constexpr int kMostLines = 50;
         if (++refusals_ > kMostLines) return;
         refused_ += fmt::format("{}: error: {}: no triangles: {}\n", to_string(where), what, why);
@@ -153,6 +268,7 @@ class Tessellation {
 
     SceneDescription& scene_;
     double tolerance_;
+    bool keep_others_;
     std::uint64_t max_triangles_;
     TessellationReport report_;
     std::string refused_;
@@ -161,13 +277,13 @@ class Tessellation {
 
 }  // namespace
 
-TessellationReport tessellate(SceneDescription& description, double tolerance,
+TessellationReport tessellate(SceneDescription& description, double tolerance, bool keep_others,
                               std::uint64_t max_triangles) {
     if (!(tolerance > 0.0) || !std::isfinite(tolerance)) {
         throw Error(ErrorKind::Usage,
                     fmt::format("the tolerance must be a positive number, not {}", tolerance));
     }
-    return Tessellation(description, tolerance, max_triangles).run();
+    return Tessellation(description, tolerance, keep_others, max_triangles).run();
 }
 
 }  // namespace alhazen

@@ -3,6 +3,7 @@
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "alhazen/shapes/patches/exact_forms.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
+#include "alhazen/shapes/tessellation/trimmed_triangles.h"
 
 namespace alhazen {
 
@@ -40,10 +41,31 @@ std::string append(const S& shape, double tolerance, std::uint64_t max_triangles
     return {};
 }
 
+void append_mesh(const TriangleMesh& from, TriangleMesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), from.positions.begin(), from.positions.end());
+    mesh.normals.insert(mesh.normals.end(), from.normals.begin(), from.normals.end());
+    mesh.uvs.insert(mesh.uvs.end(), from.uvs.begin(), from.uvs.end());
+    for (const auto& [a, b, c] : from.triangles) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+}
+
 std::string append(const NurbsSurface& shape, double tolerance, std::uint64_t max_triangles,
                    TriangleMesh& mesh) {
-    if (!shape.trims.empty()) return "has trimming loops";
-    return append<NurbsSurface>(shape, tolerance, max_triangles, mesh);
+    TriangleMesh own;
+    const std::string failed = append<NurbsSurface>(shape, tolerance, max_triangles, own);
+    if (!failed.empty()) return failed;
+    if (shape.region != nullptr && !trim_triangles(shape, tolerance, max_triangles, own)) {
+        return kTooManyTriangles;
+    }
+    // Texture coordinates are parameters mapped to the unit square.
+    const Vec2 lo{shape.knots_u[shape.degree_u], shape.knots_v[shape.degree_v]};
+    const Vec2 size{shape.knots_u[shape.knots_u.size() - shape.degree_u - 1] - lo.x,
+                    shape.knots_v[shape.knots_v.size() - shape.degree_v - 1] - lo.y};
+    for (Vec2& uv : own.uvs) uv = {(uv.x - lo.x) / size.x, (uv.y - lo.y) / size.y};
+    append_mesh(own, mesh);
+    return {};
 }
 
 std::string append(const BoxShape& shape, double tolerance, std::uint64_t max_triangles,
@@ -89,7 +111,7 @@ std::string append(const Polygon& shape, double, std::uint64_t, TriangleMesh& me
 }
 
 std::string append(const Polyhedron& shape, double, std::uint64_t, TriangleMesh& mesh) {
-    if (shape.face_ends.empty()) return "is given by its planes";
+    if (shape.face_ends.empty()) return shape.box().bounded() ? kNeedsLines : "is endless";
     std::size_t corner = 0;
     for (const std::uint32_t end : shape.face_ends) {
         std::vector<Vec3> face;
@@ -99,9 +121,19 @@ std::string append(const Polyhedron& shape, double, std::uint64_t, TriangleMesh&
     return {};
 }
 
+std::string append(const HeightField& shape, double, std::uint64_t max_triangles,
+                   TriangleMesh& mesh) {
+    const std::uint64_t count =
+        4 * std::uint64_t{shape.cells()} + 4 * (std::uint64_t{shape.columns} + shape.rows - 2);
+    if (count > max_triangles) return kTooManyTriangles;
+    for (std::uint32_t part = 0; part < count; ++part) append_face(shape.triangle(part), mesh);
+    return {};
+}
+
 /// Any other shape.
 std::string append(const auto& shape, double, std::uint64_t, TriangleMesh&) {
-    return shape.box().bounded() ? "has no triangulation yet" : "is endless";
+    if (!shape.box().bounded()) return "is endless";
+    return shape.closed() ? kNeedsLines : "is open and no patch";
 }
 
 }  // namespace

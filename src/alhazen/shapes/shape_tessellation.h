@@ -4,7 +4,7 @@
 /// Source: see patch_tessellation.h; the patches that a shape is: exact_forms.h.
 /// Conventions: triangles are counterclockwise from outside, with the normals of the exact surface
 /// at their vertices. The mesh of a closed shape is closed where vertices of equal position are
-/// one. Faces of boxes and polygons are exact.
+/// one. Faces of boxes, polygons and height fields are exact.
 
 #include <cstdint>
 #include <string>
@@ -15,6 +15,9 @@
 namespace alhazen {
 
 inline constexpr const char* kTooManyTriangles = "needs more triangles than the limit";
+/// A closed shape without patches or faces: its crossings with lines give the triangles
+/// (solids/solid_triangles.h).
+inline constexpr const char* kNeedsLines = "has no patches";
 
 /// Appends triangles within `tolerance`, in object space, of a prepared, valid shape. Returns an
 /// empty text, or why there are none: "is endless". Nothing is appended then.

@@ -188,7 +188,7 @@ void IsolatedSolid::crossings(const Ray& ray, std::vector<SurfacePoint>& found) 
             s.error.x * abs(m.x_axis) + s.error.y * abs(m.y_axis) + s.error.z * abs(m.z_axis);
         found.push_back({hit.t, world_.outer_from_inner.point(s.point),
                          normalize(transpose_times(world_.inner_from_outer.linear, s.normal)),
-                         error});
+                         error, s.materials[0]});
     }
 }
 

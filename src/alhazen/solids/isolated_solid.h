@@ -52,10 +52,12 @@ class IsolatedSolid final : public Measurable {
     [[nodiscard]] double magnitude() const override;
     void cross(const Ray& line, bool want_cosines, LineSpans& found) const override;
 
-    /// A crossing: the point on the surface, the bound of its error, and the outward normal.
+    /// A crossing: the point on the surface, the bound of its error, the outward normal, and for a
+    /// CSG object the material there.
     struct SurfacePoint {
         double t = 0;
         Vec3 point, normal, error;
+        MaterialId material{0};
     };
     /// Appends all crossings of the ray between its limits.
     void crossings(const Ray& ray, std::vector<SurfacePoint>& found) const;

@@ -108,6 +108,52 @@ TEST(ShapeTessellation, StraightCurvesOfUnevenSpeedDoNotGrow) {
     EXPECT_LT(mesh.triangles.size(), 20000u);
 }
 
+TEST(ShapeTessellation, HeightFieldsAreTheirTriangles) {
+    HeightField field{.columns = 3, .rows = 2, .base = -0.5};
+    field.heights = std::make_shared<std::vector<float>>(std::vector<float>{0, 1, 0, 0.5, 0, 0.25});
+    const TriangleMesh mesh = mesh_of(field, 1.0);
+    EXPECT_EQ(mesh.triangles.size(), 4u * 2 + 4 * 3);
+    EXPECT_TRUE(mesh.closed());
+}
+
+/// A flat sheet of 4 by 2 over the domain [2, 6] x [0, 1] with a round hole of radius 0.5.
+NurbsSurface sheet_with_hole() {
+    NurbsSurface sheet;
+    sheet.degree_u = sheet.degree_v = 1;
+    sheet.knots_u = {2, 2, 6, 6};
+    sheet.knots_v = {0, 0, 1, 1};
+    sheet.points = {{0, 0, 1}, {0, 2, 1}, {4, 0, 1}, {4, 2, 1}};
+    const TrimCurve border{.points = {{2, 0}, {6, 0}, {6, 1}, {2, 1}, {2, 0}}};
+    TrimCurve hole{.degree = 2, .knots = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}};
+    for (int k = 0; k < 9; ++k) {
+        const double f = k % 2 == 0 ? 1.0 : std::sqrt(2.0);
+        hole.points.push_back(
+            {4 + 0.5 * f * std::cos(k * kPi / 4), 0.5 + 0.25 * f * std::sin(k * kPi / 4)});
+        hole.weights.push_back(1.0 / f);
+    }
+    sheet.trims = {{border}, {hole}};
+    return sheet;
+}
+
+TEST(ShapeTessellation, LoopsCutTheTrianglesOfANurbsSurface) {
+    for (const double tolerance : {0.1, 0.01, 0.001}) {
+        const TriangleMesh mesh = mesh_of(sheet_with_hole(), tolerance);
+        double area = 0;
+        for (const auto& t : mesh.triangles) {
+            const Vec3 a = mesh.positions[t[0]];
+            area += 0.5 * cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a).z;
+            const Vec3 middle = (a + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+            EXPECT_GE(length(middle - Vec3{2, 1, 1}), 0.5 - tolerance);
+        }
+        // Chords of the size of the tolerance.
+        EXPECT_NEAR(area, 8 - 0.25 * kPi, 0.5 * tolerance);
+        for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+            const Vec3 p = mesh.positions[k];
+            ASSERT_NEAR(length(mesh.uvs[k] - Vec2{p.x / 4, p.y / 2}), 0, 1e-12);
+        }
+    }
+}
+
 TEST(ShapeTessellation, NamesWhatItCannot) {
     const auto refusal = [](AnyShape shape) {
         std::visit([](auto& s) { s.prepare(); }, shape);
@@ -117,7 +163,7 @@ TEST(ShapeTessellation, NamesWhatItCannot) {
         return text;
     };
     EXPECT_EQ(refusal(Plane{}), "is endless");
-    EXPECT_EQ(refusal(Superellipsoid{}), "has no triangulation yet");
+    EXPECT_EQ(refusal(Superellipsoid{}), kNeedsLines);
     Sphere sphere;
     sphere.prepare();
     TriangleMesh mesh;

@@ -1,0 +1,142 @@
+// Triangles of solids by lines: closed, within the tolerance in both directions, with their
+// materials.
+
+#include "alhazen/solids/solid_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "alhazen/math/constants.h"
+#include "support/random.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+using testing::Random;
+using testing::SceneMaker;
+
+/// The mesh of the only solid of a scene.
+TriangleMesh mesh_of(SceneMaker& maker, double tolerance) {
+    const SolidList solids(maker.compile().aggregate);
+    EXPECT_EQ(solids.count(), 1u);
+    const IsolatedSolid solid(solids, SolidId{0});
+    TriangleMesh mesh;
+    EXPECT_TRUE(make_solid_triangles(solid, tolerance, 2'000'000, mesh));
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_FALSE(mesh.triangles.empty());
+    return mesh;
+}
+
+/// Largest distance of random points of the mesh to the solid, along the best of many lines.
+double largest_distance(const IsolatedSolid& solid, const TriangleMesh& mesh, double limit) {
+    Random random(7);
+    double most = 0;
+    const int count = static_cast<int>(mesh.triangles.size());
+    for (int i = 0; i < 2000; ++i) {
+        const auto& t = mesh.triangles[static_cast<std::size_t>(random.below(count))];
+        double a = random.uniform(), b = random.uniform();
+        if (a + b > 1) a = 1 - a, b = 1 - b;
+        const Vec3 p = a * mesh.positions[t[0]] + b * mesh.positions[t[1]] +
+                       (1 - a - b) * mesh.positions[t[2]];
+        double nearest = 100 * limit;
+        for (int k = 0; k < 60 && nearest > limit; ++k) {
+            std::vector<IsolatedSolid::SurfacePoint> found;
+            solid.crossings({p, random.unit_vector(), -100 * limit, 100 * limit}, found);
+            for (const auto& point : found) nearest = std::min(nearest, length(point.point - p));
+        }
+        most = std::max(most, nearest);
+    }
+    return most;
+}
+
+double volume_of(const TriangleMesh& mesh) {
+    double six = 0;
+    for (const auto& t : mesh.triangles) {
+        six += dot(mesh.positions[t[0]], cross(mesh.positions[t[1]], mesh.positions[t[2]]));
+    }
+    return six / 6;
+}
+
+TEST(SolidTriangles, OfSmoothSolidsAreFewAndNear) {
+    SceneMaker maker;
+    maker.add(Superellipsoid{});
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    for (const double tolerance : {0.1, 0.01}) {
+        const TriangleMesh mesh = mesh_of(maker, tolerance);
+        EXPECT_LE(largest_distance(solid, mesh, tolerance), tolerance);
+        EXPECT_LT(mesh.triangles.size(), 400'000u);
+        EXPECT_TRUE(mesh.vertex_materials.empty() || mesh.vertex_materials[0] == 0);
+    }
+}
+
+/// A box with a bore, of two materials.
+void add_bored_box(SceneMaker& maker) {
+    const MaterialId steel = maker.material({}), brass = maker.material({});
+    const ObjectIndex cut = maker.object("bored");
+    maker.description().objects.back().combine = Combine::Difference;
+    maker.add(BoxShape{.lo = {-1, -1, -0.5}, .hi = {1, 1, 0.5}}, steel, {}, cut);
+    maker.add(Cylinder{.base = {0, 0, -1}, .top = {0, 0, 1}, .radius = 0.5}, brass, {}, cut);
+    maker.add(cut);
+}
+
+TEST(SolidTriangles, OfASolidWithEdgesHaveItsVolumeAndMaterials) {
+    SceneMaker maker;
+    add_bored_box(maker);
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    const double tolerance = 0.05;
+    const TriangleMesh mesh = mesh_of(maker, tolerance);
+    EXPECT_LE(largest_distance(solid, mesh, tolerance), tolerance);
+    EXPECT_NEAR(volume_of(mesh), 4 - 0.25 * kPi, 0.5 * tolerance);
+    ASSERT_EQ(mesh.vertex_materials.size(), mesh.positions.size());
+    std::set<std::uint32_t> used;
+    for (const auto& t : mesh.triangles) {
+        const std::uint32_t material = mesh.vertex_materials[t[0]];
+        used.insert(material);
+        EXPECT_EQ(material, mesh.vertex_materials[t[1]]);
+        EXPECT_EQ(material, mesh.vertex_materials[t[2]]);
+        const Vec3 middle =
+            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+        const double radius = std::hypot(middle.x, middle.y);
+        if (std::abs(radius - 0.5) > tolerance) {
+            EXPECT_EQ(material, 0u) << radius;
+        }
+    }
+    EXPECT_EQ(used.size(), 2u);
+}
+
+TEST(SolidTriangles, ThinPartsAreFoundWhateverTheirDirection) {
+    for (int axis = 0; axis < 3; ++axis) {
+        SceneMaker maker;
+        Vec3 lo{-1, -1, -1}, hi{1, 1, 1};
+        lo[axis] = 0.11;
+        hi[axis] = 0.14;
+        const ObjectIndex both = maker.object("plate and ball");
+        maker.description().objects.back().combine = Combine::Union;
+        maker.add(BoxShape{.lo = lo, .hi = hi}, MaterialId{0}, {}, both);
+        maker.add(Sphere{.center = {0, 0, 0}, .radius = 0.4}, MaterialId{0}, {}, both);
+        (void)maker.material({});
+        maker.add(both);
+        const TriangleMesh mesh = mesh_of(maker, 0.02);
+        Box3 box;
+        for (const Vec3& p : mesh.positions) box.include(p);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(box.hi[k], k == axis ? 0.4 : 1.0, 0.02) << axis;
+        }
+    }
+}
+
+TEST(SolidTriangles, HaveALimit) {
+    SceneMaker maker;
+    maker.add(Superellipsoid{});
+    const SolidList solids(maker.compile().aggregate);
+    const IsolatedSolid solid(solids, SolidId{0});
+    TriangleMesh mesh;
+    EXPECT_FALSE(make_solid_triangles(solid, 1e-7, 10'000, mesh));
+}
+
+}  // namespace
+}  // namespace alhazen
