@@ -9,8 +9,8 @@
 
 #include "alhazen/base/diagnostics.h"
 #include "alhazen/scene/scene.h"
+#include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/load.h"
-#include "alhazen/session/tessellated.h"
 #include "alhazen/shapes/patches/patch_mesh.h"
 #include "command_line.h"
 #include "measure.h"

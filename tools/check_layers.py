@@ -109,6 +109,8 @@ INSIDE = {
         "whitted": ["core"],
     },
     "session": {
+        "": ["generators"],
+        "conversion": [""],
         "generators": [],
     },
     "shading": {
@@ -123,10 +125,12 @@ INSIDE = {
         "blobs": ["algebraic"],
         "meshes": ["core"],
         "patches": ["algebraic", "polygons", "swept"],
+        "patches/forms": ["patches", "patches/nurbs", "algebraic", "polygons", "swept"],
         "patches/methods": ["patches"],
+        "patches/nurbs": ["patches"],
         "polygons": ["core"],
         "swept": ["core"],
-        "tessellation": ["meshes", "patches"],
+        "tessellation": ["meshes", "patches", "patches/forms", "patches/nurbs"],
     },
 }
 

@@ -5,8 +5,8 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
-#include "alhazen/session/convert.h"
-#include "alhazen/session/tessellated.h"
+#include "alhazen/session/conversion/convert.h"
+#include "alhazen/session/conversion/tessellated.h"
 #include "commands.h"
 #include "messages.h"
 #include "options.h"

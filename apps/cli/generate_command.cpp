@@ -6,7 +6,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/base/lower_case.h"
-#include "alhazen/session/convert.h"
+#include "alhazen/session/conversion/convert.h"
 #include "alhazen/session/generate.h"
 #include "commands.h"
 #include "messages.h"

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "alhazen/base/error.h"
-#include "alhazen/session/convert.h"
+#include "alhazen/session/conversion/convert.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/session/load.h"
 #include "alhazen/session/render.h"

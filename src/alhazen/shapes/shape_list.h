@@ -13,7 +13,7 @@
 #include "alhazen/shapes/meshes/height_field.h"
 #include "alhazen/shapes/patches/bezier_patch.h"
 #include "alhazen/shapes/patches/bilinear_patch.h"
-#include "alhazen/shapes/patches/nurbs_surface.h"
+#include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
 #include "alhazen/shapes/patches/patch_mesh.h"
 #include "alhazen/shapes/patches/steiner_patch.h"
 #include "alhazen/shapes/polygons/box_shape.h"
@@ -46,11 +46,12 @@ struct ShapeTypes {
     static constexpr std::size_t kCount = sizeof...(S);
 };
 
-using AnalyticShapes = ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon,
-                                  HalfSpace, Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone,
-                                  Tgc, Torus, Paraboloid, Hyperboloid, TwoSheetHyperboloid, Quadric,
-                                  Algebraic, Superellipsoid, Prism, Lathe, Blob, HeightField, BezierPatch, PatchMesh,
-                                  NurbsSurface, BilinearPatch, SteinerPatch>;
+using AnalyticShapes =
+    ShapeTypes<Sphere, Plane, Disc, Rectangle, BoxShape, Cylinder, Cone, Polygon, HalfSpace,
+               Polyhedron, Ellipsoid, EllipticCylinder, EllipticCone, Tgc, Torus, Paraboloid,
+               Hyperboloid, TwoSheetHyperboloid, Quadric, Algebraic, Superellipsoid, Prism, Lathe,
+               Blob, HeightField, BezierPatch, PatchMesh, NurbsSurface, BilinearPatch,
+               SteinerPatch>;
 
 /// Any analytic shape by value: the variant, with copy, move and destruction compiled once instead
 /// of in every file that has parts.

@@ -1,7 +1,7 @@
 #include "alhazen/shapes/shape_tessellation.h"
 
 #include "alhazen/geometry/polygon/triangulate.h"
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
 #include "alhazen/shapes/tessellation/trimmed_triangles.h"
 

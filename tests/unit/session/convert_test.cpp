@@ -1,4 +1,4 @@
-#include "alhazen/session/convert.h"
+#include "alhazen/session/conversion/convert.h"
 
 #include <array>
 
@@ -9,8 +9,8 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/session/conversion/placed_meshes.h"
 #include "alhazen/session/load.h"
-#include "alhazen/session/placed_meshes.h"
 #include "support/same_description.h"
 #include "support/scene_maker.h"
 #include "support/scratch_folder.h"

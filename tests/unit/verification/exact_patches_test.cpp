@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "alhazen/session/generators/teapot_patches.h"
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/verification/patch_trials.h"
 
 namespace alhazen {

@@ -11,7 +11,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/formats/bpt/bpt_reader.h"
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/verification/patch_trials.h"
 #include "support/test_data.h"
 

@@ -11,7 +11,7 @@
 #include "alhazen/laboratory/claims/claim_run.h"
 #include "alhazen/laboratory/cpu_clock.h"
 #include "alhazen/session/generators/teapot_patches.h"
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/verification/patch_trials.h"
 
 namespace alhazen {

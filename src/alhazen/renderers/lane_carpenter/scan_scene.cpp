@@ -5,8 +5,8 @@
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/polygon/convex_corners.h"
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/shapes/patches/exact_forms.h"
-#include "alhazen/shapes/patches/trim_region.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
+#include "alhazen/shapes/patches/nurbs/trim_region.h"
 
 namespace alhazen {
 

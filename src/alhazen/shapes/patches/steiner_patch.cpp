@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "alhazen/shapes/core/shape_numerics.h"
-#include "alhazen/shapes/patches/exact_forms.h"
 #include "alhazen/shapes/patches/patch_checks.h"
 #include "alhazen/shapes/patches/patch_tree.h"
 
@@ -37,10 +36,21 @@ std::array<HomogeneousPoint, 6> SteinerPatch::control_points() const {
     return result;
 }
 
+BezierNet SteinerPatch::net() const {
+    const std::array<HomogeneousPoint, 6> p = control_points();
+    // Rows of the triangle raised to degree 2 in s.
+    BezierNet net;
+    net.degree_u = net.degree_v = 2;
+    for (int i = 0; i < 3; ++i) net.at(i, 0) = p[static_cast<std::size_t>(i)];
+    net.at(0, 1) = p[3];
+    net.at(1, 1) = 0.5 * (p[3] + p[4]);
+    net.at(2, 1) = p[4];
+    for (int i = 0; i < 3; ++i) net.at(i, 2) = p[5];
+    return net;
+}
+
 void SteinerPatch::prepare() {
-    std::vector<BezierPiece> pieces;
-    append_pieces(*this, pieces);
-    tree = std::make_shared<PatchTree>(std::move(pieces));
+    tree = std::make_shared<PatchTree>(std::vector<BezierPiece>{{.net = net()}});
     bounds = tree->box();
 }
 

@@ -35,6 +35,8 @@ struct SteinerPatch {
         field("points", &SteinerPatch::points, Unit::Compound, Check::Shape),
         optional_field("weights", &SteinerPatch::weights, Unit::Compound, Check::Shape));
 
+    /// As a square of degree 2 by 2 whose edge v = 1 is a point: (s, t) -> (s (1 - t), t).
+    [[nodiscard]] BezierNet net() const;
     void prepare();
     void validate(const FileLocation& where, Diagnostics& diagnostics) const;
     [[nodiscard]] bool closed() const { return false; }

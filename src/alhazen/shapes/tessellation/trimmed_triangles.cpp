@@ -4,7 +4,7 @@
 #include <array>
 
 #include "alhazen/math/unit_vector.h"
-#include "alhazen/shapes/patches/trim_region.h"
+#include "alhazen/shapes/patches/nurbs/trim_region.h"
 
 namespace alhazen {
 

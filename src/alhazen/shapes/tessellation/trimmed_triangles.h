@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "alhazen/shapes/meshes/triangle_mesh.h"
-#include "alhazen/shapes/patches/nurbs_surface.h"
+#include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
 
 namespace alhazen {
 

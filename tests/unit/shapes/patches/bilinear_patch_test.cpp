@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "alhazen/geometry/watertight_triangle.h"
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "simple_patches.h"
 
 namespace alhazen {

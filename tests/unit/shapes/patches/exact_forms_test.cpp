@@ -1,6 +1,6 @@
 // Shapes as the rational Bezier patches that they exactly are.
 
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // NURBS surfaces: values, pieces, crossings, trimming loops, bad input.
 
-#include "alhazen/shapes/patches/nurbs_surface.h"
+#include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
 
 #include <gtest/gtest.h>
 
-#include "alhazen/shapes/patches/trim_region.h"
+#include "alhazen/shapes/patches/nurbs/trim_region.h"
 #include "alhazen/shapes/quadrics/cylinder.h"
 #include "support/any_ray.h"
 #include "support/random_patches.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/shapes/tessellation/patch_tessellation.h"
 #include "support/random_patches.h"
 #include "support/random_shapes.h"

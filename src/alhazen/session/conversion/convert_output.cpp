@@ -1,4 +1,4 @@
-#include "alhazen/session/convert_output.h"
+#include "alhazen/session/conversion/convert_output.h"
 
 #include <fmt/format.h>
 

@@ -16,7 +16,7 @@
 #include "alhazen/shapes/algebraic/torus.h"
 #include "alhazen/shapes/patches/bezier_patch.h"
 #include "alhazen/shapes/patches/bilinear_patch.h"
-#include "alhazen/shapes/patches/nurbs_surface.h"
+#include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
 #include "alhazen/shapes/patches/patch_mesh.h"
 #include "alhazen/shapes/patches/steiner_patch.h"
 #include "alhazen/shapes/polygons/disc.h"

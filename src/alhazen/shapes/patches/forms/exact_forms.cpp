@@ -1,4 +1,4 @@
-#include "alhazen/shapes/patches/exact_forms.h"
+#include "alhazen/shapes/patches/forms/exact_forms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -248,19 +248,7 @@ void append_pieces(const BilinearPatch& shape, std::vector<BezierPiece>& pieces)
 }
 
 void append_pieces(const SteinerPatch& shape, std::vector<BezierPiece>& pieces) {
-    const auto at = [&](std::size_t k) {
-        return homogeneous(shape.points[k], shape.weights.empty() ? 1.0 : shape.weights[k]);
-    };
-    // (s, t) -> (u, v) = (s (1 - t), t): rows of the triangle raised to degree 2 in s.
-    BezierPiece piece;
-    piece.net.degree_u = piece.net.degree_v = 2;
-    BezierNet& net = piece.net;
-    for (int i = 0; i < 3; ++i) net.at(i, 0) = at(static_cast<std::size_t>(i));
-    net.at(0, 1) = at(3);
-    net.at(1, 1) = 0.5 * (at(3) + at(4));
-    net.at(2, 1) = at(4);
-    for (int i = 0; i < 3; ++i) net.at(i, 2) = at(5);
-    pieces.push_back(piece);
+    pieces.push_back({.net = shape.net()});
 }
 
 }  // namespace alhazen

@@ -1,4 +1,4 @@
-#include "alhazen/shapes/patches/bspline_pieces.h"
+#include "alhazen/shapes/patches/nurbs/bspline_pieces.h"
 
 #include <algorithm>
 #include <cmath>

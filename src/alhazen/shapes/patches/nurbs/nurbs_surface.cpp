@@ -1,12 +1,12 @@
-#include "alhazen/shapes/patches/nurbs_surface.h"
+#include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "alhazen/shapes/core/shape_numerics.h"
-#include "alhazen/shapes/patches/bspline_pieces.h"
+#include "alhazen/shapes/patches/nurbs/bspline_pieces.h"
+#include "alhazen/shapes/patches/nurbs/trim_region.h"
 #include "alhazen/shapes/patches/patch_checks.h"
-#include "alhazen/shapes/patches/trim_region.h"
 
 namespace alhazen {
 

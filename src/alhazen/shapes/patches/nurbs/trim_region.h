@@ -15,8 +15,8 @@
 #include <span>
 
 #include "alhazen/shapes/core/shape_numerics.h"
-#include "alhazen/shapes/patches/nurbs_surface.h"
-#include "alhazen/shapes/patches/trim_arcs.h"
+#include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
+#include "alhazen/shapes/patches/nurbs/trim_arcs.h"
 
 namespace alhazen {
 

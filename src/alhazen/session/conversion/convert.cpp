@@ -1,4 +1,4 @@
-#include "alhazen/session/convert.h"
+#include "alhazen/session/conversion/convert.h"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 #include "alhazen/formats/native/write/native_writer.h"
 #include "alhazen/formats/pictures/picture_export.h"
 #include "alhazen/formats/text/unique_labels.h"
-#include "alhazen/session/convert_output.h"
+#include "alhazen/session/conversion/convert_output.h"
+#include "alhazen/session/conversion/placed_meshes.h"
+#include "alhazen/session/conversion/placed_surfaces.h"
 #include "alhazen/session/masked_parts.h"
-#include "alhazen/session/placed_meshes.h"
-#include "alhazen/session/placed_surfaces.h"
 #include "alhazen/session/scene_files.h"
 
 namespace alhazen {

@@ -1,4 +1,4 @@
-#include "alhazen/session/tessellated.h"
+#include "alhazen/session/conversion/tessellated.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "alhazen/shapes/patches/nurbs_surface.h"
+#include "alhazen/shapes/patches/nurbs/nurbs_surface.h"
 
 namespace alhazen {
 

@@ -1,4 +1,4 @@
-#include "alhazen/session/placed_meshes.h"
+#include "alhazen/session/conversion/placed_meshes.h"
 
 #include <limits>
 #include <optional>

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/session/convert.h"
+#include "alhazen/session/conversion/convert.h"
 
 namespace alhazen {
 

@@ -1,4 +1,4 @@
-#include "alhazen/session/placed_surfaces.h"
+#include "alhazen/session/conversion/placed_surfaces.h"
 
 #include <optional>
 

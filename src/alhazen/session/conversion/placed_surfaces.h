@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "alhazen/formats/patch_files/patch_export.h"
-#include "alhazen/session/placed_meshes.h"
+#include "alhazen/session/conversion/placed_meshes.h"
 
 namespace alhazen {
 

@@ -1,11 +1,11 @@
-#include "alhazen/shapes/patches/trim_region.h"
+#include "alhazen/shapes/patches/nurbs/trim_region.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "alhazen/math/orientation.h"
-#include "alhazen/shapes/patches/bspline_pieces.h"
+#include "alhazen/shapes/patches/nurbs/bspline_pieces.h"
 
 namespace alhazen {
 

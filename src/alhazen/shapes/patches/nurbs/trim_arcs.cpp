@@ -1,10 +1,10 @@
-#include "alhazen/shapes/patches/trim_arcs.h"
+#include "alhazen/shapes/patches/nurbs/trim_arcs.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "alhazen/math/orientation.h"
-#include "alhazen/shapes/patches/bspline_pieces.h"
+#include "alhazen/shapes/patches/nurbs/bspline_pieces.h"
 
 namespace alhazen {
 
