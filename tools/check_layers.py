@@ -104,9 +104,10 @@ INSIDE = {
     },
     "renderers": {
         "core": [],
+        "antialias": ["core"],
         "lane_carpenter": ["core"],
-        "ray_casting": ["core"],
-        "whitted": ["core"],
+        "ray_casting": ["antialias"],
+        "whitted": ["antialias"],
     },
     "session": {
         "": ["generators"],

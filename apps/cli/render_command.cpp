@@ -8,6 +8,7 @@
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
+#include "alhazen/renderers/core/antialias_report.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/framing.h"
@@ -30,7 +31,7 @@ namespace {
 struct RenderArguments {
     SceneArguments scene;
     std::string output;
-    std::string size, crop, encoding, protocol, stats, tables, aovs, view;
+    std::string size, crop, encoding, protocol, stats, tables, aovs, view, antialias;
     int depth = -1;
     int bits = 8;
     bool full_float = false, aov_png = false, quiet = false, no_counts = false;
@@ -54,6 +55,7 @@ RenderOptions render_options(const RenderArguments& args) {
     }
     if (!args.crop.empty()) options.crop = parse_crop(args.crop);
     if (args.depth >= 0) options.max_depth = args.depth;
+    if (!args.antialias.empty()) options.antialias = parse_antialias(args.antialias);
     if (!args.aovs.empty()) options.aovs = parse_aovs(args.aovs);
     if (!args.view.empty() && !options.camera.empty()) {
         throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
@@ -154,11 +156,27 @@ void write_pictures(const RenderArguments& args, const RenderOptions& options,
     }
 }
 
+/// Names objects that no ray of --antialias met.
+void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
+    constexpr std::size_t kNames = 4;
+    if (report.below_depth == 0) return;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(kNames, report.unmet.size()); ++i) {
+        names += fmt::format("{}'{}' (pixel {},{})", i == 0 ? "" : ", ",
+                             part_name(loaded.description, report.unmet[i].part), report.unmet[i].x,
+                             report.unmet[i].y);
+    }
+    tell("{} object{} stayed below the depth of --antialias, in {} pixels: {}{}\n",
+         report.below_depth, report.below_depth == 1 ? "" : "s", report.below_depth_pixels, names,
+         report.below_depth > kNames ? ", ..." : "");
+}
+
 int run(const RenderArguments& args) {
     // Check the options before any work.
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
     const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
+    check_antialias(options, *renderer);
     const bool needs_aggregate = renderer->needs_aggregate();
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
         throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
@@ -204,6 +222,7 @@ int run(const RenderArguments& args) {
     if (result.counters.non_finite > 0 && !args.quiet) {
         tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);
     }
+    if (result.antialias && !args.quiet) tell_unmet(loaded, *result.antialias);
     if (!result.complete) {
         tell("stopped: {} of {} tiles are in {}; the rest is black\n", result.tiles_done,
              result.tiles, args.output);
@@ -237,6 +256,13 @@ void add_render(CLI::App& app, int& exit_status) {
         ->capture_default_str();
     command->add_option("--spp", args->render.samples_per_pixel, "Samples per pixel")
         ->capture_default_str();
+    command
+        ->add_option("--antialias", args->antialias,
+                     "Adaptive supersampling instead of --spp: rays through the corners of the "
+                     "pixels, and more where their shades differ by more than threshold (0.05), "
+                     "down to 1 / 2^depth (4) of a pixel; guarantee (on): and where an object may "
+                     "hide between rays")
+        ->type_name("whitted[:threshold=T,depth=D,guarantee=on|off]");
     command
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's")

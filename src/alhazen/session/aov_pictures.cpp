@@ -179,6 +179,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
         case AovKind::NodeVisits:
         case AovKind::BoxTests:
         case AovKind::PrimitiveTests:
+        case AovKind::Unmet:
             break;
     }
     return heat_picture(crop, *c[0], 1.0);
@@ -248,6 +249,14 @@ std::vector<std::string> write_aov_pictures(const std::filesystem::path& output,
         lines.push_back(fmt::format("{}: {}, {}", path.string(), entry.name, picture.meaning));
     }
     return lines;
+}
+
+std::string part_name(const SceneDescription& description, std::uint32_t number) {
+    for (const ObjectDescription& object : description.objects) {
+        if (number < object.parts.size()) return part_name(description, object.parts[number]);
+        number -= static_cast<std::uint32_t>(object.parts.size());
+    }
+    return "";
 }
 
 ImageMetadata id_names(const SceneDescription& description, const AovSet& wanted) {

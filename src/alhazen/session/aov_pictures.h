@@ -22,6 +22,8 @@ std::vector<std::string> write_aov_pictures(const std::filesystem::path& output,
                                             const AovSet& wanted, const FilmLayers& layers,
                                             const ImageMetadata& metadata);
 
+/// The name of a part by its number, or what it is.
+[[nodiscard]] std::string part_name(const SceneDescription& description, std::uint32_t number);
 /// A JSON object from id to name for each wanted kind of id, under "alhazen.id.object" and so on;
 /// each is truncated at 64 KiB.
 [[nodiscard]] ImageMetadata id_names(const SceneDescription& description, const AovSet& wanted);

@@ -27,7 +27,8 @@ struct FrameSize {
 /// Refuses options that would change the counts of a protocol.
 void check_protocol(const RenderOptions& options) {
     if (options.protocol == Protocol::None) return;
-    if (options.width || options.height || options.crop || options.samples_per_pixel != 1) {
+    if (options.width || options.height || options.crop || options.samples_per_pixel != 1 ||
+        options.antialias) {
         throw Error(ErrorKind::Usage, "the protocol fixes size, crop and samples per pixel");
     }
 }
@@ -65,6 +66,15 @@ void check(const RenderOptions& options) {
          fmt::format("depth must be 0 to {}", kMaxDepth));
 }
 
+std::string single_ray_renderers() {
+    std::string names;
+    for (const RendererEntry& entry : renderers()) {
+        if (!make_renderer(entry.name)->answers_single_rays()) continue;
+        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    return names;
+}
+
 /// The scene with the overrides of the command line; shares all geometry.
 Scene adjusted(const Scene& scene, const RenderOptions& options) {
     Scene result = scene;
@@ -84,6 +94,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
         throw Error(ErrorKind::Usage, fmt::format("renderer '{}' needs the aggregate of the scene",
                                                   options.renderer));
     }
+    check_antialias(options, *renderer);
     const Scene scene = adjusted(original, options);
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
@@ -99,6 +110,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
                         .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel),
                         .aovs = options.aovs.empty() ? nullptr : &aovs,
                         .description = description,
+                        .antialias = options.antialias ? &*options.antialias : nullptr,
                         .control = {.threads = options.threads,
                                     .tile_size = options.tile_size,
                                     .stop = options.stop,
@@ -113,6 +125,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     result.tiles = report.parts;
     result.tiles_done = report.done;
     result.complete = report.complete();
+    result.antialias = report.antialias;
     result.scan_lines = report.scan_lines;
     result.layers = std::move(aovs.layers());
     return result;
@@ -126,6 +139,25 @@ void apply_spd(ShadingConventions& shading, SamplingConventions& sampling) {
     shading.min_contribution = 0.0;
     shading.transmitting_surfaces_reflect = true;
     shading.correct_interpolated_normals = false;
+}
+
+void check_antialias(const RenderOptions& options, const Renderer& renderer) {
+    if (!options.antialias) return;
+    if (!renderer.answers_single_rays()) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--antialias whitted is for renderers that answer single rays: "
+                                "{}; renderer '{}' does not",
+                                single_ray_renderers(), options.renderer));
+    }
+    if (options.samples_per_pixel != 1) {
+        throw Error(ErrorKind::Usage,
+                    "--antialias chooses the samples of each pixel: it excludes --spp");
+    }
+    if (options.aovs.has_tests() || options.aovs.has(AovKind::Time)) {
+        throw Error(ErrorKind::Usage,
+                    "--antialias: pixels share their rays, so --aov time and the counts of tests "
+                    "have no meaning; count.rays has");
+    }
 }
 
 double free_aspect(const PictureSettings& picture, const RenderOptions& options) {

@@ -7,13 +7,16 @@
 
 #include "alhazen/base/progress.h"
 #include "alhazen/imaging/film/film.h"
+#include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
 
+struct AntialiasReport;
 struct LoadedScene;
+class Renderer;
 struct ScanLineReport;
 
 /// A published way of counting that fixes size, sampling and depth.
@@ -34,6 +37,8 @@ struct RenderOptions {
     std::optional<int> width, height;  ///< one given: the other follows from the aspect ratio
     std::optional<PixelBox> crop;      ///< of the full frame; default all of it
     int samples_per_pixel = 1;
+    /// Adaptive supersampling instead of samples_per_pixel.
+    std::optional<AntialiasSettings> antialias;
     std::optional<int> max_depth;  ///< default: the format's
     int threads = 0;               ///< 0 = all available cores
     int tile_size = 32;
@@ -56,11 +61,15 @@ struct RenderResult {
     int threads = 0;
     bool complete = true;                   ///< false after a stop; tiles not done are black
     std::size_t tiles_done = 0, tiles = 0;  ///< or parts, as counted by the renderer
+    std::shared_ptr<const AntialiasReport> antialias;  ///< of adaptive supersampling, else null
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
 };
 
 /// Width / height of an image without a camera: that of the options, of the file, or 4 / 3.
 [[nodiscard]] double free_aspect(const PictureSettings& picture, const RenderOptions& options);
+
+/// Throws Error (Usage) where RenderOptions::antialias excludes another option, or the renderer.
+void check_antialias(const RenderOptions& options, const Renderer& renderer);
 
 /// Renders an image. Throws Error (Usage) for invalid options, and where the renderer needs an
 /// aggregate that the scene does not have.

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/aggregates/accelerator_bytes.h"
+#include "alhazen/renderers/core/antialias_report.h"
 #include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/unique_bytes.h"
 
 namespace alhazen {
@@ -19,6 +21,39 @@ std::uint64_t peak_rss_bytes() {
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
+
+namespace {
+
+/// null: without adaptive supersampling.
+nlohmann::ordered_json antialias_json(const SceneDescription& description,
+                                      const RenderResult& result) {
+    using json = nlohmann::ordered_json;
+    if (!result.antialias) return nullptr;
+    const AntialiasReport& r = *result.antialias;
+    json whole{
+        {"rays_by_level", r.points},
+        {"divided_by_level", r.divided},
+        {"rays_per_pixel", static_cast<double>(r.total_points()) / static_cast<double>(r.pixels)}};
+    if (!r.guarantee) return whole;
+    json named = json::array();
+    for (const UnmetObject& unmet : r.unmet) {
+        named.push_back({{"part", unmet.part + 1},
+                         {"name", part_name(description, unmet.part)},
+                         {"instance", unmet.instance + 1},
+                         {"pixel", {unmet.x, unmet.y}}});
+    }
+    whole["guarantee"] = {{"objects", r.objects},
+                          {"endless", r.unbounded},
+                          {"met", r.met},
+                          {"looked_for", r.sought},
+                          {"below_depth", r.below_depth},
+                          {"below_depth_pixels", r.below_depth_pixels},
+                          {"below_depth_named", named},
+                          {"seconds", r.seconds}};
+    return whole;
+}
+
+}  // namespace
 
 nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedScene& loaded,
                                   const RenderOptions& options, const RenderResult& result,
@@ -82,6 +117,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"rays", rays},
         {"tests", tests_json},
         {"scan_lines", scan_lines},
+        {"antialias", antialias_json(loaded.description, result)},
         {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
         {"memory",

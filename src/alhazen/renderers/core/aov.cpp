@@ -93,6 +93,11 @@ std::span<const AovEntry> aov_table() {
          {"count.primitive_tests"},
          Float},
         {AovKind::Time, "time", "wall time that the pixel took, seconds", {"time.seconds"}, Float},
+        {AovKind::Unmet,
+         "unmet",
+         "objects that --antialias looked for, and that no ray met down to its depth",
+         {"unmet"},
+         Uint},
     };
     return table;
 }

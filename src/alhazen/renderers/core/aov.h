@@ -42,6 +42,7 @@ enum class AovKind {
     BoxTests,
     PrimitiveTests,
     Time,
+    Unmet,
 };
 
 struct AovEntry {

@@ -27,6 +27,8 @@ struct RenderControl {
     ProgressSink* progress = nullptr;  ///< phase "render"; may be null
 };
 
+struct AntialiasReport;
+struct AntialiasSettings;
 struct ScanLineReport;
 
 /// The scene, the view and the settings of a render.
@@ -41,6 +43,9 @@ struct RenderJob {
     /// The source of `scene`, with all shapes and meshes: the geometry for renderers without an
     /// aggregate. Null where unknown.
     const SceneDescription* description = nullptr;
+    /// Adaptive supersampling instead of `samples_per_pixel`, for renderers that answer single
+    /// rays; null: none.
+    const AntialiasSettings* antialias = nullptr;
     RenderControl control{};
 
     [[nodiscard]] bool stop_requested() const {
@@ -54,6 +59,7 @@ struct RenderReport {
     std::size_t done = 0, parts = 0;  ///< of the work, as reported to RenderControl::progress
     int threads = 1;                  ///< largest number in force
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
+    std::shared_ptr<const AntialiasReport> antialias;  ///< of RenderJob::antialias, else null
 
     /// False after a stop.
     [[nodiscard]] bool complete() const { return done == parts; }
@@ -69,6 +75,8 @@ class Renderer {
     /// False: `render` takes a scene without an aggregate, so none is built for it; geometry is
     /// read from RenderJob::description.
     [[nodiscard]] virtual bool needs_aggregate() const { return true; }
+    /// True: `render` heeds RenderJob::antialias.
+    [[nodiscard]] virtual bool answers_single_rays() const { return false; }
     /// True: reports have RenderReport::scan_lines.
     [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "alhazen/base/error.h"
 
 namespace alhazen {
 
-RendererSettings::RendererSettings(const std::string& text) : name_(text, 0, text.find(':')) {
+RendererSettings::RendererSettings(const std::string& text, const char* subject)
+    : subject_(subject), name_(text, 0, text.find(':')) {
     if (name_.size() == text.size()) return;
     std::string rest = text.substr(name_.size() + 1);
     while (!rest.empty()) {
@@ -35,6 +37,14 @@ double RendererSettings::number(const char* setting, double fallback, double lea
         refuse(fmt::format("{}={}, expected a number from {} to {}", setting, *text, least, most));
     }
     return value;
+}
+
+int RendererSettings::whole(const char* setting, int fallback, int least, int most) {
+    const double value = number(setting, fallback, least, most);
+    if (value != std::floor(value)) {
+        refuse(fmt::format("{}={}, expected a whole number", setting, value));
+    }
+    return static_cast<int>(value);
 }
 
 std::size_t RendererSettings::choice(const char* setting, std::size_t fallback,
@@ -66,7 +76,7 @@ const std::string* RendererSettings::find(const char* setting) {
 }
 
 void RendererSettings::refuse(const std::string& what) const {
-    throw Error(ErrorKind::Usage, "renderer '" + name_ + "': " + what);
+    throw Error(ErrorKind::Usage, std::string(subject_) + " '" + name_ + "': " + what);
 }
 
 }  // namespace alhazen

@@ -36,7 +36,7 @@ class TiledRenderer : public Renderer {
     /// `job` must outlive the result. Called from many threads.
     [[nodiscard]] virtual std::unique_ptr<TileRenderer> begin(const RenderJob& job) const = 0;
 
-    [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const final;
+    [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     /// Renders one tile in the calling thread.
     void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
                      RayCounters& counters) const {

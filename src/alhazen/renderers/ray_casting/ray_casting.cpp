@@ -37,6 +37,7 @@ class Caster {
                 meet({k, 1.0, job_.cone}, eye_rays[k], *point, t, radiance);
             },
             [&](std::size_t k, const Hit& hit) {
+                if (!eye_hits_.empty()) eye_hits_[k] = hit;
                 const Rgb* color = unlit_.find(hit);
                 if (color == nullptr) return false;
                 ++count_.hit;
@@ -49,6 +50,9 @@ class Caster {
         }
         for (const OnWay& o : behind_) end(o.sample, o.left, radiance);
     }
+
+    /// From now on `trace` stores the first hit of each eye ray; nothing where empty.
+    void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
 
   private:
     /// The rest of a ray behind partly covering surfaces.
@@ -96,6 +100,7 @@ class Caster {
     const std::vector<Rgb> ambient_;
     UnlitCache unlit_;
     VisibleBatch visible_;
+    std::span<Hit> eye_hits_;  ///< see keep_hits
     std::vector<OnWay> on_way_, behind_;
     std::vector<Ray> rays_, rays_behind_;
 };
@@ -104,6 +109,10 @@ class Caster {
 
 std::unique_ptr<TileRenderer> RayCasting::begin(const RenderJob& job) const {
     return make_pixel_renderer<Caster>(job, kRaysAtOnce);
+}
+
+std::unique_ptr<RayAnswers> RayCasting::answers(const RenderJob& job) const {
+    return std::make_unique<EstimatorAnswers<Caster>>(job);
 }
 
 }  // namespace alhazen

@@ -5,13 +5,14 @@
 /// and Nagel, "3-D Visual Simulation", Simulation 16(1), 1971.
 /// Differs: no shadows; the shading is the local part of `whitted`.
 
-#include "alhazen/renderers/core/tiles.h"
+#include "alhazen/renderers/antialias/single_rays.h"
 
 namespace alhazen {
 
-class RayCasting final : public TiledRenderer {
+class RayCasting final : public SingleRayRenderer {
   public:
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
+    [[nodiscard]] std::unique_ptr<RayAnswers> answers(const RenderJob& job) const override;
 };
 
 }  // namespace alhazen

@@ -52,6 +52,9 @@ class WhittedEstimator {
         for (std::uint32_t i = 0; Rgb & c : radiance) c = eye_.radiance(i++);
     }
 
+    /// From now on `trace` stores the first hit of each eye ray; nothing where empty.
+    void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
+
   private:
     /// All rays of a generation; `depth` is 0 for eye rays.
     void trace_all(Generation& generation, int depth) {
@@ -93,29 +96,34 @@ class WhittedEstimator {
         const auto path_of = [&](std::size_t k) -> const Path& {
             return part.paths[front.active[k]];
         };
-        visible_.find(rays, coherence, path_of,
-                      [&](std::size_t k, const ShadingPoint* point, double t) {
-                          const std::uint32_t i = front.active[k];
-                          Rgb& left = front.left[i];
-                          if (point == nullptr) {
-                              part.radiance[i] = part.radiance[i] + left * scene_.background;
-                              return;
-                          }
-                          Path& path = part.paths[i];
-                          counters_[path.kind].hit += first;
-                          if (!path.absorption.is_black())
-                              left = left * transmittance(path.absorption, t);
-                          const double coverage = point->material->coverage;
-                          MetSurface& met = front.met.emplace_back();
-                          met.ray = i;
-                          met.share = coverage * left;
-                          shade({*point, rays[k], t, path, depth}, met, front.next);
-                          left = (1.0 - coverage) * left;
-                          if (!(left.max() >= kLeastTransmittance)) return;
-                          front.next_active.push_back(i);
-                          front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
-                          path.cone = path.cone.from(t);
-                      });
+        const bool keeps = first && depth == 0 && !eye_hits_.empty();
+        visible_.find(
+            rays, coherence, path_of,
+            [&](std::size_t k, const ShadingPoint* point, double t) {
+                const std::uint32_t i = front.active[k];
+                Rgb& left = front.left[i];
+                if (point == nullptr) {
+                    part.radiance[i] = part.radiance[i] + left * scene_.background;
+                    return;
+                }
+                Path& path = part.paths[i];
+                counters_[path.kind].hit += first;
+                if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
+                const double coverage = point->material->coverage;
+                MetSurface& met = front.met.emplace_back();
+                met.ray = i;
+                met.share = coverage * left;
+                shade({*point, rays[k], t, path, depth}, met, front.next);
+                left = (1.0 - coverage) * left;
+                if (!(left.max() >= kLeastTransmittance)) return;
+                front.next_active.push_back(i);
+                front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
+                path.cone = path.cone.from(t);
+            },
+            [&](std::size_t k, const Hit& hit) {
+                if (keeps) eye_hits_[k] = hit;
+                return false;
+            });
     }
 
     /// Adds the colours of the surfaces to the radiance of the rays.
@@ -242,6 +250,7 @@ class WhittedEstimator {
     std::size_t rays_at_once_;
     Coherence eye_shadows_;  ///< of the shadow rays from surfaces that eye rays hit
     const std::vector<Rgb> ambient_;
+    std::span<Hit> eye_hits_;  ///< of a batch that begins with its first ray; see keep_hits
     VisibleBatch visible_;
     ShadowBatch shadows_;
     Generation eye_;
@@ -252,6 +261,10 @@ class WhittedEstimator {
 
 std::unique_ptr<TileRenderer> Whitted::begin(const RenderJob& job) const {
     return make_pixel_renderer<WhittedEstimator>(job, rays_at_once_);
+}
+
+std::unique_ptr<RayAnswers> Whitted::answers(const RenderJob& job) const {
+    return std::make_unique<EstimatorAnswers<WhittedEstimator>>(job);
 }
 
 }  // namespace alhazen

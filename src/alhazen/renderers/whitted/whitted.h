@@ -12,16 +12,17 @@
 
 #include <cstddef>
 
-#include "alhazen/renderers/core/tiles.h"
+#include "alhazen/renderers/antialias/single_rays.h"
 
 namespace alhazen {
 
-class Whitted final : public TiledRenderer {
+class Whitted final : public SingleRayRenderer {
   public:
     /// `rays_at_once`: of a generation, at least 1; pixels do not depend on it.
     explicit Whitted(std::size_t rays_at_once = kRaysAtOnce) : rays_at_once_(rays_at_once) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override;
+    [[nodiscard]] std::unique_ptr<RayAnswers> answers(const RenderJob& job) const override;
 
   private:
     static constexpr std::size_t kRaysAtOnce = 256;

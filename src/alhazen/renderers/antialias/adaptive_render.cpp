@@ -1,0 +1,264 @@
+#include "alhazen/renderers/antialias/adaptive_render.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/antialias/adaptive_grid.h"
+#include "alhazen/renderers/antialias/picture_grid.h"
+#include "alhazen/renderers/antialias/scene_objects.h"
+#include "alhazen/renderers/antialias/sought_spheres.h"
+#include "alhazen/renderers/core/antialias_report.h"
+#include "alhazen/renderers/core/aov.h"
+
+namespace alhazen {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Sorts the numbers.
+std::uint64_t count_distinct(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    return static_cast<std::uint64_t>(std::unique(numbers.begin(), numbers.end()) -
+                                      numbers.begin());
+}
+
+/// Renders one film.
+class AdaptiveRender {
+  public:
+    AdaptiveRender(const SingleRayRenderer& renderer, const RenderJob& job, Film& film)
+        : renderer_(renderer),
+          job_(job),
+          film_(film),
+          settings_(*job.antialias),
+          picture_(job.camera, film),
+          grid_(film.crop().width(), film.crop().height(), settings_) {}
+
+    RenderReport run() {
+        ThreadLimit threads(job_.control.threads);
+        RenderReport report;
+        report.parts = 1;
+        report.threads = threads.threads();
+        report_.pixels = film_.crop().area();
+        threads.run([&] { levels(); });
+        report.counters = counters_;
+        if (job_.stop_requested()) return report;
+        write_pixels();
+        write_layers();
+        report.counters = counters_;
+        report.done = 1;
+        report.antialias = std::make_shared<AntialiasReport>(report_);
+        return report;
+    }
+
+  private:
+    void levels() {
+        if (settings_.guarantee) collect_objects();
+        do {
+            report_.points.push_back(grid_.points().size());
+            trace();
+            if (job_.stop_requested()) return;
+            if (grid_.level() == 0 && objects_) look_for_objects();
+        } while (grid_.refine(spheres_ ? &*spheres_ : nullptr));
+        report_.divided.assign(grid_.divided().begin(), grid_.divided().end());
+        if (objects_) report_objects();
+    }
+
+    void collect_objects() {
+        const auto begin = std::chrono::steady_clock::now();
+        objects_.emplace(*job_.scene.aggregate);
+        met_.assign(objects_->objects().size(), 0);
+        report_.guarantee = true;
+        report_.seconds += seconds_since(begin);
+    }
+
+    /// Finds the pixels where objects may hide that no corner ray met.
+    void look_for_objects() {
+        const auto begin = std::chrono::steady_clock::now();
+        spheres_.emplace(objects_->objects(), met_, picture_);
+        if (spheres_->empty()) {
+            spheres_.reset();
+        } else {
+            const PixelBox& crop = film_.crop();
+            const std::vector<WatchedObject> found =
+                spheres_->around(grid_.points(), grid_.distances(), crop.width(), crop.height());
+            grid_.look_for(found);
+            std::vector<std::uint32_t> sought;
+            for (const WatchedObject& w : found) sought.push_back(w.object);
+            report_.sought = count_distinct(sought);
+        }
+        report_.seconds += seconds_since(begin);
+    }
+
+    void report_objects() {
+        const std::vector<SceneObject>& objects = objects_->objects();
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            report_.objects += objects[i].is_seen;
+            report_.unbounded += objects[i].is_seen && !(objects[i].sphere.radius < kInfinity);
+            report_.met += met_[i];
+        }
+        std::vector<std::uint32_t> unmet;
+        std::uint32_t before = std::numeric_limits<std::uint32_t>::max();
+        for (const WatchedObject& w : grid_.below_depth()) {
+            report_.below_depth_pixels += w.pixel != before;
+            before = w.pixel;
+            unmet.push_back(w.object);
+        }
+        report_.below_depth = count_distinct(unmet);
+        name_unmet();
+    }
+    /// Names the first objects that were not met, each with the first pixel where it was looked
+    /// for.
+    void name_unmet() {
+        std::vector<std::uint8_t> named(met_.size(), 0);
+        const PixelBox& crop = film_.crop();
+        const auto width = static_cast<std::uint32_t>(crop.width());
+        for (const WatchedObject& w : grid_.below_depth()) {
+            if (report_.unmet.size() == AntialiasReport::kNamed) return;
+            if (named[w.object] != 0) continue;
+            named[w.object] = 1;
+            const SceneObject& object = objects_->objects()[w.object];
+            report_.unmet.push_back({object.part, object.instance,
+                                     static_cast<std::uint32_t>(crop.x0) + w.pixel % width,
+                                     static_cast<std::uint32_t>(crop.y0) + w.pixel / width});
+        }
+    }
+
+    /// The rays of the level.
+    void trace() {
+        constexpr std::size_t kBatch = RayAnswers::kRaysAtOnce;
+        const std::size_t batches = (grid_.points().size() + kBatch - 1) / kBatch;
+        parallel_for(batches, 8, [&](std::size_t begin, std::size_t end) {
+            std::unique_ptr<RayAnswers> own = take();
+            RayCounters counters;
+            std::vector<Ray> rays(kBatch);
+            std::vector<Hit> hits(objects_ ? kBatch : 0);
+            for (std::size_t b = begin; b < end; ++b) {
+                if (job_.stop_requested()) return;
+                const std::size_t first = b * kBatch;
+                const std::size_t count = std::min(kBatch, grid_.points().size() - first);
+                trace_batch(*own, first, std::span(rays).first(count),
+                            std::span(hits).first(objects_ ? count : 0), counters);
+            }
+            give_back(std::move(own), counters, end - begin, batches);
+        });
+        batches_done_ = 0;
+    }
+    void trace_batch(RayAnswers& answers, std::size_t first, std::span<Ray> rays,
+                     std::span<Hit> hits, RayCounters& counters) {
+        const std::span<const GridPoint> points = grid_.points().subspan(first, rays.size());
+        const std::span<Rgb> shades = grid_.shades().subspan(first, rays.size());
+        picture_.rays(grid_.level(), points, rays);
+        answers.trace(rays, shades, hits, counters);
+        const std::span<double> distances = grid_.distances().subspan(first, rays.size());
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            distances[i] = hits[i].t;
+            if (!hits[i].found()) continue;
+            std::atomic_ref<std::uint8_t>(met_[objects_->number_of(hits[i])])
+                .store(1, std::memory_order_relaxed);
+        }
+        for (const Rgb& shade : shades) counters.non_finite += !shade.is_finite();
+    }
+
+    [[nodiscard]] std::unique_ptr<RayAnswers> take() {
+        const std::lock_guard lock(mutex_);
+        if (idle_.empty()) return renderer_.answers(job_);
+        std::unique_ptr<RayAnswers> taken = std::move(idle_.back());
+        idle_.pop_back();
+        return taken;
+    }
+    void give_back(std::unique_ptr<RayAnswers> answers, const RayCounters& counters,
+                   std::size_t done, std::size_t batches) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(answers));
+        counters_ += counters;
+        batches_done_ += done;
+        if (job_.control.progress == nullptr) return;
+        job_.control.progress->update("render", batches_done_, batches);
+    }
+
+    void write_pixels() {
+        const PixelBox& crop = film_.crop();
+        std::size_t k = 0;
+        for (int y = crop.y0; y < crop.y1; ++y) {
+            for (int x = crop.x0; x < crop.x1; ++x) film_.set(x, y, grid_.pixels()[k++]);
+        }
+    }
+
+    /// The layers of the picture: AovRecorder sees each pixel's own rays as its cost.
+    void write_layers() {
+        if (job_.aovs == nullptr) return;
+        AovRecorder recorder(job_, counters_);
+        const PixelBox& crop = film_.crop();
+        std::size_t k = 0;
+        for (int y = crop.y0; y < crop.y1; ++y) {
+            for (int x = crop.x0; x < crop.x1; ++x, ++k) {
+                recorder.begin_pixel();
+                const GridPoint p{x - crop.x0, y - crop.y0};
+                const Vec2 places[] = {picture_.place(0, p), picture_.place(0, {p.x + 1, p.y}),
+                                       picture_.place(0, {p.x, p.y + 1}),
+                                       picture_.place(0, {p.x + 1, p.y + 1})};
+                recorder.end_pixel(x, y, places);
+                const double rays = grid_.points_of_pixels()[k];
+                job_.aovs->set(AovKind::Rays, x, y, {&rays, 1});
+            }
+        }
+        for (std::size_t i = 0, n = 0; i < grid_.below_depth().size(); ++i) {
+            const std::uint32_t pixel = grid_.below_depth()[i].pixel;
+            n = i > 0 && grid_.below_depth()[i - 1].pixel == pixel ? n + 1 : 1;
+            const int width = crop.width();
+            job_.aovs->set_whole(AovKind::Unmet, crop.x0 + static_cast<int>(pixel) % width,
+                                 crop.y0 + static_cast<int>(pixel) / width, n);
+        }
+    }
+
+    const SingleRayRenderer& renderer_;
+    const RenderJob& job_;
+    Film& film_;
+    const AntialiasSettings& settings_;
+    PictureGrid picture_;
+    AdaptiveGrid grid_;
+    RayCounters counters_;
+    AntialiasReport report_;
+    std::optional<SceneObjects> objects_;   ///< with the guarantee
+    std::vector<std::uint8_t> met_;         ///< [object] a ray met it
+    std::optional<SoughtSpheres> spheres_;  ///< where some object was not met at first
+    std::mutex mutex_;                      ///< of what follows, and of counters_
+    std::vector<std::unique_ptr<RayAnswers>> idle_;
+    std::size_t batches_done_ = 0;  ///< of the level
+};
+
+/// Refuses layers that no pixel has alone.
+void check_layers(const RenderJob& job) {
+    if (job.aovs == nullptr) return;
+    const AovSet& wanted = job.aovs->wanted();
+    if (wanted.has_tests() || wanted.has(AovKind::Time)) {
+        throw Error(ErrorKind::Usage,
+                    "--antialias: pixels share their rays, so that they have no time and counts "
+                    "of tests of their own; of the costs --aov count.rays has a meaning");
+    }
+}
+
+}  // namespace
+
+RenderReport render_adaptively(const SingleRayRenderer& renderer, const RenderJob& job,
+                               Film& film) {
+    check_layers(job);
+    return AdaptiveRender(renderer, job, film).run();
+}
+
+RenderReport SingleRayRenderer::render(const RenderJob& job, Film& film) const {
+    return job.antialias == nullptr ? TiledRenderer::render(job, film)
+                                    : render_adaptively(*this, job, film);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,29 @@
+#pragma once
+/// The connected pieces of a triangle mesh: triangles that share a vertex, or vertices of one
+/// position, belong to one piece.
+///
+/// Source: Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", J. ACM 22(2), 1975.
+/// Conventions: pieces are numbered in the order of their first triangles.
+/// Complexity: almost linear in vertices and triangles; 12 bytes per vertex while it works.
+
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/geometry/bounds_source.h"
+#include "alhazen/geometry/box.h"
+#include "alhazen/shapes/meshes/triangle_mesh.h"
+
+namespace alhazen {
+
+struct MeshPieces {
+    struct Piece {
+        Box3 box;
+        BoundingSphere sphere;  ///< around the centre of the box
+    };
+    std::vector<Piece> pieces;
+    std::vector<std::uint32_t> of_vertex;  ///< [vertex] number of its piece, where it has one
+
+    explicit MeshPieces(const TriangleMesh& mesh);
+};
+
+}  // namespace alhazen

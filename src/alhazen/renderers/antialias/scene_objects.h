@@ -1,0 +1,60 @@
+#pragma once
+/// The objects of a scene, for the guarantee of adaptive supersampling: shapes, connected pieces
+/// of meshes and solids of constructive geometry, instances expanded, each with a sphere around it.
+///
+/// Conventions: objects are numbered; a hit names its object. Where the scene has more than
+/// `most` objects, the innermost instances count as one object each, then those around them, until
+/// there are no more than `most`, or the outermost instances are single objects.
+/// Complexity: linear in the number of objects, and in the size of meshes.
+/// Threads: const functions may be called from many threads.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "alhazen/geometry/hit.h"
+#include "alhazen/primitives/aggregate.h"
+#include "alhazen/renderers/antialias/mesh_pieces.h"
+
+namespace alhazen {
+
+struct SceneObject {
+    BoundingSphere sphere;  ///< of radius infinity where it is endless
+    Box3 box;
+    std::uint32_t part = 0;      ///< number of its part; see Surface
+    std::uint32_t instance = 0;  ///< number of the part that placed it in the scene
+    bool is_seen = true;         ///< by eye rays
+};
+
+class SceneObjects {
+  public:
+    static constexpr std::uint64_t kMost = std::uint64_t{1} << 20;
+
+    /// `root` must outlive the result.
+    explicit SceneObjects(const Aggregate& root, std::uint64_t most = kMost);
+    ~SceneObjects();
+
+    [[nodiscard]] const std::vector<SceneObject>& objects() const { return objects_; }
+    /// The object of a hit of `root`.
+    [[nodiscard]] std::uint32_t number_of(const Hit& hit) const;
+
+  private:
+    /// The numbers of the objects of an aggregate: shapes, pieces of meshes, contents of instances.
+    struct Layout;
+    struct Place;
+
+    const Layout* layout_of(const Aggregate& aggregate, int levels);
+    const MeshPieces& pieces_of(const TriangleMesh& mesh);
+    void add_objects(const Layout& layout, const Place& place);
+    void add_shapes(const Layout& layout, const Place& place);
+    void add_meshes(const Layout& layout, const Place& place);
+
+    std::map<std::pair<const Aggregate*, int>, std::unique_ptr<Layout>> layouts_;
+    std::map<const TriangleMesh*, std::unique_ptr<MeshPieces>> pieces_;
+    const Layout* root_ = nullptr;  ///< null: the whole scene is one solid
+    std::vector<SceneObject> objects_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,21 @@
+#pragma once
+/// Settings of adaptive supersampling, as `--antialias` takes them:
+/// "whitted:threshold=T,depth=D,guarantee=on|off".
+
+#include <string>
+
+namespace alhazen {
+
+struct AntialiasSettings {
+    static constexpr int kDeepest = 8;
+
+    /// Four shades whose channels, cut off at 1, differ by more than this are refined.
+    double threshold = 0.05;
+    int depth = 4;          ///< most divisions of a pixel, at most kDeepest
+    bool guarantee = true;  ///< look for objects between the rays
+};
+
+/// Throws Error (Usage) for an unknown name or setting and for values out of range.
+[[nodiscard]] AntialiasSettings parse_antialias(const std::string& text);
+
+}  // namespace alhazen

@@ -1,0 +1,269 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "alhazen/base/error.h"
+#include "alhazen/renderers/antialias/adaptive_grid.h"
+#include "alhazen/renderers/antialias/scene_objects.h"
+#include "alhazen/renderers/core/antialias_report.h"
+#include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/renderers/whitted/whitted.h"
+#include "alhazen/sampling/random.h"
+#include "support/scene_maker.h"
+
+namespace alhazen {
+namespace {
+
+/// Runs the grid to its end with the shade of a place in pixels.
+template <class Shade>
+std::size_t fill(AdaptiveGrid& grid, Shade&& shade) {
+    std::size_t rays = 0;
+    do {
+        const double step = std::ldexp(1.0, -grid.level());
+        for (std::size_t i = 0; const GridPoint& p : grid.points()) {
+            grid.shades()[i++] = shade(step * p.x, step * p.y);
+        }
+        rays += grid.points().size();
+    } while (grid.refine(nullptr));
+    return rays;
+}
+
+TEST(AdaptiveGrid, TheExampleOfTheTextHas16RaysAndItsFormula) {
+    // Foley, van Dam, Feiner and Hughes, section 15.10.4: A B C above D E F are the corners of two
+    // pixels; the right one is divided by G H I J K, its upper right quarter by L M N O P.
+    std::map<std::pair<double, double>, char> names{
+        {{0, 0}, 'A'},      {{1, 0}, 'B'},       {{2, 0}, 'C'},    {{0, 1}, 'D'},
+        {{1, 1}, 'E'},      {{2, 1}, 'F'},       {{1.5, 0}, 'G'},  {{1, 0.5}, 'H'},
+        {{1.5, 0.5}, 'I'},  {{2, 0.5}, 'J'},     {{1.5, 1}, 'K'},  {{1.75, 0}, 'L'},
+        {{1.5, 0.25}, 'M'}, {{1.75, 0.25}, 'N'}, {{2, 0.25}, 'O'}, {{1.75, 0.5}, 'P'}};
+    std::map<char, double> v;
+    for (char c = 'A'; c <= 'P'; ++c) v[c] = 0.2 + 0.04 * random_at(1, 2, std::uint64_t(c), 3);
+    v['C'] = 0.9;
+    AdaptiveGrid grid(2, 1, {.threshold = 0.05, .depth = 2});
+    std::set<char> asked;
+    const std::size_t rays = fill(grid, [&](double x, double y) {
+        const auto found = names.find({x, y});
+        EXPECT_NE(found, names.end()) << x << " " << y;
+        EXPECT_TRUE(asked.insert(found->second).second) << found->second << " is traced twice";
+        const double shade = v[found->second];
+        return Rgb{shade, shade, shade};
+    });
+    EXPECT_EQ(rays, 16U);
+    EXPECT_EQ(asked.size(), 16U);
+    const auto mean = [&](const char* four) {
+        return (v[four[0]] + v[four[1]] + v[four[2]] + v[four[3]]) / 4;
+    };
+    EXPECT_NEAR(grid.pixels()[0].g, mean("ABDE"), 1e-15);
+    EXPECT_NEAR(grid.pixels()[1].g,
+                (mean("BGHI") + (mean("GLMN") + mean("LCNO") + mean("MNIP") + mean("NOPJ")) / 4 +
+                 mean("HIEK") + mean("IJKF")) /
+                    4,
+                1e-15);
+    EXPECT_EQ(grid.points_of_pixels()[0] + grid.points_of_pixels()[1], 16U);
+}
+
+TEST(AdaptiveGrid, NoPointIsAskedForTwiceAndAreasAreExact) {
+    // A disc: the pixels that its edge crosses are divided to the depth.
+    AdaptiveGrid grid(19, 11, {.threshold = 0.05, .depth = 6});
+    std::set<std::pair<double, double>> asked;
+    fill(grid, [&](double x, double y) {
+        EXPECT_TRUE(asked.insert({x, y}).second) << x << " " << y;
+        const double inside = std::hypot(x - 9.3, y - 5.2) < 4.1 ? 1.0 : 0.0;
+        return Rgb{inside, 0.5, 0.0};
+    });
+    double area = 0;
+    for (const Rgb& c : grid.pixels()) {
+        area += c.r;
+        EXPECT_EQ(c.g, 0.5);
+    }
+    EXPECT_NEAR(area, 3.14159265 * 4.1 * 4.1, 0.02);
+    EXPECT_LT(asked.size(), 20U * 12U + 60U * 4U * 64U);
+}
+
+TEST(AdaptiveGrid, EqualShadesNeedTheCornersOnly) {
+    AdaptiveGrid grid(37, 23, {.threshold = 0.0, .depth = 8});
+    EXPECT_EQ(fill(grid, [](double, double) { return Rgb{0.3, 7.0, 0.1}; }), 38U * 24U);
+    for (const Rgb& c : grid.pixels()) EXPECT_EQ(c, (Rgb{0.3, 7.0, 0.1}));
+}
+
+TEST(AdaptiveGrid, LeavesOutWhatIsNotFinite) {
+    AdaptiveGrid grid(1, 1, {.threshold = 0.1, .depth = 0});
+    fill(grid, [](double x, double y) {
+        const double bad = x + y > 1.5 ? std::numeric_limits<double>::quiet_NaN() : 0.5;
+        return Rgb{bad, bad, bad};
+    });
+    EXPECT_EQ(grid.pixels()[0], (Rgb{0.5, 0.5, 0.5}));
+}
+
+constexpr int kSide = 16;
+constexpr double kPixel = 2 * 5 * 0.36502849483904305 / kSide;  ///< at the origin: 5 tan(0.35)
+
+struct AntialiasedPicture {
+    Film film{kSide, kSide, {0, 0, kSide, kSide}};
+    RenderReport report;
+    [[nodiscard]] const AntialiasReport& counts() const { return *report.antialias; }
+};
+
+AntialiasedPicture picture(const Scene& scene, const AntialiasSettings& settings,
+                           const Renderer& renderer = Whitted{}, int threads = 2) {
+    AntialiasedPicture result;
+    RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
+    job.antialias = &settings;
+    job.control.threads = threads;
+    result.report = renderer.render(job, result.film);
+    return result;
+}
+
+/// Emits light, so that it is seen without lamps.
+MaterialId bright(testing::SceneMaker& maker) {
+    Material m;
+    m.emission.color = {1, 1, 1};
+    return maker.material(m);
+}
+
+Vec3 random_place(std::uint64_t i) {
+    const auto at = [&](std::uint64_t k) { return 3.0 * (random_at(11, i, k, 0) - 0.5); };
+    return {0.7 * at(0), 0.7 * at(1), at(2)};
+}
+
+TEST(Antialias, SpheresOfATwentiethOfAPixelAreAllMet) {
+    testing::SceneMaker maker;
+    const MaterialId light = bright(maker);
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        const Vec3 c = random_place(i);
+        maker.add(Sphere{c, 0.025 * kPixel * (5 - c.z) / 5}, light);
+    }
+    const Scene scene = maker.compile("wide_bvh");
+    const AntialiasedPicture with = picture(scene, {.depth = 5});
+    EXPECT_EQ(with.counts().objects, 40U);
+    EXPECT_EQ(with.counts().met, 40U);
+    EXPECT_EQ(with.counts().below_depth, 0U);
+    const AntialiasedPicture without = picture(scene, {.depth = 5, .guarantee = false});
+    EXPECT_FALSE(without.counts().guarantee);
+    EXPECT_LT(without.counts().total_points(), with.counts().total_points() / 4);
+}
+
+TEST(Antialias, ObjectsBelowTheDepthAreCountedAndNamed) {
+    testing::SceneMaker maker;
+    const MaterialId light = bright(maker);
+    maker.add(Sphere{{0.3, 0.4, 0}, 0.6}, light);
+    maker.add(Sphere{{-1.03, -0.77, 0}, 1e-3 * kPixel}, light);
+    const Scene scene = maker.compile();
+    const AntialiasedPicture p = picture(scene, {.depth = 3});
+    EXPECT_EQ(p.counts().met, 1U);
+    EXPECT_EQ(p.counts().sought, 1U);
+    EXPECT_EQ(p.counts().below_depth, 1U);
+    ASSERT_EQ(p.counts().unmet.size(), 1U);
+    EXPECT_EQ(p.counts().unmet[0].part, 1U);
+    EXPECT_LE(p.counts().below_depth_pixels, 4U);
+    EXPECT_EQ(int(p.counts().unmet[0].x), int(8 - 1.03 / kPixel));
+    EXPECT_EQ(int(p.counts().unmet[0].y), int(8 + 0.77 / kPixel));
+}
+
+TEST(Antialias, WhatLiesBehindSomethingIsNotLookedFor) {
+    testing::SceneMaker maker;
+    const MaterialId light = bright(maker);
+    maker.add(Sphere{{0, 0, 0}, 1.0}, light);
+    for (std::uint64_t i = 0; i < 20; ++i) {
+        maker.add(Sphere{{0.1 * random_place(i).x, 0.1 * random_place(i).y, -3}, 0.001}, light);
+    }
+    const AntialiasedPicture p = picture(maker.compile(), {.depth = 4});
+    EXPECT_EQ(p.counts().sought, 0U);
+    EXPECT_EQ(p.counts().met, 1U);
+}
+
+TriangleMesh two_slivers(double size) {
+    TriangleMesh mesh;
+    for (const double x : {-0.413, 0.731}) {
+        for (const Vec3& p : {Vec3{x, 0.3, 0}, Vec3{x + size, 0.3, 0}, Vec3{x, 0.3 + size, 0}}) {
+            mesh.triangles.resize(mesh.positions.size() / 3 + 1);
+            mesh.triangles.back()[mesh.positions.size() % 3] =
+                static_cast<std::uint32_t>(mesh.positions.size());
+            mesh.positions.push_back(p);
+        }
+    }
+    return mesh;
+}
+
+TEST(Antialias, PiecesOfMeshesSolidsAndNestedInstancesAreObjects) {
+    testing::SceneMaker maker;
+    const MaterialId light = bright(maker);
+    const double tiny = 0.08 * kPixel;
+    maker.add(maker.mesh(two_slivers(tiny)), light);
+    const ObjectIndex solid = maker.object("solid");
+    maker.description().objects[static_cast<std::size_t>(solid)].combine = Combine::Difference;
+    maker.add(Sphere{{0, 0, 0}, tiny}, light, {}, solid);
+    maker.add(Sphere{{0, 0, -2 * tiny}, 1.5 * tiny}, light, {}, solid);
+    const ObjectIndex grain = maker.object("grain"), pair = maker.object("pair");
+    maker.add(Sphere{{0, 0, 0}, tiny}, light, {}, grain);
+    maker.add(grain, light, Affine::translate({0.317, 0, 0}), pair);
+    maker.add(grain, light, Affine::translate({-0.317, 0.011, 0}), pair);
+    for (const double y : {-0.9, -1.27, 1.11}) {
+        maker.add(solid, light, Affine::translate({y, y, 0}));
+        maker.add(pair, light, Affine::translate({0.05, y, 0.1}));
+    }
+    const Scene scene = maker.compile("wide_bvh");
+    const SceneObjects objects(*scene.aggregate);
+    EXPECT_EQ(objects.objects().size(), 2U + 3U + 6U);
+    const AntialiasedPicture p = picture(scene, {.depth = 6});
+    EXPECT_EQ(p.counts().objects, 11U);
+    EXPECT_EQ(p.counts().met, 11U);
+    EXPECT_EQ(p.counts().below_depth, 0U);
+    // With room for fewer objects, instances are objects.
+    EXPECT_EQ(SceneObjects(*scene.aggregate, 9).objects().size(), 2U + 3U + 3U);
+}
+
+TEST(Antialias, ThreadsChangeNoBitAndNoCount) {
+    testing::SceneMaker maker;
+    const MaterialId light = bright(maker);
+    for (std::uint64_t i = 0; i < 30; ++i) {
+        maker.add(Sphere{random_place(i), i % 3 == 0 ? 0.3 : 0.004}, light);
+    }
+    const Scene scene = maker.compile("wide_bvh");
+    const auto same = [&](const Renderer& renderer) {
+        const AntialiasedPicture one = picture(scene, {}, renderer, 1);
+        const AntialiasedPicture four = picture(scene, {}, renderer, 4);
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) EXPECT_EQ(one.film.at(x, y), four.film.at(x, y));
+        }
+        EXPECT_EQ(one.report.counters.total_cast(), four.report.counters.total_cast());
+        EXPECT_EQ(one.report.counters[RayKind::Eye].cast, one.counts().total_points());
+        EXPECT_EQ(one.counts().met, four.counts().met);
+    };
+    same(Whitted{});
+    same(RayCasting{});
+}
+
+TEST(Antialias, WholeScenesOfOneSolidAndEndlessShapes) {
+    testing::SceneMaker maker;
+    const MaterialId light = bright(maker);
+    maker.description().objects[0].combine = Combine::Union;
+    maker.add(Sphere{{0, 0, 0}, 0.5}, light);
+    maker.add(Sphere{{0.5, 0, 0}, 0.5}, light);
+    EXPECT_EQ(picture(maker.compile(), {}).counts().met, 1U);
+    testing::SceneMaker endless;
+    endless.add(Plane{{0, -1, 0}, {0, 1, 0}}, bright(endless));
+    const AntialiasedPicture p = picture(endless.compile(), {});
+    EXPECT_EQ(p.counts().unbounded, 1U);
+    EXPECT_EQ(p.counts().below_depth, 0U);
+}
+
+TEST(Antialias, SettingsAreChecked) {
+    EXPECT_EQ(parse_antialias("whitted").depth, 4);
+    const AntialiasSettings s = parse_antialias("whitted:threshold=0.1,depth=2,guarantee=off");
+    EXPECT_EQ(s.threshold, 0.1);
+    EXPECT_EQ(s.depth, 2);
+    EXPECT_FALSE(s.guarantee);
+    for (const char* bad :
+         {"", "cook", "whitted:depth=9", "whitted:depth=1.5", "whitted:x=1", "whitted:threshold=-1",
+          "whitted:threshold=nan", "whitted:guarantee=2"}) {
+        EXPECT_THROW((void)parse_antialias(bad), Error) << bad;
+    }
+    EXPECT_TRUE(Whitted{}.answers_single_rays());
+    EXPECT_FALSE(LaneCarpenter(ScanLineOptions{}).answers_single_rays());
+}
+
+}  // namespace
+}  // namespace alhazen
