@@ -312,7 +312,7 @@ class Contributing(unittest.TestCase):
             copy.edit("src/alhazen/shapes/shape_list.h",
                       (r'^#include "alhazen/shapes/quadrics/frustum.h"\n|^#include "alhazen/shapes/quadrics/hyperboloid.h"\n',
                        r'#include "alhazen/shapes/quadrics/extra.h"\n\g<0>'),
-                      (r"(using AnalyticShapes = ShapeTypes<[^>]*)>", r"\g<1>, Extra>"))
+                      (r"(using AnalyticShapes =\s+ShapeTypes<[^>]*)>", r"\g<1>, Extra>"))
             copy.list_source("src/alhazen/shapes/CMakeLists.txt", "quadrics/sphere.cpp", "quadrics/extra.cpp")
             copy.edit("docs/reference/formats/native.md",
                       (r"^\| `sphere` .*?\n", r"\g<0>| `extra` | `middle`, `size` | (0, 0, 0), 1 |\n"))
