@@ -13,7 +13,7 @@
 #include "support/scratch_folder.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 const std::string kModels = "csg/brlcad/db";
@@ -151,4 +151,4 @@ TEST(BrlcadPictures, EveryModelLoadsAndHasItsDefaultCamera) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

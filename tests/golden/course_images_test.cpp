@@ -9,7 +9,7 @@
 #include "alhazen/session/render.h"
 #include "scene_files.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 const std::string kTrace = "ray/uw2020_yaml/assets/trace";
@@ -84,4 +84,4 @@ TEST(CourseImages, BruteForceGivesTheSameBitsAndCountsAsTheWideBvh) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "alhazen/formats/importer_list.h"
 #include "golden/scene_files.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 using Corners = std::array<double, 9>;
@@ -148,4 +148,4 @@ TEST(GltfModels, AnimationsMoveTheirNodes) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

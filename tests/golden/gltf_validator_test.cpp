@@ -12,7 +12,7 @@
 #include "alhazen/formats/importer_list.h"
 #include "golden/scene_files.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 constexpr const char* kFolder = "hostile/gltf-validator/test";
@@ -84,4 +84,4 @@ TEST(GltfValidator, ModelsOfTheSampleCollectionAreNotRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

@@ -16,7 +16,7 @@
 #include "alhazen/sampling/random.h"
 #include "scene_files.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 struct Measures {
@@ -151,4 +151,4 @@ TEST(MeshMeasures, AreaAndVolumeByRaysAreTheExactOnes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

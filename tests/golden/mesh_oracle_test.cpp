@@ -15,7 +15,7 @@
 #include "scene_files.h"
 #include "support/triangle_soup.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::PolygonSoup;
@@ -167,4 +167,4 @@ TEST(MeshOracle, GltfScenesHaveTheTrianglesThatAssimpReads) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

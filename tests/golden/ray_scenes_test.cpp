@@ -10,7 +10,7 @@
 #include "alhazen/session/render.h"
 #include "scene_files.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Files that need an extension of the format, with its keyword.
@@ -50,4 +50,4 @@ TEST(RayScenes, RenderOrNameTheExtensionTheyNeed) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -8,7 +8,7 @@
 #include "alhazen/session/render.h"
 #include "scene_files.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Counts re-derived by an independent double-precision counter of the same protocol.
@@ -87,4 +87,4 @@ TEST(SpdCounts, DoNotDependOnTheAccelerator) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,7 +10,7 @@
 #include "alhazen/session/generate.h"
 #include "scene_files.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Equal words, or two numbers that are only rounding error, even in a file of six digits.
@@ -85,4 +85,4 @@ TEST(SpdFiles, TheMountainStandsWhereThePublishedOneDoes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -3,7 +3,7 @@
 
 #include "spd_counters.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(SpdInvariants, HoldForEveryAcceleratorAtThePublishedSizes) {
@@ -33,4 +33,4 @@ TEST(SpdInvariants, HoldForAllRaysOfTheProtocol) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -3,7 +3,7 @@
 
 #include "spd_counters.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 constexpr int kSide = 24;
@@ -25,4 +25,4 @@ TEST(SpdInvariants, HoldForEveryAcceleratorAtSmallSizes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "scene_files.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Returns null for rejected scenes, whose messages another test checks.
@@ -66,4 +66,4 @@ TEST(VerifyScenes, StandardProceduralDatabases) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

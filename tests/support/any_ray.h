@@ -2,7 +2,10 @@
 /// Hard rays for tests of shapes, and tolerances for comparing crossings.
 
 #include <bit>
+#include <ios>
 #include <limits>
+#include <sstream>
+#include <string>
 
 #include "alhazen/geometry/box.h"
 #include "alhazen/geometry/hit.h"
@@ -15,6 +18,15 @@ inline bool same_bits(const ShapeHit& a, const ShapeHit& b) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     return bits(a.t) == bits(b.t) && bits(a.u) == bits(b.u) && bits(a.v) == bits(b.v) &&
            a.part == b.part;
+}
+
+/// Every bit of the ray.
+inline std::string to_text(const Ray& ray) {
+    std::ostringstream out;
+    out << std::hexfloat << "origin " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
+        << " direction " << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z
+        << " t " << ray.t_min << " " << ray.t_max;
+    return out.str();
 }
 
 /// A ray of one of many kinds: from outside, inside, far away, grazing, along an axis with zeros of

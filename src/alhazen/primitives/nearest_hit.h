@@ -8,10 +8,15 @@
 
 namespace alhazen {
 
-/// Offers a crossing as the new nearest hit: it wins when it is nearer, or equally near with a
-/// lower id. Then the ray ends there.
-inline void offer(const ShapeHit& crossing, PrimitiveId id, Ray& ray, Hit& best) {
-    if (crossing.t < best.t || (crossing.t == best.t && id < best.top())) {
+/// True where a crossing of the primitive `id` at `t` is nearer than `best`, or as near and wins the
+/// tie. `id`: of the outermost instance, where there are instances around it.
+[[nodiscard]] inline bool wins(double t, PrimitiveId id, const Hit& best) {
+    return t < best.t || (t == best.t && id < best.top());
+}
+
+/// Makes a crossing the nearest hit where it wins. Then the ray ends there.
+inline void offer_hit(const ShapeHit& crossing, PrimitiveId id, Ray& ray, Hit& best) {
+    if (wins(crossing.t, id, best)) {
         static_cast<ShapeHit&>(best) = crossing;
         best.primitive = id;
         best.path.clear();

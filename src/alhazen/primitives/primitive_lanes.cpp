@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "alhazen/primitives/lane_solid.h"
+#include "alhazen/primitives/nearest_hit.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/primitives/unused_shear.h"
 #include "alhazen/shapes/core/first_hit.h"
@@ -73,7 +74,7 @@ std::uint32_t closest_of_shape(const PrimitiveTable& table, PrimitiveId id, RayL
     std::uint32_t changed = 0;
     for_each_lane(hit, [&](std::size_t lane) {
         Ray shrinking;
-        offer(hits[lane], id, shrinking, best[lane]);
+        offer_hit(hits[lane], id, shrinking, best[lane]);
         if (best[lane].t == rays.t_max[lane]) return;
         rays.t_max[lane] = best[lane].t;
         changed |= 1u << lane;
@@ -99,7 +100,7 @@ std::uint32_t closest_of_instance(const Instance& instance, PrimitiveId id, RayL
     for_each_lane(hit, [&](std::size_t lane) {
         Hit& b = best[lane];
         const double t = hits.t[lane];
-        if (!(t < b.t || (t == b.t && id < b.top()))) return;
+        if (!wins(t, id, b)) return;
         static_cast<ShapeHit&>(b) = hits.hit(lane);
         b.primitive = hits.id(lane);
         b.path.clear();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "alhazen/base/error.h"
+#include "alhazen/primitives/nearest_hit.h"
 #include "alhazen/primitives/primitive_columns.h"
 #include "alhazen/shapes/core/first_hit.h"
 
@@ -313,13 +314,13 @@ void PrimitiveTable::closest(PrimitiveId id, Ray& ray, const RayShear& shear, Hi
         stats.primitives(1);
         if (!first_hit_of(*this, id, ray, shear, hit)) return;
         stats.primitive_hits(1);
-        offer(hit, id, ray, best);
+        offer_hit(hit, id, ray, best);
         return;
     }
     const Instance& instance = instances[static_cast<std::uint32_t>(id) - first_[kInstanceKind]];
     Hit inner;
     if (!instance.aggregate->closest(inner_ray(instance, ray), inner, {stats.sink(), mask})) return;
-    if (inner.t < best.t || (inner.t == best.t && id < best.top())) {
+    if (wins(inner.t, id, best)) {
         best = inner;
         best.path.push_back(id);
         ray.t_max = inner.t;

@@ -8,7 +8,7 @@
 #include "alhazen/accel/cells/convex_cell.h"
 #include "unit/accel/random_boxes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -157,4 +157,4 @@ TEST(Bsp, SlantedThingsAreParedByPlanesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

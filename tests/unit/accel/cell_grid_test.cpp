@@ -6,7 +6,7 @@
 
 #include "alhazen/sampling/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Interval of a line inside a box shrunk by `margin`; may be empty.
@@ -71,4 +71,4 @@ TEST(CellGrid, FlatBoxesHaveOneLayerAndPointsOneCell) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -5,7 +5,7 @@
 #include "alhazen/accel/bounds/insertion_tree.h"
 #include "unit/accel/random_boxes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -85,4 +85,4 @@ TEST(GoldsmithSalmon, TenThousandIdenticalBoxesMakeAShallowTree) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "unit/accel/random_boxes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -39,4 +39,4 @@ TEST(KdTree, ASplitPaysOnlyWhereItIsCheaper) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

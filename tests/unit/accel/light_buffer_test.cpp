@@ -4,7 +4,7 @@
 
 #include "alhazen/sampling/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Triangles and a light.
@@ -159,4 +159,4 @@ TEST(LightBuffer, OnlyRaysToTheLightAreLookedUp) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "unit/accel/random_boxes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -78,4 +78,4 @@ TEST(NestedGrid, BalancedPlanesShareOutWhatEqualOnesDoNot) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

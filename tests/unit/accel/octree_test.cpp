@@ -4,7 +4,7 @@
 
 #include "unit/accel/random_boxes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -87,4 +87,4 @@ TEST(Octree, NeighborsAreFoundInFewerStepsThanPointsFromTheRoot) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "unit/accel/random_boxes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -133,4 +133,4 @@ TEST(RayHypercubes, ListsDoNotDependOnTheThreadsThatMakeThem) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

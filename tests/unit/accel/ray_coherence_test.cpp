@@ -6,7 +6,7 @@
 
 #include "alhazen/sampling/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 class Balls final : public BoundsSource {
@@ -91,4 +91,4 @@ TEST(RayCoherence, TooManyPrimitivesAreLeftToTheOther) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -35,15 +35,15 @@ std::uint32_t met(const WideNode& node, const LocalFrame& frame, const Ray& ray)
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 HWY_EXPORT(met);
 
 __extension__ typedef __float128 Quad;
-using Random = std::mt19937_64;
+using RandomEngine = std::mt19937_64;
 
-double uniform(Random& random, double lo, double hi) {
+double uniform(RandomEngine& random, double lo, double hi) {
     return lo + (hi - lo) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
@@ -65,7 +65,7 @@ bool meets(const Box3& box, const Ray& ray) {
 }
 
 /// A box with `p` on its surface: on a face, an edge or a corner, or anywhere if flat.
-Box3 box_around(const Vec3& p, Random& random) {
+Box3 box_around(const Vec3& p, RandomEngine& random) {
     Box3 box{p, p};
     for (int k = 0; k < 3; ++k) {
         const double size = std::ldexp(uniform(random, 0.5, 1), -static_cast<int>(random() % 24));
@@ -88,7 +88,7 @@ Box3 box_around(const Vec3& p, Random& random) {
     return box;
 }
 
-Vec3 any_direction(Random& random) {
+Vec3 any_direction(RandomEngine& random) {
     constexpr double kComponents[] = {0.0, -0.0, 0x1p-1074, -0x1p-1040, 1e-20, -1e-17, 1.0, -1.0};
     Vec3 d{uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
     for (int k = 0; k < 3; ++k) {
@@ -99,7 +99,7 @@ Vec3 any_direction(Random& random) {
 }
 
 /// A ray through (nearly) `p`, from up to `distance` away; its range often ends near there.
-Ray ray_through(const Vec3& p, double distance, Random& random) {
+Ray ray_through(const Vec3& p, double distance, RandomEngine& random) {
     Ray ray;
     ray.direction = any_direction(random);
     const double back = distance * uniform(random, -0.2, 1) / max_component(abs(ray.direction));
@@ -130,7 +130,7 @@ struct Case {
     std::uint32_t exact = 0;  ///< bits of the boxes that are hit
 };
 
-Case grazing_case(const LocalFrame& frame, Random& random) {
+Case grazing_case(const LocalFrame& frame, RandomEngine& random) {
     constexpr double kDistances[] = {1, 1, 3, 10, 1e3, 1e6, 1e9, 1e12, 1e15};
     const Vec3 p{uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
     Case c;
@@ -145,7 +145,7 @@ Case grazing_case(const LocalFrame& frame, Random& random) {
 
 TEST(SlabRay, NeverMissesABoxThatTheExactLineMeets) {
     const LocalFrame frame(kUnit);
-    Random random(5);
+    RandomEngine random(5);
     int hits = 0;
     for (int round = 0; round < 30; ++round) {
         std::vector<Case> cases;
@@ -167,7 +167,7 @@ TEST(SlabRay, NeverMissesABoxThatTheExactLineMeets) {
 
 TEST(SlabRay, MissesBoxesThatAreAThousandthOfAPercentAside) {
     const LocalFrame frame(kUnit);
-    Random random(6);
+    RandomEngine random(6);
     for (int i = 0; i < 20000; ++i) {
         Ray ray{{uniform(random, -3, 3), uniform(random, -3, 3), uniform(random, -3, 3)}, {}};
         const Vec3 p{uniform(random, -0.9, 0.9), uniform(random, -0.9, 0.9),
@@ -186,7 +186,7 @@ TEST(SlabRay, MissesBoxesThatAreAThousandthOfAPercentAside) {
 
 TEST(SlabRay, AFreeSlotIsNeverMet) {
     const LocalFrame frame(kUnit);
-    Random random(7);
+    RandomEngine random(7);
     const WideNode empty;
     for (int i = 0; i < 20000; ++i) {
         const double distance = std::ldexp(1.0, static_cast<int>(random() % 1000) - 10);
@@ -211,5 +211,5 @@ TEST(SlabRay, ExtremeRaysPassWhatTheyMayHit) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE
 #endif

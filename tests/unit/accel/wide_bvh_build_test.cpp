@@ -12,7 +12,7 @@
 #include "alhazen/accel/wide_bvh/build/spatial_split.h"
 #include "alhazen/accel/wide_bvh/nodes/local_frame.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 constexpr LeafKinds kKinds{LeafKind{3, 1.5f}, LeafKind{3, 1.5f}, LeafKind{0, 2.0f}};
@@ -272,4 +272,4 @@ TEST(LocalFrame, RoundsInTheDirectionAskedForByLessThanOneStep) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

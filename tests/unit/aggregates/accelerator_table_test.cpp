@@ -5,7 +5,7 @@
 #include "alhazen/base/error.h"
 #include "unit/aggregates/random_tables.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(AcceleratorTable, EveryNameMakesAnAggregateThatFindsASphere) {
@@ -38,4 +38,4 @@ TEST(AcceleratorTable, AnUnknownNameIsRefusedWithTheValidOnes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -8,7 +8,7 @@
 #include "alhazen/parallel/parallel.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -23,7 +23,7 @@ void compare(const std::string& name, const PrimitiveTable& table, const MakeRay
     for (const BuildQuality quality : kQualities) {
         trees.push_back(make_aggregate("wide_bvh", table, {quality}));
     }
-    Random random(7);
+    RandomEngine random(7);
     int hits = 0;
     for (int i = 0; i < count; ++i) {
         const Ray ray = make_ray(random);
@@ -40,7 +40,7 @@ void compare(const std::string& name, const PrimitiveTable& table, const MakeRay
 
 /// Long thin triangles in random directions, the case for spatial splits.
 PrimitiveTable needles(int count, double length, std::uint64_t seed) {
-    Random random(seed);
+    RandomEngine random(seed);
     TableBuilder builder;
     for (int i = 0; i < count; ++i) {
         const Vec3 a = uniform_point(random, 1);
@@ -68,7 +68,7 @@ TEST(BuildQuality, AllGiveTheHitsOfTheListAmongLongThinTriangles) {
 
 TEST(BuildQuality, AllGiveTheHitsOfTheListOnPlanesOfALattice) {
     // Split planes pass through vertices, edges and whole triangles.
-    Random random(45);
+    RandomEngine random(45);
     TableBuilder builder;
     for (int i = 0; i < 800; ++i) {
         const Vec3 a = lattice_point(random, 4);
@@ -79,7 +79,7 @@ TEST(BuildQuality, AllGiveTheHitsOfTheListOnPlanesOfALattice) {
     compare("lattice, random rays", table, random_rays(4), 2000);
     compare(
         "lattice, lattice rays", table,
-        [](Random& generator) {
+        [](RandomEngine& generator) {
             Ray ray{lattice_point(generator, 8), {}, 0, 1e300};
             while (ray.direction == Vec3{}) ray.direction = lattice_point(generator, 1);
             return ray;
@@ -89,7 +89,7 @@ TEST(BuildQuality, AllGiveTheHitsOfTheListOnPlanesOfALattice) {
 
 TEST(BuildQuality, AllGiveTheHitsOfTheListAtAnySize) {
     for (const double size : {1e-100, 1e-6, 1e6, 1e100}) {
-        Random random(46);
+        RandomEngine random(46);
         TableBuilder builder;
         for (int i = 0; i < 300; ++i) {
             const Vec3 a = uniform_point(random, size);
@@ -102,7 +102,7 @@ TEST(BuildQuality, AllGiveTheHitsOfTheListAtAnySize) {
 
 TEST(BuildQuality, HighDividesLongTrianglesAndCostsLess) {
     // Beams across a hall, as in a building, with small objects among them.
-    Random random(47);
+    RandomEngine random(47);
     TableBuilder builder;
     for (int i = 0; i < 300; ++i) {
         const Vec3 a = uniform_point(random, 1), along = uniform_point(random, 3);
@@ -144,7 +144,7 @@ TEST(BuildQuality, NoneDependsOnTheNumberOfThreads) {
 }
 
 TEST(BuildQuality, PartsOfATriangleOnBothSidesOfAPlaneHoldAllOfIt) {
-    Random random(49);
+    RandomEngine random(49);
     for (int i = 0; i < 20000; ++i) {
         const bool lattice = i % 2 == 0;
         const auto corner = [&] {
@@ -172,7 +172,7 @@ TEST(BuildQuality, SlicesOfATriangleHoldItsPointsAndAreNoLargerThanByRepeatedSpl
     const PrimitiveTable table = random_triangles(2000, 1, 1, 50);
     const LocalFrame frame(Box3{{-2, -2, -2}, {2, 2, 2}});
     const TriangleSplitter splitter(table, frame);
-    Random random(51);
+    RandomEngine random(51);
     constexpr float kRounding = 1e-6f;
     for (std::uint32_t id = 0; id < table.size(); ++id) {
         std::array<Vec3, 3> t = table.triangle_vertices(id);
@@ -218,4 +218,4 @@ TEST(BuildQuality, SlicesOfATriangleHoldItsPointsAndAreNoLargerThanByRepeatedSpl
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

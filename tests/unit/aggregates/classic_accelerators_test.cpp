@@ -8,7 +8,7 @@
 #include "alhazen/base/error.h"
 #include "unit/aggregates/conformance_scenes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -79,7 +79,7 @@ const std::vector<Expected>& expected() {
         for (ConformanceScene& scene : conformance_scenes()) {
             const auto list = make_aggregate("list", scene.table);
             Expected& e = made.emplace_back(Expected{std::move(scene), {}, {}, list->box()});
-            Random random(7);
+            RandomEngine random(7);
             for (int i = 0; i < 300; ++i) {
                 e.rays.push_back(e.scene.rays(random));
                 e.answers.push_back(ask(*list, e.rays.back()));
@@ -113,7 +113,7 @@ TEST_P(EveryAccelerator, FindsTheHitsOfBruteForce) {
 std::shared_ptr<const Aggregate> nest(const std::string& outer, const std::string& inner) {
     const std::shared_ptr<const Aggregate> placed =
         make_aggregate(inner, random_mixture(40, 1, 0.3, 22));
-    Random random(23);
+    RandomEngine random(23);
     TableBuilder builder;
     for (int i = 0; i < 20; ++i) {
         Placement placement;
@@ -130,7 +130,7 @@ TEST_P(EveryAccelerator, WorksInsideAndOutsideOfInstancesOfEveryOther) {
     const auto list = nest("list", "list");
     for (const AcceleratorEntry& other : accelerator_table()) {
         const auto tested = nest(GetParam(), other.name);
-        Random random(24);
+        RandomEngine random(24);
         const MakeRay rays = random_rays(1);
         for (int i = 0; i < 100; ++i) {
             const Ray ray = rays(random);
@@ -183,4 +183,4 @@ TEST(AcceleratorSettings, OnesThatAreUnknownOrOutOfRangeAreRefusedWithWhatIsVali
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

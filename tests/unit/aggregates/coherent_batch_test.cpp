@@ -10,7 +10,7 @@
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/coherent_rays.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -25,7 +25,7 @@ std::vector<std::pair<std::string, PrimitiveTable>> tables(double size, std::uin
 }
 
 TEST(CoherentBatch, EyeRaysHitWhatTheListHits) {
-    Random random(1);
+    RandomEngine random(1);
     for (const auto& [name, table] : tables(1, 2)) {
         for (int i = 0; i < 8; ++i) {
             const Vec3 eye = uniform_point(random, 3);
@@ -38,7 +38,7 @@ TEST(CoherentBatch, EyeRaysHitWhatTheListHits) {
 }
 
 TEST(CoherentBatch, ShadowRaysAreBlockedAsTheListSays) {
-    Random random(3);
+    RandomEngine random(3);
     for (const auto& [name, table] : tables(1, 4)) {
         for (int i = 0; i < 8; ++i) {
             const Vec3 from = uniform_point(random, 1);
@@ -63,7 +63,7 @@ TEST(CoherentBatch, PacketsOfAnySizeAreTracedInFull) {
 TEST(CoherentBatch, InvalidRaysAmongOthersHitNothingAndChangeNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [name, table] : tables(1, 6)) {
-        Random random(7);
+        RandomEngine random(7);
         Rays rays = eye_rays({0.1, 0.2, 3}, {0, 0, -1}, 0.7, 24);
         for (Ray& ray : rays) {
             switch (random() % 40) {
@@ -118,7 +118,7 @@ TEST(CoherentBatch, InvalidRaysAmongOthersHitNothingAndChangeNothing) {
 
 TEST(CoherentBatch, RangesOfRaysHold) {
     for (const auto& [name, table] : tables(1, 8)) {
-        Random random(9);
+        RandomEngine random(9);
         Rays rays = eye_rays({0.1, 0.2, 2}, {0, 0, -1}, 0.7, 24);
         for (Ray& ray : rays) {
             ray.t_min = uniform(random, 0, 3);
@@ -143,7 +143,7 @@ TEST(CoherentBatch, RangesOfRaysHold) {
 }
 
 TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
-    Random random(10);
+    RandomEngine random(10);
     TableBuilder builder;
     std::vector<Vec3> targets;
     for (int i = 0; i < 400; ++i) {
@@ -175,7 +175,7 @@ TEST(CoherentBatch, EdgesAndVerticesAreDecidedAsByTheList) {
 
 TEST(CoherentBatch, TrianglesBesideTheEyeAreMet) {
     // Corners behind the eye, beside it and at its depth, whose slopes are meaningless.
-    Random random(18);
+    RandomEngine random(18);
     TableBuilder builder;
     for (int i = 0; i < 300; ++i) {
         const Vec3 a = 0.5 * lattice_point(random, 4);
@@ -219,7 +219,7 @@ TEST(CoherentBatch, FarRaysAndOddScalesHitWhatTheListHits) {
 
 TEST(CoherentBatch, RaysThatAreNotCoherentHitWhatTheListHits) {
     for (const auto& [name, table] : tables(1, 13)) {
-        Random random(14);
+        RandomEngine random(14);
         const MakeRay make = random_rays(1);
         Rays rays;
         for (int i = 0; i < 1000; ++i) rays.push_back(make(random));
@@ -233,7 +233,7 @@ TEST(CoherentBatch, NestedAggregatesGiveTheHitsOfNestedLists) {
     const auto nest = [](const char* name) {
         const std::shared_ptr<const Aggregate> inner =
             make_aggregate(name, random_mixture(60, 1, 0.3, 15));
-        Random random(16);
+        RandomEngine random(16);
         TableBuilder builder;
         for (int i = 0; i < 30; ++i) {
             Placement placement;
@@ -271,4 +271,4 @@ TEST(CoherentBatch, PacketsShareTheWorkOfTheirRays) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

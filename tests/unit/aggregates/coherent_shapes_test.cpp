@@ -7,7 +7,7 @@
 #include "support/scene_maker.h"
 #include "unit/aggregates/coherent_rays.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -179,4 +179,4 @@ TEST(CoherentShapes, GroupsWithoutAUsableRayMeetNothing) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

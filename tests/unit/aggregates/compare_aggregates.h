@@ -9,10 +9,10 @@
 
 namespace alhazen::testing {
 
-using MakeRay = std::function<Ray(Random&)>;
+using MakeRay = std::function<Ray(RandomEngine&)>;
 
 inline MakeRay random_rays(double reach) {
-    return [reach](Random& random) {
+    return [reach](RandomEngine& random) {
         Ray ray{uniform_point(random, 2 * reach), {}, 0, std::numeric_limits<double>::infinity()};
         ray.direction = uniform_point(random, reach) - ray.origin;
         if (random() % 4 == 0) ray.direction = normalize(ray.direction);
@@ -23,7 +23,7 @@ inline MakeRay random_rays(double reach) {
 }
 
 inline PrimitiveTable random_triangles(int count, double reach, double size, std::uint64_t seed) {
-    Random random(seed);
+    RandomEngine random(seed);
     TableBuilder builder;
     for (int i = 0; i < count; ++i) {
         const Vec3 a = uniform_point(random, reach);
@@ -34,7 +34,7 @@ inline PrimitiveTable random_triangles(int count, double reach, double size, std
 }
 
 inline PrimitiveTable random_spheres(int count, double reach, double size, std::uint64_t seed) {
-    Random random(seed);
+    RandomEngine random(seed);
     TableBuilder builder;
     for (int i = 0; i < count; ++i) {
         builder.add_sphere(uniform_point(random, reach), uniform(random, 0.1 * size, size),
@@ -44,7 +44,7 @@ inline PrimitiveTable random_spheres(int count, double reach, double size, std::
 }
 
 inline PrimitiveTable random_mixture(int count, double reach, double size, std::uint64_t seed) {
-    Random random(seed);
+    RandomEngine random(seed);
     TableBuilder builder;
     Placement placement;
     placement.outer_from_inner.linear = {{1, 0.5, 0}, {0, 2, 0.25}, {0.5, 0, 0.5}};

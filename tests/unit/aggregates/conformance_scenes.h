@@ -17,7 +17,7 @@ struct ConformanceScene {
 
 /// Axis-parallel and diagonal rays between lattice points, with zeros of both signs.
 inline MakeRay lattice_rays(int reach) {
-    return [reach](Random& random) {
+    return [reach](RandomEngine& random) {
         Ray ray{lattice_point(random, 2 * reach), {}, 0, std::numeric_limits<double>::infinity()};
         for (int k = 0; k < 3; ++k) {
             constexpr double kComponents[] = {0.0, -0.0, 0.0, -0.0, 1.0, -1.0, 2.0, -0x1p-1070};
@@ -31,7 +31,7 @@ inline MakeRay lattice_rays(int reach) {
 
 /// Rays towards the unit cube from `distance`, some exactly along an axis.
 inline MakeRay rays_from(double distance) {
-    return [distance](Random& random) {
+    return [distance](RandomEngine& random) {
         Ray ray{distance * uniform_point(random, 1), {}, 0, 1e300};
         if (random() % 3 == 0) {
             const int axis = uniform_int(random, 0, 2);
@@ -46,7 +46,7 @@ inline MakeRay rays_from(double distance) {
 }
 
 inline PrimitiveTable lattice_table() {
-    Random random(14);
+    RandomEngine random(14);
     TableBuilder builder;
     for (int i = 0; i < 300; ++i) {
         const Vec3 a = lattice_point(random, 3);
@@ -79,7 +79,7 @@ inline PrimitiveTable coincident_table() {
 }
 
 inline PrimitiveTable nested_scales_table() {
-    Random random(16);
+    RandomEngine random(16);
     TableBuilder builder;
     for (double scale = 1e-6; scale < 2e6; scale *= 10) {
         for (int i = 0; i < 20; ++i) {
@@ -92,7 +92,7 @@ inline PrimitiveTable nested_scales_table() {
 }
 
 inline PrimitiveTable sticks_table() {
-    Random random(18);
+    RandomEngine random(18);
     TableBuilder builder;
     for (int i = 0; i < 200; ++i) {
         const Vec3 a = uniform_point(random, 1);
@@ -103,7 +103,7 @@ inline PrimitiveTable sticks_table() {
 }
 
 inline PrimitiveTable far_table(const Vec3& there) {
-    Random random(18);
+    RandomEngine random(18);
     TableBuilder builder;
     for (int i = 0; i < 150; ++i) {
         const Vec3 a = there + uniform_point(random, 1);
@@ -115,7 +115,7 @@ inline PrimitiveTable far_table(const Vec3& there) {
 
 /// Lights registered in the table, some close behind large triangles.
 inline PrimitiveTable lit_table() {
-    Random random(19);
+    RandomEngine random(19);
     TableBuilder builder;
     for (int i = 0; i < 200; ++i) {
         const Vec3 a = uniform_point(random, 1);
@@ -134,7 +134,7 @@ inline PrimitiveTable lit_table() {
 /// Shadow rays to each of the lights from anywhere; some miss the light slightly, end before it or
 /// beyond it.
 inline MakeRay rays_to(std::vector<RayEnd> ends) {
-    return [ends = std::move(ends)](Random& random) {
+    return [ends = std::move(ends)](RandomEngine& random) {
         const RayEnd& end = ends[random() % ends.size()];
         Ray ray{uniform_point(random, 2), end.place, 0x1p-1000, 1e300};
         if (end.at_infinity) return ray;
@@ -183,7 +183,7 @@ inline std::vector<ConformanceScene> conformance_scenes() {
         add(name.str(), random_mixture(100, 1, 0.5, 17), rays_from(distance));
     }
     const Vec3 there{1e8, -3e8, 2e8};
-    add("far from the origin", far_table(there), [there](Random& random) {
+    add("far from the origin", far_table(there), [there](RandomEngine& random) {
         Ray ray{there + uniform_point(random, 2), {}, 0, 1e300};
         ray.direction = there + uniform_point(random, 1) - ray.origin;
         return ray;

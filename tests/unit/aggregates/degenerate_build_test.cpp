@@ -8,7 +8,7 @@
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -33,7 +33,7 @@ Built build(const PrimitiveTable& table, BuildQuality quality) {
 /// `place(builder, random, i)` adds the i-th triangle.
 template <class Place>
 PrimitiveTable table_of(const Place& place) {
-    Random random(61);
+    RandomEngine random(61);
     TableBuilder builder;
     for (int i = 0; i < kCount; ++i) place(builder, random, i);
     return builder.finish();
@@ -65,7 +65,7 @@ void check(const std::string& name, const Place& place, int most_depth, double r
         EXPECT_LT(built.seconds, 10 * usual.seconds + 0.5) << what;
         EXPECT_LE(built.depth, most_depth) << what;
         EXPECT_LT(static_cast<double>(built.bytes), 2.5 * static_cast<double>(usual.bytes)) << what;
-        Random random(63);
+        RandomEngine random(63);
         const MakeRay rays = random_rays(reach);
         for (int i = 0; i < 20; ++i) {
             const Ray ray = rays(random);
@@ -80,7 +80,7 @@ void check(const std::string& name, const Place& place, int most_depth, double r
 TEST(DegenerateBuild, IdenticalTriangles) {
     check(
         "identical",
-        [](TableBuilder& builder, Random&, int) {
+        [](TableBuilder& builder, RandomEngine&, int) {
             builder.add_triangle({-1, -1, 0}, {1, -1, 0.1}, {0, 1, 0.2});
         },
         12);
@@ -89,7 +89,7 @@ TEST(DegenerateBuild, IdenticalTriangles) {
 TEST(DegenerateBuild, ALineOfEqualOnes) {
     check(
         "line",
-        [](TableBuilder& builder, Random&, int i) {
+        [](TableBuilder& builder, RandomEngine&, int i) {
             const Vec3 p{2.0 * i / kCount - 1, 0, 0};
             builder.add_triangle(p, p + Vec3{1e-5, 0, 0}, p + Vec3{0, 1e-5, 1e-5});
         },
@@ -99,7 +99,7 @@ TEST(DegenerateBuild, ALineOfEqualOnes) {
 TEST(DegenerateBuild, NestedScales) {
     check(
         "nested",
-        [](TableBuilder& builder, Random& random, int i) {
+        [](TableBuilder& builder, RandomEngine& random, int i) {
             const double s = std::pow(10.0, 12.0 * i / kCount - 6);
             const Vec3 a = uniform_point(random, s);
             builder.add_triangle(a, a + uniform_point(random, s), a + uniform_point(random, s));
@@ -110,7 +110,7 @@ TEST(DegenerateBuild, NestedScales) {
 TEST(DegenerateBuild, AllCentersEqual) {
     check(
         "one center",
-        [](TableBuilder& builder, Random& random, int) {
+        [](TableBuilder& builder, RandomEngine& random, int) {
             const Vec3 a = uniform_point(random, 1), b = uniform_point(random, 1);
             builder.add_triangle(a, b, -a);
         },
@@ -121,7 +121,7 @@ TEST(DegenerateBuild, AllCentersEqual) {
 TEST(DegenerateBuild, LongThinDiagonals) {
     check(
         "diagonals",
-        [](TableBuilder& builder, Random& random, int) {
+        [](TableBuilder& builder, RandomEngine& random, int) {
             const Vec3 shift = uniform_point(random, 0.1);
             builder.add_triangle(shift + Vec3{-1, -1, -1}, shift + Vec3{1, 1, 1},
                                  shift + Vec3{1, 1, 1.001});
@@ -132,7 +132,7 @@ TEST(DegenerateBuild, LongThinDiagonals) {
 TEST(DegenerateBuild, HugeAndTinyTogether) {
     check(
         "huge and tiny",
-        [](TableBuilder& builder, Random& random, int i) {
+        [](TableBuilder& builder, RandomEngine& random, int i) {
             const double s = i % 10 == 0 ? 1 : 1e-4;
             const Vec3 a = uniform_point(random, 1);
             builder.add_triangle(a, a + uniform_point(random, s), a + uniform_point(random, s));
@@ -141,4 +141,4 @@ TEST(DegenerateBuild, HugeAndTinyTogether) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -18,7 +18,7 @@ constexpr std::size_t kRays = 4000;
 
 std::vector<Ray> rays_through(std::uint64_t seed) {
     const MakeRay make_ray = random_rays(1);
-    Random random(seed);
+    RandomEngine random(seed);
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < kRays; ++i) rays.push_back(make_ray(random));
     return rays;
@@ -86,7 +86,7 @@ TEST(FastPrecision, AllHitsAndShadowsStayExact) {
 TEST(FastPrecision, RaysThatDoNotFitIntoFloatHaveTheHitsOfTheList) {
     for (const double scale : {1.0, 1e-65}) {
         TableBuilder builder;
-        Random random(59);
+        RandomEngine random(59);
         for (int i = 0; i < 100; ++i) {
             const Vec3 p = uniform_point(random, scale);
             const auto near = [&] { return p + uniform_point(random, 0.5 * scale); };
@@ -126,4 +126,4 @@ TEST(FastPrecision, TheListKnowsNoOther) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,7 +10,7 @@
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -19,7 +19,7 @@ constexpr BuildOptions kIndexed{BuildQuality::Default, Precision::Robust, Leaves
 
 std::vector<Ray> rays_through(std::uint64_t seed, std::size_t count) {
     const MakeRay make_ray = random_rays(1);
-    Random random(seed);
+    RandomEngine random(seed);
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < count; ++i) rays.push_back(make_ray(random));
     return rays;
@@ -83,4 +83,4 @@ TEST(IndexedLeaves, AreStoredAndLoaded) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

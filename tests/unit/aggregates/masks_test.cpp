@@ -9,20 +9,20 @@
 #include "support/scratch_folder.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
 
 constexpr RayMask kMasks[] = {1, 2, 4, 3, 0x80000000u, 0, kAllRays};
 
-RayMask random_mask(Random& random) {
+RayMask random_mask(RandomEngine& random) {
     constexpr RayMask kVisible[] = {1, 2, 3, 4, 6, 0, kAllRays, 0x80000001u};
     return kVisible[random() % 8];
 }
 
 /// Gives every mesh, shape and instance a mask; splits meshes into small ones first.
-void mask_all(PrimitiveTable& table, Random& random) {
+void mask_all(PrimitiveTable& table, RandomEngine& random) {
     std::vector<PlacedMesh> pieces;
     for (const PlacedMesh& placed : table.meshes) {
         const auto& triangles = placed.mesh->triangles;
@@ -141,7 +141,7 @@ void compare(const Aggregate& tested, const Aggregate& unmasked, const std::vect
 
 /// Half of the rays start at one point with neighbouring directions, as packets need.
 std::vector<Ray> rays_at(double reach, std::uint64_t seed) {
-    Random random(seed);
+    RandomEngine random(seed);
     const MakeRay make = random_rays(reach);
     std::vector<Ray> rays;
     for (int i = 0; i < 160; ++i) rays.push_back(make(random));
@@ -166,7 +166,7 @@ bool differs_by_target(const AcceleratorEntry& entry, const std::string& target)
 
 TEST(Masks, EveryQueryOfEveryAcceleratorSeesWhatTheMasksLetItSee) {
     for (const auto& [name, table] : tables()) {
-        Random random(4);
+        RandomEngine random(4);
         PrimitiveTable masked = table;
         mask_all(masked, random);
         const auto unmasked = make_aggregate("list", table);
@@ -183,7 +183,7 @@ TEST(Masks, EveryQueryOfEveryAcceleratorSeesWhatTheMasksLetItSee) {
 
 TEST(Masks, TreesOfEveryBuildObeyThem) {
     const PrimitiveTable table = random_triangles(300, 1, 0.6, 6);
-    Random random(7);
+    RandomEngine random(7);
     PrimitiveTable masked = table;
     mask_all(masked, random);
     const auto unmasked = make_aggregate("list", table);
@@ -197,7 +197,7 @@ TEST(Masks, TreesOfEveryBuildObeyThem) {
 
 /// Three levels: `leaf` in instances in instances, with primitives on every level.
 std::shared_ptr<const Aggregate> nest(const char* accelerator, bool masks) {
-    Random random(9);
+    RandomEngine random(9);
     std::shared_ptr<const Aggregate> inner;
     for (int level = 0; level < 3; ++level) {
         PrimitiveTable table = random_mixture(30, 1, 0.5, 10 + static_cast<std::uint64_t>(level));
@@ -210,7 +210,7 @@ std::shared_ptr<const Aggregate> nest(const char* accelerator, bool masks) {
             table.instances.push_back({.aggregate = inner, .placement = placement});
         }
         table.finish();
-        Random mask(11);
+        RandomEngine mask(11);
         if (masks) mask_all(table, mask);
         inner = make_aggregate(accelerator, std::move(table));
     }
@@ -324,4 +324,4 @@ TEST(Masks, TakeNoMemoryWhereAllIsVisibleToAll) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

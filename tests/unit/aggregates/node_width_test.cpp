@@ -9,13 +9,13 @@
 #include "support/scratch_folder.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
 
 std::vector<Ray> rays_of(const MakeRay& make_ray, int count) {
-    Random random(61);
+    RandomEngine random(61);
     std::vector<Ray> rays;
     for (int i = 0; i < count; ++i) rays.push_back(make_ray(random));
     return rays;
@@ -120,4 +120,4 @@ TEST(AnyHitOrder, PutsWhatBlocksMostFirst) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -11,21 +11,21 @@
 
 namespace alhazen::testing {
 
-using Random = std::mt19937_64;
+using RandomEngine = std::mt19937_64;
 
 /// Uniform in [lo, hi); the same on every machine, unlike std::uniform_real_distribution.
-inline double uniform(Random& random, double lo, double hi) {
+inline double uniform(RandomEngine& random, double lo, double hi) {
     return lo + (hi - lo) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
-inline int uniform_int(Random& random, int lo, int hi) {
+inline int uniform_int(RandomEngine& random, int lo, int hi) {
     return lo + static_cast<int>(random() % static_cast<std::uint64_t>(hi - lo + 1));
 }
-inline Vec3 uniform_point(Random& random, double reach) {
+inline Vec3 uniform_point(RandomEngine& random, double reach) {
     const double x = uniform(random, -reach, reach);
     const double y = uniform(random, -reach, reach);
     return {x, y, uniform(random, -reach, reach)};
 }
-inline Vec3 lattice_point(Random& random, int reach) {
+inline Vec3 lattice_point(RandomEngine& random, int reach) {
     const int x = uniform_int(random, -reach, reach);
     const int y = uniform_int(random, -reach, reach);
     return Vec3{double(x), double(y), double(uniform_int(random, -reach, reach))};

@@ -5,14 +5,14 @@
 #include "alhazen/base/error.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
 
 /// The same primitives at positions that depend on `seed`, as at different times of an animation.
 PrimitiveTable moving(double reach, double wander, std::uint64_t seed, bool collapse_one = false) {
-    Random still(51), random(seed);
+    RandomEngine still(51), random(seed);
     TableBuilder builder;
     for (int i = 0; i < 600; ++i) {
         const Vec3 a = uniform_point(still, 1), b = uniform_point(still, 0.3),
@@ -29,7 +29,7 @@ PrimitiveTable moving(double reach, double wander, std::uint64_t seed, bool coll
 void compare(const Aggregate& tested, const PrimitiveTable& table, double reach) {
     const auto list = make_aggregate("list", table);
     EXPECT_EQ(list->box(), tested.box());
-    Random random(52);
+    RandomEngine random(52);
     const MakeRay rays = random_rays(reach);
     for (int i = 0; i < 2000; ++i) {
         const Ray ray = rays(random);
@@ -76,7 +76,7 @@ TEST(Refit, ATriangleWhoseVerticesMeetIsNotHitUntilTheyPart) {
 TEST(Refit, TrianglesThatVanishFarAwayTakeNothingWithThem) {
     for (const double far : {10.0, 1e30, 1e100, std::numeric_limits<double>::infinity()}) {
         const auto scattered = [far](int alive) {
-            Random random(53);
+            RandomEngine random(53);
             TableBuilder builder;
             for (int i = 0; i < 400; ++i) {
                 const Vec3 a = uniform_point(random, 1), b = a + uniform_point(random, 0.3);
@@ -108,4 +108,4 @@ TEST(Refit, RefusesOtherPrimitives) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

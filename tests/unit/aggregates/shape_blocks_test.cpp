@@ -8,7 +8,7 @@
 #include "support/random_shapes.h"
 #include "unit/aggregates/answers.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -272,4 +272,4 @@ TEST(ShapeBlocksMixture, IsStoredRefittedAndMovedAlong) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

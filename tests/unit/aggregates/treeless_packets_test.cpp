@@ -10,7 +10,7 @@
 #include "support/random_shapes.h"
 #include "unit/aggregates/answers.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -130,4 +130,4 @@ TEST(SideBySide, EveryTestIsCounted) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -15,10 +15,10 @@
 #include "support/scratch_folder.h"
 #include "unit/aggregates/random_tables.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
-using testing::Random;
+using testing::RandomEngine;
 using testing::ScratchFolder;
 using testing::TableBuilder;
 using testing::uniform;
@@ -29,7 +29,7 @@ constexpr std::size_t kHeader = 512, kCounts = 32, kElementBytes = 160, kArrays 
 
 /// A table with as many boxes as discs.
 PrimitiveTable table_of(int triangles, int spheres, int discs, int planes, std::uint64_t seed = 1) {
-    Random random(seed);
+    RandomEngine random(seed);
     TableBuilder builder;
     const auto near = [&](const Vec3& p) { return p + uniform_point(random, 0.4); };
     for (int i = 0; i < triangles; ++i) {
@@ -56,7 +56,7 @@ PrimitiveTable table_of(int triangles, int spheres, int discs, int planes, std::
 }
 
 std::vector<Ray> rays_through(std::uint64_t seed, int count) {
-    Random random(seed);
+    RandomEngine random(seed);
     std::vector<Ray> rays;
     for (int i = 0; i < count; ++i) {
         rays.push_back({uniform_point(random, 3), uniform_point(random, 1)});
@@ -354,7 +354,7 @@ TEST(WideBvhFile, WhatPassesCanBeTraced) {
     WideBvhAggregate(table).save(path);
     const std::string bytes = read_file(path);
     const std::vector<Ray> rays = rays_through(3, 40);
-    Random random(11);
+    RandomEngine random(11);
     int passed = 0;
     for (int round = 0; round < 2000; ++round) {
         std::string forged = bytes;
@@ -382,4 +382,4 @@ TEST(WideBvhFile, WhatPassesCanBeTraced) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,7 +10,7 @@
 #include "alhazen/simd/targets.h"
 #include "unit/aggregates/compare_aggregates.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -38,7 +38,7 @@ void compare_batches(const Aggregate& tested, const std::vector<Ray>& rays,
 void compare(const std::string& name, const PrimitiveTable& table, const MakeRay& make_ray,
              int count = 2000) {
     const auto list = make_aggregate("list", table);
-    Random random(7);
+    RandomEngine random(7);
     std::vector<Ray> rays;
     std::vector<Answer> answers;
     int hits = 0;
@@ -63,7 +63,7 @@ void compare(const std::string& name, const PrimitiveTable& table, const MakeRay
 
 /// Axis-parallel and diagonal rays between lattice points, with zeros of both signs.
 MakeRay lattice_rays(int reach) {
-    return [reach](Random& random) {
+    return [reach](RandomEngine& random) {
         Ray ray{lattice_point(random, 2 * reach), {}, 0, std::numeric_limits<double>::infinity()};
         for (int k = 0; k < 3; ++k) {
             constexpr double kComponents[] = {0.0, -0.0, 0.0, -0.0, 1.0, -1.0, 2.0, -0x1p-1070};
@@ -121,7 +121,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceInAMixtureWithPlanes) {
 }
 
 TEST(WideBvh, FindsTheHitsOfBruteForceOnALattice) {
-    Random random(14);
+    RandomEngine random(14);
     TableBuilder builder;
     for (int i = 0; i < 600; ++i) {
         const Vec3 a = lattice_point(random, 3);
@@ -174,7 +174,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceAtAnySize) {
 }
 
 TEST(WideBvh, FindsTheHitsOfBruteForceAmongNestedScales) {
-    Random random(16);
+    RandomEngine random(16);
     TableBuilder builder;
     for (double scale = 1e-6; scale < 2e6; scale *= 10) {
         for (int i = 0; i < 40; ++i) {
@@ -192,7 +192,7 @@ TEST(WideBvh, TheTriangleThatFillsFreeLanesOccludesNothing) {
     TableBuilder builder;
     builder.add_triangle({-0.9, -0.9, -0.9}, {0.9, 0.9, 0.9}, {-0.9, 0.9, -0.9});
     const PrimitiveTable table = builder.finish();
-    const auto rays = [](Random& random) {
+    const auto rays = [](RandomEngine& random) {
         // Half of them aimed at it, from the scene and from outside.
         Ray ray{uniform_point(random, random() % 2 == 0 ? 1 : 40),
                 {},
@@ -214,7 +214,7 @@ TEST(WideBvh, TheTriangleThatFillsFreeLanesOccludesNothing) {
 
 TEST(WideBvh, FindsTheHitsOfBruteForceWhereExponentsRunOut) {
     for (const double scale : {1e-149, 1e-120, 1e-104, 1e-61, 1e61, 1e103, 1e120, 1e149}) {
-        Random random(33);
+        RandomEngine random(33);
         TableBuilder builder;
         for (int i = 0; i < 40; ++i) {
             const Vec3 a = uniform_point(random, scale);
@@ -238,7 +238,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceWhereExponentsRunOut) {
 
 TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
     for (const double distance : {1e3, 1e6, 1e9, 1e12, 1e15, 1e30}) {
-        const auto rays = [distance](Random& random) {
+        const auto rays = [distance](RandomEngine& random) {
             Ray ray{distance * uniform_point(random, 1), {}, 0, 1e300};
             if (random() % 3 == 0) {
                 // Along an axis towards a point of the scene: the tests are free of rounding.
@@ -256,7 +256,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
         compare(name.str() + ", triangles", random_triangles(200, 1, 0.5, 17), rays, 500);
         compare(name.str() + ", mixture", random_mixture(200, 1, 0.5, 17), rays, 500);
     }
-    Random random(18);
+    RandomEngine random(18);
     TableBuilder builder;
     const Vec3 there{1e8, -3e8, 2e8};
     for (int i = 0; i < 300; ++i) {
@@ -264,7 +264,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceFromFarAwayAndFarFromTheOrigin) {
         builder.add_triangle(a, a + uniform_point(random, 0.3), a + uniform_point(random, 0.3));
         builder.add_sphere(a, 0.1);
     }
-    const auto rays = [&there](Random& generator) {
+    const auto rays = [&there](RandomEngine& generator) {
         Ray ray{there + uniform_point(generator, 2), {}, 0, 1e300};
         ray.direction = there + uniform_point(generator, 1) - ray.origin;
         return ray;
@@ -276,8 +276,8 @@ TEST(WideBvh, FindsTheHitsOfBruteForceOnTrianglesSeenEdgeOn) {
     // Triangles and rays in a few common planes through the x axis, up to rounding: the edge
     // functions are rounding errors, and a hit computed from them could lie anywhere in its
     // triangle's plane.
-    Random random(19);
-    const auto across = [](Random& generator) {
+    RandomEngine random(19);
+    const auto across = [](RandomEngine& generator) {
         const double angle = 0.1 + static_cast<double>(generator() % 6);
         return Vec3{0, std::cos(angle), std::sin(angle)};
     };
@@ -290,7 +290,7 @@ TEST(WideBvh, FindsTheHitsOfBruteForceOnTrianglesSeenEdgeOn) {
         };
         builder.add_triangle(corner(), corner(), corner(), random() % 2 == 0);
     }
-    const auto rays = [&](Random& generator) {
+    const auto rays = [&](RandomEngine& generator) {
         const Vec3 plane = across(generator);
         Ray ray{Vec3{-2, 0, 0} + uniform(generator, -1, 1) * plane, {}, 0, 1e300};
         ray.direction = Vec3{2 + uniform(generator, -1, 1), 0, 0} +
@@ -341,7 +341,7 @@ TEST(WideBvh, NestedAggregatesGiveTheHitsOfNestedLists) {
             make_aggregate(name, random_mixture(60, 1, 0.3, 22));
         const std::shared_ptr<const Aggregate> nothing =
             make_aggregate(name, TableBuilder{}.finish());
-        Random random(23);
+        RandomEngine random(23);
         TableBuilder builder;
         for (int i = 0; i < 30; ++i) {
             Placement placement;
@@ -356,7 +356,7 @@ TEST(WideBvh, NestedAggregatesGiveTheHitsOfNestedLists) {
     };
     const auto list = nest("list");
     const auto tree = nest("wide_bvh");
-    Random random(24);
+    RandomEngine random(24);
     const MakeRay rays = random_rays(1);
     for (int i = 0; i < 1000; ++i) {
         const Ray ray = rays(random);
@@ -367,7 +367,7 @@ TEST(WideBvh, NestedAggregatesGiveTheHitsOfNestedLists) {
 
 TEST(WideBvh, CountsWhatItDid) {
     const auto tree = make_aggregate("wide_bvh", random_triangles(1000, 1, 0.1, 25));
-    Random random(26);
+    RandomEngine random(26);
     const MakeRay rays = random_rays(1);
     TraversalStats stats;
     std::uint64_t found = 0;
@@ -408,4 +408,4 @@ TEST(WideBvh, TheTreeDoesNotDependOnTheNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

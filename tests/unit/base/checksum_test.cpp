@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 std::uint64_t sum_of(std::span<const std::byte> bytes) {
@@ -40,4 +40,4 @@ TEST(Checksum, WordsThatChangePlacesShow) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "alhazen/base/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace std::string_literals;
@@ -34,4 +34,4 @@ TEST(ControlCharacters, OfNamesDoNotReachMessages) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "alhazen/base/diagnostics.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(FileLocation, LeavesOutWhatIsNotKnown) {
@@ -79,4 +79,4 @@ TEST(Diagnostics, AFloodOfWarningsDoesNotHideAnError) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

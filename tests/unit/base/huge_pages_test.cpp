@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(HugePages, ALargeVectorStandsOnTheBoundaryOfALargePage) {
@@ -31,4 +31,4 @@ TEST(HugePages, MoreThanThereIsOfMemoryIsRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

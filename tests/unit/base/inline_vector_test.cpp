@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using Numbers = InlineVector<int, 3>;
@@ -48,4 +48,4 @@ TEST(InlineVector, CopiesAndCompareByTheValuesInUse) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(LowerCase, OnlyAsciiLettersChange) {
@@ -17,4 +17,4 @@ TEST(LowerCase, ASuffixIsThatOfTheNameAlone) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

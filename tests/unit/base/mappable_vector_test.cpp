@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using Values = std::vector<int>;
@@ -81,4 +81,4 @@ TEST(MappableVector, CopiesAndMovesKeepTheirValues) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,7 +10,7 @@
 #include "alhazen/base/file.h"
 #include "support/scratch_folder.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::ScratchFolder;
@@ -58,4 +58,4 @@ TEST(FileWriting, PiecesAreWrittenOneAfterAnother) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "alhazen/cameras/eye_rays.h"
 #include "alhazen/simd/targets.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-15) {
@@ -99,4 +99,4 @@ TEST(Camera, RaysSideBySideHaveTheBitsOfEachAlone) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

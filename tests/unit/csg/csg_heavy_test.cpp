@@ -1,6 +1,6 @@
 #include "csg_random_trees.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(CsgHeavy, TenThousandRandomTreesAreAsPointsTell) {
@@ -8,4 +8,4 @@ TEST(CsgHeavy, TenThousandRandomTreesAreAsPointsTell) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

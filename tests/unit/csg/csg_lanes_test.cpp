@@ -7,13 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/simd/targets.h"
 #include "csg_random_trees.h"
 #include "support/any_ray.h"
 #include "support/random_shapes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::any_ray;
@@ -21,6 +20,7 @@ using testing::Random;
 using testing::RandomSolids;
 using testing::same_bits;
 using testing::SceneMaker;
+using testing::solid_of;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
@@ -97,13 +97,6 @@ TEST(CsgLanes, LinesEnterAndLeaveConesWhereEachDoesAlone) {
 }
 
 // ---- solids
-
-/// The CSG object of which the scene is one instance.
-const CsgAggregate* solid_of(const Scene& scene) {
-    const auto& instances = scene.aggregate->primitives().instances;
-    if (instances.size() != 1) return nullptr;
-    return dynamic_cast<const CsgAggregate*>(instances.front().aggregate.get());
-}
 
 /// Returns the number of `wanted` rays that hit.
 int compare(const CsgAggregate& solid, const RayLanes& rays, std::uint32_t wanted,
@@ -285,4 +278,4 @@ TEST(CsgLanes, LeavesThatARayDoesNotSeeAreEmptyForIt) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

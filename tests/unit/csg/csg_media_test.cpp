@@ -2,14 +2,13 @@
 
 #include "csg_random_trees.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::all_hits;
 using testing::compiled;
+using testing::kEvaluators;
 using testing::SceneMaker;
-
-constexpr const char* kEvaluators[] = {"event_heap", "roth"};
 
 Material clear(const char* name) {
     Material m;
@@ -151,4 +150,4 @@ TEST(CsgMedia, ACutMayShowWhatItCuts) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

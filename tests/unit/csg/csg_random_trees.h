@@ -4,11 +4,22 @@
 
 #include <gtest/gtest.h>
 
+#include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/csg/csg_evaluator.h"
 #include "alhazen/primitives/surface.h"
 #include "support/random_solids.h"
 
 namespace alhazen::testing {
+
+/// The evaluators of solids.
+inline constexpr const char* kEvaluators[] = {"event_heap", "roth"};
+
+/// The CSG object of which the scene is one instance; null: it is not.
+inline const CsgAggregate* solid_of(const Scene& scene) {
+    const auto& instances = scene.aggregate->primitives().instances;
+    if (instances.size() != 1) return nullptr;
+    return dynamic_cast<const CsgAggregate*>(instances.front().aggregate.get());
+}
 
 inline Scene compiled(SceneMaker& maker, const std::string& evaluator,
                       const std::string& accelerator = "list") {

@@ -7,15 +7,14 @@
 #include "alhazen/primitives/surface.h"
 #include "csg_random_trees.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::all_hits;
 using testing::compiled;
 using testing::expect_same_hits;
+using testing::kEvaluators;
 using testing::SceneMaker;
-
-constexpr const char* kEvaluators[] = {"event_heap", "roth"};
 
 ObjectIndex solid(SceneMaker& maker, Combine combine) {
     const ObjectIndex object = maker.object("solid");
@@ -393,4 +392,4 @@ TEST(Csg, UnknownEvaluatorsAreUsageErrorsWithTheNames) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

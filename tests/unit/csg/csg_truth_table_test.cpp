@@ -4,23 +4,15 @@
 
 #include <bit>
 
-#include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/csg/csg_event_heap.h"
 #include "csg_random_trees.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::RandomSolids;
-
 using testing::SceneMaker;
-
-/// The CSG object of which the scene is one instance.
-const CsgAggregate* solid_of(const Scene& scene) {
-    const auto& instances = scene.aggregate->primitives().instances;
-    if (instances.size() != 1) return nullptr;
-    return dynamic_cast<const CsgAggregate*>(instances.front().aggregate.get());
-}
+using testing::solid_of;
 
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -91,4 +83,4 @@ TEST(CsgTruthTable, IsNotForSolidsOfManyLeaves) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

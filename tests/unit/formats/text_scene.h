@@ -1,8 +1,11 @@
 #pragma once
 /// Imports scenes written as text in tests, and finds messages.
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <string>
+#include <variant>
 
 #include "alhazen/formats/core/importer.h"
 
@@ -31,6 +34,21 @@ Imported import_text(const std::string& text, const std::filesystem::path& path,
     const ImportSource source{text, path, options};
     result.scene = SomeImporter().import(source, result.diagnostics);
     return result;
+}
+
+inline const Material& material_of(const Imported& i, std::size_t part) {
+    return i.scene.materials.at(static_cast<std::size_t>(i.parts().at(part).material)).material;
+}
+
+template <class S>
+const S& shape_of(const Imported& i, std::size_t part = 0) {
+    return std::get<S>(std::get<AnyShape>(i.parts().at(part).what));
+}
+
+inline void expect_near(const Vec3& a, const Vec3& b) {
+    EXPECT_NEAR(a.x, b.x, 1e-12);
+    EXPECT_NEAR(a.y, b.y, 1e-12);
+    EXPECT_NEAR(a.z, b.z, 1e-12);
 }
 
 }  // namespace alhazen::testing

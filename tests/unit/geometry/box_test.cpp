@@ -7,7 +7,7 @@
 #include "support/quad.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Quad;
@@ -135,4 +135,4 @@ TEST(Hit, OutermostIdBreaksTies) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

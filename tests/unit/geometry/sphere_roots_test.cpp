@@ -5,7 +5,7 @@
 #include "support/quad.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Quad;
@@ -91,4 +91,4 @@ TEST(SphereRoots, NeverAscendTheWrongWay) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 #include "support/random.h"
 #include "support/sphere_mesh.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -178,4 +178,4 @@ TEST(EdgeSign, IsAntisymmetricAndNeverZeroForDistinctPoints) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 #include "support/test_data.h"
 #include "unit/imaging/test_images.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::error_of;
@@ -144,4 +144,4 @@ TEST(Bmp, PicturesOfRealScenesAreRead) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

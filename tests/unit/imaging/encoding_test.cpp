@@ -7,7 +7,7 @@
 
 #include "unit/imaging/test_images.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::error_of;
@@ -104,4 +104,4 @@ TEST(Encoding, WrongSizesAreUsageErrors) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

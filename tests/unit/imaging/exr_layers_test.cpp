@@ -14,7 +14,7 @@
 
 #include "alhazen/base/error.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Input stream for the OpenEXR library over bytes in memory.
@@ -145,4 +145,4 @@ TEST(ExrLayers, ChannelsOfOneNameAndLayersOfAnotherCropAreRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

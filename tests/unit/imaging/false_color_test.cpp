@@ -10,7 +10,7 @@
 #include "alhazen/imaging/figures/heat_map.h"
 #include "alhazen/imaging/figures/tiny_font.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 double luminance(const Rgb& display) {
@@ -80,4 +80,4 @@ TEST(TinyFont, EveryLetterOfTheScalesIsDrawnAndUnlikeTheOthers) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

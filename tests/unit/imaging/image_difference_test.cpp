@@ -7,7 +7,7 @@
 
 #include "unit/imaging/test_images.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::error_of;
@@ -88,4 +88,4 @@ TEST(ImageDifference, PicturesThatCannotBeComparedAreUsageErrors) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

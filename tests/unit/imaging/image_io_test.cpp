@@ -12,7 +12,7 @@
 #include "alhazen/base/file.h"
 #include "unit/imaging/test_images.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 namespace fs = std::filesystem;
@@ -275,4 +275,4 @@ TEST(ImageIo, TextAndNothingAreNoPictures) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

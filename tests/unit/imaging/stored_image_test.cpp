@@ -5,7 +5,7 @@
 #include "alhazen/imaging/image/encoding.h"
 #include "unit/imaging/test_images.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 Image from_codes(const EncodedImage& codes) {
@@ -71,4 +71,4 @@ TEST(StoredImage, RunsOfPixelsAreThePixelsOneByOne) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

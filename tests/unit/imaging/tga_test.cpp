@@ -4,7 +4,7 @@
 
 #include "unit/imaging/test_images.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::error_of;
@@ -139,4 +139,4 @@ TEST(Tga, WrongHeadersAndSizesAreRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

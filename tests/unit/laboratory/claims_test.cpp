@@ -8,7 +8,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/laboratory/claims/claim_run.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Claims, IdsAreUniqueAndParsed) {
@@ -58,4 +58,4 @@ TEST(Claims, SlopesAreThoseOfPowers) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -14,7 +14,7 @@
 #include "alhazen/laboratory/report/compare_report.h"
 #include "unit/laboratory/small_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::small_scene;
@@ -167,4 +167,4 @@ TEST(Compare, TheReportHasEveryAcceleratorAndTheCountsByKind) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -5,7 +5,7 @@
 #include "alhazen/laboratory/scene_trial.h"
 #include "unit/laboratory/small_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::small_scene;
@@ -91,4 +91,4 @@ TEST(Replay, MeansWeighKindsAsOftenAsTheyAreRecorded) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

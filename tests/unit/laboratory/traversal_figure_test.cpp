@@ -11,7 +11,7 @@
 #include "alhazen/laboratory/scene_trial.h"
 #include "unit/laboratory/small_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::small_scene;
@@ -120,4 +120,4 @@ TEST(HtmlText, IsSafeAndBase64IsThatOfTheStandard) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

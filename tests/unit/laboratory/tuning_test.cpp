@@ -6,7 +6,7 @@
 
 #include "alhazen/aggregates/accelerator_table.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Tuning, EverySettingThatIsTriedExists) {
@@ -54,4 +54,4 @@ TEST(Tuning, EndsWhenToldToAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

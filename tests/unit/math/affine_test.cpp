@@ -5,7 +5,7 @@
 #include "alhazen/math/interval.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -119,4 +119,4 @@ TEST(Interval, IsEmptyUntilSomethingIsIncluded) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

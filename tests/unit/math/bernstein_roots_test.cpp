@@ -9,7 +9,7 @@
 
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -179,4 +179,4 @@ TEST(BernsteinRoots, CountAgreesWithTheSignsAtTheEnds) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

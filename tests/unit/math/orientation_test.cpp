@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Exact sign for small integers.
@@ -75,4 +75,4 @@ TEST(Orientation, NanHasNoSide) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -8,7 +8,7 @@
 #include "support/quad.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Quad;
@@ -86,4 +86,4 @@ TEST(Quadratic, SpecialCasesAreReportedAsPromised) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Parallel, AtLeastOneCoreIsAvailable) {
@@ -154,4 +154,4 @@ TEST(Parallel, LimitsMayBeNested) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -5,12 +5,12 @@
 #include "support/scene_maker.h"
 #include "unit/aggregates/random_tables.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
 
-Box3 random_cell(Random& random, double reach) {
+Box3 random_cell(RandomEngine& random, double reach) {
     Box3 cell;
     cell.include(uniform_point(random, reach));
     cell.include(cell.lo + uniform(random, 0.01, 0.5) * Vec3{1, 0.5, 2});
@@ -18,7 +18,7 @@ Box3 random_cell(Random& random, double reach) {
 }
 
 TEST(PrimitiveBounds, ATriangleOverlapsACellJustWhereItHasAPointInIt) {
-    Random random(1);
+    RandomEngine random(1);
     int overlapping = 0, apart = 0;
     for (int i = 0; i < 3000; ++i) {
         TableBuilder builder;
@@ -53,7 +53,7 @@ TEST(PrimitiveBounds, ASphereOverlapsTheCellsThatItsSurfaceIsIn) {
     EXPECT_FALSE(table.overlaps(0, {{0, 1, 2}, {2, 3, 4}}));        // all inside
     EXPECT_FALSE(table.overlaps(0, {{2.5, 3.5, 4.5}, {3, 4, 5}}));  // in the box's corner
     EXPECT_TRUE(table.overlaps(0, {{-9, -9, -9}, {9, 9, 9}}));
-    Random random(2);
+    RandomEngine random(2);
     for (int i = 0; i < 20000; ++i) {
         const Vec3 p = Vec3{1, 2, 3} + 2 * normalize(uniform_point(random, 1));
         Box3 cell;
@@ -85,7 +85,7 @@ TEST(PrimitiveBounds, OfSolidsThatASphereHoldsTheSphereIsKnown) {
             EXPECT_NEAR(length(sphere.center - placement.point({0.5, 0, 0})), 0, 1e-9);
         }
         // Rays towards it find nothing outside it.
-        Random random(3);
+        RandomEngine random(3);
         int found = 0;
         for (int i = 0; i < 2000; ++i) {
             const Vec3 from = sphere.center + uniform_point(random, 9 * stretch);
@@ -123,4 +123,4 @@ TEST(PrimitiveBounds, OnlyWhatIsOpaqueAndSeenByAllRaysBlocksLight) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 #include "alhazen/scene/scene.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -176,4 +176,4 @@ TEST(Surface, VertexMaterialsCarryTheBarycentricWeights) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,33 +6,16 @@
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/one_pixel.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::center;
+using testing::expect_near;
+using testing::glowing;
 using testing::SceneMaker;
 
-/// Colour of the middle of the picture; the camera looks along -z from (0, 0, 5).
-Rgb center(const Scene& scene, RayCounters& counters, const TiledRenderer& renderer = Whitted{}) {
-    Film film(1, 1, {0, 0, 1, 1});
-    const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
-    renderer.render_tile(job, {0, 0, 1, 1}, film, counters);
-    return film.at(0, 0);
-}
-Rgb center(const Scene& scene, const TiledRenderer& renderer = Whitted{}) {
-    RayCounters counters;
-    return center(scene, counters, renderer);
-}
-void expect_near(const Rgb& a, const Rgb& b, double tolerance = 1e-12) {
-    EXPECT_NEAR(a.r, b.r, tolerance);
-    EXPECT_NEAR(a.g, b.g, tolerance);
-    EXPECT_NEAR(a.b, b.b, tolerance);
-}
-Material glowing(const Rgb& color) {
-    Material m;
-    m.emission.color = color;
-    return m;
-}
 Material see_through(const Rgb& color, AlphaMode mode, double alpha) {
     Material m = glowing(color);
     m.alpha_mode = mode;
@@ -356,4 +339,4 @@ TEST(NormalMaps, AreTheSameOnAMirroredInstanceOfAMesh) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

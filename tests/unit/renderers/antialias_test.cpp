@@ -13,7 +13,7 @@
 #include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Runs the grid to its end with the shade of a place in pixels.
@@ -266,4 +266,4 @@ TEST(Antialias, SettingsAreChecked) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

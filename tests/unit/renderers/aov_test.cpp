@@ -9,7 +9,7 @@
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -258,4 +258,4 @@ TEST(Aov, TheTableIsInTheOrderOfItsKinds) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -15,10 +15,12 @@
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/simd/targets.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/one_pixel.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::glowing;
 using testing::SceneMaker;
 
 /// A camera whose pixels are squares of side 1 in a picture of `size` x `size`: (x, y) in the
@@ -47,12 +49,6 @@ Picture picture_of(SceneMaker& maker, const Camera& camera, int size,
     EXPECT_TRUE(report.complete());
     picture.counts = *report.scan_lines;
     return picture;
-}
-
-Material glowing(const Rgb& color) {
-    Material material;
-    material.emission.color = color;
-    return material;
 }
 
 Rectangle square(double lo, double hi, double z) {
@@ -154,10 +150,10 @@ TEST(EdgeLine, FindsTheFirstSampleOnTheRight) {
             RandomStream random(11);
             for (int k = 0; k < 4000; ++k) {
                 // Every other line passes exactly through a sample.
-                GridPoint from{view.to_grid(random.uniform(-9, 70)),
-                               view.to_grid(random.uniform(-9, 70))};
-                GridPoint to{view.to_grid(random.uniform(-9, 70)),
-                             view.to_grid(random.uniform(-9, 70))};
+                FixedPoint from{view.to_grid(random.uniform(-9, 70)),
+                                view.to_grid(random.uniform(-9, 70))};
+                FixedPoint to{view.to_grid(random.uniform(-9, 70)),
+                              view.to_grid(random.uniform(-9, 70))};
                 const int row = k % size, column = k / 3 % size;
                 if (k % 2 == 0) {
                     const auto dx = static_cast<std::int32_t>(random.below(7000));
@@ -724,4 +720,4 @@ TEST(RendererSettings, AreCheckedByTheirRenderer) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

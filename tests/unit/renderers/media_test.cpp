@@ -2,10 +2,13 @@
 
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/one_pixel.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::center;
+using testing::expect_near;
 using testing::SceneMaker;
 using RefractionTint = ShadingConventions::RefractionTint;
 using ShadowTint = ShadingConventions::ShadowTint;
@@ -33,21 +36,6 @@ void add_tank(SceneMaker& maker, bool wine_first, const Affine& placement = {}) 
     maker.add(tank, MaterialId{0}, placement);
 }
 
-Rgb center(SceneMaker& maker) {
-    const Scene scene = maker.compile();
-    Film film(1, 1, {0, 0, 1, 1});
-    RayCounters counters;
-    const RenderJob job{scene, scene.cameras[0].camera, 1, 0, true};
-    Whitted{}.render_tile(job, {0, 0, 1, 1}, film, counters);
-    return film.at(0, 0);
-}
-
-void expect_near(const Rgb& a, const Rgb& b) {
-    EXPECT_NEAR(a.r, b.r, 1e-9);
-    EXPECT_NEAR(a.g, b.g, 1e-9);
-    EXPECT_NEAR(a.b, b.b, 1e-9);
-}
-
 Rgb power(const Rgb& base, double exponent) {
     return {std::pow(base.r, exponent), std::pow(base.g, exponent), std::pow(base.b, exponent)};
 }
@@ -68,7 +56,7 @@ TEST(Media, EachTintsTheWayThroughIt) {
             maker.description().picture.background = Rgb{1, 1, 1};
             maker.description().conventions.shading.refraction_tint = tint;
             add_tank(maker, wine_first);
-            expect_near(center(maker),
+            expect_near(center(maker.compile()),
                         tint == RefractionTint::PerDistance ? by_distance() : by_surface());
         }
     }
@@ -84,11 +72,11 @@ TEST(Media, EachTintsTheLightThatReachesWhatLiesBehind) {
             maker.light(DirectionalLight{.to_light = {0, 0, 1}, .color = {1, 1, 1}});
             maker.description().conventions.shading.shadow_tint = tint;
             add_tank(maker, wine_first, Affine::translate({0, 0, 10}));  // above the camera
-            expect_near(center(maker),
+            expect_near(center(maker.compile()),
                         tint == ShadowTint::PerDistance ? by_distance() : by_surface());
         }
     }
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

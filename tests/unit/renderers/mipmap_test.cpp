@@ -6,7 +6,7 @@
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -113,4 +113,4 @@ TEST(Mipmaps, MoreSamplesNarrowTheCones) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,10 +7,13 @@
 #include "alhazen/renderers/whitted/whitted.h"
 #include "support/random.h"
 #include "support/scene_maker.h"
+#include "unit/renderers/one_pixel.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::center;
+using testing::glowing;
 using testing::Random;
 using testing::SceneMaker;
 
@@ -18,25 +21,11 @@ constexpr RayMask kEye = mask_of(RayKind::Eye), kShadow = mask_of(RayKind::Shado
                   kReflection = mask_of(RayKind::Reflection),
                   kRefraction = mask_of(RayKind::Refraction);
 
-Rgb center(const Scene& scene, const TiledRenderer& renderer = Whitted{}) {
-    Film film(1, 1, {0, 0, 1, 1});
-    RayCounters counters;
-    renderer.render_tile({scene, scene.cameras[0].camera, 1, 0, true}, {0, 0, 1, 1}, film,
-                         counters);
-    return film.at(0, 0);
-}
-
 Material white() {
     Material m;
     m.diffuse.color = {1, 1, 1};
     return m;
 }
-Material glowing(const Rgb& color) {
-    Material m;
-    m.emission.color = color;
-    return m;
-}
-
 void show_last_to(SceneMaker& maker, RayMask mask, ObjectIndex object = ObjectIndex{0}) {
     maker.description().objects[static_cast<std::size_t>(object)].parts.back().visible_to = mask;
 }
@@ -196,20 +185,20 @@ Scene room(const std::string& accelerator, MaskOf&& mask) {
     return maker.compile(accelerator);
 }
 
-constexpr int kSide = 24;
+constexpr int kMaskSide = 24;
 
 Film picture_of(const Scene& scene, const TiledRenderer& renderer) {
-    Film film(kSide, kSide, {0, 0, kSide, kSide});
+    Film film(kMaskSide, kMaskSide, {0, 0, kMaskSide, kMaskSide});
     RayCounters counters;
-    renderer.render_tile({scene, scene.cameras[0].camera, 1, 0, false}, {0, 0, kSide, kSide}, film,
-                         counters);
+    renderer.render_tile({scene, scene.cameras[0].camera, 1, 0, false},
+                         {0, 0, kMaskSide, kMaskSide}, film, counters);
     return film;
 }
 
 int pixels_that_differ(const Film& a, const Film& b) {
     int count = 0;
-    for (int i = 0; i < kSide * kSide; ++i) {
-        count += !(a.at(i % kSide, i / kSide) == b.at(i % kSide, i / kSide));
+    for (int i = 0; i < kMaskSide * kMaskSide; ++i) {
+        count += !(a.at(i % kMaskSide, i / kMaskSide) == b.at(i % kMaskSide, i / kMaskSide));
     }
     return count;
 }
@@ -224,7 +213,7 @@ TEST(RayMasks, ThePictureDoesNotDependOnTheAcceleratorOrOnWhatIsTracedTogether) 
     }
     EXPECT_EQ(pixels_that_differ(picture, picture_of(room("list", mask), Whitted(64))), 0);
     const Film all = picture_of(room("wide_bvh", [](int) { return kAllRays; }), Whitted(64));
-    EXPECT_GT(pixels_that_differ(picture, all), kSide * kSide / 4);
+    EXPECT_GT(pixels_that_differ(picture, all), kMaskSide * kMaskSide / 4);
 }
 
 TEST(RayMasks, WhatAllKindsOfRaysSeeNeedsNoMask) {
@@ -236,4 +225,4 @@ TEST(RayMasks, WhatAllKindsOfRaysSeeNeedsNoMask) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

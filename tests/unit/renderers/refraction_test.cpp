@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 Vec3 at_angle(double degrees) {
@@ -37,4 +37,4 @@ TEST(Refraction, AMirrorKeepsTheTangentAndTurnsTheNormalPart) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -11,7 +11,7 @@
 #include "alhazen/base/error.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -122,4 +122,4 @@ TEST(Renderer, EveryOneOfTheTableIsMadeByItsName) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

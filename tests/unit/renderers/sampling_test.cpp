@@ -3,7 +3,7 @@
 #include "alhazen/renderers/core/samplers.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using PixelSample = PointSampler::PixelSample;
@@ -42,4 +42,4 @@ TEST(PixelSampling, JitteredSamplesFillTheirStrataOfThePixel) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -12,7 +12,7 @@
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -268,4 +268,4 @@ TEST(MaterialCache, EveryInputThatReadsATextureCounts) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -8,7 +8,7 @@
 #include "alhazen/sampling/random.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -97,4 +97,4 @@ TEST(UnlitCache, OfSolidsAreThoseOfTheLeafUnlessTheMinuendIsShown) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -15,7 +15,7 @@
 #include "support/random.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -277,4 +277,4 @@ TEST(Wavefront, AGenerationKeepsItsRaysAndTheirLightInOrder) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

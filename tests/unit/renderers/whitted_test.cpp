@@ -8,7 +8,7 @@
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -341,4 +341,4 @@ TEST(LocalShading, ALightWithoutGlintsHasNoHighlightOnGlass) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

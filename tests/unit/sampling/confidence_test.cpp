@@ -7,7 +7,7 @@
 
 #include "alhazen/sampling/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Confidence, QuantilesOfStudentAreThoseOfTheTables) {
@@ -70,4 +70,4 @@ TEST(Confidence, DegreesOfFreedomFollowFromHowEvenlyThePartsScatter) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

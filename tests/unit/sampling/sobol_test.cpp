@@ -8,7 +8,7 @@
 
 #include "alhazen/sampling/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Sobol, FirstPointsAreThoseOfTheTable) {
@@ -110,4 +110,4 @@ TEST(Sobol, SumsOfASmoothFunctionConvergeMuchFasterThanIndependentPoints) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 #include "alhazen/scene/scene.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -160,4 +160,4 @@ TEST(Compile, AnUnknownAcceleratorIsAUsageErrorThatListsTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

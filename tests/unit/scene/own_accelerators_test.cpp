@@ -10,7 +10,7 @@
 #include "alhazen/scene/scene.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -132,4 +132,4 @@ TEST(PrimitiveTable, TheLightsOfTheSceneAreKnownToItsOutermostTable) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

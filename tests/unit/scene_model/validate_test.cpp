@@ -5,7 +5,7 @@
 #include "alhazen/scene_model/scene_description.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -161,4 +161,4 @@ TEST(Validate, MasksNameKindsOfRaysAndHideNoPartOfASolid) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 #include "alhazen/session/render.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -48,4 +48,4 @@ TEST(CompileTakingMeshes, OnlyMovesWhatIsPlacedOnceAndGivesTheSamePicture) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

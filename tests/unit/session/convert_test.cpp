@@ -15,7 +15,7 @@
 #include "support/scene_maker.h"
 #include "support/scratch_folder.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -379,4 +379,4 @@ TEST(ConvertNative, WhatCannotBeWrittenIsToldAndLeavesNoScene) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

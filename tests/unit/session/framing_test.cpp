@@ -8,7 +8,7 @@
 #include "alhazen/session/seen_parts.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -345,4 +345,4 @@ TEST(Framing, PointsAndFlatBoxesAreSeenFromOutside) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -11,7 +11,7 @@
 #include "alhazen/session/generate.h"
 #include "alhazen/session/unique_bytes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 std::map<std::string, int> statements(const std::string& nff) {
@@ -190,4 +190,4 @@ TEST(Field, GivesTheSameHitsInGridsPutTogetherByHand) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/scene/scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Generate, TheGeneratorsOfSolidsMakeValidScenesOfAtLeastTheSize) {
@@ -85,4 +85,4 @@ TEST(Generate, UnknownNamesAndSizesAreUsageErrors) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -11,7 +11,7 @@
 #include "alhazen/session/statistics.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Counts the phases that begin.
@@ -72,4 +72,4 @@ TEST(Load, StrictTurnsWarningsIntoErrors) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -78,4 +78,4 @@ TEST(MeshFigures, NestedUnevenScalingsEndInNoAnswerInsteadOfNever) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

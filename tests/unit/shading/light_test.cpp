@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Light, PointLightAttenuatesByItsQuadratic) {
@@ -47,4 +47,4 @@ TEST(Light, AmbientLightOnlyHasAnAmbientTerm) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

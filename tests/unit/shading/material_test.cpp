@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(Material, ATextureMultipliesTheConstant) {
@@ -41,4 +41,4 @@ TEST(Material, VertexMaterialsAreInterpolatedFieldByField) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

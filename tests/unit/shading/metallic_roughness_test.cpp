@@ -3,7 +3,7 @@
 #include "alhazen/shading/materials/material.h"
 #include "alhazen/shading/materials/turn_to_view.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 Material with(const MetallicRoughness& parameters, double index = 1.5) {
@@ -206,4 +206,4 @@ TEST(MetallicRoughness, TheSecondSetAndTheTransformOfCoordinatesAreUsed) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

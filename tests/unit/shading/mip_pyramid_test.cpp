@@ -5,7 +5,7 @@
 #include "alhazen/imaging/image/encoding.h"
 #include "alhazen/shading/textures/texture.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 std::shared_ptr<const StoredImage> store(Image image) {
@@ -133,4 +133,4 @@ TEST(MipmappedTexture, AlphaIsFilteredToo) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

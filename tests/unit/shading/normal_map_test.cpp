@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 void expect_near(const Vec3& a, const Vec3& b) {
@@ -69,4 +69,4 @@ TEST(NormalMap, ATransformOfTheCoordinatesTurnsTheFrame) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// 2 x 2 grey image: top row 0, 1; bottom row 2, 3.
@@ -72,4 +72,4 @@ TEST(Texture, CoordinatesThatAreNoNumbersAreHarmless) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,18 +4,19 @@
 
 #include <functional>
 #include <memory>
-#include <sstream>
 
 #include "alhazen/geometry/bounds_source.h"
+#include "support/any_ray.h"
 #include "support/random_shapes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
 using testing::Random;
 using testing::random_shape;
 using testing::ShapeSource;
+using testing::to_text;
 
 constexpr double kUlp = 0x1p-52;
 /// Type-erased shape: compiles these tests once, not once per type.
@@ -88,13 +89,6 @@ ShapeType shape_type() {
 template <class... S>
 std::vector<ShapeType> shape_types(const ShapeTypes<S...>*) {
     return {shape_type<S>()...};
-}
-
-std::string to_text(const Ray& ray) {
-    std::ostringstream out;
-    out << std::hexfloat << "origin " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
-        << " direction " << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z;
-    return out.str();
 }
 
 Vec3 point_near(const TestedShape& shape, Random& random) {
@@ -414,4 +408,4 @@ TEST_P(ShapeConformance, ExtremeRaysGiveFiniteHitsOrNone) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -5,7 +5,7 @@
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "support/random_shapes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -123,4 +123,4 @@ TEST(TriangleDerivatives, WithoutCoordinatesAreThoseOfTheBarycentrics) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

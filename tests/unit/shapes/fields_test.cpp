@@ -6,7 +6,7 @@
 
 #include "support/random_shapes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 template <class S>
@@ -49,4 +49,4 @@ TEST(ShapeFields, DescribeEveryShapeCompletely) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,20 +9,16 @@
 #include <sstream>
 
 #include "alhazen/shapes/core/plain_surface.h"
+#include "support/any_ray.h"
 #include "support/random_shapes.h"
+#include "unit/shapes/algebraic/surface_in_cube.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
-
-std::string to_text(const Ray& ray) {
-    std::ostringstream out;
-    out << std::hexfloat << "origin " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
-        << " direction " << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z
-        << " t " << ray.t_min << " " << ray.t_max;
-    return out.str();
-}
+using testing::surface_in_cube;
+using testing::to_text;
 
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -95,15 +91,6 @@ TEST(FirstHit, IsTheFirstOfAllCrossingsOfRandomShapes) {
     check_random_shapes<Cylinder>(6);
 }
 
-Algebraic surface(const char* expression, double side, bool capped) {
-    Algebraic shape;
-    shape.expression = expression;
-    shape.clip_box = {{-side, -side, -side}, {side, side, side}};
-    shape.capped = capped;
-    shape.prepare();
-    return shape;
-}
-
 TEST(FirstHit, IsTheFirstOfAllCrossingsOfSurfacesWithDoublePoints) {
     const char* barth =
         "4*(2.618033988749895*x^2 - y^2)*(2.618033988749895*y^2 - z^2)"
@@ -112,10 +99,10 @@ TEST(FirstHit, IsTheFirstOfAllCrossingsOfSurfacesWithDoublePoints) {
     Random random(7);
     for (const char* expression : {barth, cayley}) {
         for (const bool capped : {true, false}) {
-            EXPECT_GT(check_first(surface(expression, 1.5, capped), random, 4000), 1000);
+            EXPECT_GT(check_first(surface_in_cube(expression, 1.5, capped), random, 4000), 1000);
         }
     }
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -12,21 +12,16 @@
 #include "alhazen/simd/targets.h"
 #include "support/any_ray.h"
 #include "support/random_shapes.h"
+#include "unit/shapes/algebraic/surface_in_cube.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::any_ray;
 using testing::Random;
 using testing::same_bits;
-
-std::string to_text(const Ray& ray) {
-    std::ostringstream out;
-    out << std::hexfloat << "origin " << ray.origin.x << " " << ray.origin.y << " " << ray.origin.z
-        << " direction " << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z
-        << " t " << ray.t_min << " " << ray.t_max;
-    return out.str();
-}
+using testing::surface_in_cube;
+using testing::to_text;
 
 /// Checks eight rays, the first `count` of them in lanes; returns how many of these hit.
 template <class S>
@@ -68,7 +63,7 @@ int check_shape(const S& shape, Random& random, int blocks) {
 }
 
 template <class S>
-void check_random_shapes(std::uint64_t seed, int least_hits = 3000) {
+void check_random_blocks(std::uint64_t seed, int least_hits = 3000) {
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
         Random random(seed);
@@ -83,11 +78,11 @@ void check_random_shapes(std::uint64_t seed, int least_hits = 3000) {
 }
 
 TEST(FirstHits, OfToriAreThoseOfEachRayAlone) {
-    check_random_shapes<Torus>(1);
+    check_random_blocks<Torus>(1);
 }
 
 TEST(FirstHits, OfSpheresAreThoseOfEachRayAlone) {
-    check_random_shapes<Sphere>(6);
+    check_random_blocks<Sphere>(6);
 }
 
 TEST(FirstHits, OfRaysThatGrazeASphereOrStartOnItAreThoseOfEachRayAlone) {
@@ -116,7 +111,7 @@ TEST(FirstHits, OfRaysThatGrazeASphereOrStartOnItAreThoseOfEachRayAlone) {
 }
 
 TEST(FirstHits, OfBlobsAreThoseOfEachRayAlone) {
-    check_random_shapes<Blob>(5);
+    check_random_blocks<Blob>(5);
 }
 
 Blob blob_of(int count, double radius, Random& random) {
@@ -172,16 +167,7 @@ TEST(FirstHits, OfRaysFromABlobAreThoseOfEachRayAlone) {
 }
 
 TEST(FirstHits, OfAlgebraicSurfacesAreThoseOfEachRayAlone) {
-    check_random_shapes<Algebraic>(2);
-}
-
-Algebraic surface(const char* expression, double side, bool capped) {
-    Algebraic shape;
-    shape.expression = expression;
-    shape.clip_box = {{-side, -side, -side}, {side, side, side}};
-    shape.capped = capped;
-    shape.prepare();
-    return shape;
+    check_random_blocks<Algebraic>(2);
 }
 
 TEST(FirstHits, OfSurfacesOfEveryDegreeAreThoseOfEachRayAlone) {
@@ -203,21 +189,22 @@ TEST(FirstHits, OfSurfacesOfEveryDegreeAreThoseOfEachRayAlone) {
         for (const char* expression : expressions) {
             for (const bool capped : {true, false}) {
                 SCOPED_TRACE(expression);
-                EXPECT_GT(check_shape(surface(expression, 1.5, capped), random, 600), 300);
+                EXPECT_GT(check_shape(surface_in_cube(expression, 1.5, capped), random, 600), 300);
             }
         }
     }
 }
 
 TEST(FirstHits, OfPatchesAreThoseOfEachRayAlone) {
-    check_random_shapes<BezierPatch>(7, 1000);
-    check_random_shapes<PatchMesh>(8, 1000);
+    check_random_blocks<BezierPatch>(7, 1000);
+    check_random_blocks<PatchMesh>(8, 1000);
 }
 
 TEST(FirstHits, OfRaysOfExtremeLengthsAreThoseOfEachRayAlone) {
     Torus torus;
     torus.prepare();
-    const Algebraic quartic = surface("x^4 + y^4 + z^4 - 1.5*(x^2 + y^2 + z^2) + 0.9", 1.5, true);
+    const Algebraic quartic =
+        surface_in_cube("x^4 + y^4 + z^4 - 1.5*(x^2 + y^2 + z^2) + 0.9", 1.5, true);
     const double lengths[] = {5e-324, 1e-310, 1e-300, 1e-160, 1e150, 1e200, 1e300, 1e308};
     for (const std::string& target : simd_targets()) {
         const SimdTargetOverride forced(target);
@@ -264,4 +251,4 @@ TEST(FirstHits, OfRaysThatGrazeATorusAreThoseOfEachRayAlone) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

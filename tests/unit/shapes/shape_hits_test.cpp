@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(ShapeHits, KeepAnyNumberInOrder) {
@@ -53,4 +53,4 @@ TEST(ShapeHits, KnowWhenThereAreEnough) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

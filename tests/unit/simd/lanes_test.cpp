@@ -93,7 +93,7 @@ void sphere(Case& c) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 HWY_EXPORT(operators);
@@ -251,5 +251,5 @@ TEST(Lanes, TheSphereTestGivesTheBitsOfTheScalar) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE
 #endif

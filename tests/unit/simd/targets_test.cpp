@@ -4,7 +4,7 @@
 
 #include "alhazen/base/error.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(SimdTargets, TheBestOneIsUsedUnlessAnotherIsForced) {
@@ -37,4 +37,4 @@ TEST(SimdTargets, AnUnknownNameIsRefusedAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

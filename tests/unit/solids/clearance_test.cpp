@@ -5,7 +5,7 @@
 #include "alhazen/solids/solid_list.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -89,4 +89,4 @@ TEST(Clearance, APinInAFrameHasAnUpperBoundOnly) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

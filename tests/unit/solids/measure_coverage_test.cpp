@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <cstdlib>
 #include <iostream>
 
@@ -11,14 +13,12 @@
 #include "alhazen/solids/solid_measures.h"
 #include "closed_forms.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::KnownSolid;
 using testing::LoneScene;
 using testing::SceneMaker;
-
-constexpr double kPi = 3.14159265358979323846;
 
 double setting(const char* name, double usual) {
     const char* text = std::getenv(name);
@@ -89,8 +89,10 @@ TEST(MeasureCoverage, OfATorus) {
     SceneMaker maker;
     maker.add(Torus{});
     const SolidList solids(maker.compile().aggregate);
-    expect_honest(coverage_of(IsolatedSolid(solids, SolidId{0}), kPi * kPi / 8, kPi * kPi, 0),
-                  "torus", Interval95::Scatter, Interval95::Scatter);
+    expect_honest(
+        coverage_of(IsolatedSolid(solids, SolidId{0}), std::numbers::pi * std::numbers::pi / 8,
+                    std::numbers::pi * std::numbers::pi, 0),
+        "torus", Interval95::Scatter, Interval95::Scatter);
 }
 
 TEST(MeasureCoverage, OfANapkinRing) {
@@ -103,9 +105,10 @@ TEST(MeasureCoverage, OfANapkinRing) {
     maker.add(ring);
     const SolidList solids(maker.compile().aggregate);
     // Zones of a sphere and a cylinder.
-    expect_honest(coverage_of(IsolatedSolid(solids, SolidId{0}), kPi * 1.2 * 1.2 * 1.2 / 6,
-                              2 * kPi * 1.2 + 2 * kPi * 0.8 * 1.2, 0),
-                  "napkin ring", Interval95::Scatter, Interval95::Scatter);
+    expect_honest(
+        coverage_of(IsolatedSolid(solids, SolidId{0}), std::numbers::pi * 1.2 * 1.2 * 1.2 / 6,
+                    2 * std::numbers::pi * 1.2 + 2 * std::numbers::pi * 0.8 * 1.2, 0),
+        "napkin ring", Interval95::Scatter, Interval95::Scatter);
 }
 
 TEST(MeasureCoverage, OfTheBicylinder) {
@@ -119,4 +122,4 @@ TEST(MeasureCoverage, OfTheBicylinder) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(MeasureReport, WhatIsNotKnownIsNull) {
@@ -40,4 +40,4 @@ TEST(MeasureReport, TheRoundingOfATotalAddsUp) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -2,18 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <cmath>
 
 #include "alhazen/base/error.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Outlines of the only solid of a scene.
 template <class S>
@@ -42,9 +42,10 @@ TEST(Section, TheOutlineOfASphereStaysWithinTheToleranceOfItsCircle) {
                 std::max(farthest, std::abs(std::hypot(loop[i].x - 1, loop[i].y - 2) - radius));
         }
         EXPECT_LE(farthest, tolerance);
-        EXPECT_NEAR(found.area(), 3 * kPi, 2 * kPi * radius * tolerance);
+        EXPECT_NEAR(found.area(), 3 * std::numbers::pi, 2 * std::numbers::pi * radius * tolerance);
         // At most a small factor more points than the tolerance needs.
-        EXPECT_LT(static_cast<double>(loop.size()), 40 + 8 * kPi * std::sqrt(radius / tolerance));
+        EXPECT_LT(static_cast<double>(loop.size()),
+                  40 + 8 * std::numbers::pi * std::sqrt(radius / tolerance));
     }
 }
 
@@ -215,4 +216,4 @@ TEST(Section, TheSvgOfNothingShowsWhereItWouldHaveBeen) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <atomic>
 
 #include "alhazen/base/error.h"
@@ -10,15 +12,13 @@
 #include "support/random.h"
 #include "support/sphere_mesh.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::known_solids;
 using testing::KnownSolid;
 using testing::LoneScene;
 using testing::SceneMaker;
-
-constexpr double kPi = 3.14159265358979323846;
 
 TEST(SolidMeasures, SolidsWithKnownFiguresHaveThem) {
     for (const KnownSolid& known : known_solids()) {
@@ -147,11 +147,11 @@ TEST(SolidMeasures, IntervalsOfTheBundlesHoldTheTruthAsOftenAsTheySay) {
     }
     // The ends of a cylinder seen along its axis: only a silhouette is counted.
     const LoneScene cylinder(known_solids()[3]);
-    const double ends = coverage(cylinder.solid, along_z, 3 * kPi, false);
+    const double ends = coverage(cylinder.solid, along_z, 3 * std::numbers::pi, false);
     EXPECT_GE(ends, 0.90);
     EXPECT_LE(ends, 0.99);
     const LoneScene sphere(known_solids()[0]);
-    const double share = coverage(sphere.solid, along_z, 16 * kPi / 3, true);
+    const double share = coverage(sphere.solid, along_z, 16 * std::numbers::pi / 3, true);
     EXPECT_GE(share, 0.90);
     EXPECT_LE(share, 0.99);
 }
@@ -188,7 +188,7 @@ TEST(SolidMeasures, TheLensOfTwoSpheresIsTheirOverlap) {
     // Two caps of height 1/2: 2 pi h^2 (3 - h) / 3 = 5 pi / 12.
     const SolidMeasures lens =
         measure(Overlap(a, b), {.relative_error = 1e-4, .seconds = 20, .area = false});
-    EXPECT_NEAR(lens.volume.value, 5 * kPi / 12, 2 * lens.volume.half_width);
+    EXPECT_NEAR(lens.volume.value, 5 * std::numbers::pi / 12, 2 * lens.volume.half_width);
     EXPECT_LT(lens.volume.half_width, 2e-4);
     EXPECT_EQ(measure(Overlap(a, c), {.area = false}).volume.value, 0);
 }
@@ -220,13 +220,13 @@ TEST(SolidMeasures, SectionsHaveTheAreaOfDiscsEllipsesAndRectangles) {
     const MeasureOptions options{.relative_error = 1e-6, .seconds = 20};
     const SectionArea disc =
         section_area(IsolatedSolid(solids, SolidId{0}), {{0, 0, 2}, 4}, options);
-    EXPECT_NEAR(disc.area.value, 3 * kPi, 2 * disc.area.half_width);
+    EXPECT_NEAR(disc.area.value, 3 * std::numbers::pi, 2 * disc.area.half_width);
     EXPECT_LT(disc.area.half_width, 1e-5);
     // A cut at 60 degrees to the axis has the semi-axes 1 and 2.
     const double s = std::sqrt(3.0) / 2;
     const SectionArea ellipse =
         section_area(IsolatedSolid(solids, SolidId{2}), {{0, s, 0.5}, 0.1}, options);
-    EXPECT_NEAR(ellipse.area.value, 2 * kPi, 2 * ellipse.area.half_width);
+    EXPECT_NEAR(ellipse.area.value, 2 * std::numbers::pi, 2 * ellipse.area.half_width);
     const SectionArea rectangle =
         section_area(IsolatedSolid(solids, SolidId{1}), {{1, 0, 0}, 0.5}, options);
     EXPECT_NEAR(rectangle.area.value, 6, 1e-12);
@@ -261,7 +261,7 @@ TEST(SolidMeasures, LinesGoOnWhereThereAreAsManyCellsAsMayBe) {
         {.relative_error = 5e-5, .seconds = 60, .area = false, .most_lines_of_round = 1 << 14});
     EXPECT_TRUE(m.reached);
     EXPECT_GT(m.lines, 100'000u);
-    EXPECT_NEAR(m.volume.value, 32 * kPi / 3, 2 * m.volume.half_width);
+    EXPECT_NEAR(m.volume.value, 32 * std::numbers::pi / 3, 2 * m.volume.half_width);
 }
 
 /// Reports an odd number of crossings on every other line.
@@ -312,7 +312,7 @@ TEST(SolidMeasures, WithoutTimePilotsAreShortToo) {
     const CountedSolid counted(sphere.solid);
     const SolidMeasures m = measure(counted, {.seconds = 0});
     EXPECT_LT(counted.asked(), 8000u);
-    EXPECT_NEAR(m.volume.value, 32 * kPi / 3, 2 * m.volume.half_width);
+    EXPECT_NEAR(m.volume.value, 32 * std::numbers::pi / 3, 2 * m.volume.half_width);
     EXPECT_FALSE(m.reached);
 }
 
@@ -340,10 +340,10 @@ TEST(SolidMeasures, NumbersThatOverflowOrVanishSaySo) {
         EXPECT_EQ(m.in_range, radius == 1.0) << radius;
         EXPECT_TRUE(m.has_moments) << radius;
         // The volume itself and its interval are finite.
-        EXPECT_TRUE(m.volume.holds(4 * kPi / 3 * radius * radius * radius)) << radius;
+        EXPECT_TRUE(m.volume.holds(4 * std::numbers::pi / 3 * radius * radius * radius)) << radius;
         EXPECT_GT(m.volume.half_width, 0) << radius;
     }
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "alhazen/solids/solid_queries_json.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::SceneMaker;
@@ -112,4 +112,4 @@ TEST(SolidQueriesJson, BadNumbersAreRefusedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -11,7 +11,7 @@
 #include "support/random.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -139,4 +139,4 @@ TEST(SolidTriangles, HaveALimit) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

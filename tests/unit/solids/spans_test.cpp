@@ -7,7 +7,7 @@
 #include "support/random.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -270,4 +270,4 @@ TEST(Spans, DirectionsOfAnyLengthMeetTheSame) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

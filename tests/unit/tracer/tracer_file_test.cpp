@@ -10,7 +10,7 @@
 #include "support/scratch_folder.h"
 #include "unit/tracer/tracer_cases.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::mixed_scene;
@@ -102,4 +102,4 @@ TEST(TracerFile, OtherScenesAndAcceleratorsAreRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -3,7 +3,7 @@
 #include "alhazen/tracer/tracer.h"
 #include "unit/tracer/tracer_cases.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using namespace testing;
@@ -81,4 +81,4 @@ TEST(TracerMasks, BatchesSeeWhatSingleRaysSee) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

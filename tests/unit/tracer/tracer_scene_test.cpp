@@ -10,7 +10,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/tracer/tracer.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Message of the error that `action` throws.
@@ -113,4 +113,4 @@ TEST(TracerScene, AMeshWithoutATransformIsShared) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -15,7 +15,7 @@
 #include "alhazen/base/error.h"
 #include "unit/tracer/tracer_cases.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::mixed_scene;
@@ -351,4 +351,4 @@ TEST(Tracer, DirectionsOfAnyLengthMeetTheSame) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

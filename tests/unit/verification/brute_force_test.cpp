@@ -15,7 +15,7 @@
 #include "support/scene_maker.h"
 #include "support/sphere_mesh.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -185,4 +185,4 @@ TEST(Verify, ProgressReachesTheEndOfEachPhase) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "alhazen/session/load.h"
 #include "support/scratch_folder.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 Box3 bounds_of(const std::string& name, const std::string& text) {
@@ -66,4 +66,4 @@ TEST(ExactBounds, OfSharedMeshesAreThoseOfTheirPlacedVertices) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

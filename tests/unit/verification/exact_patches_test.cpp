@@ -8,7 +8,7 @@
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "alhazen/verification/patch_trials.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 PatchModel torus_model() {
@@ -135,4 +135,4 @@ TEST(PatchTrials, TheProductionSearchMissesAndInventsNothing) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

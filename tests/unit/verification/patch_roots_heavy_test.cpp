@@ -15,7 +15,7 @@
 #include "alhazen/verification/patch_trials.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 long rays_of_a_kind() {
@@ -116,4 +116,4 @@ TEST(PatchRoots, Teacup) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -27,7 +27,7 @@
 #include "support/scene_maker.h"
 #include "support/sphere_mesh.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -251,4 +251,4 @@ TEST(SolidLeaks, NoLineLeavesAClosedSolid) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -8,7 +8,7 @@
 #include "support/random_shapes.h"
 #include "support/scene_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -221,4 +221,4 @@ TEST(VerifyExact, SolidsWithoutAFormulaAreNamedWithTheReason) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -17,7 +17,7 @@
 #include "support/scene_maker.h"
 #include "support/sphere_mesh.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -331,4 +331,4 @@ TEST(VerifyRays, MostSetsOfCoherentRaysFitIntoPackets) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

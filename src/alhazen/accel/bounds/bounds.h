@@ -172,13 +172,13 @@ struct SphereBound {
             stats.boxes(1);
             const double room =
                 kBoundSlack * (reach_ + bound.radius + max_component(abs(bound.center)));
-            const double radius = bound.radius + room;
+            const double grown = bound.radius + room;
             const Vec3 to_center = bound.center - ray_.origin;
             const double along = dot(to_center, unit_);
             // Measured across the ray: no cancellation for distant origins.
             const double across2 = length_squared(to_center - along * unit_);
-            if (across2 > radius * radius) return std::nullopt;
-            const double half = std::sqrt(radius * radius - across2) + room;
+            if (across2 > grown * grown) return std::nullopt;
+            const double half = std::sqrt(grown * grown - across2) + room;
             const double near = std::max(ray_.t_min, (along - half) * per_length_);
             const double far = std::min(t_max, (along + half) * per_length_);
             if (near > far) return std::nullopt;
@@ -216,13 +216,13 @@ struct EllipsoidBound {
         [[nodiscard]] std::optional<double> enter(const EllipsoidBound& bound, double t_max,
                                                   Stats stats) const {
             stats.boxes(1);
-            Vec3 axes = bound.axes;
+            Vec3 grown = bound.axes;
             const double room = kBoundSlack * (reach_ + max_component(abs(bound.center)));
-            for (int k = 0; k < 3; ++k) axes[k] += room;
-            const Vec3 direction{ray_.direction.x / axes.x, ray_.direction.y / axes.y,
-                                 ray_.direction.z / axes.z};
+            for (int k = 0; k < 3; ++k) grown[k] += room;
+            const Vec3 direction{ray_.direction.x / grown.x, ray_.direction.y / grown.y,
+                                 ray_.direction.z / grown.z};
             const Vec3 between = bound.center - ray_.origin;
-            const Vec3 to_center{between.x / axes.x, between.y / axes.y, between.z / axes.z};
+            const Vec3 to_center{between.x / grown.x, between.y / grown.y, between.z / grown.z};
             const double steps = length(direction);
             const Vec3 unit = direction / steps;
             const double along = dot(to_center, unit);

@@ -91,7 +91,7 @@ class BatchResolution {
                        [&](std::size_t lane, const ShapeHit& hit) HWY_ATTR {
                            stats.primitive_hits(1);
                            Ray ray = *pair_[lane].ray;
-                           offer(hit, pair_[lane].id, ray, *pair_[lane].best);
+                           offer_hit(hit, pair_[lane].id, ray, *pair_[lane].best);
                            return false;
                        });
         count_ = 0;

@@ -279,7 +279,7 @@ struct ClosestQuery : LeafQuery<ClosestQuery<Test>, Test> {
         return false;
     }
     HWY_INLINE bool accept(BlockId id, const ShapeHit& hit) {
-        offer(hit, id.id(), ray, best);
+        offer_hit(hit, id.id(), ray, best);
         shrink();
         return false;
     }

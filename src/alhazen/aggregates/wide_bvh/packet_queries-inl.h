@@ -302,7 +302,7 @@ struct Offered {
     std::span<Hit> best;
     void operator()(std::size_t i, PrimitiveId id, const ShapeHit& hit) const {
         Ray ray;
-        offer(hit, id, ray, best[i]);
+        offer_hit(hit, id, ray, best[i]);
     }
 };
 /// The closest hits.

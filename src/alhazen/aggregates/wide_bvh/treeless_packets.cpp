@@ -117,7 +117,7 @@ void TreelessPackets::closest(const PrimitiveTable& table, std::span<const Ray> 
             for_each_lane(test_block(table, id, block, best, hits.data(), query.stats),
                           [&](std::size_t lane) {
                               Ray shrinking;
-                              offer(hits[lane], id, shrinking, best[block.number(lane)]);
+                              offer_hit(hits[lane], id, shrinking, best[block.number(lane)]);
                           });
         }
     });

@@ -163,8 +163,9 @@ void add_brlcad_lights(SceneDescription& scene, const BrlcadMaterials& materials
         // Half of its brightness falls with the view, as the ambient light does.
         Material& material = scene.materials[static_cast<std::size_t>(id)].material;
         const Rgb brightness = fractions.of(light) * light.color;
-        const bool shines = std::any_of(found.begin(), found.end(),
-                                        [&](const auto& one) { return one.light == &light; });
+        const bool shines =
+            std::any_of(found.begin(), found.end(),
+                        [seen = &light](const auto& one) { return one.light == seen; });
         if (!light.shown || !shines) continue;
         material.transmissive.color = {0, 0, 0};
         material.emission.color = 0.5 * brightness;

@@ -19,10 +19,10 @@ struct EdgeLine {
     bool turned = false;  ///< the edge ran from the lower end to the upper one
 
     EdgeLine() = default;
-    EdgeLine(const GridPoint& from, const GridPoint& to) {
+    EdgeLine(const FixedPoint& from, const FixedPoint& to) {
         turned = to.y < from.y || (to.y == from.y && to.x < from.x);
-        const GridPoint& a = turned ? to : from;
-        const GridPoint& b = turned ? from : to;
+        const FixedPoint& a = turned ? to : from;
+        const FixedPoint& b = turned ? from : to;
         x0 = a.x;
         y0 = a.y;
         dx = std::int64_t{b.x} - a.x;

@@ -50,7 +50,7 @@ class SampleGrid {
         const int i = crop_.x0 + column, j = crop_.y0 + row;
         return several_ ? jitter_.at(i, j, sample) : point_.at(i, j);
     }
-    [[nodiscard]] GridPoint grid_at(int column, int row, int sample) const {
+    [[nodiscard]] FixedPoint grid_at(int column, int row, int sample) const {
         const Vec2 p = film_at(column, row, sample);
         return {view_.to_grid(p.x * frame_width_), view_.to_grid((1.0 - p.y) * frame_height_)};
     }

@@ -440,13 +440,14 @@ class ScanLines::Impl {
               bool veil, ScanRow& row) {
         if (!veil) return see(sample, nearness, quad << 1 | static_cast<std::uint32_t>(triangle));
         if (nearness > most_nearness_) return;
-        const GridPoint at = place(sample);
+        const FixedPoint at = place(sample);
         const Vec2 uv = quads_[quad].parameters_at(triangle, at.x, at.y);
         row.veils.push_back({sample, {quads_[quad].piece, nearness, uv.x, uv.y}});
     }
 
-    [[nodiscard]] GridPoint place(std::uint32_t sample) const {
-        return grid_.several() ? places_[sample] : GridPoint{grid_.x(static_cast<int>(sample)), y_};
+    [[nodiscard]] FixedPoint place(std::uint32_t sample) const {
+        return grid_.several() ? places_[sample]
+                               : FixedPoint{grid_.x(static_cast<int>(sample)), y_};
     }
 
     /// The samples of the pixels that a polygon may cover.
@@ -465,7 +466,7 @@ class ScanLines::Impl {
         }
         const IndexRange range = samples_of(xs);
         for (int i = range.begin; i < range.end; ++i) {
-            const GridPoint& at = places_[static_cast<std::size_t>(i)];
+            const FixedPoint& at = places_[static_cast<std::size_t>(i)];
             for (std::size_t t = 0; t < 2; ++t) {
                 const ScanTriangle& triangle = quad.triangles[t];
                 bool inside = !triangle.empty;
@@ -484,7 +485,7 @@ class ScanLines::Impl {
 
     void draw_outline(const ScanOutline& outline, std::uint32_t slot, ScanRow& row) {
         const bool veil = scene_.sources[scene_.facets[outline.facet].source].may_pass;
-        const auto meet_at = [&](int sample, const GridPoint& at) {
+        const auto meet_at = [&](int sample, const FixedPoint& at) {
             const double nearness = outline.nearness.gx * at.x + outline.nearness.gy * at.y +
                                     outline.nearness.at_origin;
             const auto k = static_cast<std::uint32_t>(sample);
@@ -508,7 +509,7 @@ class ScanLines::Impl {
             return;
         }
         for (std::size_t i = 0; i < places_.size(); ++i) {
-            const GridPoint& at = places_[i];
+            const FixedPoint& at = places_[i];
             bool inside = false;
             for (const EdgeLine& line : outline.lines) {
                 if (line.y0 < at.y && at.y <= line.y0 + line.dy) {
@@ -532,7 +533,7 @@ class ScanLines::Impl {
                 continue;
             }
             const ScanQuad& quad = quads_[owner >> 1];
-            const GridPoint at = place(k);
+            const FixedPoint at = place(k);
             const Vec2 uv = quad.parameters_at(owner & 1u, at.x, at.y);
             sample.item = quad.piece;
             sample.u = uv.x;
@@ -564,7 +565,7 @@ class ScanLines::Impl {
     std::int32_t y_ = 0;
     std::vector<double> nearness_;      ///< [sample] of the nearest surface so far
     std::vector<std::uint32_t> owner_;  ///< [sample] 2 * quad + triangle, or an outline
-    std::vector<GridPoint> places_;     ///< [sample], with several samples a pixel
+    std::vector<FixedPoint> places_;    ///< [sample], with several samples a pixel
     std::vector<int> crossings_;
     std::uint64_t most_bytes_ = 0;
     ScanLineReport report_;

@@ -8,7 +8,7 @@ namespace alhazen {
 namespace {
 
 /// 2 * the area of three corners, positive where they turn from x to y.
-std::int64_t doubled_area(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+std::int64_t doubled_area(const FixedPoint& a, const FixedPoint& b, const FixedPoint& c) {
     return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) -
            (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
 }
@@ -111,8 +111,8 @@ void set_quad(const ScreenView& view, const SampleGrid& grid, int degree_u, int 
         if (with_chords && patch.is_straight(side)) {
             quad.lines[side] = EdgeLine(patch.chords[side].from, patch.chords[side].to);
         } else {
-            const GridPoint& a = quad.corners[falls ? (side + 1) % 4 : side].at;
-            const GridPoint& b = quad.corners[falls ? side : side + 1].at;
+            const FixedPoint& a = quad.corners[falls ? (side + 1) % 4 : side].at;
+            const FixedPoint& b = quad.corners[falls ? side : side + 1].at;
             quad.lines[side] = EdgeLine(a, b);
         }
     }
@@ -140,7 +140,7 @@ bool set_outline(const ScreenView& view, const SampleGrid& grid,
             clip(loop, [&](const HomogeneousPoint& p) { return reach * p.w - p.y; });
             clip(loop, [&](const HomogeneousPoint& p) { return reach * p.w + p.y; });
         }
-        std::vector<GridPoint> corners;
+        std::vector<FixedPoint> corners;
         for (const HomogeneousPoint& p : loop) {
             if (!(p.w > 0.0)) continue;
             const double x = std::clamp(p.x / p.w, -view.reach(), view.reach());
@@ -152,7 +152,7 @@ bool set_outline(const ScreenView& view, const SampleGrid& grid,
             most_y = std::max(most_y, y);
         }
         for (std::size_t k = 0; k < corners.size(); ++k) {
-            const GridPoint& to = corners[(k + 1) % corners.size()];
+            const FixedPoint& to = corners[(k + 1) % corners.size()];
             if (corners[k].y != to.y) outline.lines.emplace_back(corners[k], to);
         }
     }

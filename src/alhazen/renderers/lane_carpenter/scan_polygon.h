@@ -26,7 +26,7 @@ struct ScanTriangle {
 
 struct ScanQuad {
     struct Corner {
-        GridPoint at;
+        FixedPoint at;
         double nearness = 0, share = 0;  ///< share: 1 / w
         double u = 0, v = 0;
     };

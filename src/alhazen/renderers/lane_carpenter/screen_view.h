@@ -17,9 +17,9 @@
 namespace alhazen {
 
 /// A point on the grid of fixed-point numbers.
-struct GridPoint {
+struct FixedPoint {
     std::int32_t x = 0, y = 0;
-    friend bool operator==(const GridPoint&, const GridPoint&) = default;
+    friend bool operator==(const FixedPoint&, const FixedPoint&) = default;
 };
 
 /// A projected point: pixels, and the nearness.

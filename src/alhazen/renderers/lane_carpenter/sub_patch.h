@@ -19,7 +19,7 @@ namespace alhazen {
 
 /// A line through two points of the grid, towards rising parameters.
 struct EdgeChord {
-    GridPoint from, to;
+    FixedPoint from, to;
 };
 
 /// The next step for a sub-patch.

@@ -56,8 +56,7 @@ class Subdivision {
           split_(options.split),
           clark_(options.cracks == Cracks::Clark),
           keeps_seams_(keeps_seams),
-          squared_(flatness * flatness),
-          flatness_(flatness) {}
+          squared_(flatness * flatness) {}
 
     /// Sets step, rows and edges of a sub-patch whose parameters and points are set.
     void judge(PatchDegrees degrees, SubPatch& patch) const;
@@ -89,7 +88,7 @@ class Subdivision {
     const SampleGrid& grid_;
     SplitRule split_;
     bool clark_, keeps_seams_;
-    double squared_, flatness_;
+    double squared_;
 };
 
 }  // namespace alhazen

@@ -87,7 +87,6 @@ class Border {
   public:
     Border(const PlaneNet& net, bool along_v, double at, double tiny)
         : net_(net),
-          along_v_(along_v),
           at_(at),
           degree_(along_v ? net.degree_v : net.degree_u),
           // The points of an inner line v = at were halved in the other order.
@@ -150,7 +149,6 @@ class Border {
     }
 
     const PlaneNet& net_;
-    bool along_v_;
     double at_;
     int degree_;
     double slack_, last_;

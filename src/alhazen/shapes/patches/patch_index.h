@@ -10,8 +10,8 @@
 
 #include "alhazen/geometry/ray.h"
 #include "alhazen/geometry/ray_lanes.h"
+#include "alhazen/shapes/patches/certified_cells.h"
 #include "alhazen/shapes/patches/patch_boxes.h"
-#include "alhazen/shapes/patches/patch_cells.h"
 #include "alhazen/shapes/patches/patch_lanes.h"
 #include "alhazen/shapes/patches/patch_leaves.h"
 #include "alhazen/shapes/patches/patch_tree.h"

@@ -7,9 +7,9 @@
 #include <cstdint>
 
 #include "alhazen/geometry/ray_lanes.h"
+#include "alhazen/shapes/patches/certified_cells.h"
 #include "alhazen/shapes/patches/patch_borders.h"
 #include "alhazen/shapes/patches/patch_boxes.h"
-#include "alhazen/shapes/patches/patch_cells.h"
 #include "alhazen/shapes/patches/patch_leaves.h"
 #include "alhazen/shapes/patches/patch_value.h"
 

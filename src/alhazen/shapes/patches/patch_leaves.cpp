@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/shapes/patches/patch_cells.h"
+#include "alhazen/shapes/patches/certified_cells.h"
 
 namespace alhazen {
 

@@ -8,7 +8,7 @@
 #include "alhazen/formats/brlcad/brlcad_v5_reader.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::mentions;
@@ -301,4 +301,4 @@ TEST(BrlcadV5, FaultsAreToldAndReadingGoesOnWhereItCan) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

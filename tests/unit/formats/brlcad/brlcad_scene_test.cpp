@@ -13,7 +13,7 @@
 #include "alhazen/solids/spans.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::mentions;
@@ -510,4 +510,4 @@ TEST(BrlcadView, FaultsOfAScriptAreToldWithTheirLine) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

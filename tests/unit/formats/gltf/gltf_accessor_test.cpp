@@ -3,7 +3,7 @@
 #include "alhazen/formats/gltf/document/gltf_accessors.h"
 #include "unit/formats/gltf/gltf_read.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -105,13 +105,13 @@ TEST(GltfAccessor, LayoutOfMatricesIsThatOfTheSpecification) {
     EXPECT_EQ(floats.packed, 64u);
 }
 
-struct Refusal {
+struct RefusedAccessor {
     const char* name;
     const char* accessor;
     const char* finding;  ///< part of the message
 };
 
-class GltfAccessorRefusal : public ::testing::TestWithParam<Refusal> {};
+class GltfAccessorRefusal : public ::testing::TestWithParam<RefusedAccessor> {};
 
 TEST_P(GltfAccessorRefusal, NamesThePlace) {
     const auto read = read_gltf(over(bytes_of_numbers<float>({1, 2, 3, 4}), GetParam().accessor));
@@ -122,36 +122,40 @@ TEST_P(GltfAccessorRefusal, NamesThePlace) {
 INSTANTIATE_TEST_SUITE_P(
     All, GltfAccessorRefusal,
     ::testing::Values(
-        Refusal{"TooLong", "{'bufferView': 0, 'componentType': 5126, 'count': 5, 'type': 'SCALAR'}",
-                "#/accessors/0: 5 elements"},
-        Refusal{"OffsetBeyond",
-                "{'bufferView': 0, 'byteOffset': 9007199254740988, 'componentType': 5126, "
-                "'count': 1, 'type': 'SCALAR'}",
-                "#/accessors/0: 1 elements"},
-        Refusal{"CountThatOverflows",
-                "{'bufferView': 0, 'componentType': 5126, 'count': 400000000, 'type': 'MAT4'}",
-                "#/accessors/0: 400000000 elements"},
-        Refusal{"Unaligned",
-                "{'bufferView': 0, 'byteOffset': 2, 'componentType': 5126, 'count': 1, 'type': "
-                "'SCALAR'}",
-                "#/accessors/0: byteOffset must be a multiple of 4"},
-        Refusal{"NoCount", "{'bufferView': 0, 'componentType': 5126, 'type': 'SCALAR'}",
-                "#/accessors/0: \"count\" is missing"},
-        Refusal{"NegativeCount",
-                "{'bufferView': 0, 'componentType': 5126, 'count': -1, 'type': 'SCALAR'}",
-                "#/accessors/0/count: expected an integer from 1, found -1"},
-        Refusal{"NoSuchView",
-                "{'bufferView': 7, 'componentType': 5126, 'count': 1, 'type': 'SCALAR'}",
-                "#/accessors/0/bufferView: there is no bufferView 7 (the file has 1)"},
-        Refusal{"NormalisedFloats",
-                "{'bufferView': 0, 'componentType': 5126, 'count': 1, 'type': 'SCALAR', "
-                "'normalized': true}",
-                "#/accessors/0/normalized"},
-        Refusal{"WrongMinimum",
-                "{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'SCALAR', 'min': "
-                "[0.5], 'max': [4]}",
-                "#/accessors/0/min/0: declared 0.5, found 1"},
-        Refusal{
+        RefusedAccessor{"TooLong",
+                        "{'bufferView': 0, 'componentType': 5126, 'count': 5, 'type': 'SCALAR'}",
+                        "#/accessors/0: 5 elements"},
+        RefusedAccessor{"OffsetBeyond",
+                        "{'bufferView': 0, 'byteOffset': 9007199254740988, 'componentType': 5126, "
+                        "'count': 1, 'type': 'SCALAR'}",
+                        "#/accessors/0: 1 elements"},
+        RefusedAccessor{
+            "CountThatOverflows",
+            "{'bufferView': 0, 'componentType': 5126, 'count': 400000000, 'type': 'MAT4'}",
+            "#/accessors/0: 400000000 elements"},
+        RefusedAccessor{
+            "Unaligned",
+            "{'bufferView': 0, 'byteOffset': 2, 'componentType': 5126, 'count': 1, 'type': "
+            "'SCALAR'}",
+            "#/accessors/0: byteOffset must be a multiple of 4"},
+        RefusedAccessor{"NoCount", "{'bufferView': 0, 'componentType': 5126, 'type': 'SCALAR'}",
+                        "#/accessors/0: \"count\" is missing"},
+        RefusedAccessor{"NegativeCount",
+                        "{'bufferView': 0, 'componentType': 5126, 'count': -1, 'type': 'SCALAR'}",
+                        "#/accessors/0/count: expected an integer from 1, found -1"},
+        RefusedAccessor{"NoSuchView",
+                        "{'bufferView': 7, 'componentType': 5126, 'count': 1, 'type': 'SCALAR'}",
+                        "#/accessors/0/bufferView: there is no bufferView 7 (the file has 1)"},
+        RefusedAccessor{"NormalisedFloats",
+                        "{'bufferView': 0, 'componentType': 5126, 'count': 1, 'type': 'SCALAR', "
+                        "'normalized': true}",
+                        "#/accessors/0/normalized"},
+        RefusedAccessor{
+            "WrongMinimum",
+            "{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'SCALAR', 'min': "
+            "[0.5], 'max': [4]}",
+            "#/accessors/0/min/0: declared 0.5, found 1"},
+        RefusedAccessor{
             "SparseIndicesThatDescend",
             "{'componentType': 5126, 'count': 4, 'type': 'SCALAR', 'sparse': {'count': 2, "
             "'indices': {'bufferView': 0, 'componentType': 5121}, 'values': {'bufferView': 0}}}",
@@ -195,4 +199,4 @@ TEST(GltfAccessor, OverlappingAccessorsCannotAskForEndlessWork) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "unit/formats/gltf/gltf_text.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 using gltf::Interpolation;
@@ -136,4 +136,4 @@ TEST(GltfAnimation, ATimeForAFileWithoutAnimationsIsAWarning) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

@@ -3,7 +3,7 @@
 #include "alhazen/formats/gltf/document/gltf_uri.h"
 #include "unit/formats/gltf/gltf_read.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 std::string word(std::uint32_t value) {
@@ -401,4 +401,4 @@ TEST(GltfDocument, TimesMustAscendAndQuaternionsBeUnit) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

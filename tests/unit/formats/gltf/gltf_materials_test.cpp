@@ -7,7 +7,7 @@
 #include "alhazen/formats/gltf/scene/gltf_textures.h"
 #include "unit/formats/gltf/gltf_nodes_text.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(GltfMaterial, KeepsWhatTheFileSays) {
@@ -138,4 +138,4 @@ TEST(GltfTextures, FiltersFollowTheSampler) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

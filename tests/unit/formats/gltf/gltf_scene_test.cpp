@@ -8,7 +8,7 @@
 #include "support/test_data.h"
 #include "unit/formats/gltf/gltf_nodes_text.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 using gltf::PrimitiveMode;
@@ -257,4 +257,4 @@ TEST(GltfGeometry, WhatIsReadIsBounded) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

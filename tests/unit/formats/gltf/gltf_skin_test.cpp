@@ -6,7 +6,7 @@
 
 #include "unit/formats/gltf/gltf_text.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 /// A triangle whose corners follow joint 1 (node 1), joint 2 (node 2), and both by halves. The
@@ -155,4 +155,4 @@ TEST(GltfMorph, TargetsAreAddedByTheirWeights) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "unit/formats/gltf/gltf_read.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 struct Coded {
@@ -492,4 +492,4 @@ TEST(GltfValidatorMilder, OnlyTheLookOrRoundingIsLost) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "unit/formats/gltf/gltf_nodes_text.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(GltfViews, CamerasLookAlongMinusZOfTheirNodes) {
@@ -69,4 +69,4 @@ TEST(GltfViews, LightsKeepTheirUnitsUpToPi) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

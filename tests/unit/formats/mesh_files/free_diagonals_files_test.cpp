@@ -5,7 +5,7 @@
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen::testing {
+namespace alhazen::testing::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Both sides of a bent square, each begun at a corner of the same diagonal.
@@ -34,4 +34,4 @@ TEST(FreeDiagonals, NoEdgeOfFourTrianglesIsMadeByAReader) {
 }
 
 }  // namespace
-}  // namespace alhazen::testing
+}  // namespace alhazen::testing::ALHAZEN_TEST_FILE

@@ -14,7 +14,7 @@
 #include "support/sphere_mesh.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_text;
@@ -318,4 +318,4 @@ TEST(MeshExport, BlackTimesAPictureStaysBlack) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

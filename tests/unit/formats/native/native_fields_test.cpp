@@ -13,7 +13,7 @@
 #include "support/random_shapes.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_native;
@@ -152,4 +152,4 @@ TEST(NativeFields, RandomShapesOfEveryTypeComeBack) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "native_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_native;
@@ -150,4 +150,4 @@ TEST(NativeImporter, CountsNestingThroughIncludedFiles) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 #include "alhazen/formats/native/read/native_shapes.h"
 #include "native_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::expect_near;
@@ -248,4 +248,4 @@ TEST(NativeImporter, ReadsMeshes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

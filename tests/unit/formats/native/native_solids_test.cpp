@@ -4,7 +4,7 @@
 #include "native_scene.h"
 #include "support/same_description.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_native;
@@ -99,4 +99,4 @@ instance "lens"; instance "lens" { transform = translate(2, 0, 0) }
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 #include "native_scene.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_native;
@@ -234,4 +234,4 @@ TEST(NativeImporter, StopsAtTheLimitOfElements) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -7,7 +7,7 @@
 
 #include "native_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::expect_near;
@@ -106,4 +106,4 @@ TEST(NativeImporter, ReadsEveryConvention) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

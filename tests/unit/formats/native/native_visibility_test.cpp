@@ -7,7 +7,7 @@
 #include "native_scene.h"
 #include "support/same_description.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_native;
@@ -94,4 +94,4 @@ TEST(NativeVisibility, IsWrittenSoThatItReadsBack) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

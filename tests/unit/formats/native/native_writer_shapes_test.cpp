@@ -17,7 +17,7 @@
 #include "alhazen/imaging/image/image.h"
 #include "native_round_trip.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::empty_scene;
@@ -202,4 +202,4 @@ TEST(NativeWriter, OnlySmallMeshesStandInTheText) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

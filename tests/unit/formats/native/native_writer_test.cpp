@@ -15,7 +15,7 @@
 #include "alhazen/imaging/image/image.h"
 #include "native_round_trip.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::empty_scene;
@@ -206,4 +206,4 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_text;
@@ -254,4 +254,4 @@ TEST(Nff, EverySceneOfTheDataIsValid) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

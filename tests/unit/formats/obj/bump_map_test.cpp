@@ -12,7 +12,7 @@
 #include "alhazen/imaging/codecs/image_io.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// One float channel f(x, y), rows from the top.
@@ -188,4 +188,4 @@ TEST(BumpMap, ConversionsAreSharedAndCountAsPictures) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -8,25 +8,22 @@
 #include "alhazen/formats/obj/obj_surfaces.h"
 #include "unit/formats/text_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+using testing::shape_of;
 
 testing::Imported import_obj(const std::string& text) {
     return testing::import_text<ObjImporter>(text, "a.obj");
 }
 
-template <class S>
-const S& shape_of(const testing::Imported& read, std::size_t part = 0) {
-    return std::get<S>(std::get<AnyShape>(read.parts().at(part).what));
-}
-
-const std::string kCorners = "v 0 0 0\nv 1 0 0 2\nv 0 1 0\nv 1 1 1\n";
+const std::string kPatchCorners = "v 0 0 0\nv 1 0 0 2\nv 0 1 0\nv 1 1 1\n";
 const std::string kPatch =
     "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1/1/1 2//2 -2 -1\nparm u 0 1\nparm v 0 1\nend\n";
 
 TEST(ObjFreeForm, BezierSurfacesOfAGroupAreOnePatchMesh) {
     const auto read = import_obj(
-        kCorners + "v 2 0 0\nv 2 1 0\ng a\nusemtl red\n" + kPatch +
+        kPatchCorners + "v 2 0 0\nv 2 1 0\ng a\nusemtl red\n" + kPatch +
         "cstype rat bezier\ndeg 1 1\nsurf 0 2 0 1 1 2 5 3 4 6\nparm u 0 1 2\nparm v 0 1\nend\n"
         "f 1 2 3\ng b\nusemtl blue\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nend\n");
     EXPECT_EQ(read.errors(), 0u) << read.messages();
@@ -46,7 +43,7 @@ TEST(ObjFreeForm, BezierSurfacesOfAGroupAreOnePatchMesh) {
 
 TEST(ObjFreeForm, SplinesKeepTheirKnotsAndWeights) {
     const auto read =
-        import_obj(kCorners +
+        import_obj(kPatchCorners +
                    "v 2 0 0 1\nv 2 1 0\ncstype rat bspline\ndeg 2 1\nsurf 0 1 0 1 1 2 5 3 4 6\n"
                    "parm u 0 0 0 \\\n 1 1 1\nparm v 0 0 1 1\nend\n");
     EXPECT_EQ(read.messages(), "");
@@ -81,7 +78,7 @@ const std::string kHole =
     "curv2 -4 -3 -2 -1\nparm u 0 1 2 3\nend\n";
 
 TEST(ObjFreeForm, LoopsTrimTheSurface) {
-    const auto read = import_obj(kCorners + kHole +
+    const auto read = import_obj(kPatchCorners + kHole +
                                  "deg 1 1\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nparm v 0 1\n"
                                  "hole 0 2 -1 2 3 1\nend\n");
     EXPECT_EQ(read.messages(), "");
@@ -93,7 +90,7 @@ TEST(ObjFreeForm, LoopsTrimTheSurface) {
     EXPECT_EQ(s.trims[1][1].points.front(), (Vec2{0.5, 0.8}));
     EXPECT_EQ(s.trims[1][1].points.size(), 2u);
     const auto kept =
-        import_obj(kCorners + kHole + "deg 1 1\nsurf 0 1 0 1 1 2 3 4\ntrim 0 3 1\nend\n");
+        import_obj(kPatchCorners + kHole + "deg 1 1\nsurf 0 1 0 1 1 2 3 4\ntrim 0 3 1\nend\n");
     EXPECT_EQ(shape_of<NurbsSurface>(kept).trims.size(), 1u);
 }
 
@@ -136,7 +133,7 @@ TEST(ObjFreeForm, APartOfACurveIsThatPart) {
 }
 
 TEST(ObjFreeForm, WhatIsSkippedIsTold) {
-    const auto read = import_obj(kCorners + kPatch +
+    const auto read = import_obj(kPatchCorners + kPatch +
                                  "cstype taylor\ndeg 2 2\nsurf 0 1 0 1 1 2\nparm u 1 2\nend\n"
                                  "surf 0 1 0 1 1 2\nend\n"
                                  "cstype bezier\ndeg 1 1\ncurv 0 1 1 2\nparm u 0 1\nend\n"
@@ -179,11 +176,11 @@ TEST(ObjFreeForm, EveryFindingHasItsPlace) {
         {"vp\n", "expected a coordinate"},
     };
     for (const auto& [text, finding] : cases) {
-        const auto read = import_obj(kCorners + text);
+        const auto read = import_obj(kPatchCorners + text);
         EXPECT_GT(read.errors(), 0u) << text;
         EXPECT_TRUE(read.says(finding)) << finding << "\n" << read.messages();
     }
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,7 +10,7 @@
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_text;
@@ -374,4 +374,4 @@ TEST(ObjScene, TheHostileLibrariesAreRead) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -5,7 +5,7 @@
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::mentions;
@@ -307,4 +307,4 @@ TEST(MeshIo, FilesAreRecognisedByContentAndOthersRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,7 +10,7 @@
 #include "support/same_description.h"
 #include "unit/formats/text_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::RandomShape;
@@ -94,4 +94,4 @@ TEST(PatchExport, AMirroringPlacementExchangesUAndV) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

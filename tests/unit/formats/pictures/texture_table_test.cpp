@@ -7,7 +7,7 @@
 #include "support/scratch_folder.h"
 #include "unit/formats/gltf/gltf_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// An image of `width` x 4 pixels as a file with this suffix.
@@ -188,4 +188,4 @@ TEST(TextureTable, ManyImagesOfAGltfFileInOneBufferViewAreOnePicture) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

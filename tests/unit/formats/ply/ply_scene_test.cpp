@@ -7,7 +7,7 @@
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_text;
@@ -139,4 +139,4 @@ TEST(PlyScene, ANumberOfAMaterialIsOnlyReadFromOurOwnFiles) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

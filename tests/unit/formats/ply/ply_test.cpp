@@ -7,14 +7,14 @@
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::mentions;
 using testing::mesh_of;
 using testing::text_of;
 
-const std::string kSquare =
+const std::string kPlySquare =
     "ply\nformat ascii 1.0\ncomment a square\nelement vertex 4\nproperty float x\n"
     "property float y\nproperty float z\nelement face 1\n"
     "property list uchar int vertex_indices\nend_header\n"
@@ -83,7 +83,7 @@ std::string binary_triangle(bool big, const std::string& newline) {
 
 TEST(Ply, AnAsciiSquareBecomesTwoTriangles) {
     Diagnostics found;
-    const TriangleMesh mesh = mesh_of(kSquare, "a.ply", found);
+    const TriangleMesh mesh = mesh_of(kPlySquare, "a.ply", found);
     EXPECT_EQ(text_of(found), "");
     EXPECT_EQ(mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.triangles.size(), 2u);
@@ -111,7 +111,7 @@ TEST(Ply, BinaryFilesOfBothOrdersMayNameTheirPropertiesInAnyOrder) {
 }
 
 TEST(Ply, EveryPrefixOfAFileIsRefusedOrIsAWholeMesh) {
-    for (const std::string& whole : {kSquare, binary_triangle(true, "\n")}) {
+    for (const std::string& whole : {kPlySquare, binary_triangle(true, "\n")}) {
         // An ascii file is still complete without its last newline or digit.
         for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
             Diagnostics found;
@@ -124,13 +124,13 @@ TEST(Ply, EveryPrefixOfAFileIsRefusedOrIsAWholeMesh) {
 
 TEST(Ply, CountsAreCheckedAgainstTheBytesPresent) {
     for (const char* count : {"4000000000", "123456789", "9223372036854775807"}) {
-        std::string huge = kSquare;
+        std::string huge = kPlySquare;
         huge.replace(huge.find("vertex 4") + 7, 1, count);
         Diagnostics found;
         mesh_of(huge, "a.ply", found);
         EXPECT_TRUE(mentions(found, "a.ply:4:1: error: element vertex")) << text_of(found);
     }
-    std::string long_list = kSquare;
+    std::string long_list = kPlySquare;
     long_list.replace(long_list.find("4 0 1"), 1, "4000000000");
     Diagnostics found;
     mesh_of(long_list, "a.ply", found);
@@ -138,7 +138,7 @@ TEST(Ply, CountsAreCheckedAgainstTheBytesPresent) {
 }
 
 TEST(Ply, ElementsWithoutPropertiesTakeNoTimeHoweverMany) {
-    std::string many = kSquare;
+    std::string many = kPlySquare;
     many.insert(many.find("element face"), "element nothing 9000000000000000000\n");
     Diagnostics found;
     EXPECT_EQ(mesh_of(many, "a.ply", found).triangles.size(), 2u);
@@ -147,7 +147,7 @@ TEST(Ply, ElementsWithoutPropertiesTakeNoTimeHoweverMany) {
 
 TEST(Ply, FindingsNameTheLine) {
     const auto finding = [](const std::string& from, const std::string& to) {
-        std::string text = kSquare;
+        std::string text = kPlySquare;
         text.replace(text.find(from), from.size(), to);
         Diagnostics found;
         EXPECT_TRUE(mesh_of(text, "a.ply", found).triangles.empty());
@@ -167,7 +167,7 @@ TEST(Ply, FindingsNameTheLine) {
 }
 
 TEST(Ply, ZeroNormalsAreReplacedByThoseOfTheTriangles) {
-    std::string text = kSquare;
+    std::string text = kPlySquare;
     text.insert(text.find("element face"),
                 "property float nx\nproperty float ny\nproperty float nz\n");
     const std::string from = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
@@ -187,7 +187,7 @@ TEST(Ply, MoreElementsThanAllowedAreAnErrorOfResources) {
     options.max_elements = 3;
     Diagnostics found;
     try {
-        mesh_of(kSquare, "a.ply", found, options);
+        mesh_of(kPlySquare, "a.ply", found, options);
         FAIL();
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::Resource);
@@ -197,7 +197,7 @@ TEST(Ply, MoreElementsThanAllowedAreAnErrorOfResources) {
 TEST(Ply, RandomDamageNeverDoesMoreThanFindings) {
     std::mt19937 random(3);
     for (int round = 0; round < 2000; ++round) {
-        std::string bytes = round % 2 ? kSquare : binary_triangle(round % 4 == 0, "\n");
+        std::string bytes = round % 2 ? kPlySquare : binary_triangle(round % 4 == 0, "\n");
         for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = char(random() % 256);
         Diagnostics found;
         const TriangleMesh mesh = mesh_of(bytes, "a.ply", found);
@@ -252,4 +252,4 @@ TEST(Ply, HostileFilesGiveFindingsOrMeshes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 
 #include "ray_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::expect_near;
@@ -153,4 +153,4 @@ TEST(RayImporter, ReportsEveryBadIndexOfAMesh) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

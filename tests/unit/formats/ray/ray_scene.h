@@ -1,8 +1,6 @@
 #pragma once
 /// Common parts of the tests of .ray files: import from text, and access to the result.
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <string>
 
@@ -22,16 +20,6 @@ inline Imported import_ray(const std::string& body, const ImportOptions& options
 
 inline Imported import_ray_file(const std::filesystem::path& path) {
     return import_text<RayImporter>(read_file(path), path);
-}
-
-inline const Material& material_of(const Imported& i, std::size_t part) {
-    return i.scene.materials.at(static_cast<std::size_t>(i.parts().at(part).material)).material;
-}
-
-inline void expect_near(const Vec3& a, const Vec3& b) {
-    EXPECT_NEAR(a.x, b.x, 1e-12);
-    EXPECT_NEAR(a.y, b.y, 1e-12);
-    EXPECT_NEAR(a.z, b.z, 1e-12);
 }
 
 }  // namespace alhazen::testing

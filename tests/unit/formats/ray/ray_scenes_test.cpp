@@ -5,7 +5,7 @@
 #include "ray_scene.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_ray_file;
@@ -59,4 +59,4 @@ TEST(RayImporter, CountsWhatIsInKnownScenes) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

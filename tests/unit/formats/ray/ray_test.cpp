@@ -6,7 +6,7 @@
 
 #include "ray_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::expect_near;
@@ -185,4 +185,4 @@ TEST(RayImporter, SurvivesEveryTruncationAndManyMutationsOfAScene) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

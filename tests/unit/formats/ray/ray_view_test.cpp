@@ -7,7 +7,7 @@
 
 #include "ray_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::expect_near;
@@ -129,4 +129,4 @@ TEST(RayImporter, TakesAnAreaLightOfRadiusZeroForAPoint) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

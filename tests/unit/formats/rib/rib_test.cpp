@@ -11,16 +11,13 @@
 #include "support/test_data.h"
 #include "unit/formats/text_scene.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
+
+using testing::shape_of;
 
 testing::Imported import_rib(const std::string& text) {
     return testing::import_text<RibImporter>(text, "a.rib");
-}
-
-template <class S>
-const S& shape_of(const testing::Imported& read, std::size_t part = 0) {
-    return std::get<S>(std::get<AnyShape>(read.parts().at(part).what));
 }
 
 /// A bilinear patch with the corner (x, 0, 0).
@@ -227,4 +224,4 @@ TEST(Rib, TheUtahTeapotIsReadWhole) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -14,7 +14,7 @@
 #include "support/test_data.h"
 #include "unit/formats/import_text.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::import_text;
@@ -263,4 +263,4 @@ TEST(Stl, TheRealFilesAreRead) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 
 #include "alhazen/formats/text/text_tree.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 struct Lexed {
@@ -207,4 +207,4 @@ TEST(TextTree, SurvivesRandomBytesAndRandomTokens) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 
 #include "alhazen/geometry/polygon/triangulate.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -101,4 +101,4 @@ TEST(FreeDiagonals, OfALargerPolygonAreTurnedWithinIt) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

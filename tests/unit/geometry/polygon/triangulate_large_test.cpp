@@ -16,7 +16,7 @@
 #include "alhazen/geometry/polygon/triangulate.h"
 #include "support/polygon_maker.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -251,4 +251,4 @@ TEST(OrderedBits, FindsTheNextMemberAround) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -124,4 +124,4 @@ TEST(Triangulate, AConvexPolygonOfManyVerticesIsAFanAndADentIsCutAround) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

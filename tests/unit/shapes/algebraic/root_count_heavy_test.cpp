@@ -16,7 +16,7 @@
 #include "unit/shapes/algebraic/certified_sturm.h"
 #include "unit/shapes/algebraic/exact_root_count.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::close_pairs;
@@ -302,4 +302,4 @@ TEST(RootCount, OfSuperellipsoidsIsExact) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -2,7 +2,7 @@
 
 #include "unit/shapes/line_crossings.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::crossings;
@@ -52,4 +52,4 @@ TEST(Superellipsoid, SectionsAreThoseOfItsFunction) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

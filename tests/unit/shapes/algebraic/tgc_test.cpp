@@ -2,7 +2,7 @@
 
 #include "unit/shapes/line_crossings.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::crossings;
@@ -50,4 +50,4 @@ TEST(Tgc, EdgesOfAWedgeAreCrossedEvenlyOften) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -13,7 +13,7 @@
 #include "unit/shapes/algebraic/certified_sturm.h"
 #include "unit/shapes/algebraic/exact_sturm.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::DoubleBall;
@@ -265,4 +265,4 @@ TEST(BlobExact, CrossingsAreAsManyAsSturmCounts) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 #include "alhazen/shapes/quadrics/sphere.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -177,4 +177,4 @@ TEST(Blob, RefusesWhatItCannotBe) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

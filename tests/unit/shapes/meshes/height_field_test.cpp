@@ -9,7 +9,7 @@
 #include "alhazen/shapes/polygons/box_shape.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -162,4 +162,4 @@ TEST(HeightField, RefusesWhatIsNotAboveItsBase) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -10,7 +10,7 @@
 #include "support/random.h"
 #include "support/sphere_mesh.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -278,4 +278,4 @@ TEST(TriangleMesh, BadArraysAreReported) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "alhazen/shapes/patches/forms/exact_forms.h"
 #include "simple_patches.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::bilinear;
@@ -101,7 +101,8 @@ std::vector<BilinearPatch> closed_mesh(Random& random, int n, double wave) {
     std::vector<Vec3> points;
     for (int k = 0; k < (n + 1) * (n + 1) * (n + 1); ++k) {
         const int x = k % (n + 1), y = k / (n + 1) % (n + 1), z = k / (n + 1) / (n + 1);
-        points.push_back(Vec3(x, y, z) * (1.0 / n) + wave * random.in_cube(1.0 / n));
+        points.push_back(Vec3{double(x), double(y), double(z)} * (1.0 / n) +
+                         wave * random.in_cube(1.0 / n));
     }
     for (int axis = 0; axis < 3; ++axis) {
         for (int side = 0; side <= n; side += n) {
@@ -240,4 +241,4 @@ TEST(BilinearPatch, FindsAllBadCorners) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

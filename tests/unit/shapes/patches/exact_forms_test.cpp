@@ -8,7 +8,7 @@
 
 #include "support/random_shapes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// Uses of each boundary curve that is more than a point, by its control points from either end.
@@ -94,4 +94,4 @@ TEST(ExactForms, LieOnTheShapeAndClose) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "support/any_ray.h"
 #include "support/random_patches.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -331,4 +331,4 @@ TEST(NurbsSurface, LoopsThatTouchOrNestDoNotCross) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -14,7 +14,7 @@
 #include "support/any_ray.h"
 #include "support/test_data.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -249,4 +249,4 @@ TEST(PatchCrossings, AreaOfTheTeapotByLinesIsItsArea) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -12,7 +12,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/math/constants.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 /// z = (2 u - 1)^3 - (2 u - 1) / 4 over the unit square.
@@ -121,4 +121,4 @@ TEST(PatchMethods, CoherenceKeepsTheCrossingsOfRaysSideBySide) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -5,7 +5,7 @@
 
 #include "closed_patches.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -32,4 +32,4 @@ TEST(PatchParity, TenMillionHardLinesCrossClosedMeshesEvenly) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

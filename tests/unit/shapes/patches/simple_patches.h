@@ -34,7 +34,7 @@ inline void expect_no_leaks(Random& random, int sheets, int rays_each) {
     for (int k = 0; k < sheets; ++k) {
         Vec3 p[3][3];
         for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) p[i][j] = Vec3(i, j, 0) + 0.15 * random.in_cube(1.0);
+            for (int j = 0; j < 3; ++j) p[i][j] = Vec3{double(i), double(j), 0} + 0.15 * random.in_cube(1.0);
         }
         std::vector<BilinearPatch> sheet;
         for (std::size_t i = 0; i < 2; ++i) {

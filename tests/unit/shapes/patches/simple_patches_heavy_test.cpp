@@ -3,7 +3,7 @@
 
 #include "simple_patches.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 TEST(SimplePatches, AMillionRaysAtSharedEdgesOfBilinearPatchesCrossOne) {
@@ -22,4 +22,4 @@ TEST(SimplePatches, AMillionRaysAtSteinerPatchesCrossThemAsByTheQuartic) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

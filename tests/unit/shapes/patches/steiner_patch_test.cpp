@@ -8,7 +8,7 @@
 #include "simple_patches.h"
 #include "support/any_ray.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::crossings;
@@ -241,4 +241,4 @@ TEST(SteinerPatch, FindsAllThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

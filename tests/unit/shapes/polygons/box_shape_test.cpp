@@ -7,7 +7,7 @@
 #include "support/quad.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -132,4 +132,4 @@ TEST(BoxShape, FlatAndInvertedBoxesAreReported) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

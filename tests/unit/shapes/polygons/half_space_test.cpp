@@ -5,7 +5,7 @@
 #include "alhazen/shapes/core/shape_numerics.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -69,4 +69,4 @@ TEST(HalfSpace, RefusesWhatHasNoNormal) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

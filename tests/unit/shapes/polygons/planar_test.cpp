@@ -9,20 +9,16 @@
 #include "alhazen/shapes/polygons/rectangle.h"
 #include "support/quad.h"
 #include "support/random.h"
+#include "unit/shapes/line_crossings.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
+using testing::prepared;
 using testing::Quad;
 using testing::QuadVec;
 using testing::Random;
-
-template <class S>
-S prepared(S shape) {
-    shape.prepare();
-    return shape;
-}
 
 TEST(Plane, IsHitFromBothSidesAndMissedAlongIt) {
     const Plane plane = prepared(Plane{.point = {0, 0, 2}, .normal = {0, 0, 5}});
@@ -191,4 +187,4 @@ TEST(PlanarShapes, BadFieldsAreReported) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

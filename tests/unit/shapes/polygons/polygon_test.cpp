@@ -6,7 +6,7 @@
 
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -283,4 +283,4 @@ TEST(Polygon, BadLoopsAreReported) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

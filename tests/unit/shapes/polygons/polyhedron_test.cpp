@@ -5,7 +5,7 @@
 #include "alhazen/shapes/polygons/box_shape.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -180,4 +180,4 @@ TEST(Polyhedron, PlanesGivenTwiceOrThatDoNotTouchChangeNothing) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

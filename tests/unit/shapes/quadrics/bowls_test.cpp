@@ -5,7 +5,7 @@
 #include "alhazen/shapes/quadrics/two_sheet_hyperboloid.h"
 #include "unit/shapes/line_crossings.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::crossings;
@@ -66,4 +66,4 @@ TEST(Bowls, FieldsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -2,7 +2,7 @@
 
 #include "unit/shapes/line_crossings.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::crossings;
@@ -48,4 +48,4 @@ TEST(Ellipsoid, FlatOnesAreRefused) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -4,7 +4,7 @@
 #include "alhazen/shapes/quadrics/elliptic_cylinder.h"
 #include "unit/shapes/line_crossings.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::crossings;
@@ -54,4 +54,4 @@ TEST(EllipticCone, LinesThroughAnApexCrossEvenlyOften) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

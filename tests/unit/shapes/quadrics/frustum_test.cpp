@@ -7,7 +7,7 @@
 #include "frustum_oracle.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::ExactFrustum;
@@ -250,4 +250,4 @@ TEST(Frustum, BadFieldsAreReported) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

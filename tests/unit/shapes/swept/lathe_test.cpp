@@ -6,7 +6,7 @@
 #include "alhazen/shapes/quadrics/cone.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -169,4 +169,4 @@ TEST(Lathe, IsASolidWhereItsLoopsCloseOrEndOnTheAxis) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -6,7 +6,7 @@
 #include "alhazen/shapes/polygons/polyhedron.h"
 #include "support/random.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::line;
@@ -202,4 +202,4 @@ TEST(Prism, RefusesWhatDoesNotClose) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -9,7 +9,7 @@
 #include "support/random_patches.h"
 #include "support/random_shapes.h"
 
-namespace alhazen {
+namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
 using testing::Random;
@@ -173,4 +173,4 @@ TEST(ShapeTessellation, NamesWhatItCannot) {
 }
 
 }  // namespace
-}  // namespace alhazen
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -1,4 +1,4 @@
-#include "alhazen/shapes/patches/patch_cells.h"
+#include "alhazen/shapes/patches/certified_cells.h"
 
 #include "alhazen/shapes/patches/patch_lanes.h"
 
