@@ -323,7 +323,7 @@ class Contributing(unittest.TestCase):
             ("src/alhazen/shapes/quadrics/extra.cpp", "/src/alhazen/shapes/"),
             ("src/alhazen/formats/native/read/native_shapes.cpp", "/src/alhazen/formats/"),
             ("src/alhazen/scene/compile.cpp", "/src/alhazen/scene/"),
-            ("tests/unit/shapes/quadrics/extra_test.cpp", "/tests/unit/formats/"),
+            ("tests/unit/shapes/quadrics/extra_test.cpp", "/alhazen_shapes_test.dir/"),
         ])
 
     def test_an_accelerator_is_added_by_the_listed_files(self):
@@ -341,7 +341,7 @@ class Contributing(unittest.TestCase):
         self.check("Add an accelerator", "bounds", add, [
             ("src/alhazen/accel/bounds/extra.cpp", "/src/alhazen/accel/"),
             ("src/alhazen/accel/accelerator_names.cpp", "/src/alhazen/accel/"),
-            ("tests/unit/accel/extra_test.cpp", "/tests/unit/accel/"),
+            ("tests/unit/accel/extra_test.cpp", "/alhazen_accelerators_test.dir/"),
         ])
 
     def test_a_renderer_is_added_by_the_listed_files(self):
@@ -366,7 +366,7 @@ class Contributing(unittest.TestCase):
         self.check("Add a renderer", "", add, [
             ("src/alhazen/renderers/extra/extra.cpp", "/src/alhazen/renderers/"),
             ("src/alhazen/renderers/renderer_list.cpp", "/src/alhazen/renderers/"),
-            ("tests/unit/renderers/extra_test.cpp", "/tests/unit/renderers/"),
+            ("tests/unit/renderers/extra_test.cpp", "/alhazen_renderers_test.dir/"),
         ])
 
     def test_a_scene_format_is_added_by_the_listed_files(self):
@@ -389,7 +389,7 @@ class Contributing(unittest.TestCase):
         self.check("Add a scene format", "", add, [
             ("src/alhazen/formats/extra/extra_importer.cpp", "/src/alhazen/formats/"),
             ("src/alhazen/formats/importer_list.cpp", "/src/alhazen/formats/"),
-            ("tests/unit/formats/extra/extra_test.cpp", "/tests/unit/formats/"),
+            ("tests/unit/formats/extra/extra_test.cpp", "/alhazen_formats_test.dir/"),
         ])
 
 

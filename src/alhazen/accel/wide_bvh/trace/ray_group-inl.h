@@ -66,8 +66,10 @@ HWY_INLINE void take_lanes(std::span<const Ray, kRayLanes> rays, RayLanes& lanes
         // A ray is two rows of four numbers; numbers of a kind lie eight apart in `lanes`.
         static_assert(offsetof(Ray, direction) == 3 * sizeof(double) &&
                       offsetof(Ray, t_min) == 6 * sizeof(double));
-        static_assert(offsetof(RayLanes, direction) == 3 * kRayLanes * sizeof(double) &&
+        static_assert(offsetof(RayLanes, origin) == 0 &&
+                      offsetof(RayLanes, direction) == 3 * kRayLanes * sizeof(double) &&
                       offsetof(RayLanes, t_min) == 6 * kRayLanes * sizeof(double));
+        double* const numbers = reinterpret_cast<double*>(&lanes);
         for (std::size_t i = 0; i < kRayLanes; i += 4) {
             HWY_UNROLL(2)
             for (std::size_t half = 0; half < 2; ++half) {
@@ -79,7 +81,7 @@ HWY_INLINE void take_lanes(std::span<const Ray, kRayLanes> rays, RayLanes& lanes
                 const auto even2 = hn::InterleaveLower(d, r2, r3);
                 const auto odd0 = hn::InterleaveUpper(d, r0, r1);
                 const auto odd2 = hn::InterleaveUpper(d, r2, r3);
-                double* const to = lanes.origin[0] + 4 * half * kRayLanes + i;
+                double* const to = numbers + 4 * half * kRayLanes + i;
                 hn::Store(hn::ConcatLowerLower(d, even2, even0), d, to);
                 hn::Store(hn::ConcatLowerLower(d, odd2, odd0), d, to + kRayLanes);
                 hn::Store(hn::ConcatUpperUpper(d, even2, even0), d, to + 2 * kRayLanes);
