@@ -8,7 +8,9 @@
 #include "alhazen/base/error.h"
 #include "alhazen/csg/csg_evaluator.h"
 #include "alhazen/formats/importer_list.h"
+#include "alhazen/imaging/film/filter_kernel.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/sampling/samplers/sampler.h"
 #include "commands.h"
 #include "messages.h"
 
@@ -36,6 +38,15 @@ void list_csg() {
     for (const CsgEvaluatorEntry& entry : csg_evaluator_table())
         print_entry(entry.name, entry.description);
 }
+void list_samplers() {
+    for (const SamplerEntry& entry : samplers()) print_entry(entry.name, entry.description);
+}
+void list_filters() {
+    for (const FilterEntry& entry : filters()) {
+        print_entry(entry.name,
+                    fmt::format("{}; radius {:g}", entry.description, entry.radius).c_str());
+    }
+}
 void list_formats() {
     for (const Importer* importer : importers())
         print_entry(importer->name(), importer->description());
@@ -52,11 +63,10 @@ struct Topic {
     const char* name;
     void (*print)();
 };
-constexpr Topic kTopics[] = {{"renderers", list_renderers},
-                             {"accelerators", list_accelerators},
-                             {"csg", list_csg},
-                             {"shapes", list_shapes},
-                             {"formats", list_formats}};
+constexpr Topic kTopics[] = {
+    {"renderers", list_renderers}, {"accelerators", list_accelerators}, {"csg", list_csg},
+    {"shapes", list_shapes},       {"formats", list_formats},           {"samplers", list_samplers},
+    {"filters", list_filters}};
 
 }  // namespace
 
@@ -64,7 +74,7 @@ void add_list(CLI::App& app, int& exit_status) {
     CLI::App* command =
         app.add_subcommand("list",
                            "List what can be chosen by name: renderers, accelerators, CSG "
-                           "evaluators, shapes, formats");
+                           "evaluators, shapes, formats, samplers, filters");
     const auto wanted = std::make_shared<std::string>();
     std::vector<std::string> names;
     for (const Topic& topic : kTopics) names.emplace_back(topic.name);

@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
     add_solid_queries(app, exit_status);
     add_measure(app, exit_status);
     add_section(app, exit_status);
+    add_samples(app, exit_status);
     add_diff(app, exit_status);
     add_list(app, exit_status);
     try {

@@ -144,10 +144,18 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->expected(1)
         ->take_all();
     command
-        .add_option("--time", time,
-                    "Moment of the file's animations; default: the pose without them")
-        ->check(number_in(-1e300, 1e300))
-        ->type_name("SECONDS");
+        .add_option_function<std::vector<std::string>>(
+            "--time",
+            [this](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) read_time(text);
+            },
+            takes_time_limit ? "Moment of the file's animations, a number of seconds; default: the "
+                               "pose without them. With a unit, as 90s, 5m or 2h: no round of "
+                               "samples begins that would end later"
+                             : "Moment of the file's animations; default: the pose without them")
+        ->expected(1)
+        ->take_all()
+        ->type_name(takes_time_limit ? "SECONDS|LIMIT" : "SECONDS");
     command.add_option("--animation", animation, "Apply only this animation")
         ->type_name("NAME|INDEX");
     command
@@ -173,6 +181,29 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->capture_default_str()
         ->check(CLI::Range(0, 4096))
         ->envname("ALHAZEN_THREADS");
+}
+
+void SceneArguments::read_time(const std::string& text) {
+    const double seconds_of_unit = text.ends_with('s')   ? 1.0
+                                   : text.ends_with('m') ? 60.0
+                                   : text.ends_with('h') ? 3600.0
+                                                         : 0.0;
+    const bool is_limit = takes_time_limit && seconds_of_unit > 0.0;
+    const char* const end = text.data() + text.size() - (is_limit ? 1 : 0);
+    double value = 0.0;
+    const auto [read, status] = std::from_chars(text.data(), end, value);
+    const bool known =
+        status == std::errc{} && read == end && std::isfinite(value) && (!is_limit || value > 0.0);
+    std::optional<double>& target = is_limit ? time_limit : time;
+    if (!known || target) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--time '{}': expected {}{}", text,
+                                "a number of seconds, the moment of the animations",
+                                takes_time_limit ? ", or a limit with a unit, as 90s, 5m or 2h; "
+                                                   "each once"
+                                                 : ""));
+    }
+    target = is_limit ? value * seconds_of_unit : value;
 }
 
 BuildOptions SceneArguments::build_options() const {

@@ -46,6 +46,8 @@ struct SceneArguments {
     bool compact = false, strict = false;
     std::vector<std::string> allow_paths;
     std::optional<double> time;
+    bool takes_time_limit = false;     ///< --time may be a limit, too
+    std::optional<double> time_limit;  ///< seconds
     std::string animation;
     std::vector<std::string> objects;
     std::string view_script;
@@ -54,6 +56,8 @@ struct SceneArguments {
     int threads = 0;
 
     void add_to(CLI::App& command, const std::string& default_accelerator);
+    /// Takes a value of --time: a moment, or with a unit a limit.
+    void read_time(const std::string& text);
     /// Throws Error (Usage) for an unknown quality or width.
     [[nodiscard]] BuildOptions build_options() const;
     [[nodiscard]] LoadOptions load_options() const;

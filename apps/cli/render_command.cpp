@@ -35,6 +35,8 @@ struct RenderArguments {
     int depth = -1;
     int bits = 8;
     bool full_float = false, aov_png = false, quiet = false, no_counts = false;
+    SamplingTexts sampling;
+    std::optional<int> spp;
     RenderOptions render;
 };
 
@@ -56,6 +58,14 @@ RenderOptions render_options(const RenderArguments& args) {
     if (!args.crop.empty()) options.crop = parse_crop(args.crop);
     if (args.depth >= 0) options.max_depth = args.depth;
     if (!args.antialias.empty()) options.antialias = parse_antialias(args.antialias);
+    SamplingTexts sampling = args.sampling;
+    sampling.seconds = args.scene.time_limit;
+    options.sampling = parse_sampling(sampling);
+    if (args.spp) {
+        options.samples_per_pixel = *args.spp;
+    } else if (options.sampling && options.sampling->has_rounds()) {
+        options.samples_per_pixel = SamplingPlan::kMostByRule;
+    }
     if (!args.aovs.empty()) options.aovs = parse_aovs(args.aovs);
     if (!args.view.empty() && !options.camera.empty()) {
         throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
@@ -127,21 +137,22 @@ void complete(const RenderArguments& args, const RenderOptions& options, LoadedS
     }
 }
 
-PictureOptions picture_options(const RenderArguments& args, const RenderResult& result) {
+PictureOptions picture_options(const RenderArguments& args, int samples_per_pixel,
+                               const RenderResult& result) {
     PictureOptions options;
     if (!args.encoding.empty()) options.encoding = parse_encoding(args.encoding);
     options.bits = args.bits;
     options.full_float = args.full_float;
     options.metadata = {{"software", fmt::format("alhazen {}", version())},
                         {"alhazen.scene", args.scene.scene},
-                        {"alhazen.spp", fmt::format("{}", args.render.samples_per_pixel)},
+                        {"alhazen.spp", fmt::format("{}", samples_per_pixel)},
                         {"alhazen.complete", result.complete ? "1" : "0"}};
     return options;
 }
 
 void write_pictures(const RenderArguments& args, const RenderOptions& options,
                     const LoadedScene& loaded, const RenderResult& result) {
-    PictureOptions picture = picture_options(args, result);
+    PictureOptions picture = picture_options(args, options.samples_per_pixel, result);
     const ImageMetadata common = picture.metadata;
     if (!options.aovs.empty() && holds_layers(args.output)) {
         picture.layers = &result.layers;
@@ -177,6 +188,7 @@ int run(const RenderArguments& args) {
     RenderOptions options = render_options(args);
     const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
     check_antialias(options, *renderer);
+    check_sampling(options, *renderer);
     const bool needs_aggregate = renderer->needs_aggregate();
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
         throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
@@ -242,6 +254,7 @@ int run(const RenderArguments& args) {
 void add_render(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture");
     const auto args = std::make_shared<RenderArguments>();
+    args->scene.takes_time_limit = true;
     args->scene.add_to(*command, kDefaultAccelerator);
     command->add_option("-o,--output", args->output, "Picture to write: .png .exr .hdr .pfm .jpg")
         ->required()
@@ -254,8 +267,25 @@ void add_render(CLI::App& app, int& exit_status) {
         ->add_option("--renderer", args->render.renderer,
                      "Renderer by name; see `alhazen list renderers`")
         ->capture_default_str();
-    command->add_option("--spp", args->render.samples_per_pixel, "Samples per pixel")
-        ->capture_default_str();
+    command
+        ->add_option("--spp", args->spp,
+                     "Samples per pixel, 1 if not given; with --noise or a limit of --time the "
+                     "most of a pixel")
+        ->type_name("N");
+    command
+        ->add_option("--sampler", args->sampling.sampler,
+                     "Where samples lie; see `alhazen list samplers`")
+        ->type_name("NAME");
+    command
+        ->add_option("--filter", args->sampling.filter,
+                     "How they become a pixel; see `alhazen list filters`")
+        ->type_name("NAME[:radius=PIXELS]");
+    command
+        ->add_option("--noise", args->sampling.noise,
+                     "More samples, in rounds, for pixels whose standard error over the root of "
+                     "their value is larger")
+        ->type_name("X")
+        ->check(number_in(1e-6, 10.0));
     command
         ->add_option("--antialias", args->antialias,
                      "Adaptive supersampling instead of --spp: rays through the corners of the "

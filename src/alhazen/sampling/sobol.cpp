@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "alhazen/sampling/nested_scramble.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -11,8 +12,6 @@ namespace {
 constexpr int kDigits = 32;
 /// Digits that are scrambled exactly: two points of the sequence may share as many.
 constexpr int kTreeDigits = 30;
-/// Digits whose flips come from one hash: a tree of six levels has 63 nodes.
-constexpr int kLevels = 6;
 
 /// A primitive polynomial over GF(2) of a degree (its inner coefficients as bits) and the first
 /// direction numbers, from Joe and Kuo's table new-joe-kuo-6.
@@ -82,26 +81,7 @@ std::uint32_t sobol_digits(std::uint32_t index, int dimension) {
 double scrambled_sobol(std::uint64_t key, std::uint32_t index, int dimension) {
     const std::uint32_t digits = sobol_digits(index, dimension);
     const std::uint64_t tree = mix64(mix64(key) ^ static_cast<std::uint64_t>(dimension));
-    std::uint64_t scrambled = 0;
-    for (int done = 0; done < kTreeDigits; done += kLevels) {
-        // The digits above select the subtree; their number separates the levels.
-        const std::uint32_t above = done == 0 ? 0 : digits >> (kDigits - done);
-        const std::uint64_t flips =
-            mix64(tree ^ (std::uint64_t{above} | std::uint64_t(done + 1) << 32));
-        const std::uint32_t six = (digits >> (kDigits - kLevels - done)) & 63u;
-        // Node 1 is the root; the children of node n are 2n and 2n + 1.
-        std::uint32_t node = 1;
-        for (int level = kLevels - 1; level >= 0; --level) {
-            const std::uint32_t digit = (six >> level) & 1u;
-            scrambled = scrambled << 1 | (digit ^ ((flips >> node) & 1u));
-            node = 2 * node + digit;
-        }
-    }
-    // The remaining digits are drawn for this point alone.
-    const std::uint64_t rest =
-        mix64(tree ^ (std::uint64_t{digits >> (kDigits - kTreeDigits)} | std::uint64_t{63} << 32));
-    scrambled = scrambled << 23 | rest >> (64 - 23);
-    return static_cast<double>(scrambled) * 0x1p-53;
+    return nested_scramble<kTreeDigits>(tree, std::uint64_t{digits} << (64 - kDigits));
 }
 
 }  // namespace alhazen

@@ -28,7 +28,7 @@ struct FrameSize {
 void check_protocol(const RenderOptions& options) {
     if (options.protocol == Protocol::None) return;
     if (options.width || options.height || options.crop || options.samples_per_pixel != 1 ||
-        options.antialias) {
+        options.antialias || options.sampling) {
         throw Error(ErrorKind::Usage, "the protocol fixes size, crop and samples per pixel");
     }
 }
@@ -66,13 +66,22 @@ void check(const RenderOptions& options) {
          fmt::format("depth must be 0 to {}", kMaxDepth));
 }
 
-std::string single_ray_renderers() {
+/// The names of renderers of which `has` is true.
+std::string renderers_where(bool (Renderer::*has)() const) {
     std::string names;
     for (const RendererEntry& entry : renderers()) {
-        if (!make_renderer(entry.name)->answers_single_rays()) continue;
+        if (!(*make_renderer(entry.name).*has)()) continue;
         names += (names.empty() ? "" : ", ") + std::string(entry.name);
     }
     return names;
+}
+
+/// Rounds do not know in advance how many samples a pixel gets: textures are as sharp as for the
+/// least.
+int samples_of_cone(const RenderOptions& options) {
+    constexpr int kLeast = 16;
+    const bool rounds = options.sampling && options.sampling->has_rounds();
+    return rounds ? std::min(options.samples_per_pixel, kLeast) : options.samples_per_pixel;
 }
 
 /// The scene with the overrides of the command line; shares all geometry.
@@ -95,6 +104,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
                                                   options.renderer));
     }
     check_antialias(options, *renderer);
+    check_sampling(options, *renderer);
     const Scene scene = adjusted(original, options);
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
@@ -107,10 +117,11 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
                         .samples_per_pixel = options.samples_per_pixel,
                         .seed = options.seed,
                         .count_tests = options.count_tests || options.aovs.has_tests(),
-                        .cone = eye_cone(camera.camera, frame.height, options.samples_per_pixel),
+                        .cone = eye_cone(camera.camera, frame.height, samples_of_cone(options)),
                         .aovs = options.aovs.empty() ? nullptr : &aovs,
                         .description = description,
                         .antialias = options.antialias ? &*options.antialias : nullptr,
+                        .sampling = options.sampling ? &*options.sampling : nullptr,
                         .control = {.threads = options.threads,
                                     .tile_size = options.tile_size,
                                     .stop = options.stop,
@@ -126,6 +137,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     result.tiles_done = report.done;
     result.complete = report.complete();
     result.antialias = report.antialias;
+    result.sampling = report.sampling;
     result.scan_lines = report.scan_lines;
     result.layers = std::move(aovs.layers());
     return result;
@@ -147,7 +159,7 @@ void check_antialias(const RenderOptions& options, const Renderer& renderer) {
         throw Error(ErrorKind::Usage,
                     fmt::format("--antialias whitted is for renderers that answer single rays: "
                                 "{}; renderer '{}' does not",
-                                single_ray_renderers(), options.renderer));
+                                renderers_where(&Renderer::answers_single_rays), options.renderer));
     }
     if (options.samples_per_pixel != 1) {
         throw Error(ErrorKind::Usage,
@@ -157,6 +169,26 @@ void check_antialias(const RenderOptions& options, const Renderer& renderer) {
         throw Error(ErrorKind::Usage,
                     "--antialias: pixels share their rays, so --aov time and the counts of tests "
                     "have no meaning; count.rays has");
+    }
+}
+
+void check_sampling(const RenderOptions& options, const Renderer& renderer) {
+    if (!options.sampling) return;
+    if (!renderer.takes_samplers()) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--sampler, --filter, --noise and a limit of --time are for the "
+                                "renderers {}; renderer '{}' has samples of its own",
+                                renderers_where(&Renderer::takes_samplers), options.renderer));
+    }
+    if (options.antialias) {
+        throw Error(ErrorKind::Usage,
+                    "--antialias chooses the samples of each pixel: it excludes --sampler, "
+                    "--filter, --noise and a limit of --time");
+    }
+    if (options.sampling->has_rounds() && options.aovs.has_costs()) {
+        throw Error(ErrorKind::Usage,
+                    "--noise and --time render in rounds: --aov time and counts are for a fixed "
+                    "--spp");
     }
 }
 

@@ -10,6 +10,7 @@
 #include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
@@ -17,6 +18,7 @@ namespace alhazen {
 struct AntialiasReport;
 struct LoadedScene;
 class Renderer;
+struct SamplingReport;
 struct ScanLineReport;
 
 /// A published way of counting that fixes size, sampling and depth.
@@ -39,6 +41,8 @@ struct RenderOptions {
     int samples_per_pixel = 1;
     /// Adaptive supersampling instead of samples_per_pixel.
     std::optional<AntialiasSettings> antialias;
+    /// Sampler, filter and stop rules; samples_per_pixel is then the most that a pixel gets.
+    std::optional<SamplingPlan> sampling;
     std::optional<int> max_depth;  ///< default: the format's
     int threads = 0;               ///< 0 = all available cores
     int tile_size = 32;
@@ -62,6 +66,7 @@ struct RenderResult {
     bool complete = true;                   ///< false after a stop; tiles not done are black
     std::size_t tiles_done = 0, tiles = 0;  ///< or parts, as counted by the renderer
     std::shared_ptr<const AntialiasReport> antialias;  ///< of adaptive supersampling, else null
+    std::shared_ptr<const SamplingReport> sampling;    ///< of RenderOptions::sampling, else null
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
 };
 
@@ -70,6 +75,9 @@ struct RenderResult {
 
 /// Throws Error (Usage) where RenderOptions::antialias excludes another option, or the renderer.
 void check_antialias(const RenderOptions& options, const Renderer& renderer);
+
+/// The same for RenderOptions::sampling.
+void check_sampling(const RenderOptions& options, const Renderer& renderer);
 
 /// Renders an image. Throws Error (Usage) for invalid options, and where the renderer needs an
 /// aggregate that the scene does not have.

@@ -15,6 +15,8 @@
 #include "alhazen/imaging/film/pixel_filter.h"
 #include "alhazen/renderers/core/aov.h"
 #include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/core/pixel_order.h"
+#include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/core/samplers.h"
 #include "alhazen/renderers/core/tiles.h"
 
@@ -67,10 +69,7 @@ class PixelLoop {
         }
     }
 
-    /// Counted from the corner of the tile.
-    struct Pixel {
-        int i, j;
-    };
+    using Pixel = TilePixel;
 
     void begin_tile(const PixelBox& tile, const Film& film) {
         sampler_.emplace(job_, film.frame_width(), film.frame_height());
@@ -78,7 +77,7 @@ class PixelLoop {
         samples_ = 0;
         filter_ = {};
         if (pixels_.empty() || tile.width() != tile_.width() || tile.height() != tile_.height()) {
-            list_pixels(tile.width(), tile.height());
+            list_pixels_of_tile(tile.width(), tile.height(), pixels_);
         }
         tile_ = tile;
         if constexpr (Sampler::kSeparable) {
@@ -91,28 +90,6 @@ class PixelLoop {
                 rows_.push_back(eye_.row(sampler_->at(0, j, 0).y));
             }
         }
-    }
-
-    /// Lists the pixels in blocks, and in these in cells of eight, whose rays form a packet:
-    /// neighbours in the list are neighbours in the film.
-    void list_pixels(int width, int height) {
-        constexpr int kBlock = 8, kCellWidth = 4, kCellHeight = 2;
-        pixels_.clear();
-        const auto for_parts = [](int begin, int end, int step, auto&& f) {
-            for (int at = begin; at < end; at += step) f(at, std::min(at + step, end));
-        };
-        const auto add_cells = [&](int x0, int x1, int y0, int y1) {
-            for_parts(y0, y1, kCellHeight, [&](int cell_y0, int cell_y1) {
-                for_parts(x0, x1, kCellWidth, [&](int cell_x0, int cell_x1) {
-                    for (int j = cell_y0; j < cell_y1; ++j) {
-                        for (int i = cell_x0; i < cell_x1; ++i) pixels_.push_back({i, j});
-                    }
-                });
-            });
-        };
-        for_parts(0, height, kBlock, [&](int y0, int y1) {
-            for_parts(0, width, kBlock, [&](int x0, int x1) { add_cells(x0, x1, y0, y1); });
-        });
     }
 
     /// The column and the row of the eye ray of a pixel's only sample, added.
@@ -220,10 +197,14 @@ class PixelRenderer final : public TileRenderer {
     PixelLoop<Sampler, Filter> loop_;
 };
 
-/// A PixelRenderer with the sampler for the job's samples per pixel, and the box filter.
+/// A RoundRenderer where the job has a round; else a PixelRenderer with the sampler for the job's
+/// samples per pixel, and the box filter.
 template <RadianceEstimator Estimator>
 [[nodiscard]] std::unique_ptr<TileRenderer> make_pixel_renderer(const RenderJob& job,
                                                                 std::size_t rays_at_once) {
+    if (job.round != nullptr) {
+        return std::make_unique<RoundRenderer<Estimator>>(job, rays_at_once);
+    }
     if (job.samples_per_pixel == 1) {
         return std::make_unique<PixelRenderer<PointSampler, Estimator, BoxFilter>>(job,
                                                                                    rays_at_once);

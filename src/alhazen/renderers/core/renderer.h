@@ -29,6 +29,9 @@ struct RenderControl {
 
 struct AntialiasReport;
 struct AntialiasSettings;
+struct SampleRound;
+struct SamplingPlan;
+struct SamplingReport;
 struct ScanLineReport;
 
 /// The scene, the view and the settings of a render.
@@ -46,6 +49,10 @@ struct RenderJob {
     /// Adaptive supersampling instead of `samples_per_pixel`, for renderers that answer single
     /// rays; null: none.
     const AntialiasSettings* antialias = nullptr;
+    /// Sampler, filter and stop rules by name, for renderers in tiles; null: the samples of
+    /// samplers.h, and their mean.
+    const SamplingPlan* sampling = nullptr;
+    const SampleRound* round = nullptr;  ///< of `sampling`, while it is rendered (rounds.h)
     RenderControl control{};
 
     [[nodiscard]] bool stop_requested() const {
@@ -60,6 +67,8 @@ struct RenderReport {
     int threads = 1;                  ///< largest number in force
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
     std::shared_ptr<const AntialiasReport> antialias;  ///< of RenderJob::antialias, else null
+
+    std::shared_ptr<const SamplingReport> sampling;  ///< of RenderJob::sampling, else null
 
     /// False after a stop.
     [[nodiscard]] bool complete() const { return done == parts; }
@@ -77,6 +86,8 @@ class Renderer {
     [[nodiscard]] virtual bool needs_aggregate() const { return true; }
     /// True: `render` heeds RenderJob::antialias.
     [[nodiscard]] virtual bool answers_single_rays() const { return false; }
+    /// True: `render` heeds RenderJob::sampling.
+    [[nodiscard]] virtual bool takes_samplers() const { return false; }
     /// True: reports have RenderReport::scan_lines.
     [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/core/rounds.h"
 
 namespace alhazen {
 
@@ -82,6 +83,7 @@ RenderReport render_tiles(const RenderJob& job, Film& film, const MakeTileRender
 }
 
 RenderReport TiledRenderer::render(const RenderJob& job, Film& film) const {
+    if (job.sampling != nullptr) return render_in_rounds(*this, job, film);
     return render_tiles(job, film, [&] { return begin(job); });
 }
 

@@ -37,6 +37,7 @@ class TiledRenderer : public Renderer {
     [[nodiscard]] virtual std::unique_ptr<TileRenderer> begin(const RenderJob& job) const = 0;
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool takes_samplers() const final { return true; }
     /// Renders one tile in the calling thread.
     void render_tile(const RenderJob& job, const PixelBox& tile, Film& film,
                      RayCounters& counters) const {

@@ -1,0 +1,44 @@
+#pragma once
+/// The sum of a pixel's samples, with signs for the negative lobes of a filter.
+///
+/// Differs: where a kernel has negative lobes the value is the mean of the samples plus the signed
+/// mean of what they differ from it, over the mean sign. An even area keeps its colour whatever
+/// the signs are; the expectation is off by O(1 / n), as that of the quotient of the signed sums.
+
+#include <cstdint>
+
+#include "alhazen/imaging/image/rgb.h"
+
+namespace alhazen {
+
+struct SampleSum {
+    Rgb plain, with_signs;
+    double signs = 0.0;
+    std::uint32_t count = 0;
+
+    /// Returns false where the sample is not finite and is left out.
+    bool add(const Rgb& sample, double sign) {
+        if (!sample.is_finite()) return false;
+        plain += sample;
+        with_signs += sign * sample;
+        signs += sign;
+        ++count;
+        return true;
+    }
+    SampleSum& operator+=(const SampleSum& more) {
+        plain += more.plain;
+        with_signs += more.with_signs;
+        signs += more.signs;
+        count += more.count;
+        return *this;
+    }
+    /// `mean_sign`: of the kernel. Black without any sample.
+    [[nodiscard]] Rgb value(double mean_sign) const {
+        if (count == 0) return {};
+        const Rgb mean = (1.0 / count) * plain;
+        if (mean_sign == 1.0) return mean;
+        return mean + (1.0 / (mean_sign * count)) * (with_signs - signs * mean);
+    }
+};
+
+}  // namespace alhazen

@@ -1,0 +1,188 @@
+#include "alhazen/renderers/core/rounds.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/renderers/core/sample_loop.h"
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/core/sampling_report.h"
+#include "alhazen/sampling/random.h"
+
+namespace alhazen {
+
+namespace {
+
+using RoundClock = std::chrono::steady_clock;
+
+/// Samples after which pixels may end.
+constexpr std::uint32_t kLeastSamples = 16;
+/// Below this value noise is measured absolutely.
+constexpr double kDark = 0.01;
+
+/// Renders one film.
+class RoundRender {
+  public:
+    RoundRender(const TiledRenderer& renderer, const RenderJob& job, Film& film)
+        : renderer_(renderer),
+          job_(job),
+          plan_(*job.sampling),
+          film_(film),
+          filter_(*plan_.filter, plan_.radius),
+          most_(static_cast<std::uint32_t>(job.samples_per_pixel)),
+          begin_(RoundClock::now()) {
+        report_.pixels = wanting_ = film.crop().area();
+        if (plan_.sampler->progressive) sampler_ = plan_.sampler->make(job.seed, most_);
+        if (plan_.has_rounds()) sums_.resize(film.crop().area());
+        if (plan_.noise) {
+            wanted_.assign(film.crop().area(), 1);
+            noise_.assign(film.crop().area(), std::numeric_limits<float>::infinity());
+        }
+    }
+
+    RenderReport run() {
+        RenderReport whole;
+        while (true) {
+            const RenderReport round = render_round();
+            whole.counters += round.counters;
+            whole.done = round.done;
+            whole.parts = round.parts;
+            whole.threads = round.threads;
+            if (!round.complete() || is_done()) break;
+        }
+        report_.most_samples = samples_;
+        report_.pixels_above = plan_.noise ? wanting_ : 0;
+        whole.sampling = std::make_shared<SamplingReport>(report_);
+        return whole;
+    }
+
+  private:
+    /// Samples of the next round.
+    [[nodiscard]] std::uint32_t next_count() const {
+        if (!plan_.has_rounds()) return most_;
+        std::uint32_t count = std::max(samples_, plan_.seconds ? 1u : kLeastSamples / 2);
+        // Smaller steps use the time better.
+        if (plan_.seconds && samples_ >= kLeastSamples) count = std::bit_floor(samples_) / 4;
+        return std::min(count, most_ - samples_);
+    }
+
+    RenderReport render_round() {
+        const RoundClock::time_point begin = RoundClock::now();
+        const std::uint32_t count = next_count();
+        const bool first = samples_ == 0;
+        if (!plan_.sampler->progressive) {
+            const std::uint64_t seed = first ? job_.seed : mix64(job_.seed ^ mix64(samples_));
+            sampler_ = plan_.sampler->make(seed, count);
+        }
+        const SampleRound round{*sampler_, filter_, plan_.sampler->progressive ? samples_ : 0,
+                                count,     wanted_, sums_};
+        RenderJob part = job_;
+        part.round = &round;
+        if (!first) part.aovs = nullptr;
+        const RenderReport report =
+            render_tiles(part, film_, [&] { return renderer_.begin(part); });
+        if (!report.complete()) return report;
+        samples_ += count;
+        last_seconds_ = std::chrono::duration<double>(RoundClock::now() - begin).count();
+        last_work_ = static_cast<double>(count) * static_cast<double>(wanting_);
+        report_.rounds.push_back({count, wanting_, last_seconds_});
+        if (plan_.noise) measure_noise();
+        return report;
+    }
+
+    /// After a doubling, or at the end: the noise of all pixels, and which of them want more.
+    void measure_noise() {
+        const bool doubled = std::has_single_bit(samples_);
+        if (samples_ >= kLeastSamples && (doubled || samples_ == most_)) {
+            find_noise();
+            find_wanting();
+        }
+        if (!doubled || samples_ < kLeastSamples / 2) return;
+        const std::uint64_t area = film_.crop().area();
+        before_.assign(first_pixel(), first_pixel() + area);
+        samples_before_ = samples_;
+    }
+    [[nodiscard]] const Rgb* first_pixel() const {
+        return &film_.at(film_.crop().x0, film_.crop().y0);
+    }
+
+    /// Of pixels that were in the round.
+    void find_noise() {
+        // V is the mean of nA and nB samples, whose own means are A and B: the variance of V is
+        // that of A - B times nA nB / n^2, and A - B is (A - V) n / nB.
+        const double scale = std::sqrt(static_cast<double>(samples_before_) /
+                                       static_cast<double>(samples_ - samples_before_));
+        for (std::size_t k = 0; k < noise_.size(); ++k) {
+            if (wanted_[k] == 0) continue;
+            const Rgb& now = first_pixel()[k];
+            const Rgb change = now - before_[k];
+            const double error =
+                scale * Rgb{std::abs(change.r), std::abs(change.g), std::abs(change.b)}.max();
+            noise_[k] = static_cast<float>(error / std::sqrt(std::max(now.max(), kDark)));
+        }
+    }
+
+    /// Pixels whose noise, or that of one of the eight around them, is above the limit.
+    void find_wanting() {
+        const int width = film_.crop().width(), height = film_.crop().height();
+        const auto at = [&](int x, int y) {
+            return std::size_t(y) * std::size_t(width) + std::size_t(x);
+        };
+        const auto around = [&](int x, int y) {
+            float largest = 0.0f;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+                    largest = std::max(largest, noise_[at(u, v)]);
+                }
+            }
+            return largest;
+        };
+        wanting_ = 0;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                std::uint8_t& wanted = wanted_[at(x, y)];
+                if (wanted != 0 && !(around(x, y) > *plan_.noise)) wanted = 0;
+                wanting_ += wanted;
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_done() {
+        if (samples_ >= most_ || wanting_ == 0) return true;
+        if (!plan_.seconds) return false;
+        const double spent = std::chrono::duration<double>(RoundClock::now() - begin_).count();
+        const double work = static_cast<double>(next_count()) * static_cast<double>(wanting_);
+        report_.out_of_time = spent + last_seconds_ * work / last_work_ > *plan_.seconds;
+        return report_.out_of_time;
+    }
+
+    const TiledRenderer& renderer_;
+    const RenderJob& job_;
+    const SamplingPlan& plan_;
+    Film& film_;
+    FilterKernel filter_;
+    std::uint32_t most_;  ///< samples of a pixel
+    RoundClock::time_point begin_;
+    std::unique_ptr<Sampler> sampler_;
+    std::vector<SampleSum> sums_;       ///< [pixel] with several rounds
+    std::vector<std::uint8_t> wanted_;  ///< [pixel] with a limit of the noise
+    std::vector<float> noise_;          ///< the same
+    std::vector<Rgb> before_;           ///< the film at the last doubling
+    std::uint32_t samples_before_ = 0;
+    std::uint32_t samples_ = 0;  ///< of the pixels that want more, so far
+    std::uint64_t wanting_ = 0;  ///< pixels
+    double last_seconds_ = 0, last_work_ = 0;
+    SamplingReport report_;
+};
+
+}  // namespace
+
+RenderReport render_in_rounds(const TiledRenderer& renderer, const RenderJob& job, Film& film) {
+    return RoundRender(renderer, job, film).run();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,188 @@
+#pragma once
+/// The loop over the pixels of a tile for samplers and filters by name: a round of samples for each
+/// pixel that wants more.
+///
+/// Conventions: those of PixelLoop. A pixel has the samples of its sampler in their order, whatever
+/// the tiles are. Threads: used by one thread.
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/imaging/film/sample_sum.h"
+#include "alhazen/renderers/core/aov.h"
+#include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/core/pixel_order.h"
+#include "alhazen/renderers/core/tiles.h"
+#include "alhazen/sampling/samplers/sampler.h"
+
+namespace alhazen {
+
+/// Samples first .. first + count - 1 of pixels.
+struct SampleRound {
+    const Sampler& sampler;
+    const FilterKernel& filter;
+    std::uint32_t first, count;
+    /// [pixel of the crop] 0 where the pixel is done; empty: none is.
+    std::span<const std::uint8_t> wanted;
+    /// [pixel of the crop] the samples so far, added to; empty: this round is the only one.
+    std::span<SampleSum> sums;
+};
+
+class SampleLoop {
+  public:
+    /// `at_once`: largest number of samples of a batch.
+    SampleLoop(const RenderJob& job, std::size_t at_once, RayCounters& counters)
+        : job_(job),
+          round_(*job.round),
+          counters_(counters),
+          aovs_(job, counters),
+          eye_(job.camera),
+          sums_(at_once),
+          signs_(at_once),
+          points_(at_once),
+          rays_(at_once),
+          radiance_(at_once) {}
+
+    /// Adds the round to the pixels of the tile. Returns early after a stop, with whole pixels
+    /// only.
+    template <class Estimator>
+    void run(const PixelBox& tile, Film& film, Estimator& estimator) {
+        begin_tile(tile, film);
+        // The cost of a pixel is known only if its rays are traced separately.
+        const bool alone = job_.aovs != nullptr && job_.aovs->wanted().has_costs();
+        for (const TilePixel& pixel : pixels_) {
+            if (job_.aovs != nullptr) aovs_.begin_pixel();
+            if (!gather(pixel, film, estimator)) return;
+            if (alone && !trace(film, estimator)) return;
+        }
+        trace(film, estimator);
+    }
+
+  private:
+    [[nodiscard]] std::size_t index(const Film& film, const TilePixel& pixel) const {
+        const PixelBox& crop = film.crop();
+        return std::size_t(tile_.y0 + pixel.j - crop.y0) * std::size_t(crop.width()) +
+               std::size_t(tile_.x0 + pixel.i - crop.x0);
+    }
+
+    void begin_tile(const PixelBox& tile, const Film& film) {
+        tile_ = tile;
+        gathered_ = done_ = 0;
+        own_ = {};
+        taken_ = 0;
+        places_.clear();
+        list_pixels_of_tile(tile.width(), tile.height(), pixels_);
+        if (round_.wanted.empty()) return;
+        std::erase_if(pixels_,
+                      [&](const TilePixel& p) { return round_.wanted[index(film, p)] == 0; });
+    }
+
+    /// Adds the samples of a pixel to the batch, and traces it where it is full.
+    template <class Estimator>
+    bool gather(const TilePixel& pixel, Film& film, Estimator& estimator) {
+        const SamplePixel place{tile_.x0 + pixel.i, tile_.y0 + pixel.j};
+        for (std::uint32_t s = 0; s < round_.count;) {
+            const auto room = static_cast<std::uint32_t>(sums_.size() - gathered_);
+            const std::span<Vec2> some = std::span(points_).first(std::min(room, round_.count - s));
+            round_.sampler.points(place, 0, round_.first + s, some);
+            for (const Vec2& u : some) {
+                const FilterKernel::Drawn drawn = round_.filter.draw(u);
+                const Vec2 p = film_place(film, place, drawn.offset);
+                if (job_.aovs != nullptr) places_.push_back(p);
+                signs_[gathered_] = drawn.sign;
+                sums_[gathered_++] = eye_.column(p.x) + eye_.row(p.y);
+            }
+            s += static_cast<std::uint32_t>(some.size());
+            if (gathered_ == sums_.size() && !trace(film, estimator)) return false;
+        }
+        return true;
+    }
+    /// Film coordinates of a place beside the centre of a pixel.
+    [[nodiscard]] static Vec2 film_place(const Film& film, const SamplePixel& pixel,
+                                         const Vec2& offset) {
+        const int from_bottom = film.frame_height() - 1 - pixel.y;
+        return {(pixel.x + 0.5 + offset.x) / film.frame_width(),
+                (from_bottom + 0.5 + offset.y) / film.frame_height()};
+    }
+
+    /// Traces the gathered rays. False after a stop.
+    template <class Estimator>
+    bool trace(Film& film, Estimator& estimator) {
+        if (job_.stop_requested()) return false;
+        if (gathered_ == 0) return true;
+        eye_.rays(std::span(sums_).first(gathered_), rays_.data());
+        const std::span<Rgb> found = std::span(radiance_).first(gathered_);
+        std::fill(found.begin(), found.end(), Rgb{});
+        estimator.trace(std::span<const Ray>(rays_).first(gathered_), found);
+        // A truncated batch is dropped.
+        if (job_.stop_requested()) return false;
+        for (std::size_t k = 0; k < gathered_; ++k) {
+            counters_.non_finite += !own_.add(found[k], signs_[k]);
+            if (++taken_ == round_.count) end_pixel(film);
+        }
+        gathered_ = 0;
+        return true;
+    }
+
+    void end_pixel(Film& film) {
+        const TilePixel& pixel = pixels_[done_++];
+        const int i = tile_.x0 + pixel.i, j = tile_.y0 + pixel.j;
+        if (!round_.sums.empty()) {
+            SampleSum& sum = round_.sums[index(film, pixel)];
+            sum += own_;
+            own_ = sum;
+        }
+        film.set(i, j, own_.value(round_.filter.mean_sign()));
+        if (job_.aovs != nullptr) {
+            // A batch may hold samples of the next pixels.
+            const std::span<const Vec2> places = std::span(places_).first(round_.count);
+            aovs_.end_pixel(i, j, places);
+            places_.erase(places_.begin(), places_.begin() + round_.count);
+        }
+        own_ = {};
+        taken_ = 0;
+    }
+
+    const RenderJob& job_;
+    const SampleRound& round_;
+    RayCounters& counters_;
+    AovRecorder aovs_;
+    EyeRays eye_;
+    std::vector<Vec3> sums_;     ///< of a column and a row
+    std::vector<double> signs_;  ///< of the filter
+    std::vector<Vec2> points_;
+    std::size_t gathered_ = 0;
+    std::vector<Ray> rays_;
+    std::vector<Rgb> radiance_;
+    PixelBox tile_;
+    std::vector<TilePixel> pixels_;  ///< of the tile that want samples, in rendering order
+    std::size_t done_ = 0;           ///< finished pixels
+    std::uint32_t taken_ = 0;        ///< samples of the current pixel
+    SampleSum own_;                  ///< of the current pixel in this round
+    std::vector<Vec2> places_;       ///< film coordinates of gathered samples, with AOVs only
+};
+
+/// Renders a round of tiles by SampleLoop.
+template <RadianceEstimator Estimator>
+class RoundRenderer final : public TileRenderer {
+  public:
+    RoundRenderer(const RenderJob& job, std::size_t rays_at_once)
+        : estimator_(job, rays_at_once, counters_), loop_(job, rays_at_once, counters_) {}
+
+    void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
+        loop_.run(tile, film, estimator_);
+        counters += counters_;
+        counters_ = {};
+    }
+
+  private:
+    RayCounters counters_;  ///< of the tile
+    Estimator estimator_;
+    SampleLoop loop_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,57 @@
+#include "alhazen/renderers/core/sampling_plan.h"
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/renderers/core/renderer_settings.h"
+#include "alhazen/sampling/samplers/sampler.h"
+
+namespace alhazen {
+
+namespace {
+
+template <class Entry>
+[[noreturn]] void refuse_name(const char* option, const std::string& name,
+                              std::span<const Entry> known) {
+    std::string names;
+    for (const Entry& entry : known) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    throw Error(ErrorKind::Usage,
+                std::string(option) + " '" + name + "': unknown; known: " + names);
+}
+
+void read_sampler(const std::string& text, SamplingPlan& plan) {
+    const RendererSettings given(text, "--sampler");
+    plan.sampler = find_sampler(given.name());
+    if (plan.sampler == nullptr) refuse_name("--sampler", given.name(), samplers());
+    given.finish();
+}
+
+void read_filter(const std::string& text, SamplingPlan& plan) {
+    RendererSettings given(text, "--filter");
+    plan.filter = find_filter(given.name());
+    if (plan.filter == nullptr) refuse_name("--filter", given.name(), filters());
+    plan.radius = given.number("radius", plan.filter->radius, SamplingPlan::kLeastRadius,
+                               SamplingPlan::kLargestRadius);
+    given.finish();
+}
+
+}  // namespace
+
+SamplingPlan::SamplingPlan()
+    : sampler(find_sampler("sobol")), filter(find_filter("box")), radius(filter->radius) {}
+
+std::optional<SamplingPlan> parse_sampling(const SamplingTexts& texts) {
+    SamplingPlan plan;
+    plan.noise = texts.noise;
+    plan.seconds = texts.seconds;
+    if (texts.sampler.empty() && texts.filter.empty() && !plan.has_rounds()) return {};
+    if (!texts.sampler.empty()) read_sampler(texts.sampler, plan);
+    if (!texts.filter.empty()) read_filter(texts.filter, plan);
+    if (plan.has_rounds() && plan.sampler == find_sampler("regular")) {
+        throw Error(ErrorKind::Usage,
+                    "--sampler regular has one set of samples only: --noise and --time need "
+                    "another sampler");
+    }
+    return plan;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,37 @@
+#pragma once
+/// Samplers, filters and stop rules as users ask for them: `--sampler NAME`,
+/// `--filter NAME:radius=R`, `--noise X`, `--time 5m`.
+
+#include <optional>
+#include <string>
+
+namespace alhazen {
+
+struct FilterEntry;
+struct SamplerEntry;
+
+struct SamplingPlan {
+    static constexpr double kLeastRadius = 0.01, kLargestRadius = 16.0;
+    /// Samples per pixel at most where a stop rule decides and nothing else is said.
+    static constexpr int kMostByRule = 1 << 14;
+
+    const SamplerEntry* sampler;
+    const FilterEntry* filter;
+    double radius;                  ///< of the filter, in pixels
+    std::optional<double> noise;    ///< pixels above it get more samples
+    std::optional<double> seconds;  ///< no round begins that would not end by then
+
+    /// `sobol` and `box`.
+    SamplingPlan();
+    [[nodiscard]] bool has_rounds() const { return noise || seconds; }
+};
+
+/// The texts of the options; empty where not given. Throws Error (Usage).
+struct SamplingTexts {
+    std::string sampler, filter;
+    std::optional<double> noise, seconds;
+};
+/// None where nothing is given: the renderer's own samples.
+[[nodiscard]] std::optional<SamplingPlan> parse_sampling(const SamplingTexts& texts);
+
+}  // namespace alhazen

@@ -1,0 +1,46 @@
+#pragma once
+/// A sampler drawn as SVG: its points, their periodogram and its radial mean.
+///
+/// Source: Ulichney, "Dithering with Blue Noise", Proc. IEEE 76(1), 1988 (the form of the figure).
+/// Conventions: x right, y up; the grey of the periodogram is white at three times the power of
+/// independent points. Of a progressive sampler the first quarter of the points is dark, and its
+/// radial mean is drawn, too.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "alhazen/math/vec.h"
+#include "alhazen/sampling/analysis/periodogram.h"
+#include "alhazen/sampling/samplers/sampler.h"
+
+namespace alhazen {
+
+struct SampleStudyOptions {
+    std::uint32_t points = 256;  ///< of a pixel, 1 .. kMostStudied
+    std::uint32_t sets = 0;      ///< pixels in the means; 0: as many as take moments
+    std::uint32_t pair = 0;
+    std::uint64_t seed = 0;
+    SamplePixel pixel;  ///< the one that is drawn, and the first of the means
+};
+
+inline constexpr std::uint32_t kMostStudied = 4096;
+inline constexpr std::uint32_t kMostStudiedSets = 4096;
+
+struct SampleStudy {
+    const SamplerEntry* sampler;
+    SampleStudyOptions options;
+    std::vector<Vec2> points;  ///< of the first pixel
+    double discrepancy;        ///< star discrepancy, mean of the sets
+    double distance;           ///< of the nearest two on the torus times root(points), the mean
+    Periodogram periodogram;
+    std::vector<double> radial;          ///< mean power at radii, kStudyBins to root(points)
+    std::vector<double> radial_quarter;  ///< of the first quarter; empty if not progressive
+};
+inline constexpr int kStudyBins = 8;
+
+[[nodiscard]] SampleStudy study_sampler(const SamplerEntry& sampler,
+                                        const SampleStudyOptions& options);
+[[nodiscard]] std::string sample_figure(const SampleStudy& study);
+
+}  // namespace alhazen
