@@ -109,6 +109,11 @@ INSIDE = {
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],
     },
+    "sampling": {
+        "": [],
+        "samplers": [""],
+        "analysis": ["samplers"],
+    },
     "session": {
         "": ["generators"],
         "conversion": [""],

@@ -10,6 +10,7 @@
 #include "alhazen/base/file.h"
 #include "alhazen/renderers/core/antialias_report.h"
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"
@@ -182,6 +183,18 @@ void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
          report.below_depth > kNames ? ", ..." : "");
 }
 
+/// What the stop rules came to.
+void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
+    if (!options.sampling->has_rounds()) return;
+    const double mean = static_cast<double>(report.samples()) / static_cast<double>(report.pixels);
+    tell("{:.1f} samples per pixel, at most {}{}\n", mean, report.most_samples,
+         report.out_of_time ? "; out of time" : "");
+    if (report.pixels_above > 0) {
+        tell("the noise of {} pixels is above --noise {:g}\n", report.pixels_above,
+             *options.sampling->noise);
+    }
+}
+
 int run(const RenderArguments& args) {
     // Check the options before any work.
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
@@ -235,6 +248,12 @@ int run(const RenderArguments& args) {
         tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);
     }
     if (result.antialias && !args.quiet) tell_unmet(loaded, *result.antialias);
+    if (result.sampling && !args.quiet) tell_sampling(options, *result.sampling);
+    if (!result.complete && result.sampling && !result.sampling->rounds.empty()) {
+        tell("stopped in round {}: {} of {} tiles have its samples, the rest those before it\n",
+             result.sampling->rounds.size() + 1, result.tiles_done, result.tiles);
+        return kStopped;
+    }
     if (!result.complete) {
         tell("stopped: {} of {} tiles are in {}; the rest is black\n", result.tiles_done,
              result.tiles, args.output);

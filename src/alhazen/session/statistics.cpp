@@ -5,8 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "alhazen/aggregates/accelerator_bytes.h"
+#include "alhazen/imaging/film/filter_kernel.h"
 #include "alhazen/renderers/core/antialias_report.h"
+#include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/renderers/core/scan_line_report.h"
+#include "alhazen/sampling/samplers/sampler.h"
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/unique_bytes.h"
 
@@ -51,6 +54,27 @@ nlohmann::ordered_json antialias_json(const SceneDescription& description,
                           {"below_depth_named", named},
                           {"seconds", r.seconds}};
     return whole;
+}
+
+/// null: without a sampler, a filter or a stop rule by name.
+nlohmann::ordered_json sampling_json(const RenderOptions& options, const RenderResult& result) {
+    using json = nlohmann::ordered_json;
+    if (!result.sampling || !options.sampling) return nullptr;
+    const SamplingReport& r = *result.sampling;
+    json rounds = json::array();
+    for (const SamplingReport::Round& round : r.rounds) {
+        rounds.push_back(
+            {{"samples", round.samples}, {"pixels", round.pixels}, {"seconds", round.seconds}});
+    }
+    const auto mean = static_cast<double>(r.samples()) / static_cast<double>(r.pixels);
+    return {{"sampler", options.sampling->sampler->name},
+            {"filter", options.sampling->filter->name},
+            {"filter_radius", options.sampling->radius},
+            {"rounds", rounds},
+            {"samples_per_pixel", mean},
+            {"most_samples", r.most_samples},
+            {"pixels_above_noise", r.pixels_above},
+            {"out_of_time", r.out_of_time}};
 }
 
 }  // namespace
@@ -118,6 +142,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"tests", tests_json},
         {"scan_lines", scan_lines},
         {"antialias", antialias_json(loaded.description, result)},
+        {"sampling", sampling_json(options, result)},
         {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
         {"memory",

@@ -1,0 +1,174 @@
+// Samplers and filters by name, and rounds of samples.
+
+#include "alhazen/renderers/core/rounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/core/sampling_report.h"
+#include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/sampling/samplers/sampler.h"
+#include "unit/renderers/one_pixel.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::glowing;
+using testing::SceneMaker;
+
+constexpr int kWidth = 40, kHeight = 30;
+
+struct SampledPicture {
+    Film film{kWidth, kHeight, {0, 0, kWidth, kHeight}};
+    RenderReport report;
+};
+
+SampledPicture picture(const Scene& scene, const SamplingPlan& plan, int samples, int threads = 2,
+                       int tile_size = 8) {
+    SampledPicture result;
+    RenderJob job{.scene = scene,
+                  .camera = scene.cameras[0].camera,
+                  .samples_per_pixel = samples,
+                  .seed = 7,
+                  .sampling = &plan};
+    job.control.threads = threads;
+    job.control.tile_size = tile_size;
+    result.report = Whitted{}.render(job, result.film);
+    EXPECT_TRUE(result.report.complete());
+    return result;
+}
+
+SamplingPlan plan_of(const std::string& sampler, const std::string& filter = "",
+                     std::optional<double> noise = {}) {
+    return *parse_sampling({.sampler = sampler, .filter = filter, .noise = noise, .seconds = {}});
+}
+
+/// A glowing ball before black; its edges are all that needs samples.
+Scene ball() {
+    SceneMaker maker;
+    maker.add(Sphere{.radius = 0.7}, maker.material(glowing({1, 0.5, 0.25})));
+    return maker.compile("wide_bvh");
+}
+
+void expect_same_pixels(const Film& a, const Film& b) {
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) EXPECT_EQ(a.at(x, y), b.at(x, y)) << x << " " << y;
+    }
+}
+
+TEST(Rounds, EveryFilterKeepsAnEvenPicture) {
+    SceneMaker maker;
+    maker.add(Rectangle{{-9, -9, 0}, {18, 0, 0}, {0, 18, 0}},
+              maker.material(glowing({0.25, 0.5, 1})));
+    const Scene scene = maker.compile();
+    for (const FilterEntry& filter : filters()) {
+        const SampledPicture result = picture(scene, plan_of("jittered", filter.name), 8);
+        for (int x = 0; x < kWidth; ++x) {
+            EXPECT_EQ(result.film.at(x, 11), (Rgb{0.25, 0.5, 1})) << filter.name;
+        }
+    }
+}
+
+TEST(Rounds, PicturesAreTheSameForAnyThreadsAndTiles) {
+    const Scene scene = ball();
+    for (const SamplerEntry& sampler : samplers()) {
+        if (std::string(sampler.name) == "regular") continue;
+        const SamplingPlan plan = plan_of(sampler.name, "mitchell", 0.05);
+        const SampledPicture one = picture(scene, plan, 128, 1, 32);
+        const SampledPicture four = picture(scene, plan, 128, 4, 7);
+        SCOPED_TRACE(sampler.name);
+        expect_same_pixels(one.film, four.film);
+        EXPECT_EQ(one.report.sampling->samples(), four.report.sampling->samples());
+        EXPECT_EQ(one.report.counters[RayKind::Eye].cast, four.report.counters[RayKind::Eye].cast);
+    }
+}
+
+TEST(Rounds, OneRoundIsTheSameAsSeveralWhereTheSamplerIsProgressive) {
+    // Rounds that end at the same number of samples everywhere add up to one round.
+    const Scene scene = ball();
+    for (const char* sampler : {"sobol", "halton", "blue_noise", "independent"}) {
+        SamplingPlan rounds = plan_of(sampler, "", 1e-6);
+        const SampledPicture several = picture(scene, rounds, 64);
+        const SampledPicture one = picture(scene, plan_of(sampler), 64);
+        EXPECT_GT(several.report.sampling->rounds.size(), 2U);
+        for (int y = 0; y < kHeight; ++y) {
+            for (int x = 0; x < kWidth; ++x) {
+                const Rgb d = several.film.at(x, y) + -1.0 * one.film.at(x, y);
+                // Pixels without noise end early, with the same mean.
+                EXPECT_LT(std::abs(d.r), 1e-12) << sampler << " " << x << " " << y;
+            }
+        }
+    }
+}
+
+TEST(Rounds, PixelsWithoutNoiseGetFewSamplesAndTheOthersReachTheLimit) {
+    const Scene scene = ball();
+    constexpr double kNoise = 0.02;
+    const SampledPicture result = picture(scene, plan_of("independent", "", kNoise), 1 << 14);
+    const SamplingReport& report = *result.report.sampling;
+    EXPECT_EQ(report.rounds.front().pixels, std::uint64_t{kWidth * kHeight});
+    EXPECT_LT(report.rounds.back().pixels, std::uint64_t{kWidth * kHeight / 4});
+    EXPECT_EQ(report.pixels_above, 0U);
+    EXPECT_EQ(report.samples(), result.report.counters[RayKind::Eye].cast);
+    // The standard error asked for, of values near 0.5, and the estimate's own error.
+    const SampledPicture reference = picture(scene, plan_of("sobol"), 4096);
+    double squares = 0, at_edges = 0;
+    for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const double a = result.film.at(x, y).r, b = reference.film.at(x, y).r;
+            if (b == 0.0 || b == 1.0) {
+                EXPECT_EQ(a, b);
+            }
+            at_edges += b != 0.0 && b != 1.0;
+            squares += (a - b) * (a - b) / std::max(b, 0.01);
+        }
+    }
+    ASSERT_GT(at_edges, 50);
+    EXPECT_LT(std::sqrt(squares / at_edges), 1.3 * kNoise);
+}
+
+TEST(Rounds, NoRoundBeginsThatWouldEndTooLate) {
+    const Scene scene = ball();
+    SamplingPlan plan = plan_of("sobol");
+    plan.seconds = 0.2;
+    const SampledPicture result = picture(scene, plan, SamplingPlan::kMostByRule);
+    const SamplingReport& report = *result.report.sampling;
+    double seconds = 0;
+    for (const SamplingReport::Round& round : report.rounds) seconds += round.seconds;
+    EXPECT_TRUE(report.out_of_time || report.most_samples == SamplingPlan::kMostByRule);
+    EXPECT_LT(seconds, 0.6);
+    EXPECT_GT(report.most_samples, 4U);
+}
+
+TEST(SamplingPlan, BadTextsAreRefusedByName) {
+    const auto message = [](const SamplingTexts& texts) -> std::string {
+        try {
+            (void)parse_sampling(texts);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::Usage);
+            return error.what();
+        }
+        return "";
+    };
+    const auto says = [&](const SamplingTexts& texts, const std::string& part) {
+        EXPECT_NE(message(texts).find(part), std::string::npos) << message(texts);
+    };
+    says({.sampler = "soboll", .filter = "", .noise = {}, .seconds = {}}, "multi_jittered");
+    says({.sampler = "sobol:x=1", .filter = "", .noise = {}, .seconds = {}}, "--sampler");
+    says({.sampler = "", .filter = "bos", .noise = {}, .seconds = {}}, "blackman_harris");
+    says({.sampler = "", .filter = "tent:radius=0", .noise = {}, .seconds = {}}, "radius");
+    says({.sampler = "", .filter = "tent:width=1", .noise = {}, .seconds = {}}, "width");
+    says({.sampler = "regular", .filter = "", .noise = 0.1, .seconds = {}}, "regular");
+    EXPECT_FALSE(parse_sampling({}).has_value());
+    EXPECT_EQ(parse_sampling({.sampler = "", .filter = "tent:radius=2", .noise = {}, .seconds = {}})
+                  ->radius,
+              2.0);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
