@@ -200,8 +200,8 @@ int run(const RenderArguments& args) {
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
     const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
-    check_antialias(options, *renderer);
     check_sampling(options, *renderer);
+    check_antialias(options, *renderer);
     const bool needs_aggregate = renderer->needs_aggregate();
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
         throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");

@@ -14,6 +14,9 @@ import unittest
 
 from command_line import ALHAZEN, CommandLineCase, run, SPHERES
 
+# Seconds for a command that should end soon; sanitizers make programs slower (tests/cli/CMakeLists.txt).
+PATIENCE = 60 * int(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
+
 
 class CommandLine(CommandLineCase):
     def test_help_and_version_go_to_stdout_and_succeed(self):
@@ -44,7 +47,7 @@ class CommandLine(CommandLineCase):
         while not os.path.exists(report) and process.poll() is None and time.time() < begin + 120:
             time.sleep(0.01)
         process.terminate()
-        process.communicate(timeout=60)
+        process.communicate(timeout=PATIENCE)
         self.assertIn(process.returncode, (75, 0))  # 0: finished before the signal
         with open(report, encoding="utf-8") as file:
             self.assertIn(len(json.load(file)["scenes"]), (1, 2))
@@ -52,7 +55,7 @@ class CommandLine(CommandLineCase):
                                   stderr=subprocess.PIPE, text=True)
         time.sleep(1)
         claims.terminate()
-        claims.communicate(timeout=60)
+        claims.communicate(timeout=PATIENCE)
         self.assertEqual(claims.returncode, 75)
 
     def test_wrong_usage_exits_2_and_says_why(self):
@@ -74,6 +77,21 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--view", "30,91"],
                           ["render", self.scene, "-o", picture, "--view", "30,20", "--camera", "top"],
                           ["render", self.scene, "-o", picture, "--time", "inf"],
+                          ["render", self.scene, "-o", picture, "--sampler", "soboll"],
+                          ["render", self.scene, "-o", picture, "--sampler", "regular", "--noise", "0.1"],
+                          ["render", self.scene, "-o", picture, "--filter", "tent:radius=99"],
+                          ["render", self.scene, "-o", picture, "--filter", "tent:width=1"],
+                          ["render", self.scene, "-o", picture, "--noise", "0"],
+                          ["render", self.scene, "-o", picture, "--time", "5x"],
+                          ["render", self.scene, "-o", picture, "--time", "0s"],
+                          ["render", self.scene, "-o", picture, "--time", "3s", "--time", "1m"],
+                          ["info", self.scene, "--time", "3s"],
+                          ["render", self.scene, "-o", picture, "--noise", "0.1", "--antialias", "whitted"],
+                          ["render", self.scene, "-o", picture, "--sampler", "sobol", "--protocol", "spd"],
+                          ["render", self.scene, "-o", picture, "--noise", "0.1", "--aov", "time"],
+                          ["render", self.scene, "-o", picture, "--filter", "box", "--renderer", "lane_carpenter"],
+                          ["samples", "soboll"], ["samples", "sobol", "--dimension", "3"],
+                          ["samples", "sobol", "-n", "0"],
                           ["render", self.scene, "-o", picture, "--max-image-pixels", "0"],
                           ["render", self.scene, "-o", picture, "--max-image-mib", "0"],
                           # Options without effect.
@@ -102,6 +120,15 @@ class CommandLine(CommandLineCase):
             self.assertTrue(result.stderr, arguments)
             self.assertEqual(result.stdout, "", arguments)
         self.assertEqual(os.listdir(self.folder.name), ["scene with space.alhazen"])
+
+    def test_samples_draws_every_sampler(self):
+        names = [line.split()[0] for line in run("list", "samplers").stdout.splitlines() if line.startswith("  ")]
+        self.assertIn("sobol", names)
+        for name in names:
+            result = run("samples", name, "-n", "64", "--sets", "4", "-o", self.path("samples.svg"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"{name}: 64 points", result.stdout)
+            self.assertEqual(self.read("samples.svg").count(b"<circle"), 64)
 
     def test_names_that_are_not_known_are_answered_with_those_that_are(self):
         self.assertIn("wide_bvh", self.render("--accelerator", "octopus").stderr)
@@ -158,7 +185,7 @@ class CommandLine(CommandLineCase):
 
     def test_standard_output_that_is_full_exits_4(self):
         with open("/dev/full", "w", encoding="ascii") as full:
-            result = subprocess.run([ALHAZEN, "list"], stdout=full, stderr=subprocess.PIPE, check=False, timeout=60)
+            result = subprocess.run([ALHAZEN, "list"], stdout=full, stderr=subprocess.PIPE, check=False, timeout=PATIENCE)
         self.assertEqual(result.returncode, 4)
 
     def test_links_do_not_lead_out_of_the_folder_of_the_scene(self):

@@ -19,8 +19,10 @@ import sys
 import tempfile
 import time
 
-MAX_SECONDS = 10
-MAX_MEMORY = 1 << 30
+# Sanitizers make programs slower and larger (tests/cli/CMakeLists.txt).
+SLOWDOWN = int(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
+MAX_SECONDS = 10 * SLOWDOWN
+MAX_MEMORY = (1 << 30) * min(SLOWDOWN, 4)
 PICTURES = {".png", ".jpg", ".jpeg", ".exr", ".hdr", ".bmp", ".tga", ".dds", ".ico", ".webp", ".raw", ""}
 TEXTURED = """alhazen 1
 perspective_camera { eye = (0, 0, 3); look_at = (0, 0, 0) }

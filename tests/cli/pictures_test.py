@@ -4,6 +4,7 @@
 Usage: pictures_test.py ALHAZEN SOURCE_FOLDER
 """
 
+import json
 import os
 import signal
 import subprocess
@@ -13,6 +14,9 @@ import unittest
 
 from command_line import ALHAZEN, CommandLineCase, run, SOURCE
 
+# Seconds for a command that should end soon; sanitizers make programs slower (tests/cli/CMakeLists.txt).
+PATIENCE = 60 * int(os.environ.get("ALHAZEN_TEST_SLOWDOWN", "1"))
+
 
 class Pictures(CommandLineCase):
     def test_the_same_bits_for_any_threads_tiles_and_accelerator(self):
@@ -21,6 +25,16 @@ class Pictures(CommandLineCase):
         self.render("-t", "2", "--accelerator", "list", "--spp", "4", output="c.png")
         self.assertEqual(self.read("a.png"), self.read("b.png"))
         self.assertEqual(self.read("a.png"), self.read("c.png"))
+
+    def test_rounds_are_the_same_bits_for_any_threads_and_tiles(self):
+        settings = ("--noise", "0.05", "--spp", "64", "--filter", "mitchell", "--seed", "3")
+        self.render("-t", "1", "--tile-size", "64", *settings, output="a.png")
+        self.render("-t", "7", "--tile-size", "5", *settings, "--stats", self.path("s.json"), output="b.png")
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+        sampling = json.loads(self.read("s.json"))["sampling"]
+        self.assertEqual(sampling["sampler"], "sobol")
+        self.assertGreater(len(sampling["rounds"]), 1)
+        self.assertLessEqual(sampling["most_samples"], 64)
 
     def test_a_crop_is_that_part_of_the_picture(self):
         self.render("--full-float", output="whole.exr")
@@ -114,7 +128,7 @@ class Pictures(CommandLineCase):
         time.sleep(1.0)
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGINT)  # a second signal, as timeout(1) may send
-        _, messages = process.communicate(timeout=60)
+        _, messages = process.communicate(timeout=PATIENCE)
         self.assertEqual(process.returncode, 75)
         self.assertIn("stopped", messages)
         self.assertTrue(self.read("out.png").startswith(b"\x89PNG"))
@@ -131,7 +145,7 @@ class Pictures(CommandLineCase):
         self.assertIsNone(process.poll())
         begin = time.monotonic()
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60)
+        process.communicate(timeout=PATIENCE)
         self.assertLess(time.monotonic() - begin, 5)
         self.assertEqual(process.returncode, 75)
 
@@ -146,7 +160,7 @@ class Pictures(CommandLineCase):
                                        stderr=subprocess.PIPE, text=True)
             time.sleep(seconds)
             process.send_signal(signal.SIGTERM)
-            _, messages = process.communicate(timeout=60)
+            _, messages = process.communicate(timeout=PATIENCE)
             ends.append(process.returncode)
             if ends[-1] == 75:
                 break

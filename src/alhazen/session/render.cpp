@@ -103,8 +103,8 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
         throw Error(ErrorKind::Usage, fmt::format("renderer '{}' needs the aggregate of the scene",
                                                   options.renderer));
     }
-    check_antialias(options, *renderer);
     check_sampling(options, *renderer);
+    check_antialias(options, *renderer);
     const Scene scene = adjusted(original, options);
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);

@@ -66,7 +66,7 @@ class RoundRender {
         if (!plan_.has_rounds()) return most_;
         std::uint32_t count = std::max(samples_, plan_.seconds ? 1u : kLeastSamples / 2);
         // Smaller steps use the time better.
-        if (plan_.seconds && samples_ >= kLeastSamples) count = std::bit_floor(samples_) / 4;
+        if (plan_.seconds && samples_ >= 4) count = std::bit_floor(samples_) / 4;
         return std::min(count, most_ - samples_);
     }
 
