@@ -57,7 +57,7 @@ TEST(Media, EachTintsTheWayThroughIt) {
             maker.description().conventions.shading.refraction_tint = tint;
             add_tank(maker, wine_first);
             expect_near(center(maker.compile()),
-                        tint == RefractionTint::PerDistance ? by_distance() : by_surface());
+                        tint == RefractionTint::PerDistance ? by_distance() : by_surface(), 1e-9);
         }
     }
 }
@@ -73,7 +73,7 @@ TEST(Media, EachTintsTheLightThatReachesWhatLiesBehind) {
             maker.description().conventions.shading.shadow_tint = tint;
             add_tank(maker, wine_first, Affine::translate({0, 0, 10}));  // above the camera
             expect_near(center(maker.compile()),
-                        tint == ShadowTint::PerDistance ? by_distance() : by_surface());
+                        tint == ShadowTint::PerDistance ? by_distance() : by_surface(), 1e-9);
         }
     }
 }

@@ -65,7 +65,7 @@ TEST(BruteForce, FindsWhatTheListFinds) {
          }},
         {"flat",
          [](SceneMaker& maker) {
-             maker.add(maker.mesh(confetti(300)), MaterialId{0}, Affine::scale({1, 1, 1e-12}));
+             maker.add(maker.mesh(confetti(500)), MaterialId{0}, Affine::scale({1, 1, 1e-12}));
          }},
         {"instances",
          [](SceneMaker& maker) {
