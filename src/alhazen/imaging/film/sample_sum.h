@@ -5,6 +5,8 @@
 /// mean of what they differ from it, over the mean sign. An even area keeps its colour whatever
 /// the signs are; the expectation is off by O(1 / n), as that of the quotient of the signed sums.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "alhazen/imaging/image/rgb.h"
@@ -12,7 +14,7 @@
 namespace alhazen {
 
 struct SampleSum {
-    Rgb plain, with_signs;
+    Rgb plain, with_signs, squares;
     double signs = 0.0;
     std::uint32_t count = 0;
 
@@ -20,6 +22,7 @@ struct SampleSum {
     bool add(const Rgb& sample, double sign) {
         if (!sample.is_finite()) return false;
         plain += sample;
+        squares += sample * sample;
         with_signs += sign * sample;
         signs += sign;
         ++count;
@@ -27,10 +30,17 @@ struct SampleSum {
     }
     SampleSum& operator+=(const SampleSum& more) {
         plain += more.plain;
+        squares += more.squares;
         with_signs += more.with_signs;
         signs += more.signs;
         count += more.count;
         return *this;
+    }
+    /// The standard deviation of a sample, of the channel where it is largest. 0 for less than two.
+    [[nodiscard]] double deviation() const {
+        if (count < 2) return 0.0;
+        const Rgb sum = squares - (1.0 / count) * (plain * plain);
+        return std::sqrt(std::max(0.0, sum.max()) / (count - 1));
     }
     /// `mean_sign`: of the kernel. Black without any sample.
     [[nodiscard]] Rgb value(double mean_sign) const {

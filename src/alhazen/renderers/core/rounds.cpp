@@ -116,12 +116,15 @@ class RoundRender {
         // that of A - B times nA nB / n^2, and A - B is (A - V) n / nB.
         const double scale = std::sqrt(static_cast<double>(samples_before_) /
                                        static_cast<double>(samples_ - samples_before_));
+        const double even = std::pow(static_cast<double>(samples_), plan_.sampler->error_exponent);
         for (std::size_t k = 0; k < noise_.size(); ++k) {
             if (wanted_[k] == 0) continue;
             const Rgb& now = first_pixel()[k];
             const Rgb change = now - before_[k];
-            const double error =
-                scale * Rgb{std::abs(change.r), std::abs(change.g), std::abs(change.b)}.max();
+            // Where samples are even the change is often 0 by symmetry, but their variance is not.
+            const double error = std::max(
+                scale * Rgb{std::abs(change.r), std::abs(change.g), std::abs(change.b)}.max(),
+                sums_[k].deviation() / even);
             noise_[k] = static_cast<float>(error / std::sqrt(std::max(now.max(), kDark)));
         }
     }

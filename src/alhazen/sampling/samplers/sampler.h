@@ -49,6 +49,8 @@ struct SamplerEntry {
     const char* name;
     const char* description;
     bool progressive;
+    /// Exponent of N with which the standard error of N samples falls at an edge, in theory.
+    double error_exponent;
     /// `count`: samples of a set, or of a pixel at most where it is progressive; 1 .. 2^20.
     std::unique_ptr<Sampler> (*make)(std::uint64_t seed, std::uint32_t count);
 };
