@@ -88,6 +88,7 @@ INSIDE = {
         "native/write": ["native/read"],
     },
     "geometry": {
+        "cones": [],
         "polygon": [],
     },
     "imaging": {
@@ -105,6 +106,7 @@ INSIDE = {
     "renderers": {
         "core": [],
         "antialias": ["core"],
+        "cone_tracing": ["core"],
         "lane_carpenter": ["core"],
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],
