@@ -88,8 +88,9 @@ INSIDE = {
         "native/write": ["native/read"],
     },
     "geometry": {
-        "cones": [],
-        "polygon": [],
+        "": [],
+        "cones": [""],
+        "polygon": [""],
     },
     "imaging": {
         "image": [],
