@@ -88,7 +88,9 @@ INSIDE = {
         "native/write": ["native/read"],
     },
     "geometry": {
-        "polygon": [],
+        "": [],
+        "cones": [""],
+        "polygon": [""],
     },
     "imaging": {
         "image": [],
@@ -105,6 +107,7 @@ INSIDE = {
     "renderers": {
         "core": [],
         "antialias": ["core"],
+        "cone_tracing": ["core"],
         "lane_carpenter": ["core"],
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],

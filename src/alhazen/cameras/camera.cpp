@@ -4,6 +4,7 @@
 
 #include "alhazen/base/overloaded.h"
 #include "alhazen/cameras/eye_rays.h"
+#include "alhazen/cameras/pixel_cones.h"
 
 namespace alhazen {
 
@@ -23,14 +24,7 @@ Ray eye_ray(const Camera& camera, double x, double y) {
 }
 
 RayCone eye_cone(const Camera& camera, int frame_height, int samples_per_pixel) {
-    const double across = frame_height * std::sqrt(static_cast<double>(samples_per_pixel));
-    return std::visit(Overloaded{[&](const PerspectiveCamera& c) {
-                                     return RayCone{0.0, length(c.up) / (length(c.look) * across)};
-                                 },
-                                 [&](const OrthographicCamera& c) {
-                                     return RayCone{length(c.up) / across, 0.0};
-                                 }},
-                      camera);
+    return central_cone(camera, frame_height, samples_per_pixel).footprint();
 }
 
 PicturePlane picture_plane(const Camera& camera) {

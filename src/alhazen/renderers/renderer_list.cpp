@@ -3,6 +3,7 @@
 #include <array>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/cone_tracing/cone_tracing.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -24,16 +25,26 @@ std::unique_ptr<Renderer> make_scan_lines(RendererSettings& settings, bool all_f
     return std::make_unique<LaneCarpenter>(options);
 }
 
+std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
+    static constexpr const char* kCoverage[] = {"formulas", "tables"};
+    return std::make_unique<ConeTracing>(
+        ConeTracingOptions{.tables = settings.choice("coverage", 0, kCoverage) == 1});
+}
+
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 4> table{{
+    static constexpr std::array<RendererEntry, 5> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
          }},
+        {"cone_tracing",
+         "a cone a pixel: covered areas in closed form, reflected, refracted and shadow cones "
+         "(Amanatides 1984); coverage=formulas|tables",
+         [](RendererSettings& settings) { return make_cone_tracing(settings); }},
         {"lane_carpenter",
          "the same picture in scan lines, patches split where these meet them (Lane and Carpenter "
          "1980); flatness=PIXELS, cracks=show|tighter|clark, split=one|both",

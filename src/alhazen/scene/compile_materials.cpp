@@ -14,6 +14,10 @@ void compile_textures(const SceneDescription& description, Scene& scene) {
     std::map<std::pair<const StoredImage*, bool>, std::shared_ptr<const MipPyramid>> pyramids;
     for (const TextureDescription& t : description.textures) {
         Texture& texture = scene.textures.emplace_back(t.texture);
+        if (texture.solid) {
+            scene.has_solid_textures = true;
+            continue;
+        }
         if (texture.filter != TextureFilter::Mipmapped) continue;
         auto& pyramid = pyramids[{texture.image.get(), texture.decode_srgb}];
         if (!pyramid) {
@@ -53,6 +57,7 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
 std::uint64_t texture_bytes(const std::vector<Texture>& textures) {
     std::map<const void*, std::uint64_t> bytes;
     for (const Texture& t : textures) {
+        if (!t.image) continue;
         bytes[t.image.get()] = t.image->memory_bytes();
         if (t.pyramid) bytes[t.pyramid.get()] = t.pyramid->memory_bytes();
     }

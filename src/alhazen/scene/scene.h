@@ -45,7 +45,8 @@ struct Scene {
     bool all_opaque = false;   ///< no material lets light through
     bool has_masks = false;    ///< some part is not visible to all rays
     bool has_mipmaps = false;  ///< some texture is filtered by the cone of the ray
-    std::string accelerator;   ///< of the aggregate; empty without
+    bool has_solid_textures = false;
+    std::string accelerator;  ///< of the aggregate; empty without
     SceneCensus census;
 };
 

@@ -32,6 +32,10 @@ class Checker {
         scalar(m.alpha, "alpha");
         not_negative(m.alpha_cutoff, "alpha cutoff");
         texture_id(m.normal_map.texture, "normal map");
+        const auto map = static_cast<std::size_t>(m.normal_map.texture);
+        if (map < d_.textures.size() && d_.textures[map].texture.solid) {
+            error(fmt::format("the normal map of material '{}' is a solid texture", name_));
+        }
         if (!std::isfinite(m.normal_map.scale)) {
             error(fmt::format("scale of the normal map of material '{}' must be finite", name_));
         }
@@ -82,9 +86,24 @@ class Checker {
     std::string name_;
 };
 
+void check_solid_texture(const TextureDescription& t, const SolidTexture& solid, Checker& checker) {
+    const auto need = [&](bool condition, const char* what) {
+        if (!condition) checker.error(fmt::format("solid texture '{}': {}", t.name, what));
+    };
+    need(solid.color.is_finite() && solid.other.is_finite(), "its colours must be finite");
+    need(is_finite(solid.origin), "its origin must be finite");
+    need(std::isfinite(solid.size) && solid.size > 0.0, "its size must be greater than 0");
+    need(is_finite(solid.direction) && length_squared(solid.direction) > 0.0,
+         "its direction must not be zero");
+    need(solid.octaves >= 1 && solid.octaves <= 16, "it has 1 to 16 octaves");
+    need(std::isfinite(solid.turbulence), "its turbulence must be finite");
+}
+
 void check_texture(const TextureDescription& t, Checker checker) {
     const Texture& texture = t.texture;
-    if (!texture.image || texture.image->width <= 0 || texture.image->height <= 0) {
+    if (texture.solid) {
+        check_solid_texture(t, *texture.solid, checker);
+    } else if (!texture.image || texture.image->width <= 0 || texture.image->height <= 0) {
         checker.error(fmt::format("texture '{}' has no image", t.name));
     }
     if (texture.uv_set != 0 && texture.uv_set != 1) {

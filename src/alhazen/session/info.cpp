@@ -137,11 +137,17 @@ json materials_json(const SceneDescription& d) {
 }
 
 json textures_json(const SceneDescription& d) {
+    static constexpr const char* kSolid[] = {"checks", "stripes", "noise", "marble", "wood"};
     static constexpr const char* kFilter[] = {"nearest", "bilinear", "mipmapped"};
     json textures = json::array();
     for (const TextureDescription& description : d.textures) {
         const Texture& t = description.texture;
         static constexpr int kBits[] = {8, 16, 32};
+        if (t.solid) {
+            textures.push_back(
+                {{"name", description.name}, {"solid", kSolid[static_cast<int>(t.solid->kind)]}});
+            continue;
+        }
         textures.push_back({{"name", description.name},
                             {"width", t.image->width},
                             {"height", t.image->height},

@@ -11,6 +11,16 @@ template <class Enum>
 [[nodiscard]] const Vocabulary<Enum>& native_words();
 
 template <>
+inline const Vocabulary<SolidTexture::Kind>& native_words() {
+    using E = SolidTexture::Kind;
+    static const Vocabulary<E> kWords{{"checks", E::Checks},
+                                      {"stripes", E::Stripes},
+                                      {"noise", E::Noise},
+                                      {"marble", E::Marble},
+                                      {"wood", E::Wood}};
+    return kWords;
+}
+template <>
 inline const Vocabulary<ShadingConventions::Highlight>& native_words() {
     using E = ShadingConventions::Highlight;
     static const Vocabulary<E> kWords{

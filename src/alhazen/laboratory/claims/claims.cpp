@@ -69,6 +69,12 @@ constexpr std::array kClaims{
                "fewer polygons than by splitting in both, at equal error", &claim_c3},
     ClaimEntry{"C4", "Kajiya, Toth, Joy and others: crossings of patches, by method",
                "certified_newton misses and invents none of those counted in 113 bits", &claim_c4},
+    ClaimEntry{"E1", "Amanatides: a cone a pixel instead of many rays",
+               "RMSE of one cone per pixel at most that of 16 rays, checks to the horizon, poles, "
+               "spheres",
+               &claim_e1},
+    ClaimEntry{"E2", "Kirk: covered areas from tables",
+               "at least twice as fast as the formulas, off by at most 1e-3", &claim_e2},
     ClaimEntry{"F1", "Whitted: rays where shades differ instead of everywhere",
                "at most half the rays of uniform sampling at equal error, 5 scenes", &claim_f1},
     ClaimEntry{"F2", "Whitted: bounding spheres that some eye ray meets",

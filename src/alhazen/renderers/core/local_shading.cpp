@@ -45,7 +45,7 @@ Vec3 mapped_normal(const Scene& scene, const Surface& surface,
         apply_uv_transform(texture.uv_transform, dpdu, dpdv);
         frame = frame_from_derivatives(n, dpdu, dpdv);
     }
-    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, {1, 1, 1, 1}};
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, {1, 1, 1, 1}, {}};
     return bent_normal(texel_at(map.texture, scene.textures, lookup).rgb(), map.scale, n, frame);
 }
 
@@ -61,8 +61,9 @@ Vec3 turned_to_view(const Vec3& n, const Vec3& view) {
 }  // namespace
 
 MaterialSample material_at(const Scene& scene, const Surface& surface,
-                           const std::array<UvFootprint, 2>& footprint) {
-    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, surface.color};
+                           const std::array<UvFootprint, 2>& footprint,
+                           const SolidAperture& aperture) {
+    const SurfaceLookup lookup{{surface.uv, surface.uv2}, footprint, surface.color, aperture};
     const auto sample = [&](std::size_t i) {
         return evaluate(scene.materials[static_cast<std::size_t>(surface.materials[i])],
                         scene.textures, lookup);
@@ -73,8 +74,20 @@ MaterialSample material_at(const Scene& scene, const Surface& surface,
 }
 
 MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id) {
-    const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color};
+    const SurfaceLookup lookup{
+        {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
     return evaluate(scene.materials[static_cast<std::size_t>(id)], scene.textures, lookup);
+}
+
+SolidAperture aperture_at(const Surface& surface, const Vec3& direction, double width) {
+    constexpr double kRadiusOfSquare = 0.56418958354775629;  // of a disc of area 1
+    const Vec3& n = surface.normal;
+    const double cosine = std::fmax(std::abs(dot(direction, n)), 1e-6);
+    const Vec3 in_plane = direction - dot(direction, n) * n;
+    const double sine = length(in_plane);
+    const Vec3 along = sine > 1e-9 ? in_plane / sine : perpendicular(n);
+    const double radius = kRadiusOfSquare * width;
+    return {surface.point, (radius / cosine) * along, radius * cross(n, along)};
 }
 
 std::array<UvFootprint, 2> footprint_at(const Surface& surface, const Vec3& direction,
@@ -114,8 +127,10 @@ bool set_material(const Scene& scene, const Vec3& direction, double width, Mater
         if (point.material != nullptr) return false;
     }
     if (scene.has_mipmaps && width > 0.0) footprint = footprint_at(surface, direction, width);
+    const SolidAperture aperture =
+        scene.has_solid_textures ? aperture_at(surface, direction, width) : SolidAperture{};
     // In place: it is large.
-    ::new (&point.own) MaterialSample(material_at(scene, surface, footprint));
+    ::new (&point.own) MaterialSample(material_at(scene, surface, footprint, aperture));
     point.material = &point.own;
     return true;
 }

@@ -56,7 +56,13 @@ struct ShadingPoint {
 
 /// The evaluated material. `footprint`: of the ray's cone, in both sets of texture coordinates.
 [[nodiscard]] MaterialSample material_at(const Scene& scene, const Surface& surface,
-                                         const std::array<UvFootprint, 2>& footprint = {});
+                                         const std::array<UvFootprint, 2>& footprint = {},
+                                         const SolidAperture& aperture = {});
+
+/// The semi-axes of the ellipse that a cone of cross-section `width`^2 around `direction` cuts out
+/// of the surface.
+[[nodiscard]] SolidAperture aperture_at(const Surface& surface, const Vec3& direction,
+                                        double width);
 
 /// The medium on one side of the surface (`surface.media`), with textures evaluated at the surface.
 [[nodiscard]] MaterialSample medium_at(const Scene& scene, const Surface& surface, MaterialId id);

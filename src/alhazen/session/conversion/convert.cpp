@@ -92,6 +92,11 @@ std::string write_materials(const SceneDescription& description,
     std::vector<MtlTexture> textures;
     for (const TextureDescription& texture : description.textures) {
         const StoredImage* image = texture.texture.image.get();
+        if (image == nullptr) {
+            output.report().lost.push_back("solid texture " + texture.name);
+            textures.push_back({"", texture.texture});
+            continue;
+        }
         std::string& file = files[image];
         if (file.empty()) {
             const PictureFile picture = picture_file(*image);

@@ -8,6 +8,7 @@ namespace alhazen {
 
 Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLookup& lookup) {
     const Texture& texture = textures[static_cast<std::uint32_t>(id)];
+    if (texture.solid) return evaluate(*texture.solid, lookup.aperture);
     const std::size_t set = texture.uv_set == 1 ? 1 : 0;
     const UvTransform& transform = texture.uv_transform;
     if (transform == UvTransform{}) {

@@ -105,6 +105,7 @@ struct SurfaceLookup {
     std::array<Vec2, 2> uv{};  ///< both sets of texture coordinates
     std::array<UvFootprint, 2> footprint{};
     Rgba color{1, 1, 1, 1};  ///< of the vertices
+    SolidAperture aperture;  ///< in world space
 };
 
 /// A material evaluated at one point, as the terms of Whitted's equation and what it leaves out.
@@ -128,7 +129,7 @@ struct MaterialSample {
                                       const SurfaceLookup& lookup);
 [[nodiscard]] inline MaterialSample evaluate(const Material& material,
                                              std::span<const Texture> textures, const Vec2& uv) {
-    return evaluate(material, textures, SurfaceLookup{{uv, uv}, {}, {1, 1, 1, 1}});
+    return evaluate(material, textures, SurfaceLookup{{uv, uv}, {}, {1, 1, 1, 1}, {}});
 }
 
 /// A volume is seen from inside whatever its sides; a thin sheet is not.

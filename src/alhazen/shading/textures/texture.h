@@ -1,8 +1,7 @@
 #pragma once
-/// Textures: images looked up by texture coordinates.
+/// Textures: images looked up by texture coordinates, and solid textures (solid_texture.h).
 ///
-/// ADD A TEXTURE HERE: there is one kind, the image. A second kind turns Texture::image into a
-/// variant; the compiler then names the uses of `image`:
+/// ADD A TEXTURE HERE: a further kind beside Texture::image and Texture::solid has its word in
 ///   - shading/textures/texture.cpp: evaluate;
 ///   - scene/compile_materials.cpp: pyramids and bytes;
 ///   - scene_model/validate_materials.cpp: check of the values;
@@ -20,6 +19,7 @@
 #include "alhazen/imaging/codecs/stored_image.h"
 #include "alhazen/math/vec.h"
 #include "alhazen/shading/textures/mip_pyramid.h"
+#include "alhazen/shading/textures/solid_texture.h"
 
 namespace alhazen {
 
@@ -56,9 +56,10 @@ struct UvFootprint {
     Vec2 a{0, 0}, b{0, 0};
 };
 
-/// An image looked up by texture coordinates: u from left to right, v from bottom to top.
+/// An image looked up by texture coordinates: u from left to right, v from bottom to top. Or a
+/// solid texture, for which only `solid` counts.
 struct Texture {
-    std::shared_ptr<const StoredImage> image;  ///< never null in a compiled scene
+    std::shared_ptr<const StoredImage> image;  ///< in a compiled scene null only beside `solid`
     Wrap wrap_u = Wrap::Repeat;
     Wrap wrap_v = Wrap::Repeat;
     TextureFilter filter = TextureFilter::Bilinear;
@@ -70,10 +71,11 @@ struct Texture {
     UvTransform uv_transform;
     /// Of `image`; made by `compile` for Mipmapped. Null: looked up as Bilinear.
     std::shared_ptr<const MipPyramid> pyramid;
+    std::shared_ptr<const SolidTexture> solid;  ///< null: an image
 };
 
-/// The texture's linear colour and alpha at `uv`, to which uv_transform has been applied; the mean
-/// over the footprint when mipmapped.
+/// The linear colour and alpha of an image at `uv`, to which uv_transform has been applied; the
+/// mean over the footprint when mipmapped.
 ///
 /// Source: Heckbert, "Survey of Texture Mapping", IEEE CG&A 6(11), 1986 (the footprint as an
 /// ellipse); McCormack, Perry, Farkas and Jouppi, "Feline: Fast Elliptical Lines for Anisotropic

@@ -269,6 +269,41 @@ void read_native_texture(const NativeBlock& block, NativeContext& context,
                 context.diagnostics);
 }
 
+void read_native_solid_texture(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, "solid_texture");
+    if (block.name.empty()) {
+        context.diagnostics.error(
+            block.location, "solid_texture: expected a name, as in solid_texture \"wood\" { }");
+    }
+    SolidTexture solid;
+    std::string name = block.name;
+    reader.require("kind");
+    reader.read("name", name);
+    reader.read_word("kind", native_words<SolidTexture::Kind>(), solid.kind);
+    const auto color = [&](std::string_view key, Rgba& out) {
+        Rgb value = out.rgb();
+        const auto node = reader.find(key);
+        if (node && read_native_color(*node, key, reader.values(), value)) {
+            out = {value.r, value.g, value.b, 1.0};
+        }
+    };
+    color("color", solid.color);
+    color("other", solid.other);
+    reader.read("origin", solid.origin);
+    reader.read("size", solid.size);
+    reader.read("direction", solid.direction);
+    reader.read("octaves", solid.octaves);
+    reader.read("turbulence", solid.turbulence);
+    reader.finish();
+    Texture texture;
+    texture.solid = std::make_shared<const SolidTexture>(solid);
+    const auto id = static_cast<TextureId>(context.scene.textures.size());
+    context.scene.textures.push_back({std::move(name), std::move(texture), block.location});
+    define_name(block.name, id, "texture", block.location, context.texture_names,
+                context.diagnostics);
+}
+
 std::optional<MaterialId> read_material_value(TextNode value, NativeContext& context) {
     if (value.broken()) return std::nullopt;
     if (value.is(NodeKind::Block)) return add_material(value, "", context);

@@ -6,6 +6,7 @@
 namespace alhazen {
 
 void read_native_material(const NativeBlock& block, NativeContext& context);
+void read_native_solid_texture(const NativeBlock& block, NativeContext& context);
 void read_native_texture(const NativeBlock& block, NativeContext& context,
                          const NativeScope& scope);
 

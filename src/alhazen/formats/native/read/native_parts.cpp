@@ -100,7 +100,7 @@ std::string known_blocks() {
     std::vector<std::string_view> names;
     for (const auto& [name, read] : kSettingsBlocks) names.push_back(name);
     for (const auto& [name, read] : native_view_blocks()) names.push_back(name);
-    names.insert(names.end(), {"material", "texture", "instance", "include"});
+    names.insert(names.end(), {"material", "texture", "solid_texture", "instance", "include"});
     for (const auto& [name, read] : kPartBlocks) names.push_back(name);
     for (const std::string_view name : native_shape_names()) names.push_back(name);
     return joined(names);
@@ -132,6 +132,7 @@ void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
     if (block.block && block.block->broken()) return;
     if (read_top_level_block(block, context, scope)) return;
     if (block.type == "material") return read_native_material(block, context);
+    if (block.type == "solid_texture") return read_native_solid_texture(block, context);
     if (block.type == "texture") return read_native_texture(block, context, scope);
     if (is_native_shape(block.type)) {
         if (block.block) read_shape(block, context, scope);

@@ -90,6 +90,23 @@ std::string uv_rows(const UvTransform& t) {
            native_value(Vec3{t.vu, t.vv, t.offset.y}) + ")";
 }
 
+void write_solid_texture(NativeWriteContext& context, const TextureDescription& description,
+                         std::size_t number) {
+    const SolidTexture& t = *description.texture.solid;
+    const SolidTexture usual;
+    NativeBlockText block("solid_texture", context.texture_labels[number]);
+    add_name(block, context.texture_labels[number], description.name);
+    block.add("kind", std::string(native_word(t.kind)));
+    block.add_unless("color", t.color.rgb(), usual.color.rgb());
+    block.add_unless("other", t.other.rgb(), usual.other.rgb());
+    block.add_unless("origin", t.origin, usual.origin);
+    block.add_unless("size", t.size, usual.size);
+    block.add_unless("direction", t.direction, usual.direction);
+    block.add_unless("octaves", t.octaves, usual.octaves);
+    block.add_unless("turbulence", t.turbulence, usual.turbulence);
+    context.append(block);
+}
+
 }  // namespace
 
 void write_native_textures(NativeWriteContext& context) {
@@ -97,6 +114,10 @@ void write_native_textures(NativeWriteContext& context) {
     for (std::size_t i = 0; i < context.scene.textures.size(); ++i) {
         const TextureDescription& description = context.scene.textures[i];
         const Texture& texture = description.texture;
+        if (texture.solid) {
+            write_solid_texture(context, description, i);
+            continue;
+        }
         std::string& file = files[texture.image.get()];
         if (file.empty()) file = write_picture(context, *texture.image, i);
         NativeBlockText block("texture", context.texture_labels[i]);

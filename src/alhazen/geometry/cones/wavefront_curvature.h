@@ -1,0 +1,66 @@
+#pragma once
+/// What a curved surface does to a cone that it reflects or refracts.
+///
+/// Source: Coddington's equations, as in Welford, "Aberrations of Optical Systems", 1986, section
+/// 4.3; Amanatides, "Ray Tracing with Cones", SIGGRAPH 1984, section 4 (new virtual origin and
+/// spread).
+/// Differs: the surface has two principal curvatures in any direction; the tangential and the
+/// sagittal curvature are those of the normal sections. The wavefront is then astigmatic; a
+/// circular cone of equal area replaces it, whose spread is the geometric mean.
+/// Conventions: curvature is positive where the surface is convex towards the incoming cone.
+/// `vergence` is the spread over the radius: 1 / distance of the virtual apex, negative where a
+/// cone converges. Spreads are at most 1: an angle of pi / 2 at the apex.
+
+#include <algorithm>
+#include <cmath>
+
+namespace alhazen {
+
+/// The curvature of a surface in the plane of incidence, and perpendicular to it.
+struct SectionCurvatures {
+    double tangential = 0, sagittal = 0;
+};
+
+inline constexpr double kWidestSpread = 1.0;
+
+/// The spread of a circular cone of the same area as one of two spreads.
+[[nodiscard]] inline double equal_area_spread(double a, double b) {
+    const double mean = std::sqrt(std::abs(a * b));
+    return std::clamp(a + b < 0.0 ? -mean : mean, -kWidestSpread, kWidestSpread);
+}
+
+/// The spread of a mirrored cone of radius `radius` and spread `spread` where it meets the
+/// surface; `cosine` of the angle of incidence, in (0, 1].
+[[nodiscard]] inline double mirrored_spread(double radius, double spread, double cosine,
+                                            const SectionCurvatures& of) {
+    const double t = spread + 2.0 * radius * of.tangential / cosine;
+    const double s = spread + 2.0 * radius * of.sagittal * cosine;
+    return equal_area_spread(t, s);
+}
+
+struct RefractedCone {
+    double radius = 0, spread = 0;
+};
+/// The same refracted: `eta` is the index on this side over that behind, `cosine_behind` of the
+/// angle of refraction.
+[[nodiscard]] inline RefractedCone refracted_cone(double radius, double spread, double cosine,
+                                                  double cosine_behind, double eta,
+                                                  const SectionCurvatures& of) {
+    // n' cos'^2 V' = n cos^2 V - (n' cos' - n cos) k, with n / n' = eta, V = spread / radius; the
+    // radius in the plane of incidence is times cos' / cos.
+    const double power = cosine_behind - eta * cosine;
+    const double behind = std::max(cosine_behind, 1e-3);
+    const double t = (eta * cosine * cosine * spread - power * radius * of.tangential) /
+                     (behind * behind) * (behind / cosine);
+    const double s = eta * spread - power * radius * of.sagittal;
+    return {radius * std::sqrt(behind / cosine), equal_area_spread(t, s)};
+}
+
+/// A dull surface, or a translucent one: the cone is wider by an angle.
+[[nodiscard]] inline double widened_spread(double spread, double angle) {
+    const double half = std::atan(std::abs(spread)) + angle;
+    const double wide = std::min(std::tan(std::min(half, 0.78539816339744831)), kWidestSpread);
+    return angle > 0.0 ? wide : spread;
+}
+
+}  // namespace alhazen

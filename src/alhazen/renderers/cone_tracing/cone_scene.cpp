@@ -1,0 +1,418 @@
+#include "alhazen/renderers/cone_tracing/cone_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "alhazen/base/error.h"
+#include "alhazen/geometry/polygon/convex_corners.h"
+#include "alhazen/math/unit_vector.h"
+
+namespace alhazen {
+
+namespace {
+
+bool passes_cones(const Material& material) {
+    return material.alpha_mode != AlphaMode::Opaque || !material.double_sided;
+}
+
+/// The factor of a placement that keeps shapes; 0 for any other.
+double similarity_of(const Mat3& m) {
+    const double a = length(m.x_axis), b = length(m.y_axis), c = length(m.z_axis);
+    const double slack = 1e-9 * a;
+    const bool square = std::abs(dot(m.x_axis, m.y_axis)) <= slack * a &&
+                        std::abs(dot(m.y_axis, m.z_axis)) <= slack * a &&
+                        std::abs(dot(m.z_axis, m.x_axis)) <= slack * a;
+    return square && std::abs(b - a) <= slack && std::abs(c - a) <= slack ? a : 0.0;
+}
+
+/// Newell's normal, of the length of twice the area.
+Vec3 loop_normal(std::span<const Vec3> loop) {
+    Vec3 sum;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        sum += cross(loop[k] - loop[0], loop[k + 1 == loop.size() ? 0 : k + 1] - loop[0]);
+    }
+    return sum;
+}
+
+/// Whether a point of the plane of a normal lies in a loop, by the odd-even rule.
+bool is_in_loop(const Vec3& p, std::span<const Vec3> loop, const Vec3& normal) {
+    const int drop = dominant_axis(normal);
+    const int a = (drop + 1) % 3, b = (drop + 2) % 3;
+    bool in = false;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec3 &u = loop[k], &v = loop[k + 1 == loop.size() ? 0 : k + 1];
+        if ((u[b] > p[b]) != (v[b] > p[b]) &&
+            p[a] < u[a] + (p[b] - u[b]) / (v[b] - u[b]) * (v[a] - u[a])) {
+            in = !in;
+        }
+    }
+    return in;
+}
+
+/// Joins the surfaces of faces and meshes that share an edge.
+class SharedEdges {
+  public:
+    explicit SharedEdges(std::size_t sources) : parent_(sources) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+    void add(Vec3 a, Vec3 b, std::uint32_t source) {
+        const auto key = [](const Vec3& p) { return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0}; };
+        std::array<std::array<double, 3>, 2> edge{key(a), key(b)};
+        if (edge[1] < edge[0]) std::swap(edge[0], edge[1]);
+        edges_.push_back({edge, source});
+    }
+    [[nodiscard]] std::vector<std::uint32_t> surfaces() {
+        std::sort(edges_.begin(), edges_.end());
+        for (std::size_t k = 1; k < edges_.size(); ++k) {
+            if (edges_[k].first != edges_[k - 1].first) continue;
+            const std::uint32_t a = root(edges_[k].second), b = root(edges_[k - 1].second);
+            parent_[std::max(a, b)] = std::min(a, b);
+        }
+        std::vector<std::uint32_t> result(parent_.size());
+        for (std::uint32_t k = 0; k < result.size(); ++k) result[k] = root(k);
+        return result;
+    }
+
+  private:
+    std::uint32_t root(std::uint32_t k) {
+        while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+        return k;
+    }
+    std::vector<std::pair<std::array<std::array<double, 3>, 2>, std::uint32_t>> edges_;
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Walks the objects of a description as the compiler of scenes does.
+class ConeGatherer {
+  public:
+    ConeGatherer(const SceneDescription& description, const Scene& scene)
+        : d_(description), scene_(scene), uses_(description.objects.size()) {
+        std::uint32_t next = 0;
+        for (const ObjectDescription& object : d_.objects) {
+            first_part_.push_back(next);
+            next += static_cast<std::uint32_t>(object.parts.size());
+            for (const Part& part : object.parts) {
+                if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                    ++uses_[static_cast<std::size_t>(*child)];
+                }
+            }
+        }
+    }
+
+    ConeScene gather() {
+        add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
+        if (!refused_.empty()) {
+            throw Error(ErrorKind::Usage,
+                        "cones take spheres, planes, polygons, boxes, polyhedra, rectangles and "
+                        "triangle meshes; these are none: " +
+                            refused_);
+        }
+        join_surfaces();
+        build_tree();
+        return std::move(result_);
+    }
+
+  private:
+    struct MeshFacts {
+        bool closed = false, inward = false;
+    };
+
+    void refuse(const std::string& what, const std::string& name, const FileLocation& where) {
+        if (!refused_.empty()) refused_ += "; ";
+        refused_ += what;
+        if (!name.empty()) refused_ += " '" + name + "'";
+        if (where.line > 0) refused_ += " (line " + std::to_string(where.line) + ")";
+    }
+
+    void add_object(std::size_t index, const Affine& world_from_object, RayMask mask,
+                    const std::uint32_t* instance) {
+        const ObjectDescription& object = d_.objects[index];
+        if (object.combine != Combine::Group) {
+            refuse("solid of constructive geometry", object.name, object.location);
+            return;
+        }
+        std::uint32_t number = first_part_[index];
+        for (const Part& part : object.parts) {
+            add_part(part, number++, world_from_object * part.object_from_part,
+                     mask & part.visible_to, instance);
+        }
+    }
+
+    void add_part(const Part& part, std::uint32_t number, const Affine& world_from_part,
+                  RayMask mask, const std::uint32_t* instance) {
+        if (mask == 0) return;
+        if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+            const auto index = static_cast<std::size_t>(*child);
+            const ObjectDescription& object = d_.objects[index];
+            const bool dissolved =
+                uses_[index] == 1 && object.combine == Combine::Group && object.accelerator.empty();
+            const std::uint32_t* around = instance != nullptr || dissolved ? instance : &number;
+            add_object(index, world_from_part, mask, around);
+            return;
+        }
+        ConeSource source;
+        source.placement = {world_from_part, inverse(world_from_part)};
+        source.placed = world_from_part != Affine{};
+        source.material = part.material;
+        source.part = number;
+        source.instance = instance != nullptr ? *instance : number;
+        source.visible_to = mask;
+        if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
+            source.may_pass = passes_cones(material_of(part.material));
+            auto prepared = std::make_shared<AnyShape>(*shape);
+            add_shape(std::move(prepared), part, std::move(source));
+        } else {
+            add_mesh(d_.meshes[static_cast<std::size_t>(std::get<MeshIndex>(part.what))].mesh.get(),
+                     std::move(source));
+        }
+    }
+
+    [[nodiscard]] const Material& material_of(MaterialId id) const {
+        return scene_.materials[static_cast<std::size_t>(id)];
+    }
+
+    void add_mesh(const TriangleMesh* mesh, ConeSource source) {
+        if (mesh->triangles.empty()) return;
+        source.kind = ConeSource::Kind::Mesh;
+        // Shared without counting: the description outlives the picture.
+        source.mesh.mesh = std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), mesh);
+        source.mesh.material = source.material;
+        const std::vector<std::uint32_t>& own = mesh->vertex_materials;
+        source.may_pass = own.empty() ? passes_cones(material_of(source.material))
+                                      : std::any_of(own.begin(), own.end(), [&](std::uint32_t id) {
+                                            return passes_cones(material_of(MaterialId{id}));
+                                        });
+        const MeshFacts& facts = facts_of(*mesh);
+        source.closed = facts.closed;
+        source.inward =
+            facts.inward != (determinant(source.placement.outer_from_inner.linear) < 0.0);
+        source.tree = result_.mesh_trees.at(mesh).get();
+        result_.items.push_back({static_cast<std::uint32_t>(result_.sources.size())});
+        result_.sources.push_back(std::move(source));
+    }
+
+    const MeshFacts& facts_of(const TriangleMesh& mesh) {
+        const auto [at, is_new] = facts_.try_emplace(&mesh);
+        if (!is_new) return at->second;
+        MeshFacts& facts = at->second;
+        facts.closed = mesh.closed();
+        facts.inward = facts.closed && signed_volume(mesh) < 0.0;
+        std::vector<Box3> boxes(mesh.triangles.size());
+        for (std::size_t k = 0; k < boxes.size(); ++k) boxes[k] = mesh.triangle_box(k);
+        result_.mesh_trees[&mesh] = std::make_unique<ConeTree>(boxes);
+        return facts;
+    }
+
+    void add_shape(std::shared_ptr<AnyShape> shape, const Part& part, ConeSource source) {
+        std::visit([](auto& s) { s.prepare(); }, *shape);
+        source.shape = shape;
+        source.inward = determinant(source.placement.outer_from_inner.linear) < 0.0;
+        const std::string name = std::visit(
+            [&]<class S>(const S& s) -> std::string { return add_kind(s, source) ? "" : S::kName; },
+            *shape);
+        if (!name.empty()) refuse(name, part.name, part.location);
+    }
+
+    template <class S>
+    bool add_kind(const S&, ConeSource&) {
+        return false;
+    }
+    bool add_kind(const Sphere& s, ConeSource& source) {
+        const Affine& world = source.placement.outer_from_inner;
+        const double scale = similarity_of(world.linear);
+        if (!(scale > 0.0)) return false;
+        source.kind = ConeSource::Kind::Sphere;
+        source.closed = true;
+        source.point = world.point(s.center);
+        source.radius = scale * s.radius;
+        result_.items.push_back({static_cast<std::uint32_t>(result_.sources.size())});
+        result_.sources.push_back(source);
+        return true;
+    }
+    bool add_kind(const Plane& s, ConeSource& source) {
+        add_plane(s.point, s.unit_normal, source);
+        return true;
+    }
+    bool add_kind(const HalfSpace& s, ConeSource& source) {
+        source.closed = true;
+        add_plane(s.face.point, s.face.unit_normal, source);
+        return true;
+    }
+    void add_plane(const Vec3& point, const Vec3& normal, ConeSource& source) {
+        source.kind = ConeSource::Kind::Plane;
+        source.point = source.placement.outer_from_inner.point(point);
+        source.normal =
+            unit_or(transpose_times(source.placement.inner_from_outer.linear, normal), {0, 0, 1});
+        result_.planes.push_back(static_cast<std::uint32_t>(result_.sources.size()));
+        result_.sources.push_back(source);
+    }
+    bool add_kind(const Polygon& s, ConeSource& source) {
+        begin_faces(source);
+        add_face(0, s.vertices, s.loop_ends);
+        return true;
+    }
+    bool add_kind(const Rectangle& s, ConeSource& source) {
+        begin_faces(source);
+        const std::array<Vec3, 4> loop{s.corner, s.corner + s.edge_u,
+                                       s.corner + s.edge_u + s.edge_v, s.corner + s.edge_v};
+        add_face(0, loop, {});
+        return true;
+    }
+    bool add_kind(const BoxShape& s, ConeSource& source) {
+        source.closed = true;
+        begin_faces(source);
+        for (int face = 0; face < 6; ++face) {
+            const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+            std::array<Vec3, 4> loop;
+            for (int k = 0; k < 4; ++k) {
+                Vec3& p = loop[static_cast<std::size_t>(face % 2 == 1 ? k : 3 - k)];
+                p[axis] = face % 2 == 1 ? s.hi[axis] : s.lo[axis];
+                p[u] = k == 1 || k == 2 ? s.hi[u] : s.lo[u];
+                p[v] = k >= 2 ? s.hi[v] : s.lo[v];
+            }
+            add_face(static_cast<std::uint32_t>(face), loop, {});
+        }
+        return true;
+    }
+    bool add_kind(const Polyhedron& s, ConeSource& source) {
+        const ConvexCorners corners = convex_corners(s.faces);
+        if (!corners.bounded) return false;
+        source.closed = true;
+        begin_faces(source);
+        std::size_t first = 0;
+        for (std::size_t face = 0; face < corners.face_ends.size(); ++face) {
+            std::vector<Vec3> loop(
+                corners.corners.begin() + static_cast<std::ptrdiff_t>(first),
+                corners.corners.begin() + static_cast<std::ptrdiff_t>(corners.face_ends[face]));
+            first = corners.face_ends[face];
+            if (loop.size() < 3) continue;
+            if (dot(loop_normal(loop), s.faces[face].normal) < 0.0) {
+                std::reverse(loop.begin(), loop.end());
+            }
+            add_face(static_cast<std::uint32_t>(face), loop, {});
+        }
+        return true;
+    }
+
+    void begin_faces(ConeSource& source) {
+        source.kind = ConeSource::Kind::Faces;
+        result_.sources.push_back(source);
+    }
+    void add_face(std::uint32_t part, std::span<const Vec3> vertices,
+                  const std::vector<std::uint32_t>& loop_ends) {
+        const ConeSource& source = result_.sources.back();
+        ConeFace face;
+        face.source = static_cast<std::uint32_t>(result_.sources.size() - 1);
+        face.part = part;
+        for (const Vec3& p : vertices) {
+            face.vertices.push_back(source.placement.outer_from_inner.point(p));
+        }
+        face.loop_ends = loop_ends;
+        orient(face);
+        if (!(length_squared(face.normal) > 0.0)) return;
+        result_.items.push_back({face.source, static_cast<std::uint32_t>(result_.faces.size())});
+        result_.faces.push_back(std::move(face));
+    }
+    /// Turns loops so that their signed areas add up to the odd-even rule, and sets the plane.
+    static void orient(ConeFace& face) {
+        std::vector<std::span<Vec3>> loops;
+        std::size_t first = 0;
+        for (const std::size_t end : face.loop_ends) {
+            loops.push_back(std::span(face.vertices).subspan(first, end - first));
+            first = end;
+        }
+        if (loops.empty()) loops.emplace_back(face.vertices);
+        const Vec3 outer = loop_normal(face.vertices.empty() ? std::span<Vec3>{} : loops[0]);
+        for (std::size_t k = 0; k < loops.size(); ++k) {
+            int depth = 0;
+            for (std::size_t j = 0; j < loops.size(); ++j) {
+                depth += j != k && is_in_loop(loops[k][0], loops[j], outer);
+            }
+            const bool along = dot(loop_normal(loops[k]), outer) >= 0.0;
+            if (along != (depth % 2 == 0)) std::reverse(loops[k].begin(), loops[k].end());
+        }
+        face.normal = unit_or(outer, {0, 0, 0});
+        for (const Vec3& p : loops[0]) face.point += p / static_cast<double>(loops[0].size());
+    }
+
+    void join_surfaces() {
+        SharedEdges shared(result_.sources.size());
+        for (const ConeFace& face : result_.faces) {
+            std::size_t first = 0, end = 0;
+            for (std::size_t k = 0; k < std::max<std::size_t>(face.loop_ends.size(), 1); ++k) {
+                first = end;
+                end = face.loop_ends.empty() ? face.vertices.size() : face.loop_ends[k];
+                for (std::size_t i = first; i < end; ++i) {
+                    shared.add(face.vertices[i], face.vertices[i + 1 == end ? first : i + 1],
+                               face.source);
+                }
+            }
+        }
+        for (std::uint32_t k = 0; k < result_.sources.size(); ++k) {
+            if (result_.sources[k].kind == ConeSource::Kind::Mesh && !result_.sources[k].closed) {
+                add_borders(result_.sources[k], k, shared);
+            }
+        }
+        const std::vector<std::uint32_t> surfaces = shared.surfaces();
+        for (std::size_t k = 0; k < surfaces.size(); ++k) result_.sources[k].surface = surfaces[k];
+    }
+    /// The edges of a mesh that belong to one triangle.
+    static void add_borders(const ConeSource& source, std::uint32_t number, SharedEdges& shared) {
+        const TriangleMesh& mesh = *source.mesh.mesh;
+        std::vector<std::array<std::uint32_t, 2>> edges;
+        for (const auto& t : mesh.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+                edges.push_back({std::min(a, b), std::max(a, b)});
+            }
+        }
+        std::sort(edges.begin(), edges.end());
+        for (std::size_t k = 0; k < edges.size();) {
+            std::size_t end = k + 1;
+            while (end < edges.size() && edges[end] == edges[k]) ++end;
+            if (end == k + 1) {
+                const Affine& world = source.placement.outer_from_inner;
+                shared.add(world.point(mesh.positions[edges[k][0]]),
+                           world.point(mesh.positions[edges[k][1]]), number);
+            }
+            k = end;
+        }
+    }
+
+    void build_tree() {
+        std::vector<Box3> boxes;
+        for (const ConeItem& item : result_.items) {
+            const ConeSource& source = result_.sources[item.source];
+            Box3 box;
+            if (item.face != ConeItem::kNoFace) {
+                for (const Vec3& p : result_.faces[item.face].vertices) box.include(p);
+            } else if (source.kind == ConeSource::Kind::Sphere) {
+                const Vec3 r{source.radius, source.radius, source.radius};
+                box = {source.point - r, source.point + r};
+            } else {
+                for (const Vec3& p : source.mesh.mesh->positions) {
+                    box.include(source.placement.outer_from_inner.point(p));
+                }
+            }
+            boxes.push_back(box);
+        }
+        result_.tree = ConeTree(boxes);
+    }
+
+    const SceneDescription& d_;
+    const Scene& scene_;
+    std::vector<std::uint32_t> uses_, first_part_;
+    std::map<const TriangleMesh*, MeshFacts> facts_;
+    ConeScene result_;
+    std::string refused_;
+};
+
+}  // namespace
+
+ConeScene cone_scene(const SceneDescription& description, const Scene& scene) {
+    return ConeGatherer(description, scene).gather();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,348 @@
+#include "alhazen/renderers/cone_tracing/cone_tracing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/cameras/pixel_cones.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/renderers/cone_tracing/cone_tracer.h"
+#include "alhazen/renderers/whitted/whitted.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+
+/// Pixels of side 1, (0, 0) in the middle of the picture; a look along -z from z = 100.
+OrthographicCamera unit_pixels(int size) {
+    const double side = size;
+    return {{0, 0, 100}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
+}
+/// Of the cone of such a pixel.
+const double kRadius = std::sqrt(1 / kPi);
+
+Film picture_of(SceneMaker& maker, const Camera& camera, int width, int height,
+                const RenderControl& control = {}, const ConeTracingOptions& options = {}) {
+    const Scene scene = maker.compile();
+    Film film(width, height, {0, 0, width, height});
+    const RenderJob job{
+        .scene = scene, .camera = camera, .description = &maker.description(), .control = control};
+    EXPECT_TRUE(ConeTracing(options).render(job, film).complete());
+    return film;
+}
+
+Material glowing(const Rgb& color) {
+    Material material;
+    material.emission.color = color;
+    return material;
+}
+
+Rectangle upright(double left, double right, double z = 0) {
+    return {.corner = {left, -9, z}, .edge_u = {right - left, 0, 0}, .edge_v = {0, 18, 0}};
+}
+
+double one_pixel(SceneMaker& maker) {
+    return picture_of(maker, unit_pixels(1), 1, 1).at(0, 0).r;
+}
+
+TEST(ConeTracing, AnEdgeCoversItsSegmentOfThePixel) {
+    for (const double x : {0.0, 0.25, -0.4}) {
+        SceneMaker maker;
+        maker.add(upright(x, 9), maker.material(glowing({1, 1, 1})));
+        EXPECT_NEAR(one_pixel(maker), segment_area(kRadius, x), 1e-12) << x;
+    }
+}
+
+TEST(ConeTracing, ASphereCoversItsLens) {
+    SceneMaker maker;
+    maker.add(Sphere{.center = {0.5, 0, 0}, .radius = 0.4}, maker.material(glowing({1, 1, 1})));
+    EXPECT_NEAR(one_pixel(maker), lens_area(kRadius, 0.4, 0.5), 1e-12);
+}
+
+TEST(ConeTracing, FacesThatShareAnEdgeLeaveNoSeam) {
+    SceneMaker maker;
+    const auto white = maker.material(glowing({1, 1, 1}));
+    maker.add(upright(-9, 0.125), white);
+    maker.add(upright(0.125, 9), white);
+    EXPECT_NEAR(one_pixel(maker), 1.0, 1e-12);
+}
+
+TEST(ConeTracing, SurfacesOfTheirOwnAreIndependent) {
+    SceneMaker maker;
+    const auto white = maker.material(glowing({1, 1, 1}));
+    maker.add(upright(-9, 0.0, 1.0), white);
+    maker.add(upright(0.0, 9), white);
+    EXPECT_NEAR(one_pixel(maker), 0.75, 1e-12);
+}
+
+TEST(ConeTracing, TrianglesOfAMeshAddUp) {
+    TriangleMesh fan;
+    fan.positions.push_back({0.05, 0.02, 0});
+    constexpr std::uint32_t kCount = 37;
+    for (std::uint32_t k = 0; k < kCount; ++k) {
+        const double angle = 2 * kPi * k / kCount;
+        fan.positions.push_back({9 * std::cos(angle), 9 * std::sin(angle), 0});
+        fan.triangles.push_back({0, k + 1, (k + 1) % kCount + 1});
+    }
+    SceneMaker maker;
+    maker.add(maker.mesh(fan), maker.material(glowing({1, 1, 1})));
+    EXPECT_NEAR(one_pixel(maker), 1.0, 1e-9);
+}
+
+TEST(ConeTracing, TheFrontOfASolidHidesItsBack) {
+    SceneMaker maker;
+    maker.add(BoxShape{{0.1, -9, -4}, {9, 9, 0}}, maker.material(glowing({1, 1, 1})));
+    // Slightly from the side: two faces are seen, four are not.
+    OrthographicCamera camera = unit_pixels(1);
+    EXPECT_NEAR(picture_of(maker, camera, 1, 1).at(0, 0).r, segment_area(kRadius, 0.1), 1e-12);
+    camera.origin = {-30, 0, 100};
+    camera.direction = {0.3, 0, -1};
+    const double seen = picture_of(maker, camera, 1, 1).at(0, 0).r;
+    // The edge at x = 0.1 of the lower face is the first that the parallel rays meet.
+    EXPECT_GT(seen, segment_area(kRadius, 0.1));
+    EXPECT_LE(seen, 1.0);
+}
+
+TEST(ConeTracing, MoreCoverMeansFartherThingsShowLess) {
+    SceneMaker maker;
+    maker.add(upright(0.0, 9, 2.0), maker.material(glowing({1, 0, 0})));
+    maker.add(upright(-9, 9, 1.0), maker.material(glowing({0, 1, 0})));
+    maker.add(upright(-9, 9, 0.0), maker.material(glowing({0, 0, 1})));
+    const Rgb c = picture_of(maker, unit_pixels(1), 1, 1).at(0, 0);
+    EXPECT_NEAR(c.r, 0.5, 1e-12);
+    EXPECT_NEAR(c.g, 0.5, 1e-12);
+    EXPECT_EQ(c.b, 0.0);
+}
+
+/// Everything that the renderer takes, lit, mirrored and refracted.
+void add_all(SceneMaker& maker) {
+    Material floor, mirror, glass, clay;
+    floor.diffuse.color = {0.8, 0.7, 0.6};
+    mirror.reflective.color = {0.7, 0.8, 0.9};
+    glass.transmissive.color = {0.9, 0.8, 0.7};
+    glass.index.value = 1.5;
+    clay.diffuse.color = {0.7, 0.3, 0.2};
+    maker.add(Plane{.point = {0, -1, 0}, .normal = {0, 1, 0}}, maker.material(floor));
+    maker.add(Sphere{.center = {-1.2, 0, 0}}, maker.material(mirror));
+    maker.add(Sphere{.center = {1.2, 0, 0}}, maker.material(glass));
+    maker.add(BoxShape{{-0.3, -1, -3}, {0.4, 1.5, -2.5}}, maker.material(clay));
+    Polygon frame;
+    frame.vertices = {{-3, -1, -4}, {3, -1, -4}, {3, 2, -4}, {-3, 2, -4},
+                      {-2, 0, -4},  {2, 0, -4},  {2, 1, -4}, {-2, 1, -4}};
+    frame.loop_ends = {4, 8};
+    maker.add(frame, maker.material(clay));
+    TriangleMesh mesh;
+    mesh.positions = {{-2, 1, -1}, {2, 1, -1}, {0, 3, -1}, {0, 1.5, -1.5}};
+    mesh.triangles = {{0, 1, 2}, {2, 1, 3}};
+    maker.add(maker.mesh(mesh), maker.material(clay));
+    maker.light(PointLight{.position = {3, 4, 5}});
+}
+
+Camera front(double aspect) {
+    return look_along({0, 0.5, 7}, {0, 0, -1}, {0, 1, 0}, 0.8, aspect);
+}
+
+TEST(ConeTracing, TheBitsDependOnNeitherThreadsNorTiles) {
+    SceneMaker maker;
+    add_all(maker);
+    const Film one = picture_of(maker, front(1.5), 48, 32, {.threads = 1, .tile_size = 32});
+    for (const RenderControl& control : {RenderControl{.threads = 2, .tile_size = 7},
+                                         RenderControl{.threads = 4, .tile_size = 1}}) {
+        const Film other = picture_of(maker, front(1.5), 48, 32, control);
+        for (int y = 0; y < 32; ++y) {
+            for (int x = 0; x < 48; ++x) ASSERT_EQ(one.at(x, y), other.at(x, y)) << x << ',' << y;
+        }
+    }
+}
+
+TEST(ConeTracing, IsNearManyRaysEverywhere) {
+    SceneMaker maker;
+    add_all(maker);
+    const Film cones = picture_of(maker, front(1.5), 48, 32);
+    const Scene scene = maker.compile();
+    Film rays(48, 32, {0, 0, 48, 32}), few = rays;
+    RenderJob job{.scene = scene, .camera = front(1.5), .samples_per_pixel = 256};
+    (void)Whitted().render(job, rays);
+    job.samples_per_pixel = 1;
+    (void)Whitted().render(job, few);
+    double ours = 0, theirs = 0, largest = 0;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 48; ++x) {
+            const Rgb d = cones.at(x, y) - rays.at(x, y), e = few.at(x, y) - rays.at(x, y);
+            ours += d.r * d.r + d.g * d.g + d.b * d.b;
+            theirs += e.r * e.r + e.g * e.g + e.b * e.b;
+            largest = std::max({largest, std::abs(d.r), std::abs(d.g), std::abs(d.b)});
+        }
+    }
+    EXPECT_LT(ours, 0.2 * theirs);
+    EXPECT_LT(largest, 0.35);
+}
+
+TEST(ConeTracing, TablesChangeAPictureByAThousandth) {
+    SceneMaker maker;
+    for (int k = 0; k < 20; ++k) {
+        maker.add(Sphere{.center = {-4.5 + 0.47 * k, 0.3 * (k % 7) - 1, -2.0 * k},
+                         .radius = 0.05 + 0.02 * k},
+                  maker.material(glowing({1, 1, 1})));
+    }
+    const Film formulas = picture_of(maker, front(1), 40, 40);
+    const Film tables = picture_of(maker, front(1), 40, 40, {}, {.tables = true});
+    double largest = 0;
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            largest = std::max(largest, std::abs(formulas.at(x, y).r - tables.at(x, y).r));
+        }
+    }
+    EXPECT_GT(largest, 0.0);
+    EXPECT_LT(largest, 2e-3);
+}
+
+TEST(ConeTracing, OtherShapesAreRefusedByName) {
+    SceneMaker maker;
+    maker.add(Torus{}, maker.material(glowing({1, 1, 1})));
+    maker.add(Cylinder{}, maker.material(glowing({1, 1, 1})));
+    const Scene scene = maker.compile();
+    Film film(1, 1, {0, 0, 1, 1});
+    const RenderJob job{
+        .scene = scene, .camera = unit_pixels(1), .description = &maker.description()};
+    try {
+        (void)ConeTracing().render(job, film);
+        FAIL();
+    } catch (const Error& error) {
+        const std::string what = error.what();
+        EXPECT_NE(what.find("torus"), std::string::npos) << what;
+        EXPECT_NE(what.find("cylinder"), std::string::npos) << what;
+        EXPECT_EQ(error.kind(), ErrorKind::Usage);
+    }
+}
+
+TEST(ConeTracing, AFlatMirrorShowsTheMirroredScene) {
+    // A sphere above a mirror, and below the place of the mirror.
+    const auto scene = [](bool mirrored) {
+        SceneMaker maker;
+        Material mirror;
+        mirror.reflective.color = {1, 1, 1};
+        maker.add(Sphere{.center = {0.3, mirrored ? 1.0 : -1.0, -3}, .radius = 0.35},
+                  maker.material(glowing({1, 1, 1})));
+        if (mirrored) {
+            maker.add(Plane{.point = {0, 0, 0}, .normal = {0, 1, 0}}, maker.material(mirror));
+        }
+        const Camera camera = look_along({0, 1, 2}, {0, -0.4, -1}, {0, 1, 0}, 0.5, 1);
+        return picture_of(maker, camera, 24, 24);
+    };
+    const Film mirrored = scene(true), direct = scene(false);
+    for (int y = 8; y < 24; ++y) {
+        for (int x = 0; x < 24; ++x) {
+            EXPECT_NEAR(mirrored.at(x, y).r, direct.at(x, y).r, 1e-4) << x << ',' << y;
+        }
+    }
+}
+
+/// A tracer of a scene of nothing but blockers.
+struct Blockers {
+    Scene scene;
+    ConeScene geometry;
+    Camera camera = unit_pixels(1);
+    RenderJob job;
+    RayCounters counters;
+    ConeTracer tracer;
+
+    explicit Blockers(SceneMaker& maker)
+        : scene(maker.compile()),
+          geometry(cone_scene(maker.description(), scene)),
+          job{.scene = scene, .camera = camera, .description = &maker.description()},
+          tracer(job, geometry, false, counters) {}
+
+    double share(const Vec3& point, const Vec3& light, double radius) {
+        ConeStart start;
+        start.kind = RayKind::Shadow;
+        start.range.z_max = length(light - point);
+        return tracer.let_through(cone_to_light(point, light, radius), start).r;
+    }
+};
+
+TEST(ConeTracing, ThePenumbraOfASphereOfLightBehindAnEdgeIsItsSegment) {
+    SceneMaker maker;
+    maker.add(upright(0, 9, 5.0), maker.material(glowing({1, 1, 1})));
+    Blockers blockers(maker);
+    const double R = 0.3, D = 10;
+    for (double x = -0.6; x <= 0.6; x += 0.05) {
+        // In the cone towards the light the edge is a line, at 5 of 10.
+        const double tangent = R / std::sqrt(D * D - R * R);
+        const double h = -x / (5.0 * tangent);
+        const double seen = 1.0 - segment_area(1.0, h) / kPi;
+        EXPECT_NEAR(blockers.share({x, 0, 0}, {x, 0, D}, R), seen, 1e-9) << x;
+    }
+}
+
+TEST(ConeTracing, LightInFrontOfABlockerIsNotBlocked) {
+    SceneMaker maker;
+    maker.add(upright(-9, 9, 5.0), maker.material(glowing({1, 1, 1})));
+    Blockers blockers(maker);
+    EXPECT_EQ(blockers.share({0, 0, 0}, {0, 0, 4.9}, 0.1), 1.0);
+    EXPECT_NEAR(blockers.share({0, 0, 0}, {0, 0, 5.1}, 0.1), 0.0, 1e-12);
+}
+
+TEST(ConeTracing, TheEdgeOfAShadowCrossesAPixel) {
+    SceneMaker maker;
+    Material white;
+    white.diffuse.color = {1, 1, 1};
+    maker.add(Plane{}, maker.material(white));
+    maker.add(Rectangle{.corner = {0.1, -90, 3}, .edge_u = {90, 0, 0}, .edge_v = {0, 180, 0}},
+              maker.material(white));
+    maker.light(DirectionalLight{.to_light = {0, 0, 1}});
+    OrthographicCamera camera = unit_pixels(1);
+    camera.origin = {0, 0, 2};  // below the blocker
+    EXPECT_NEAR(picture_of(maker, camera, 1, 1).at(0, 0).r, 1 - segment_area(kRadius, 0.1), 1e-9);
+}
+
+TEST(ConeTracing, InstancesUnderAnyPlacementAreTheMovedMesh) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const Affine placement = Affine::translate({-0.4, 0.2, 1}) * Affine::rotate({1, 2, 3}, 0.7) *
+                             Affine::scale({2, -0.8, 1.3});
+    const auto render = [&](bool moved) {
+        SceneMaker maker;
+        Material white;
+        white.diffuse.color = {1, 1, 1};
+        TriangleMesh own = mesh;
+        if (moved) own.transform(placement);
+        maker.add(maker.mesh(own), maker.material(white), moved ? Affine{} : placement);
+        maker.light(PointLight{.position = {3, 4, 5}});
+        return picture_of(maker, front(1), 32, 32);
+    };
+    const Film placed = render(false), moved = render(true);
+    double lit = 0;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            EXPECT_NEAR(placed.at(x, y).r, moved.at(x, y).r, 1e-9) << x << ',' << y;
+            lit += placed.at(x, y).r;
+        }
+    }
+    EXPECT_GT(lit, 1.0);
+}
+
+TEST(PixelCones, HaveTheAreaOfTheirPixels) {
+    const Camera camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0, 1.5);
+    const PixelCones cones(camera, 300, 200, 1);
+    double sum = 0;
+    for (int j = 0; j < 200; ++j) {
+        for (int i = 0; i < 300; ++i) {
+            const ConeRay cone = cones.at({(i + 0.5) / 300, (j + 0.5) / 200});
+            sum += kPi * cone.spread * cone.spread;
+        }
+    }
+    // The solid angle of the picture.
+    const double h = std::tan(0.5), w = 1.5 * h;
+    EXPECT_NEAR(sum, 4 * std::asin(std::sin(std::atan(w)) * std::sin(std::atan(h))), 1e-4);
+    const RayCone eye = eye_cone(camera, 200, 4);
+    EXPECT_EQ(eye.width, 0.0);
+    EXPECT_EQ(eye.spread, central_cone(camera, 200, 4).footprint().spread);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
