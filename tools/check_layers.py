@@ -108,6 +108,7 @@ INSIDE = {
         "lane_carpenter": ["core"],
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],
+        "distributed": ["whitted"],
     },
     "session": {
         "": ["generators"],
