@@ -111,6 +111,7 @@ INSIDE = {
         "lane_carpenter": ["core"],
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],
+        "distributed": ["whitted"],
     },
     "sampling": {
         "": [],

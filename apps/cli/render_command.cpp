@@ -200,6 +200,8 @@ int run(const RenderArguments& args) {
     if (!args.encoding.empty()) (void)parse_encoding(args.encoding);
     RenderOptions options = render_options(args);
     const std::unique_ptr<Renderer> renderer = make_renderer(options.renderer);
+    const bool rounds = options.sampling && options.sampling->has_rounds();
+    if (!args.spp && !rounds) options.samples_per_pixel = renderer->usual_samples();
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
     const bool needs_aggregate = renderer->needs_aggregate();
@@ -223,6 +225,9 @@ int run(const RenderArguments& args) {
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
     complete(args, options, loaded);
 
+    for (const std::string& note : simplified(loaded.scene, options, *renderer)) {
+        if (!args.quiet) tell("{}\n", note);
+    }
     options.progress = &progress;
     options.stop = &stop_on_signals();
     const RenderResult result = render(loaded, options);
@@ -288,7 +293,8 @@ void add_render(CLI::App& app, int& exit_status) {
         ->capture_default_str();
     command
         ->add_option("--spp", args->spp,
-                     "Samples per pixel, 1 if not given; with --noise or a limit of --time the "
+                     "Samples per pixel, 1 if not given (distributed: 16); with --noise or a limit "
+                     "of --time the "
                      "most of a pixel")
         ->type_name("N");
     command

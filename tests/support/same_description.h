@@ -150,10 +150,15 @@ inline bool same(const TextureDescription& a, const TextureDescription& b) {
 
 // Cameras and lights.
 
-inline bool same(const PerspectiveCamera& a, const PerspectiveCamera& b) {
+inline bool same(const Lens& a, const Lens& b) {
     const auto& [a1, a2, a3, a4] = a;
     const auto& [b1, b2, b3, b4] = b;
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
+}
+inline bool same(const PerspectiveCamera& a, const PerspectiveCamera& b) {
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
 }
 inline bool same(const OrthographicCamera& a, const OrthographicCamera& b) {
     const auto& [a1, a2, a3, a4] = a;
@@ -184,6 +189,42 @@ inline bool same(const SpotLight& a, const SpotLight& b) {
     const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
     const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = b;
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
+}
+inline bool same(const RectangleExtent& a, const RectangleExtent& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
+inline bool same(const DiscExtent& a, const DiscExtent& b) {
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
+}
+inline bool same(const SphereExtent& a, const SphereExtent& b) {
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1, a2, b2);
+}
+inline bool same(const TubeExtent& a, const TubeExtent& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
+inline bool same(const PolygonExtent& a, const PolygonExtent& b) {
+    const auto& [a1] = a;
+    const auto& [b1] = b;
+    return all_same(a1, b1);
+}
+inline bool same(const MeshExtent& a, const MeshExtent& b) {
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1) && a2 == b2;
+}
+inline bool same(const AreaLight& a, const AreaLight& b) {
+    const auto& [a1, a2, a3, a4, a5, a6] = a;
+    const auto& [b1, b2, b3, b4, b5, b6] = b;
+    (void)a6, (void)b6;  // the surface is made by `compile`
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
 }
 inline bool same(const CameraDescription& a, const CameraDescription& b) {
     const auto& [a1, a2, a3, a4] = a;

@@ -1,6 +1,8 @@
 #include "alhazen/cameras/camera.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "alhazen/base/overloaded.h"
 #include "alhazen/cameras/eye_rays.h"
@@ -17,6 +19,43 @@ Vec3 any_perpendicular_up(const Vec3& forward, const Vec3& up) {
 }
 
 }  // namespace
+
+LensRays::LensRays(const Camera& camera) {
+    const auto* perspective = std::get_if<PerspectiveCamera>(&camera);
+    if (perspective == nullptr) return;
+    lens_ = perspective->lens;
+    normal_ = normalize(cross(perspective->up, perspective->right));
+    if (dot(normal_, perspective->look) < 0.0) normal_ = -normal_;
+    across_ = normalize(perspective->right);
+    along_ = cross(across_, normal_);
+    if (dot(along_, perspective->up) < 0.0) along_ = -along_;
+}
+
+namespace {
+
+/// A point of the unit disc, or of the regular polygon inscribed in it.
+Vec2 on_aperture(const Lens& lens, const Vec2& u) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    if (lens.blades < 3) {
+        const double r = std::sqrt(u.x), angle = kTurn * u.y;
+        return {r * std::cos(angle), r * std::sin(angle)};
+    }
+    const double scaled = u.x * lens.blades;
+    const double blade = std::min(std::floor(scaled), lens.blades - 1.0);
+    const double r = std::sqrt(scaled - blade), t = u.y * r;
+    const double a = lens.turn + kTurn * blade / lens.blades, b = a + kTurn / lens.blades;
+    return {(r - t) * std::cos(a) + t * std::cos(b), (r - t) * std::sin(a) + t * std::sin(b)};
+}
+
+}  // namespace
+
+Ray LensRays::through(const Ray& ray, const Vec2& u) const {
+    if (!open()) return ray;
+    const Vec2 p = lens_.radius * on_aperture(lens_, u);
+    const Vec3 offset = p.x * across_ + p.y * along_;
+    const Vec3 focus = (lens_.focus_distance / dot(ray.direction, normal_)) * ray.direction;
+    return {ray.origin + offset, normalize(focus - offset)};
+}
 
 Ray eye_ray(const Camera& camera, double x, double y) {
     const EyeRays rays(camera);
@@ -42,7 +81,7 @@ PerspectiveCamera look_along(const Vec3& eye, const Vec3& look, const Vec3& up, 
     const Vec3 forward = normalize(look);
     const Vec3 true_up = any_perpendicular_up(forward, up);
     const double height = 2.0 * std::tan(0.5 * fov_y);
-    return {eye, forward, (height * aspect) * cross(forward, true_up), height * true_up};
+    return {eye, forward, (height * aspect) * cross(forward, true_up), height * true_up, {}};
 }
 
 OrthographicCamera look_along_parallel(const Vec3& origin, const Vec3& look, const Vec3& up,

@@ -21,6 +21,15 @@
 
 namespace alhazen {
 
+/// A thin lens in the plane through the eye that is parallel to the picture (eye_rays.h, LensRays).
+/// Renderers that do not distribute rays see through its centre.
+struct Lens {
+    double radius = 0;          ///< 0: a pinhole
+    double focus_distance = 1;  ///< from the eye to what is sharp, along the normal of the picture
+    int blades = 0;             ///< sides of the aperture, a regular polygon; 0: a disc
+    double turn = 0;            ///< of its first corner from `right`, radians, anticlockwise
+};
+
 /// ray = eye + look + (x - 1/2) right + (y - 1/2) up. The three vectors need be neither orthogonal
 /// nor unit: the sheared cameras of the old formats are given as they are.
 struct PerspectiveCamera {
@@ -28,6 +37,7 @@ struct PerspectiveCamera {
     Vec3 look{0, 0, -1};
     Vec3 right{1, 0, 0};
     Vec3 up{0, 1, 0};
+    Lens lens{};
 };
 
 /// ray = origin + (x - 1/2) right + (y - 1/2) up, along `direction`.

@@ -49,4 +49,24 @@ class EyeRays {
     Vec3 middle_, right_, up_;
 };
 
+/// Rays through points of the lens of a camera.
+///
+/// Source: Cook, Porter and Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, section 4.4.
+/// Conventions: all rays of one place of the film meet in the plane of focus, which is parallel to
+/// the picture.
+class LensRays {
+  public:
+    explicit LensRays(const Camera& camera);
+
+    /// False: a pinhole, `through` changes nothing.
+    [[nodiscard]] bool open() const { return lens_.radius > 0.0; }
+    /// The ray of unit direction through the point of the lens that `u` in the unit square selects,
+    /// for the ray through its centre.
+    [[nodiscard]] Ray through(const Ray& ray, const Vec2& u) const;
+
+  private:
+    Lens lens_;
+    Vec3 normal_, across_, along_;  ///< unit: of the picture, and in it
+};
+
 }  // namespace alhazen

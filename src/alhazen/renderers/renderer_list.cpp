@@ -4,6 +4,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/cone_tracing/cone_tracing.h"
+#include "alhazen/renderers/distributed/distributed.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
@@ -34,9 +35,15 @@ std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 5> table{{
+    static constexpr std::array<RendererEntry, 6> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
+        {"distributed",
+         "the same with rays spread over lenses, lights with extent and rough reflections (Cook, "
+         "Porter and Carpenter 1984)",
+         [](RendererSettings&) {
+             return std::unique_ptr<Renderer>(std::make_unique<Distributed>());
+         }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());

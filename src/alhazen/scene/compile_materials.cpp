@@ -46,7 +46,7 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
     }
     compile_textures(description, scene);
     for (const LightDescription& l : description.lights) {
-        scene.lights.push_back(with_unit_directions(l.light));
+        scene.lights.push_back(ready_to_sample(l.light));
     }
     scene.cameras = description.cameras;
     const Conventions& conventions = description.conventions;

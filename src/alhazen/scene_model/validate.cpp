@@ -55,11 +55,27 @@ class Validator {
             const bool ok = is_finite(plane.right) && is_finite(plane.up) && is_finite(plane.eye) &&
                             is_finite(plane.forward) && plane.forward != Vec3{} &&
                             length_squared(cross(plane.right, plane.up)) > 0.0;
+            check_lens(camera);
             if (!ok || !(camera.aspect > 0.0) || !std::isfinite(camera.aspect)) {
                 error(camera.location,
                       "the camera's vectors must be finite, its view direction not zero and its "
                       "right and up vectors not parallel");
             }
+        }
+    }
+
+    void check_lens(const CameraDescription& camera) {
+        const auto* perspective = std::get_if<PerspectiveCamera>(&camera.camera);
+        if (perspective == nullptr) return;
+        const Lens& lens = perspective->lens;
+        const bool ok = lens.radius >= 0.0 && std::isfinite(lens.radius) &&
+                        lens.focus_distance > 0.0 && std::isfinite(lens.focus_distance) &&
+                        std::isfinite(lens.turn) && lens.blades != 1 && lens.blades != 2 &&
+                        lens.blades >= 0 && lens.blades <= 1000;
+        if (!ok) {
+            error(camera.location,
+                  "the camera's lens must have a radius that is not negative, a focus distance "
+                  "above 0 and no blades or 3 to 1000");
         }
     }
 
@@ -107,6 +123,12 @@ class Validator {
                         need(l.inner_angle >= 0 && l.inner_angle <= l.outer_angle &&
                                  l.outer_angle <= 3.1415926535897936,
                              "the light's angles must satisfy 0 <= inner <= outer <= 180 degrees");
+                    },
+                    [&](const AreaLight& l) {
+                        ambient(l.ambient);
+                        color(l.radiance);
+                        const char* fault = fault_of(l.extent);
+                        need(fault == nullptr, fault);
                     }},
                 light.light);
         }

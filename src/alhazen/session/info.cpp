@@ -187,7 +187,8 @@ const char* light_kind(const Light& light) {
     return std::visit(Overloaded{[](const AmbientLight&) { return "ambient"; },
                                  [](const DirectionalLight&) { return "directional"; },
                                  [](const PointLight&) { return "point"; },
-                                 [](const SpotLight&) { return "spot"; }},
+                                 [](const SpotLight&) { return "spot"; },
+                                 [](const AreaLight&) { return "area"; }},
                       light);
 }
 

@@ -2,6 +2,7 @@
 
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/session/seen_lights.h"
 #include "alhazen/session/statistics.h"
 #include "alhazen/session/stopwatch.h"
 
@@ -46,6 +47,7 @@ LoadedScene load(const std::filesystem::path& path, const LoadOptions& options) 
     report_phase(options, "load", 0);
     const Stopwatch load_time;
     loaded.description = load_description(path, options, loaded.diagnostics);
+    add_seen_lights(loaded.description);
     loaded.load_seconds = load_time.seconds();
     loaded.load_peak_bytes = peak_rss_bytes();
     report_phase(options, "load", 1);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <memory>
@@ -190,6 +191,28 @@ void check_sampling(const RenderOptions& options, const Renderer& renderer) {
                     "--noise and --time render in rounds: --aov time and counts are for a fixed "
                     "--spp");
     }
+}
+
+std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,
+                                    const Renderer& renderer) {
+    std::vector<std::string> notes;
+    if (renderer.distributes()) return notes;
+    const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
+    if (std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {
+        notes.push_back(
+            fmt::format("renderer '{}' takes lights with extent as points at their "
+                        "centres; 'distributed' does not",
+                        options.renderer));
+    }
+    const Camera& camera = find_camera(scene, options.camera).camera;
+    const auto* perspective = std::get_if<PerspectiveCamera>(&camera);
+    if (perspective != nullptr && perspective->lens.radius > 0.0) {
+        notes.push_back(
+            fmt::format("renderer '{}' sees through the centre of the lens; "
+                        "'distributed' through all of it",
+                        options.renderer));
+    }
+    return notes;
 }
 
 double free_aspect(const PictureSettings& picture, const RenderOptions& options) {

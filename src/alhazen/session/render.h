@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "alhazen/base/progress.h"
 #include "alhazen/imaging/film/film.h"
@@ -78,6 +79,10 @@ void check_antialias(const RenderOptions& options, const Renderer& renderer);
 
 /// The same for RenderOptions::sampling.
 void check_sampling(const RenderOptions& options, const Renderer& renderer);
+
+/// What of the view and the lights `renderer` does not show as it is, one sentence each.
+[[nodiscard]] std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,
+                                                  const Renderer& renderer);
 
 /// Renders an image. Throws Error (Usage) for invalid options, and where the renderer needs an
 /// aggregate that the scene does not have.

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "alhazen/renderers/core/renderer.h"
+#include "alhazen/sampling/samplers/sampler.h"
 
 namespace alhazen {
 
@@ -22,6 +23,21 @@ concept RadianceEstimator =
     std::constructible_from<E, const RenderJob&, std::size_t, RayCounters&> &&
     requires(E& estimator, std::span<const Ray> rays, std::span<Rgb> radiance) {
     estimator.trace(rays, radiance);
+};
+
+/// The sample that an eye ray belongs to.
+struct SampleId {
+    SamplePixel pixel;
+    std::uint32_t number = 0;  ///< of the sampler
+};
+
+/// An estimator that draws more than the place in the pixel: `trace_samples(ids, rays, radiance)`
+/// has the sample of each ray.
+template <class E>
+concept SampleEstimator = RadianceEstimator<E> &&
+    requires(E& estimator, std::span<const SampleId> ids, std::span<const Ray> rays,
+             std::span<Rgb> radiance) {
+    estimator.trace_samples(ids, rays, radiance);
 };
 
 }  // namespace alhazen

@@ -88,6 +88,11 @@ class Renderer {
     [[nodiscard]] virtual bool answers_single_rays() const { return false; }
     /// True: `render` heeds RenderJob::sampling.
     [[nodiscard]] virtual bool takes_samplers() const { return false; }
+    /// True: rays are distributed over lenses, lights with extent and rough reflections; others
+    /// see through the centre of the lens, and such lights as points.
+    [[nodiscard]] virtual bool distributes() const { return false; }
+    /// Samples per pixel where nothing is said.
+    [[nodiscard]] virtual int usual_samples() const { return 1; }
     /// True: reports have RenderReport::scan_lines.
     [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };

@@ -72,6 +72,7 @@ class SampleLoop {
     void begin_tile(const PixelBox& tile, const Film& film) {
         tile_ = tile;
         gathered_ = done_ = 0;
+        ids_.clear();
         own_ = {};
         taken_ = 0;
         places_.clear();
@@ -89,7 +90,8 @@ class SampleLoop {
             const auto room = static_cast<std::uint32_t>(sums_.size() - gathered_);
             const std::span<Vec2> some = std::span(points_).first(std::min(room, round_.count - s));
             round_.sampler.points(place, 0, round_.first + s, some);
-            for (const Vec2& u : some) {
+            for (std::uint32_t n = round_.first + s; const Vec2& u : some) {
+                if constexpr (SampleEstimator<Estimator>) ids_.push_back({place, n++});
                 const FilterKernel::Drawn drawn = round_.filter.draw(u);
                 const Vec2 p = film_place(film, place, drawn.offset);
                 if (job_.aovs != nullptr) places_.push_back(p);
@@ -117,7 +119,13 @@ class SampleLoop {
         eye_.rays(std::span(sums_).first(gathered_), rays_.data());
         const std::span<Rgb> found = std::span(radiance_).first(gathered_);
         std::fill(found.begin(), found.end(), Rgb{});
-        estimator.trace(std::span<const Ray>(rays_).first(gathered_), found);
+        const auto rays = std::span<const Ray>(rays_).first(gathered_);
+        if constexpr (SampleEstimator<Estimator>) {
+            estimator.trace_samples(ids_, rays, found);
+            ids_.clear();
+        } else {
+            estimator.trace(rays, found);
+        }
         // A truncated batch is dropped.
         if (job_.stop_requested()) return false;
         for (std::size_t k = 0; k < gathered_; ++k) {
@@ -154,6 +162,7 @@ class SampleLoop {
     EyeRays eye_;
     std::vector<Vec3> sums_;     ///< of a column and a row
     std::vector<double> signs_;  ///< of the filter
+    std::vector<SampleId> ids_;  ///< of the gathered rays, for a SampleEstimator
     std::vector<Vec2> points_;
     std::size_t gathered_ = 0;
     std::vector<Ray> rays_;

@@ -26,6 +26,7 @@ namespace alhazen {
 struct Path {
     RayKind kind = RayKind::Eye;
     bool inside = false;        ///< it starts inside something transparent
+    std::uint32_t sample = 0;   ///< of its batch of eye rays
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< of the medium it starts in
     RayCone cone;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "alhazen/base/overloaded.h"
 
@@ -49,16 +50,20 @@ LightPlace place_of(const Light& light) {
     return std::visit(Overloaded{[](const AmbientLight&) { return LightPlace::None; },
                                  [](const DirectionalLight&) { return LightPlace::Direction; },
                                  [](const PointLight&) { return LightPlace::Point; },
-                                 [](const SpotLight&) { return LightPlace::Point; }},
+                                 [](const SpotLight&) { return LightPlace::Point; },
+                                 [](const AreaLight&) { return LightPlace::Point; }},
                       light);
 }
 
-Light with_unit_directions(const Light& light) {
+Light ready_to_sample(const Light& light) {
     Light result = light;
     std::visit(
         Overloaded{[](AmbientLight&) {},
                    [](DirectionalLight& l) { l.to_light = normalize(l.to_light); },
-                   [](PointLight&) {}, [](SpotLight& l) { l.direction = normalize(l.direction); }},
+                   [](PointLight&) {}, [](SpotLight& l) { l.direction = normalize(l.direction); },
+                   [](AreaLight& l) {
+                       l.surface = std::make_shared<const LightSurface>(l.extent, l.two_sided);
+                   }},
         result);
     return result;
 }
@@ -79,8 +84,20 @@ LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation
                 const Approach a = approach(l, point, clamp_attenuation);
                 return LightSample{a.to_light, a.distance,
                                    a.attenuation * spot_falloff(l, a.to_light) * l.color};
+            },
+            [&](const AreaLight& l) {
+                const Vec3 offset = l.surface->center() - point;
+                const double d = length(offset);
+                const double solid = l.surface->projected_area(offset / d) / (d * d);
+                return LightSample{offset / d, d, (solid * std::numbers::inv_pi) * l.radiance};
             }},
         light);
+}
+
+LightSample sample_extent(const AreaLight& light, const Vec3& point, const Vec2& u) {
+    const ExtentSample s = light.surface->sample(point, u);
+    if (!(s.density > 0.0)) return {};
+    return {s.to_light, s.distance, (std::numbers::inv_pi / s.density) * light.radiance};
 }
 
 Rgb ambient_of(const Light& light) {

@@ -1,9 +1,9 @@
 #pragma once
-/// Lights without extent: a closed variant of plain structs.
+/// Lights: a closed variant of plain structs.
 ///
 /// ADD A LIGHT HERE: a struct with a member `ambient`, and an entry in `Light`. The compiler then
 /// names the other places:
-///   - shading/lights/light.cpp: place_of, with_unit_directions, sample;
+///   - shading/lights/light.cpp: place_of, ready_to_sample, sample;
 ///   - scene_model/validate.cpp: check of the values;
 ///   - formats/native/read/native_view.cpp: blocks_of (name and reader of its block);
 ///   - formats/native/write/native_write_view.cpp: block_of;
@@ -11,17 +11,20 @@
 ///   - tests/support/same_description.h: same;
 ///   - tests/unit/formats/native/native_writer_test.cpp: one in the round trip.
 ///
-/// Lights that are sampled with a density (areas, environments) belong in this folder, in a file of
-/// their own; `Light` holds those that one shadow ray can decide.
+/// Of a light with extent (light_extent.h) `sample` gives its stand-in: a point at its centre that
+/// sends to a point what the light would from afar. Renderers that distribute their rays sample
+/// `AreaLight::surface` instead (`sample_extent`).
 ///
 /// Conventions: every light may carry an ambient term, added at every point whatever is in between
 /// (the course's I_La); an `AmbientLight` is nothing else.
 
 #include <limits>
+#include <memory>
 #include <variant>
 
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"
+#include "alhazen/shading/lights/light_extent.h"
 
 namespace alhazen {
 
@@ -66,7 +69,19 @@ struct SpotLight {
     double range = kNoRange;
 };
 
-using Light = std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight>;
+/// A surface that shines with the same radiance from everywhere into all directions of its outer
+/// side. A matt surface of diffuse reflectance kd below a light of irradiance E shows kd E / pi.
+struct AreaLight {
+    LightExtent extent;
+    Rgb radiance{1, 1, 1};
+    bool two_sided = false;
+    Rgb ambient;
+    bool seen = true;  ///< as a surface of this emission, by all rays but shadow rays
+    /// Of `extent`; made by `ready_to_sample`.
+    std::shared_ptr<const LightSurface> surface;
+};
+
+using Light = std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, AreaLight>;
 
 /// A light as seen from a point: unit direction towards it, distance (infinite for directional
 /// lights) and the intensity that arrives unshadowed, attenuation included.
@@ -86,9 +101,13 @@ enum class LightPlace {
 [[nodiscard]] LightPlace place_of(const Light& light);
 /// False for a light that only has an ambient term.
 [[nodiscard]] bool illuminates(const Light& light);
-/// The light with its directions normalised, as `sample` expects it.
-[[nodiscard]] Light with_unit_directions(const Light& light);
+/// The light as `sample` expects it: directions normalised, surfaces prepared.
+[[nodiscard]] Light ready_to_sample(const Light& light);
 [[nodiscard]] LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation);
+/// The light from the point of `light` that `u` selects, divided by the density of that choice: the
+/// mean over `u` in the unit square is the light from all of it. No intensity where that point is
+/// seen from behind.
+[[nodiscard]] LightSample sample_extent(const AreaLight& light, const Vec3& point, const Vec2& u);
 [[nodiscard]] Rgb ambient_of(const Light& light);
 
 }  // namespace alhazen

@@ -84,11 +84,12 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
 
 TEST(NativeWriter, CamerasAndLightsComeBackBitForBit) {
     // ADD A CAMERA OR A LIGHT HERE: one of it in the loop.
-    static_assert(std::variant_size_v<Camera> == 2 && std::variant_size_v<Light> == 4);
+    static_assert(std::variant_size_v<Camera> == 2 && std::variant_size_v<Light> == 5);
     Numbers n(11);
     SceneDescription scene = empty_scene();
     for (int i = 0; i < 20; ++i) {
-        const PerspectiveCamera p{n.point(), n.point(), n.point(), n.point()};
+        const Lens lens{n.positive(), n.positive(), i % 2 == 0 ? 0 : 5, n.positive()};
+        const PerspectiveCamera p{n.point(), n.point(), n.point(), n.point(), lens};
         const OrthographicCamera o{n.point(), n.point(), n.point(), n.point()};
         scene.cameras.push_back({i == 0 ? "" : "eye", p, n.positive(), {}});
         scene.cameras.push_back(
@@ -104,6 +105,18 @@ TEST(NativeWriter, CamerasAndLightsComeBackBitForBit) {
                                 SpotLight{n.point(), n.point(), inner, inner + 0.1 * n.positive(),
                                           n.color(), a, n.color(), n.positive()},
                                 {}});
+    }
+    const LightExtent extents[] = {
+        RectangleExtent{n.point(), n.point(), n.point()},
+        DiscExtent{n.point(), n.point(), n.positive(), n.positive()},
+        SphereExtent{n.point(), n.positive()},
+        TubeExtent{n.point(), n.point(), n.positive()},
+        PolygonExtent{{n.point(), n.point(), n.point(), n.point()}},
+        MeshExtent{{n.point(), n.point(), n.point()}, {{{0, 1, 2}}, {{2, 1, 0}}}}};
+    for (const LightExtent& extent : extents) {
+        const bool odd = extent.index() % 2 == 1;
+        scene.lights.push_back(
+            {"area", AreaLight{extent, n.color(), odd, n.color(), !odd, {}}, {}});
     }
     scene.lights.push_back({"without", PointLight{.attenuation = {0, 0, 0}}, {}});
     scene.lights.push_back(

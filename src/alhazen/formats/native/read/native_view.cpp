@@ -1,10 +1,12 @@
 #include "alhazen/formats/native/read/native_view.h"
 
+#include <cmath>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "alhazen/formats/mesh/mesh_lists.h"
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/math/constants.h"
 
@@ -125,6 +127,31 @@ void read_cone(BlockReader& reader, SpotLight& light) {
     }
 }
 
+/// A radius above 0 makes a lens; `focus_at` is a point in the plane of focus.
+void read_lens(BlockReader& reader, PerspectiveCamera& camera) {
+    const bool has_lens = reader.read("lens_radius", camera.lens.radius);
+    double turn_deg = camera.lens.turn / kRadiansPerDegree;
+    Vec3 at;
+    reader.read("blades", camera.lens.blades);
+    if (reader.read("blade_turn_deg", turn_deg)) camera.lens.turn = turn_deg * kRadiansPerDegree;
+    reader.read("blade_turn_rad", camera.lens.turn);
+    reader.read("focus_distance", camera.lens.focus_distance);
+    const bool has_point = reader.read("focus_at", at);
+    if (has_point) {
+        const Vec3 normal = normalize(cross(camera.up, camera.right));
+        camera.lens.focus_distance = std::abs(dot(at - camera.eye, normal));
+    }
+    if (has_point && reader.has("focus_distance")) {
+        reader.error(reader.block(),
+                     "'focus_at' and 'focus_distance' say the same; expected one "
+                     "of them");
+    }
+    if (has_lens && camera.lens.radius > 0 && !has_point && !reader.has("focus_distance")) {
+        reader.error(reader.block(),
+                     "a lens needs 'focus_distance = ...' or 'focus_at = (x, y, z)'");
+    }
+}
+
 void add_light(const NativeBlock& block, NativeContext& context, Light light) {
     context.scene.lights.push_back({block.name, std::move(light), block.location});
 }
@@ -138,10 +165,11 @@ void read_perspective_camera(const NativeBlock& block, NativeContext& context) {
         reader.error(reader.block(), "'fov_deg' must be between 0 and 180");
         fov_deg = 45;
     }
+    PerspectiveCamera camera =
+        look_along(view.eye, view.look, view.up, fov_deg * kRadiansPerDegree, view.aspect);
+    read_lens(reader, camera);
     reader.finish();
-    add_camera(block, context,
-               look_along(view.eye, view.look, view.up, fov_deg * kRadiansPerDegree, view.aspect),
-               view.aspect);
+    add_camera(block, context, camera, view.aspect);
 }
 
 void read_sheared_camera(const NativeBlock& block, NativeContext& context) {
@@ -155,6 +183,7 @@ void read_sheared_camera(const NativeBlock& block, NativeContext& context) {
     reader.read("right", camera.right);
     reader.read("up", camera.up);
     read_positive(reader, "aspect", aspect);
+    read_lens(reader, camera);
     reader.finish();
     add_camera(block, context, camera, aspect);
 }
@@ -250,6 +279,69 @@ void read_spot_light(const NativeBlock& block, NativeContext& context) {
     add_light(block, context, light);
 }
 
+void read_fields(BlockReader& reader, RectangleExtent& e) {
+    for (const char* key : {"corner", "edge_u", "edge_v"}) reader.require(key);
+    reader.read("corner", e.corner);
+    reader.read("edge_u", e.edge_u);
+    reader.read("edge_v", e.edge_v);
+}
+void read_fields(BlockReader& reader, DiscExtent& e) {
+    for (const char* key : {"center", "normal", "radius"}) reader.require(key);
+    reader.read("center", e.center);
+    reader.read("normal", e.normal);
+    reader.read("radius", e.radius);
+    reader.read("inner_radius", e.inner_radius);
+}
+void read_fields(BlockReader& reader, SphereExtent& e) {
+    for (const char* key : {"center", "radius"}) reader.require(key);
+    reader.read("center", e.center);
+    reader.read("radius", e.radius);
+}
+void read_fields(BlockReader& reader, TubeExtent& e) {
+    for (const char* key : {"base", "top", "radius"}) reader.require(key);
+    reader.read("base", e.base);
+    reader.read("top", e.top);
+    reader.read("radius", e.radius);
+}
+void read_fields(BlockReader& reader, PolygonExtent& e) {
+    TriangleMesh points;
+    reader.require("vertices");
+    const auto list = reader.find("vertices");
+    if (list && read_points(*list, "vertices", reader.values(), points)) {
+        e.vertices = std::move(points.positions);
+    }
+}
+void read_fields(BlockReader& reader, MeshExtent& e) {
+    TriangleMesh mesh;
+    reader.require("points");
+    reader.require("faces");
+    const auto points = reader.find("points"), faces = reader.find("faces");
+    if (!points || !read_points(*points, "points", reader.values(), mesh)) return;
+    if (faces) read_faces(*faces, "faces", reader.values(), mesh);
+    e = {std::move(mesh.positions), std::move(mesh.triangles)};
+}
+
+template <class Extent>
+void read_area_light(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    Extent extent;
+    AreaLight light;
+    read_fields(reader, extent);
+    reader.require("radiance");
+    if (const auto value = reader.find("radiance")) {
+        read_native_color(*value, "radiance", reader.values(), light.radiance);
+    }
+    if (const auto value = reader.find("ambient")) {
+        read_native_color(*value, "ambient", reader.values(), light.ambient);
+    }
+    reader.read("two_sided", light.two_sided);
+    reader.read("seen", light.seen);
+    reader.finish();
+    light.extent = std::move(extent);
+    add_light(block, context, light);
+}
+
 // ADD A CAMERA OR A LIGHT HERE: the blocks that make it. An alternative of `Camera` or `Light`
 // without an overload does not compile.
 
@@ -274,6 +366,15 @@ Blocks blocks_of(std::type_identity<PointLight>) {
 }
 Blocks blocks_of(std::type_identity<SpotLight>) {
     return {{"spot_light", read_spot_light}};
+}
+
+Blocks blocks_of(std::type_identity<AreaLight>) {
+    return {{"rectangle_light", read_area_light<RectangleExtent>},
+            {"disc_light", read_area_light<DiscExtent>},
+            {"sphere_light", read_area_light<SphereExtent>},
+            {"tube_light", read_area_light<TubeExtent>},
+            {"polygon_light", read_area_light<PolygonExtent>},
+            {"mesh_light", read_area_light<MeshExtent>}};
 }
 
 template <class... Alternatives>

@@ -67,6 +67,63 @@ NativeBlockText block_of(const std::string& name, const SpotLight& light) {
     return block;
 }
 
+std::string point_list(const std::vector<Vec3>& points) {
+    return native_list_of(points, [](const Vec3& p) { return native_value(p); });
+}
+
+NativeBlockText extent_block(const std::string& name, const RectangleExtent& e) {
+    NativeBlockText block("rectangle_light", name);
+    block.add("corner", native_value(e.corner));
+    block.add("edge_u", native_value(e.edge_u));
+    block.add("edge_v", native_value(e.edge_v));
+    return block;
+}
+NativeBlockText extent_block(const std::string& name, const DiscExtent& e) {
+    NativeBlockText block("disc_light", name);
+    block.add("center", native_value(e.center));
+    block.add("normal", native_value(e.normal));
+    block.add("radius", native_value(e.radius));
+    block.add_unless("inner_radius", e.inner_radius, 0.0);
+    return block;
+}
+NativeBlockText extent_block(const std::string& name, const SphereExtent& e) {
+    NativeBlockText block("sphere_light", name);
+    block.add("center", native_value(e.center));
+    block.add("radius", native_value(e.radius));
+    return block;
+}
+NativeBlockText extent_block(const std::string& name, const TubeExtent& e) {
+    NativeBlockText block("tube_light", name);
+    block.add("base", native_value(e.base));
+    block.add("top", native_value(e.top));
+    block.add("radius", native_value(e.radius));
+    return block;
+}
+NativeBlockText extent_block(const std::string& name, const PolygonExtent& e) {
+    NativeBlockText block("polygon_light", name);
+    block.add("vertices", point_list(e.vertices));
+    return block;
+}
+NativeBlockText extent_block(const std::string& name, const MeshExtent& e) {
+    NativeBlockText block("mesh_light", name);
+    block.add("points", point_list(e.points));
+    block.add("faces", native_list_of(e.triangles, [](const auto& t) {
+                  return "(" + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " +
+                         std::to_string(t[2]) + ")";
+              }));
+    return block;
+}
+
+NativeBlockText block_of(const std::string& name, const AreaLight& light) {
+    NativeBlockText block =
+        std::visit([&](const auto& e) { return extent_block(name, e); }, light.extent);
+    block.add("radiance", native_value(light.radiance));
+    block.add_unless("ambient", light.ambient, Rgb{});
+    block.add_unless("two_sided", light.two_sided, false);
+    block.add_unless("seen", light.seen, true);
+    return block;
+}
+
 /// The forms without a field of view can express every camera.
 NativeBlockText block_of(const std::string& name, const PerspectiveCamera& camera) {
     NativeBlockText block("sheared_camera", name);
@@ -74,6 +131,13 @@ NativeBlockText block_of(const std::string& name, const PerspectiveCamera& camer
     block.add("look", native_value(camera.look));
     block.add("right", native_value(camera.right));
     block.add("up", native_value(camera.up));
+    const Lens& lens = camera.lens;
+    const bool plain = lens.radius == 0.0;
+    block.add_unless("lens_radius", lens.radius, 0.0);
+    if (!plain) block.add("focus_distance", native_value(lens.focus_distance));
+    if (plain) block.add_unless("focus_distance", lens.focus_distance, 1.0);
+    block.add_unless("blades", lens.blades, 0);
+    if (lens.turn != 0.0) add_angle(block, "blade_turn", lens.turn);
     return block;
 }
 

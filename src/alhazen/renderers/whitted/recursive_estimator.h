@@ -1,0 +1,285 @@
+#pragma once
+/// The estimator of recursive ray tracing, a generation at a time; `Chance` says what is drawn at
+/// random.
+///
+/// Source: Whitted 1980 (whitted.h); Cook, Porter and Carpenter 1984 (distributed.h).
+/// Conventions: those of RadianceEstimator. With NoChance nothing is drawn: the picture of Whitted.
+
+#include <algorithm>
+#include <deque>
+
+#include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/core/refraction.h"
+#include "alhazen/renderers/core/shadow_batch.h"
+#include "alhazen/renderers/core/visible_batch.h"
+#include "alhazen/renderers/core/wavefront.h"
+
+namespace alhazen {
+
+/// Lights are what `sample` says, mirrors and lenses are exact.
+struct NoChance {
+    explicit NoChance(const RenderJob&) {}
+    [[nodiscard]] LightSample light_from(const Light& light, std::size_t /*number*/,
+                                         const Vec3& point, bool clamp, const Path&,
+                                         int /*depth*/) const {
+        return sample(light, point, clamp);
+    }
+    void spread(RayKind, const ShadingPoint&, const Path&, int /*depth*/, Vec3&) const {}
+};
+
+/// From this depth on fewer rays are traced at a time, which bounds the memory of waiting
+/// generations.
+inline constexpr int kDeepGeneration = 16;
+inline constexpr std::size_t kRaysAtOnceWhereDeep = 16;
+
+/// Coherence of shadow rays from neighbouring points: they converge where there is one light.
+inline Coherence coherence_of_shadows(std::span<const Light> lights) {
+    std::size_t places = 0, directions = 0;
+    for (const Light& light : lights) {
+        places += place_of(light) == LightPlace::Point;
+        directions += place_of(light) == LightPlace::Direction;
+    }
+    return places == 1 && directions == 0 ? Coherence::Coherent : Coherence::Any;
+}
+
+/// Traces batches of eye rays; keeps all memory from batch to batch.
+template <class Chance>
+class RecursiveEstimator {
+  public:
+    RecursiveEstimator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
+        : job_(job),
+          scene_(job.scene),
+          conventions_(job.scene.conventions.shading),
+          counters_(counters),
+          rays_at_once_(rays_at_once),
+          eye_shadows_(coherence_of_shadows(scene_.lights)),
+          ambient_(ambient_terms(scene_.lights)),
+          visible_(scene_, job.count_tests ? &counters.tests : nullptr),
+          shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
+          chance_(job) {}
+
+    /// Radiance along eye rays of unit direction.
+    void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
+        eye_.clear();
+        for (std::uint32_t i = 0; const Ray& ray : rays) {
+            eye_.add(ray, Path{.sample = i++, .cone = job_.cone});
+        }
+        trace_all(eye_, 0);
+        for (std::uint32_t i = 0; Rgb & c : radiance) c = eye_.radiance(i++);
+    }
+
+    [[nodiscard]] Chance& chance() { return chance_; }
+
+    /// From now on `trace` stores the first hit of each eye ray; nothing where empty.
+    void keep_hits(std::span<Hit> hits) { eye_hits_ = hits; }
+
+  private:
+    /// All rays of a generation; `depth` is 0 for eye rays.
+    void trace_all(Generation& generation, int depth) {
+        generation.make_ready();
+        const std::size_t most =
+            depth < kDeepGeneration ? rays_at_once_ : std::min(rays_at_once_, kRaysAtOnceWhereDeep);
+        for (std::size_t i = 0; i < generation.size(); i += most) {
+            trace_part(generation.part(i, std::min(most, generation.size() - i)), depth);
+        }
+    }
+
+    /// Traces some rays of a generation. Behind a partly covering surface a ray continues straight,
+    /// as the same ray.
+    void trace_part(const GenerationPart& part, int depth) {
+        Wavefront& front = front_at(depth);
+        front.begin(part.size());
+        for (const Path& path : part.paths) ++counters_[path.kind].cast;
+        for (int met = 0; met < kMaxPassedSurfaces && !front.active.empty(); ++met) {
+            // One eye ray can cause millions of rays; its pixel is dropped after a stop.
+            if (job_.stop_requested()) return;
+            front.begin_surfaces();
+            meet_surfaces(part, depth, met == 0, front);
+            shadows_.finish(depth == 0 ? eye_shadows_ : Coherence::Any);
+            trace_all(front.next, depth + 1);
+            gather(front, part.radiance);
+            front.go_on();
+        }
+    }
+
+    Wavefront& front_at(int depth) {
+        while (fronts_.size() <= static_cast<std::size_t>(depth)) fronts_.emplace_back();
+        return fronts_[static_cast<std::size_t>(depth)];
+    }
+
+    /// Finds the next surface along each active ray; `first`: none has been found yet.
+    void meet_surfaces(const GenerationPart& part, int depth, bool first, Wavefront& front) {
+        const std::span<const Ray> rays = first ? part.rays : std::span<const Ray>(front.rays);
+        const Coherence coherence = first && depth == 0 ? Coherence::Coherent : Coherence::Any;
+        const auto path_of = [&](std::size_t k) -> const Path& {
+            return part.paths[front.active[k]];
+        };
+        const bool keeps = first && depth == 0 && !eye_hits_.empty();
+        visible_.find(
+            rays, coherence, path_of,
+            [&](std::size_t k, const ShadingPoint* point, double t) {
+                const std::uint32_t i = front.active[k];
+                Rgb& left = front.left[i];
+                if (point == nullptr) {
+                    part.radiance[i] = part.radiance[i] + left * scene_.background;
+                    return;
+                }
+                Path& path = part.paths[i];
+                counters_[path.kind].hit += first;
+                if (!path.absorption.is_black()) left = left * transmittance(path.absorption, t);
+                const double coverage = point->material->coverage;
+                MetSurface& met = front.met.emplace_back();
+                met.ray = i;
+                met.share = coverage * left;
+                shade({*point, rays[k], t, path, depth}, met, front.next);
+                left = (1.0 - coverage) * left;
+                if (!(left.max() >= kLeastTransmittance)) return;
+                front.next_active.push_back(i);
+                front.next_rays.push_back(leaving_ray(point->surface, rays[k].direction));
+                path.cone = path.cone.from(t);
+            },
+            [&](std::size_t k, const Hit& hit) {
+                if (keeps) eye_hits_[k] = hit;
+                return false;
+            });
+    }
+
+    /// Adds the colours of the surfaces to the radiance of the rays.
+    static void gather(const Wavefront& front, std::span<Rgb> radiance) {
+        for (const MetSurface& met : front.met) {
+            radiance[met.ray] += met.share * color_of(met, front.next);
+        }
+    }
+    static Rgb color_of(const MetSurface& met, const Generation& next) {
+        if (!met.lit) return met.own;
+        const auto beyond = [&](std::uint32_t ray) {
+            return ray == MetSurface::kNotSent ? Rgb{} : next.radiance(ray);
+        };
+        const Rgb color =
+            met.own + met.direct + met.kr * beyond(met.reflected) + met.kt * beyond(met.refracted);
+        return met.filtered ? color * met.filter : color;
+    }
+
+    /// A point and the ray that hit it.
+    struct Seen {
+        const ShadingPoint& point;
+        const Ray& ray;
+        double t;
+        const Path& path;
+        int depth;
+    };
+
+    /// Gathers the light from the point towards the origin of the ray: at once, by queued shadow
+    /// rays, or by rays of the next generation.
+    void shade(const Seen& seen, MetSurface& met, Generation& next) {
+        const ShadingPoint& point = seen.point;
+        met.lit = !point.material->unlit;
+        if (!met.lit) {
+            met.own = point.material->emission;
+            return;
+        }
+        met.own = unshadowed_terms(conventions_, ambient_, point);
+        add_direct_light(seen, met.direct);
+        if (seen.depth < conventions_.max_depth) {
+            Path onward = seen.path;
+            onward.contribution = seen.path.contribution * met.share;
+            onward.cone = seen.path.cone.from(seen.t);
+            if (conventions_.trace_reflections) reflect(seen, onward, met, next);
+            if (conventions_.trace_refractions) transmit(seen, onward, met, next);
+        }
+        met.filtered =
+            conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
+            seen.path.inside && !point.medium_is_physical;
+        if (met.filtered) met.filter = power(point.medium, seen.t);
+    }
+
+    void add_direct_light(const Seen& seen, Rgb& sum) {
+        const ShadingPoint& point = seen.point;
+        for (std::size_t number = 0; const Light& light : scene_.lights) {
+            const std::size_t here = number++;
+            if (!illuminates(light)) continue;
+            const LightSample l =
+                chance_.light_from(light, here, point.surface.point, conventions_.clamp_attenuation,
+                                   seen.path, seen.depth);
+            const double cosine = dot(point.normal, l.to_light);
+            if (!(cosine > 0.0)) continue;
+            shadows_.add(point.surface, l, reflected_fraction(conventions_, point, l, cosine),
+                         seen.path, sum);
+        }
+    }
+
+    /// `onward`: the path of the new ray, except for its kind and the effect of this surface.
+    void reflect(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
+        const ShadingPoint& point = seen.point;
+        const Rgb& kr = point.material->reflective;
+        const bool cast = !kr.is_black() || (conventions_.transmitting_surfaces_reflect &&
+                                             !point.material->transmissive.is_black());
+        onward.kind = RayKind::Reflection;
+        onward.contribution = onward.contribution * kr;
+        if (!cast || onward.contribution.max() < conventions_.min_contribution) return;
+        Vec3 direction = mirror(seen.ray.direction, point.normal);
+        // Where an interpolated normal reflects the ray into the surface, the geometric one is
+        // used.
+        if (conventions_.correct_interpolated_normals && dot(direction, point.geometric) < 0.0) {
+            direction = mirror(seen.ray.direction, point.geometric);
+        }
+        chance_.spread(RayKind::Reflection, point, seen.path, seen.depth, direction);
+        met.kr = kr;
+        met.reflected = next.add(onward_ray(conventions_, point.surface, direction), onward);
+    }
+
+    void transmit(const Seen& seen, Path onward, MetSurface& met, Generation& next) {
+        const ShadingPoint& point = seen.point;
+        const MaterialSample& material = *point.material;
+        const Rgb& kt = point.passing;
+        onward.kind = RayKind::Refraction;
+        onward.contribution = onward.contribution * kt;
+        if (kt.is_black() || onward.contribution.max() < conventions_.min_contribution) return;
+        Vec3 direction = seen.ray.direction;
+        if (!material.thin) {
+            if (!refracted(point, seen.ray, direction)) {
+                ++counters_.total_internal;
+                return;
+            }
+            const BehindSurface& behind = point.behind;
+            onward.inside = behind.known ? behind.inside : point.entering;
+            onward.absorption = behind.known     ? behind.absorption
+                                : point.entering ? material.absorption
+                                                 : Rgb{};
+        }
+        chance_.spread(RayKind::Refraction, point, seen.path, seen.depth, direction);
+        const bool tinted = material.physical || conventions_.refraction_tint ==
+                                                     ShadingConventions::RefractionTint::PerEvent;
+        met.kt = tinted ? kt : Rgb{1, 1, 1};
+        met.refracted = next.add(onward_ray(conventions_, point.surface, direction), onward);
+    }
+
+    [[nodiscard]] bool refracted(const ShadingPoint& point, const Ray& ray, Vec3& direction) const {
+        const double air = conventions_.air_index;
+        const double eta = point.behind.known ? point.behind.eta
+                           : point.entering   ? air / point.material->index
+                                              : point.material->index / air;
+        if (!refract(ray.direction, point.normal, eta, direction)) return false;
+        return !conventions_.correct_interpolated_normals ||
+               !(dot(direction, point.geometric) > 0.0) ||
+               refract(ray.direction, point.geometric, eta, direction);
+    }
+
+    const RenderJob& job_;
+    const Scene& scene_;
+    const ShadingConventions& conventions_;
+    RayCounters& counters_;
+    std::size_t rays_at_once_;
+    Coherence eye_shadows_;  ///< of the shadow rays from surfaces that eye rays hit
+    const std::vector<Rgb> ambient_;
+    std::span<Hit> eye_hits_;  ///< of a batch that begins with its first ray; see keep_hits
+    VisibleBatch visible_;
+    ShadowBatch shadows_;
+    Chance chance_;
+    Generation eye_;
+    std::deque<Wavefront> fronts_;  ///< by depth; references stay valid while it grows
+};
+
+}  // namespace alhazen

@@ -1,0 +1,101 @@
+#include "alhazen/session/seen_lights.h"
+
+#include "alhazen/base/overloaded.h"
+
+namespace alhazen {
+
+namespace {
+
+MeshIndex add_mesh(SceneDescription& description, const LightDescription& light,
+                   const MeshExtent& extent) {
+    auto mesh = std::make_shared<TriangleMesh>();
+    mesh->positions = extent.points;
+    mesh->triangles = extent.triangles;
+    description.meshes.push_back({light.name, std::move(mesh), light.location});
+    return static_cast<MeshIndex>(description.meshes.size() - 1);
+}
+
+template <class S>
+AnyShape prepared(S shape) {
+    shape.prepare();
+    return shape;
+}
+
+Part part_of(SceneDescription& description, const LightDescription& light,
+             const LightExtent& extent) {
+    Part part;
+    std::visit(
+        Overloaded{[&](const RectangleExtent& e) {
+                       Rectangle shape;
+                       shape.corner = e.corner;
+                       shape.edge_u = e.edge_u;
+                       shape.edge_v = e.edge_v;
+                       part.what = prepared(shape);
+                   },
+                   [&](const DiscExtent& e) {
+                       Disc shape;
+                       shape.center = e.center;
+                       shape.normal = e.normal;
+                       shape.radius = e.radius;
+                       shape.inner_radius = e.inner_radius;
+                       part.what = prepared(shape);
+                   },
+                   [&](const SphereExtent& e) {
+                       Sphere shape;
+                       shape.center = e.center;
+                       shape.radius = e.radius;
+                       part.what = prepared(shape);
+                   },
+                   [&](const TubeExtent& e) {
+                       Cylinder shape;
+                       shape.base = e.base;
+                       shape.top = e.top;
+                       shape.radius = e.radius;
+                       shape.capped = false;
+                       part.what = prepared(shape);
+                   },
+                   [&](const PolygonExtent& e) {
+                       Polygon shape;
+                       shape.vertices = e.vertices;
+                       part.what = prepared(shape);
+                   },
+                   [&](const MeshExtent& e) { part.what = add_mesh(description, light, e); }},
+        extent);
+    return part;
+}
+
+/// The root, as an object to which parts can be added.
+ObjectDescription& open_root(SceneDescription& description) {
+    ObjectDescription& root = description.objects[static_cast<std::size_t>(description.root)];
+    if (root.combine == Combine::Group && root.accelerator.empty()) return root;
+    Part old;
+    old.what = description.root;
+    ObjectDescription around;
+    around.parts.push_back(std::move(old));
+    description.objects.push_back(std::move(around));
+    description.root = static_cast<ObjectIndex>(description.objects.size() - 1);
+    return description.objects.back();
+}
+
+}  // namespace
+
+void add_seen_lights(SceneDescription& description) {
+    for (LightDescription& light : description.lights) {
+        auto* const area = std::get_if<AreaLight>(&light.light);
+        if (area == nullptr || !area->seen) continue;
+        area->seen = false;
+        Part part = part_of(description, light, area->extent);
+        Material material;
+        material.name = light.name;
+        material.emission.color = area->radiance;
+        material.double_sided = area->two_sided;
+        description.materials.push_back({std::move(material), light.location});
+        part.material = static_cast<MaterialId>(description.materials.size() - 1);
+        part.name = light.name;
+        part.location = light.location;
+        part.visible_to = kRaysOfAllKinds & ~mask_of(RayKind::Shadow);
+        open_root(description).parts.push_back(std::move(part));
+    }
+}
+
+}  // namespace alhazen
