@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "alhazen/base/overloaded.h"
 #include "alhazen/geometry/polygon/triangulate.h"
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 MeshExtent triangles_of(const PolygonExtent& polygon) {
     MeshExtent mesh{polygon.vertices, {}};
