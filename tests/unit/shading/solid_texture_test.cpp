@@ -111,6 +111,18 @@ TEST(SolidTexture, NoiseIsSmoothAndItsOctavesFadeWithTheAperture) {
     EXPECT_GT(blurred, 0.05 * sharp);
 }
 
+TEST(SolidTexture, AnApertureOfMillionsOfChecksIsGreyAndTakesNoTime) {
+    for (const double wide : {30.0, 1e3, 1e6, 1e8}) {
+        for (const double narrow : {0.3, wide}) {
+            const Rgba seen = evaluate(pattern(SolidTexture::Kind::Checks),
+                                       {{0.3, 0.4, 0.5}, {wide, 0.1 * wide, 0}, {0, narrow, 0}});
+            const Rgba one = pattern(SolidTexture::Kind::Checks).color;
+            const Rgba other = pattern(SolidTexture::Kind::Checks).other;
+            EXPECT_NEAR(seen.r, 0.5 * (one.r + other.r), 0.05) << wide << " " << narrow;
+        }
+    }
+}
+
 TEST(SolidTexture, WhatIsNoNumberIsHarmless) {
     using Kind = SolidTexture::Kind;
     const double nan = std::nan("");

@@ -38,9 +38,10 @@ struct OverDisc {
     Vec2 g;
     [[nodiscard]] double reach() const { return std::sqrt(g.x * g.x + g.y * g.y); }
     [[nodiscard]] double first_edge() const { return std::floor(c - reach()) + 1.0; }
+    /// At most 1000, far more than are followed one by one.
     [[nodiscard]] int edges() const {
         const double last = std::ceil(c + reach()) - 1.0;
-        return static_cast<int>(std::clamp(last - first_edge() + 1.0, 0.0, 1e6));
+        return static_cast<int>(std::clamp(last - first_edge() + 1.0, 0.0, 1e3));
     }
 };
 
