@@ -58,10 +58,12 @@ INSIDE = {
         "wide_bvh/nodes": [],
         "wide_bvh/build": ["wide_bvh/nodes"],
         "wide_bvh/trace": ["wide_bvh/build"],
+        "motion": ["core", "wide_bvh/build"],
     },
     "aggregates": {
         "wide_bvh/leaves": [],
         "wide_bvh": ["wide_bvh/leaves"],
+        "motion": [],
     },
     "formats": {
         "core": [],
@@ -90,6 +92,7 @@ INSIDE = {
     "geometry": {
         "": [],
         "cones": [""],
+        "motion": [""],
         "polygon": [""],
     },
     "imaging": {

@@ -18,6 +18,17 @@ void Aggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> result
     for (std::size_t i = 0; i < rays.size(); ++i) result[i] = occluded(rays[i], query);
 }
 
+void Aggregate::closest_batch_at(std::span<const Ray> rays, std::span<const float>,
+                                 std::span<Hit> hits, RayQuery query, Coherence coherence) const {
+    closest_batch(rays, hits, query, coherence);
+}
+
+void Aggregate::occluded_batch_at(std::span<const Ray> rays, std::span<const float>,
+                                  std::span<bool> result, RayQuery query,
+                                  Coherence coherence) const {
+    occluded_batch(rays, result, query, coherence);
+}
+
 void Aggregate::complete(const Ray&, double, PrimitiveId, Surface&) const {}
 
 bool hit_less(const Hit& a, const Hit& b) {

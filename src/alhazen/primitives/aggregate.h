@@ -16,6 +16,7 @@
 #include "alhazen/geometry/bounds_source.h"
 #include "alhazen/geometry/box.h"
 #include "alhazen/geometry/hit.h"
+#include "alhazen/geometry/motion/moving_box.h"
 #include "alhazen/geometry/ray.h"
 #include "alhazen/geometry/ray_mask.h"
 
@@ -36,10 +37,12 @@ enum class Coherence {
 /// Parameters of every query.
 struct RayQuery {
     // Implicit, so that callers may pass only the statistics.
-    RayQuery(TraversalStats* counted, RayMask sees = kAllRays) : stats(counted), mask(sees) {}
+    RayQuery(TraversalStats* counted, RayMask sees = kAllRays, float when = 0.0f)
+        : stats(counted), mask(sees), time(when) {}
 
     TraversalStats* stats;  ///< work is added here; null: not counted
     RayMask mask;           ///< mask of the rays
+    float time;             ///< 0: the shutter opens; 1: it closes
 };
 
 class Aggregate {
@@ -71,6 +74,9 @@ class Aggregate {
     /// is one of its own or the instance of the hit; `ray` is in the frame of the aggregate.
     /// Default: no change.
     virtual void complete(const Ray& ray, double t, PrimitiveId primitive, Surface& surface) const;
+    /// The bounds of all primitives while the shutter is open; by default nothing moves.
+    [[nodiscard]] virtual MovingBox moving_box() const { return {box(), box()}; }
+
     /// Whether `complete` may change the material.
     [[nodiscard]] virtual bool changes_materials() const { return false; }
 
@@ -84,6 +90,13 @@ class Aggregate {
     /// Whether each ray has any hit.
     virtual void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
                                 Coherence coherence = Coherence::Any) const;
+
+    /// The same for rays of different times, `times` as long as `rays`; by default nothing moves.
+    virtual void closest_batch_at(std::span<const Ray> rays, std::span<const float> times,
+                                  std::span<Hit> hits, RayQuery query, Coherence coherence) const;
+    virtual void occluded_batch_at(std::span<const Ray> rays, std::span<const float> times,
+                                   std::span<bool> occluded, RayQuery query,
+                                   Coherence coherence) const;
 };
 
 /// The order of hits: by t, then by the ids from the outermost aggregate inward. Sorts must be

@@ -13,20 +13,19 @@
 
 #include "alhazen/accel/core/traversal_stats.h"
 #include "alhazen/geometry/bounds_source.h"
+#include "alhazen/geometry/motion/transform_motion.h"
+#include "alhazen/geometry/placement.h"
 #include "alhazen/geometry/ray_mask.h"
 #include "alhazen/geometry/watertight_triangle.h"
 #include "alhazen/primitives/aggregate.h"
 #include "alhazen/primitives/nearest_hit.h"
 #include "alhazen/shading/materials/material.h"
+#include "alhazen/shapes/meshes/mesh_motion.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "alhazen/shapes/shape_list.h"
 
 namespace alhazen {
 
-/// Both directions of a placement.
-struct Placement {
-    Affine outer_from_inner, inner_from_outer;
-};
 inline constexpr std::uint32_t kNoPlacement = 0xFFFFFFFFu;
 
 /// All shapes of one type.
@@ -56,6 +55,8 @@ struct PlacedMesh {
     bool mirrored = false;   ///< its transform reversed the winding: normals are flipped back
     std::uint32_t part = 0;  ///< number of its part; see Surface
     RayMask visible_to = kAllRays;
+    /// Where vertices move; `mesh` is as the shutter opens. Only in a MotionAggregate.
+    std::shared_ptr<const MeshMotion> motion;
 };
 
 struct Instance {
@@ -68,7 +69,13 @@ struct Instance {
     /// A single mesh shared by several parts is placed: `part` is the mesh's own part.
     bool of_shared_mesh = false;
     RayMask visible_to = kAllRays;
+    /// Where it moves; `placement` is as the shutter opens. Only in a MotionAggregate.
+    std::shared_ptr<const TransformMotion> motion;
 };
+
+[[nodiscard]] inline Placement placement_at(const Instance& instance, double time) {
+    return instance.motion ? instance.motion->at(time) : instance.placement;
+}
 
 /// The ray in the frame of the placed aggregate.
 [[nodiscard]] inline Ray inner_ray(const Instance& instance, const Ray& ray) {

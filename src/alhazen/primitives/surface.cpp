@@ -190,15 +190,31 @@ void triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, const Hi
     }
 }
 
+/// The surface of a triangle whose vertices move.
+void moving_triangle_surface(const PlacedMesh& placed, std::uint32_t triangle, const Hit& hit,
+                             float time, Surface& surface) {
+    PlacedMesh then = placed;
+    then.mesh = std::make_shared<const TriangleMesh>(
+        placed.motion->triangle_at(*placed.mesh, triangle, time));
+    triangle_surface(then, 0, hit, surface);
+}
+
 /// Descends the path of instances from level `depth` (outermost = path.size()) inward.
 void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, std::size_t depth,
-                    bool with_uv, Surface& surface) {
+                    bool with_uv, float time, Surface& surface) {
     const PrimitiveTable& table = aggregate.primitives();
     if (depth > 0) {
         const Instance& instance = table.instances[table.index(hit.path[depth - 1])];
-        surface_inside(*instance.aggregate, inner_ray(instance, ray), hit, depth - 1, with_uv,
-                       surface);
-        carry_outward(instance.placement, with_uv, surface);
+        if (instance.motion) {
+            const Placement placement = instance.motion->at(time);
+            surface_inside(*instance.aggregate, transformed(placement.inner_from_outer, ray), hit,
+                           depth - 1, with_uv, time, surface);
+            carry_outward(placement, with_uv, surface);
+        } else {
+            surface_inside(*instance.aggregate, inner_ray(instance, ray), hit, depth - 1, with_uv,
+                           time, surface);
+            carry_outward(instance.placement, with_uv, surface);
+        }
         surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;
         aggregate.complete(ray, hit.t, hit.path[depth - 1], surface);
@@ -208,7 +224,12 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
     const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table.first(kind);
     if (kind == kTriangleKind) {
         const PlacedMesh& placed = table.mesh_of(index);
-        triangle_surface(placed, index - placed.first_triangle, hit, surface);
+        const std::uint32_t triangle = index - placed.first_triangle;
+        if (placed.motion) {
+            moving_triangle_surface(placed, triangle, hit, time, surface);
+        } else {
+            triangle_surface(placed, triangle, hit, surface);
+        }
     } else {
         analytic_surface(table, kind, index, ray, hit, with_uv, surface);
     }
@@ -218,16 +239,16 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
 
 }  // namespace
 
-Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit) {
+Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit, float time) {
     Surface surface;
-    set_surface(aggregate, ray, hit, true, surface);
+    set_surface(aggregate, ray, hit, true, surface, time);
     return surface;
 }
 
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
-                 Surface& surface) {
+                 Surface& surface, float time) {
     begin(surface);
-    surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, surface);
+    surface_inside(aggregate, ray, hit, hit.path.size(), with_uv, time, surface);
     if (with_uv && !surface.is_of_mesh) share_coordinates(surface);
 }
 

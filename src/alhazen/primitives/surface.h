@@ -43,12 +43,13 @@ struct Surface : ShapeSurface {
     std::uint32_t instance = 0;
 };
 
-/// `ray` is the world-space ray that found `hit` in `aggregate`.
-[[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit);
+/// `ray` is the world-space ray that found `hit` in `aggregate`, at `time` (RayQuery::time).
+[[nodiscard]] Surface surface_at(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
+                                 float time = 0.0f);
 /// The same into `surface`, which is large and not copied. Where `with_uv` is false, texture
 /// coordinates and their derivatives are undefined.
 void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, bool with_uv,
-                 Surface& surface);
+                 Surface& surface, float time = 0.0f);
 
 /// The material of the surface at a hit, where the primitive alone determines it: without vertex
 /// colours, and without a solid around it that shows another material.

@@ -1,0 +1,190 @@
+#include "alhazen/accel/motion/motion_bvh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/accel/wide_bvh/build/binary_builder.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Of the sizes of the scene and the origin: far above the rounding of the tests in double.
+constexpr double kMargin = 0x1p-38;
+/// Lower bound of a direction's components relative to the largest one.
+constexpr double kLeastDirection = 0x1p-100;
+/// Coordinates beyond it are taken as unbounded.
+constexpr double kReach = 1e150;
+
+/// No ray meets a box from here to its negative. Finite: it is interpolated.
+constexpr float kNowhere = 1e30f;
+
+/// A node of the binary tree with its boxes at both ends.
+struct EndBoxes {
+    FloatBox open, close;
+    void include(const EndBoxes& b) {
+        open.include(b.open);
+        close.include(b.close);
+    }
+};
+
+/// Makes the wide nodes.
+class Collapse {
+  public:
+    Collapse(const BinaryBvh& binary, std::span<const BuildReference> references,
+             std::span<const EndBoxes> things)
+        : binary_(binary), references_(references), things_(things), boxes_(binary.index_count) {
+        find_boxes(0);
+    }
+
+    std::vector<MotionBvh::Node> run(std::uint32_t leaf_bit) {
+        struct Open {
+            std::uint32_t binary, wide;
+        };
+        std::vector<MotionBvh::Node> nodes(1);
+        std::vector<Open> open{{0, 0}};
+        while (!open.empty()) {
+            const Open next = open.back();
+            open.pop_back();
+            const std::vector<std::uint32_t> children = opened(next.binary);
+            for (std::size_t c = 0; c < MotionBvh::kWidth; ++c) {
+                if (c >= children.size()) {
+                    set_no_child(nodes[next.wide], c);
+                    continue;
+                }
+                const BinaryNode& node = binary_.nodes[children[c]];
+                std::uint32_t child = references_[node.begin].id | leaf_bit;
+                if (!node.is_leaf()) {
+                    child = static_cast<std::uint32_t>(nodes.size());
+                    nodes.emplace_back();
+                    open.push_back({children[c], child});
+                }
+                set_child(nodes[next.wide], c, boxes_[children[c]], child);
+            }
+        }
+        return nodes;
+    }
+
+  private:
+    /// Depth is bounded by the builder.
+    const EndBoxes& find_boxes(std::uint32_t index) {
+        const BinaryNode& node = binary_.nodes[index];
+        EndBoxes box;
+        if (node.is_leaf()) {
+            for (std::uint32_t i = node.begin; i < node.end; ++i) {
+                box.include(things_[references_[i].id]);
+            }
+        } else {
+            box = find_boxes(index + 1);
+            box.include(find_boxes(node.right));
+        }
+        return boxes_[index] = box;
+    }
+
+    [[nodiscard]] float area(std::uint32_t index) const {
+        float d[3];
+        const EndBoxes& b = boxes_[index];
+        for (std::size_t k = 0; k < 3; ++k) {
+            d[k] = 0.5f * (b.open.hi[k] - b.open.lo[k] + b.close.hi[k] - b.close.lo[k]);
+        }
+        return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+    }
+
+    /// Its descendants, the largest opened first, up to the width.
+    [[nodiscard]] std::vector<std::uint32_t> opened(std::uint32_t root) const {
+        std::vector<std::uint32_t> children{root};
+        while (children.size() < MotionBvh::kWidth) {
+            auto largest = children.end();
+            for (auto i = children.begin(); i != children.end(); ++i) {
+                if (binary_.nodes[*i].is_leaf()) continue;
+                if (largest == children.end() || area(*i) > area(*largest)) largest = i;
+            }
+            if (largest == children.end()) break;
+            const std::uint32_t node = *largest;
+            *largest = node + 1;
+            children.push_back(binary_.nodes[node].right);
+        }
+        return children;
+    }
+
+    static void set_child(MotionBvh::Node& node, std::size_t c, const EndBoxes& box,
+                          std::uint32_t child) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            node.lo[0][k][c] = box.open.lo[k];
+            node.lo[1][k][c] = box.close.lo[k];
+            node.hi[0][k][c] = box.open.hi[k];
+            node.hi[1][k][c] = box.close.hi[k];
+        }
+        node.child[c] = child;
+    }
+
+    static void set_no_child(MotionBvh::Node& node, std::size_t c) {
+        for (std::size_t end = 0; end < 2; ++end) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                node.lo[end][k][c] = kNowhere;
+                node.hi[end][k][c] = -kNowhere;
+            }
+        }
+        node.child[c] = 0;
+    }
+
+    const BinaryBvh& binary_;
+    std::span<const BuildReference> references_;
+    std::span<const EndBoxes> things_;
+    std::vector<EndBoxes> boxes_;  ///< [binary node]
+};
+
+bool is_bounded(const MovingBox& box) {
+    for (const Box3* end : {&box.at_open, &box.at_close}) {
+        const double reach = std::max(max_component(abs(end->lo)), max_component(abs(end->hi)));
+        if (!(reach <= kReach)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+MotionBvh::MotionBvh(std::span<const MovingBox> boxes) {
+    Box3 all;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (boxes[i].empty()) continue;
+        if (is_bounded(boxes[i])) {
+            all.include(boxes[i].swept());
+        } else {
+            unbounded_.push_back(i);
+        }
+    }
+    if (all.empty()) return;
+    kernel_ = motion_bvh_kernel();
+    frame_ = LocalFrame(all);
+    std::vector<EndBoxes> things(boxes.size());
+    std::vector<BuildReference> references;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (boxes[i].empty() || !is_bounded(boxes[i])) continue;
+        things[i] = {frame_.local(boxes[i].at_open), frame_.local(boxes[i].at_close)};
+        references.emplace_back(frame_.local(boxes[i].at(0.5)), i, 0);
+    }
+    const BinaryBvh binary = build_binary(references, LeafKinds{});
+    nodes_ = Collapse(binary, references, things).run(kLeafBit);
+}
+
+MotionBvh::RaySlabs MotionBvh::slabs(const Ray& ray, double time) const {
+    RaySlabs slabs;
+    slabs.time = time;
+    const Vec3 origin = frame_.local(ray.origin);
+    const Vec3 direction = frame_.scale * ray.direction;
+    const double margin = kMargin * (1.0 + frame_.offset + max_component(abs(origin)));
+    const double least = kLeastDirection * max_component(abs(direction));
+    for (int k = 0; k < 3; ++k) {
+        double d = direction[k];
+        if (std::abs(d) < least) d = std::copysign(least, d);
+        slabs.negative[k] = d < 0.0;
+        slabs.inverse[k] = 1.0 / d;
+        const double aside = std::copysign(margin, d);
+        slabs.near_origin[k] = origin[k] + aside;
+        slabs.far_origin[k] = origin[k] - aside;
+    }
+    return slabs;
+}
+
+}  // namespace alhazen

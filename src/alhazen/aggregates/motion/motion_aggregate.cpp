@@ -1,0 +1,230 @@
+#include "alhazen/aggregates/motion/motion_aggregate.h"
+
+#include <vector>
+
+namespace alhazen {
+
+MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t> resting)
+    : table_(std::move(table)) {
+    if (resting) {
+        resting_ = PrimitiveId{table_.first(kInstanceKind) + static_cast<std::uint32_t>(*resting)};
+        const Box3 still = table_.instances[*resting].aggregate->box();
+        box_ = {still, still};
+    }
+    std::vector<MovingBox> boxes(table_.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        if (resting_ == PrimitiveId{i}) continue;
+        boxes[i] = box_of(i);
+        box_.include(boxes[i]);
+    }
+    tree_ = MotionBvh(boxes);
+}
+
+MovingBox MotionAggregate::box_of(std::uint32_t primitive) const {
+    const PrimitiveId id{primitive};
+    const std::uint32_t index = table_.index(id);
+    if (is_triangle(id)) {
+        return table_.mesh_of(index).motion->box(*table_.triangle_corners(index));
+    }
+    const Instance& instance = table_.instances[index];
+    const MovingBox inner = instance.aggregate->moving_box();
+    if (instance.motion) return instance.motion->bounds(inner.swept());
+    const Affine& outer = instance.placement.outer_from_inner;
+    return {padded(transformed(outer, inner.at_open), 1e-13),
+            padded(transformed(outer, inner.at_close), 1e-13)};
+}
+
+const Aggregate* MotionAggregate::rest() const {
+    return resting_ ? table_.instances[table_.index(*resting_)].aggregate.get() : nullptr;
+}
+
+bool MotionAggregate::hits_triangle(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                                    float time, ShapeHit& hit) const {
+    const std::uint32_t index = table_.index(id);
+    const auto [a, b, c] =
+        table_.mesh_of(index).motion->positions_at(*table_.triangle_corners(index), time);
+    return intersect_triangle(ray, shear, a, b, c, hit);
+}
+
+PrimitiveTable::ShadowEffect MotionAggregate::effect_of(PrimitiveId id, const Ray& ray,
+                                                        float time) const {
+    using enum PrimitiveTable::ShadowEffect;
+    if (table_.opacity(id) == Opacity::Opaque) return Blocks;
+    if (table_.opacity(id) == Opacity::Transparent) return Tints;
+    const std::uint32_t index = table_.index(id);
+    const PlacedMesh& mesh = table_.mesh_of(index);
+    const auto [a, b, c] = mesh.motion->positions_at(*table_.triangle_corners(index), time);
+    const double side = dot(cross(b - a, c - a), ray.direction);
+    return (mesh.mirrored ? side < 0.0 : side > 0.0) ? Blocks : None;
+}
+
+template <class Reach, class OnTriangle, class OnInstance>
+void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
+                            OnInstance&& on_instance) const {
+    const RayShear shear(ray.direction);
+    with_stats(query.stats, [&](auto stats) {
+        tree_.traverse(
+            ray, query.time, t_max,
+            [&](std::uint32_t i) {
+                const PrimitiveId id{i};
+                if (!table_.is_seen(id, query.mask)) return false;
+                if (is_triangle(id)) {
+                    stats.primitives(1);
+                    ShapeHit hit;
+                    Ray reaching = ray;
+                    reaching.t_max = t_max();
+                    if (!hits_triangle(id, reaching, shear, query.time, hit)) return false;
+                    stats.primitive_hits(1);
+                    return on_triangle(id, hit);
+                }
+                const Instance& instance = table_.instances[i - table_.first(kInstanceKind)];
+                const Placement placement = placement_at(instance, query.time);
+                Ray inner = transformed(placement.inner_from_outer, ray);
+                inner.t_max = t_max();
+                return on_instance(id, *instance.aggregate, inner);
+            },
+            stats);
+    });
+}
+
+void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) const {
+    double t_max = best.found() ? best.t : ray.t_max;
+    visit(
+        ray, query, [&] { return t_max; },
+        [&](PrimitiveId id, const ShapeHit& hit) {
+            if (!wins(hit.t, id, best)) return false;
+            static_cast<ShapeHit&>(best) = hit;
+            best.primitive = id;
+            best.path.clear();
+            t_max = hit.t;
+            return false;
+        },
+        [&](PrimitiveId id, const Aggregate& aggregate, const Ray& inner_ray) {
+            Hit inner;
+            if (!aggregate.closest(inner_ray, inner, query) || !wins(inner.t, id, best)) {
+                return false;
+            }
+            best = inner;
+            best.path.push_back(id);
+            t_max = inner.t;
+            return false;
+        });
+}
+
+bool MotionAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
+    hit = Hit{};
+    if (!is_valid(ray)) return false;
+    if (resting_ && table_.is_seen(*resting_, query.mask) && rest()->closest(ray, hit, query)) {
+        hit.path.push_back(*resting_);
+    }
+    closest_moving(ray, hit, query);
+    return hit.found();
+}
+
+bool MotionAggregate::occluded_by_moving(const Ray& ray, RayQuery query) const {
+    bool met = false;
+    visit(
+        ray, query, [&] { return ray.t_max; },
+        [&](PrimitiveId, const ShapeHit&) { return met = true; },
+        [&](PrimitiveId, const Aggregate& aggregate, const Ray& inner_ray) {
+            return met = aggregate.occluded(inner_ray, query);
+        });
+    return met;
+}
+
+bool MotionAggregate::occluded(const Ray& ray, RayQuery query) const {
+    if (!is_valid(ray)) return false;
+    if (resting_ && rest()->occluded(ray, query)) return true;
+    return occluded_by_moving(ray, query);
+}
+
+void MotionAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
+    if (!is_valid(ray)) return;
+    const std::size_t before = hits.size();
+    const auto append = [&](PrimitiveId id, const Aggregate& aggregate, const Ray& inner_ray) {
+        const std::size_t known = hits.size();
+        aggregate.all_hits(inner_ray, hits, query);
+        for (std::size_t i = known; i < hits.size(); ++i) hits[i].path.push_back(id);
+        return false;
+    };
+    if (resting_) append(*resting_, *rest(), ray);
+    visit(
+        ray, query, [&] { return ray.t_max; },
+        [&](PrimitiveId id, const ShapeHit& hit) {
+            Hit& found = hits.emplace_back();
+            static_cast<ShapeHit&>(found) = hit;
+            found.primitive = id;
+            return false;
+        },
+        append);
+    sort_appended(hits, before);
+}
+
+bool MotionAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQuery query) const {
+    if (!is_valid(ray)) return false;
+    const std::size_t before = crossings.size();
+    bool blocked = false;
+    const auto append = [&](PrimitiveId id, const Aggregate& aggregate, const Ray& inner_ray) {
+        const std::size_t known = crossings.size();
+        blocked = aggregate.shadowed(inner_ray, crossings, query);
+        if (blocked) return true;
+        for (std::size_t i = known; i < crossings.size(); ++i) crossings[i].path.push_back(id);
+        return false;
+    };
+    if (resting_ && append(*resting_, *rest(), ray)) return true;
+    visit(
+        ray, query, [&] { return ray.t_max; },
+        [&](PrimitiveId id, const ShapeHit& hit) {
+            using enum PrimitiveTable::ShadowEffect;
+            const PrimitiveTable::ShadowEffect effect = effect_of(id, ray, query.time);
+            if (effect == None) return false;
+            if (effect == Blocks) return blocked = true;
+            Hit& found = crossings.emplace_back();
+            static_cast<ShapeHit&>(found) = hit;
+            found.primitive = id;
+            return false;
+        },
+        append);
+    if (!blocked) sort_appended(crossings, before);
+    return blocked;
+}
+
+void MotionAggregate::closest_batch_at(std::span<const Ray> rays, std::span<const float> times,
+                                       std::span<Hit> hits, RayQuery query,
+                                       Coherence coherence) const {
+    if (resting_) {
+        rest()->closest_batch(rays, hits, query, coherence);
+    } else {
+        for (Hit& hit : hits) hit = Hit{};
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!is_valid(rays[i])) continue;
+        if (hits[i].found()) hits[i].path.push_back(*resting_);
+        closest_moving(rays[i], hits[i], {query.stats, query.mask, times[i]});
+    }
+}
+
+void MotionAggregate::occluded_batch_at(std::span<const Ray> rays, std::span<const float> times,
+                                        std::span<bool> met, RayQuery query,
+                                        Coherence coherence) const {
+    for (bool& m : met) m = false;
+    if (resting_) rest()->occluded_batch(rays, met, query, coherence);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (met[i] || !is_valid(rays[i])) continue;
+        met[i] = occluded_by_moving(rays[i], {query.stats, query.mask, times[i]});
+    }
+}
+
+void MotionAggregate::closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                                    Coherence coherence) const {
+    const std::vector<float> times(rays.size(), query.time);
+    closest_batch_at(rays, times, hits, query, coherence);
+}
+
+void MotionAggregate::occluded_batch(std::span<const Ray> rays, std::span<bool> met, RayQuery query,
+                                     Coherence coherence) const {
+    const std::vector<float> times(rays.size(), query.time);
+    occluded_batch_at(rays, times, met, query, coherence);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,68 @@
+#pragma once
+/// An aggregate of things that move while the shutter is open, beside one of all that rests.
+///
+/// Conventions: those of Aggregate; RayQuery::time says when a ray meets it. The table holds meshes
+/// whose vertices move, instances that move or hold something that does, and the resting rest as
+/// one instance without a placement. Bounds of the table are those of the moment at which the
+/// shutter opens; the bounds of the aggregate hold at every time.
+/// Differs: everything around a moving thing is a MotionAggregate, so other aggregates need no
+/// time.
+
+#include <memory>
+#include <optional>
+
+#include "alhazen/accel/motion/motion_bvh.h"
+#include "alhazen/primitives/primitive_table.h"
+
+namespace alhazen {
+
+class MotionAggregate final : public Aggregate {
+  public:
+    /// `table`: finished; `resting`: its instance that rests, if there is one.
+    MotionAggregate(PrimitiveTable table, std::optional<std::size_t> resting);
+
+    [[nodiscard]] const PrimitiveTable& primitives() const override { return table_; }
+    [[nodiscard]] Box3 box() const override { return box_.swept(); }
+    [[nodiscard]] MovingBox moving_box() const override { return box_; }
+    [[nodiscard]] std::size_t memory_bytes() const override { return tree_.memory_bytes(); }
+
+    [[nodiscard]] bool closest(const Ray& ray, Hit& hit, RayQuery query) const override;
+    [[nodiscard]] bool occluded(const Ray& ray, RayQuery query) const override;
+    void all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const override;
+    [[nodiscard]] bool shadowed(const Ray& ray, std::vector<Hit>& crossings,
+                                RayQuery query) const override;
+    void closest_batch(std::span<const Ray> rays, std::span<Hit> hits, RayQuery query,
+                       Coherence coherence) const override;
+    void occluded_batch(std::span<const Ray> rays, std::span<bool> occluded, RayQuery query,
+                        Coherence coherence) const override;
+    void closest_batch_at(std::span<const Ray> rays, std::span<const float> times,
+                          std::span<Hit> hits, RayQuery query, Coherence coherence) const override;
+    void occluded_batch_at(std::span<const Ray> rays, std::span<const float> times,
+                           std::span<bool> occluded, RayQuery query,
+                           Coherence coherence) const override;
+
+  private:
+    [[nodiscard]] MovingBox box_of(std::uint32_t primitive) const;
+    /// `first` is all that rests, if there is such; null else.
+    [[nodiscard]] const Aggregate* rest() const;
+    [[nodiscard]] bool is_triangle(PrimitiveId id) const {
+        return static_cast<std::uint32_t>(id) < table_.first(kInstanceKind);
+    }
+    [[nodiscard]] bool hits_triangle(PrimitiveId id, const Ray& ray, const RayShear& shear,
+                                     float time, ShapeHit& hit) const;
+    [[nodiscard]] PrimitiveTable::ShadowEffect effect_of(PrimitiveId id, const Ray& ray,
+                                                         float time) const;
+    void closest_moving(const Ray& ray, Hit& hit, RayQuery query) const;
+    [[nodiscard]] bool occluded_by_moving(const Ray& ray, RayQuery query) const;
+    /// Calls `test(id, instance, inner_ray)` or `test(id, shape_hit)`.
+    template <class Reach, class OnTriangle, class OnInstance>
+    void visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
+               OnInstance&& on_instance) const;
+
+    PrimitiveTable table_;
+    std::optional<PrimitiveId> resting_;
+    MovingBox box_;
+    MotionBvh tree_;
+};
+
+}  // namespace alhazen

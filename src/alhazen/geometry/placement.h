@@ -1,0 +1,12 @@
+#pragma once
+/// A transform in both directions.
+
+#include "alhazen/math/affine.h"
+
+namespace alhazen {
+
+struct Placement {
+    Affine outer_from_inner, inner_from_outer;
+};
+
+}  // namespace alhazen
