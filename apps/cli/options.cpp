@@ -156,6 +156,16 @@ void SceneArguments::add_to(CLI::App& command, const std::string& default_accele
         ->expected(1)
         ->take_all()
         ->type_name(takes_time_limit ? "SECONDS|LIMIT" : "SECONDS");
+    if (takes_shutter) {
+        command
+            .add_option("--shutter", shutter,
+                        "When the shutter opens and closes, instead of what the file says: seconds "
+                        "of its animations, or the unit of its keys. `distributed` shows all of "
+                        "this time, the other renderers its beginning")
+            ->type_name("OPEN,CLOSE")
+            ->delimiter(',')
+            ->expected(2);
+    }
     command.add_option("--animation", animation, "Apply only this animation")
         ->type_name("NAME|INDEX");
     command
@@ -206,6 +216,22 @@ void SceneArguments::read_time(const std::string& text) {
     target = is_limit ? value * seconds_of_unit : value;
 }
 
+std::optional<Shutter> SceneArguments::shutter_option() const {
+    if (shutter.empty()) return std::nullopt;
+    if (shutter.size() != 2 || !std::isfinite(shutter[0]) || !std::isfinite(shutter[1]) ||
+        shutter[1] < shutter[0]) {
+        throw Error(ErrorKind::Usage,
+                    "--shutter: expected OPEN,CLOSE, two finite times, the second not before the "
+                    "first");
+    }
+    if (time) {
+        throw Error(ErrorKind::Usage,
+                    "--shutter says when the picture is taken, --time SECONDS too: expected one of "
+                    "them");
+    }
+    return Shutter{shutter[0], shutter[1]};
+}
+
 BuildOptions SceneArguments::build_options() const {
     BuildOptions options;
     options.quality = find_build_quality(build_quality);
@@ -223,8 +249,12 @@ LoadOptions SceneArguments::load_options() const {
     options.import.view_script = view_script;
     options.import.image_limits = image_limits.limits();
     if (max_import_mib) options.import.max_made_bytes = *max_import_mib << 20;
-    if (!animation.empty() && !time) {
-        throw Error(ErrorKind::Usage, "--animation needs --time: without it nothing is animated");
+    options.shutter = shutter_option();
+    if (!animation.empty() && !time && !options.shutter) {
+        throw Error(ErrorKind::Usage, takes_shutter ? "--animation needs --time or --shutter: "
+                                                      "without them nothing is animated"
+                                                    : "--animation needs --time: without it "
+                                                      "nothing is animated");
     }
     if (time) {
         if (!std::isfinite(*time)) throw Error(ErrorKind::Usage, "--time must be a finite number");

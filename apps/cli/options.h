@@ -48,6 +48,8 @@ struct SceneArguments {
     std::optional<double> time;
     bool takes_time_limit = false;     ///< --time may be a limit, too
     std::optional<double> time_limit;  ///< seconds
+    bool takes_shutter = false;   ///< there is an option --shutter
+    std::vector<double> shutter;  ///< opens and closes; empty: not given
     std::string animation;
     std::vector<std::string> objects;
     std::string view_script;
@@ -56,6 +58,8 @@ struct SceneArguments {
     int threads = 0;
 
     void add_to(CLI::App& command, const std::string& default_accelerator);
+    /// Throws Error (Usage).
+    [[nodiscard]] std::optional<Shutter> shutter_option() const;
     /// Takes a value of --time: a moment, or with a unit a limit.
     void read_time(const std::string& text);
     /// Throws Error (Usage) for an unknown quality or width.

@@ -279,6 +279,7 @@ void add_render(CLI::App& app, int& exit_status) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to a picture");
     const auto args = std::make_shared<RenderArguments>();
     args->scene.takes_time_limit = true;
+    args->scene.takes_shutter = true;
     args->scene.add_to(*command, kDefaultAccelerator);
     command->add_option("-o,--output", args->output, "Picture to write: .png .exr .hdr .pfm .jpg")
         ->required()

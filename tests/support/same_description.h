@@ -70,6 +70,21 @@ inline bool same(const Affine& a, const Affine& b) {
     const auto& [b1, b2] = b;
     return all_same(a1.x_axis, b1.x_axis, a1.y_axis, b1.y_axis, a1.z_axis, b1.z_axis, a2, b2);
 }
+inline bool same(const TransformKey& a, const TransformKey& b) {
+    const auto& [a1, a2] = a;
+    const auto& [b1, b2] = b;
+    return all_same(a1, b1, a2, b2);
+}
+inline bool same(const PartMotion& a, const PartMotion& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
+inline bool same(const MeshKey& a, const MeshKey& b) {
+    const auto& [a1, a2, a3] = a;
+    const auto& [b1, b2, b3] = b;
+    return all_same(a1, b1, a2, b2, a3, b3);
+}
 inline bool same(const VertexColor& a, const VertexColor& b) {
     const auto& [a1, a2, a3, a4] = a;
     const auto& [b1, b2, b3, b4] = b;
@@ -110,10 +125,10 @@ inline bool same(const MetallicRoughness& a, const MetallicRoughness& b) {
                     b10, a11, b11);
 }
 inline bool same(const Material& a, const Material& b) {
-    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16] = a;
-    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16] = b;
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14, b15, b16, b17] = b;
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8, a9, b9, a10,
-                    b10, a11, b11, a12, b12, a13, b13, a14, b14, a15, b15, a16, b16);
+                    b10, a11, b11, a12, b12, a13, b13, a14, b14, a15, b15, a16, b16, a17, b17);
 }
 inline bool same(const MaterialDescription& a, const MaterialDescription& b) {
     const auto& [a1, a2] = a;
@@ -227,10 +242,10 @@ inline bool same(const AreaLight& a, const AreaLight& b) {
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
 }
 inline bool same(const CameraDescription& a, const CameraDescription& b) {
-    const auto& [a1, a2, a3, a4] = a;
-    const auto& [b1, b2, b3, b4] = b;
+    const auto& [a1, a2, a3, a4, a5] = a;
+    const auto& [b1, b2, b3, b4, b5] = b;
     (void)a4, (void)b4;
-    return all_same(a1, b1, a2, b2, a3, b3);
+    return all_same(a1, b1, a2, b2, a3, b3, a5, b5);
 }
 inline bool same(const LightDescription& a, const LightDescription& b) {
     const auto& [a1, a2, a3] = a;
@@ -290,11 +305,11 @@ inline bool same(const Polygon& a, const Polygon& b) {
     return same(a.vertices, b.vertices) && loops(a) == loops(b);
 }
 inline bool same(const Part& a, const Part& b) {
-    const auto& [a1, a2, a3, a4, a5, a6] = a;
-    const auto& [b1, b2, b3, b4, b5, b6] = b;
+    const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7] = b;
     (void)a5, (void)b5;
     const bool object = std::holds_alternative<ObjectIndex>(a1);
-    return all_same(a1, b1, a2, b2, a4, b4, a6, b6) && (object || same(a3, b3));
+    return all_same(a1, b1, a2, b2, a4, b4, a6, b6, a7, b7) && (object || same(a3, b3));
 }
 inline bool same(const ObjectDescription& a, const ObjectDescription& b) {
     const auto& [a1, a2, a3, a4, a5, a6] = a;
@@ -303,10 +318,10 @@ inline bool same(const ObjectDescription& a, const ObjectDescription& b) {
     return all_same(a1, b1, a2, b2, a4, b4, a5, b5, a6, b6);
 }
 inline bool same(const MeshDescription& a, const MeshDescription& b) {
-    const auto& [a1, a2, a3] = a;
-    const auto& [b1, b2, b3] = b;
+    const auto& [a1, a2, a3, a4] = a;
+    const auto& [b1, b2, b3, b4] = b;
     (void)a3, (void)b3;
-    return same(a1, b1) && same(*a2, *b2);
+    return same(a1, b1) && same(*a2, *b2) && same(a4, b4);
 }
 inline bool same(const PictureSettings& a, const PictureSettings& b) {
     const auto& [a1, a2, a3] = a;
@@ -379,10 +394,11 @@ void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const ch
 
 inline void expect_same(const SceneDescription& a, const SceneDescription& b) {
     const auto& [format_a, path_a, files_a, cameras_a, lights_a, materials_a, textures_a, meshes_a,
-                 objects_a, root_a, animations_a, picture_a, up_a, conventions_a] = a;
+                 objects_a, root_a, animations_a, picture_a, shutter_a, up_a, conventions_a] = a;
     const auto& [format_b, path_b, files_b, cameras_b, lights_b, materials_b, textures_b, meshes_b,
-                 objects_b, root_b, animations_b, picture_b, up_b, conventions_b] = b;
+                 objects_b, root_b, animations_b, picture_b, shutter_b, up_b, conventions_b] = b;
     (void)format_a, (void)format_b, (void)path_a, (void)path_b;
+    EXPECT_TRUE(same(shutter_a.open, shutter_b.open) && same(shutter_a.close, shutter_b.close));
     (void)files_a, (void)files_b, (void)animations_a, (void)animations_b;
     expect_same_list(cameras_a, cameras_b, "camera");
     expect_same_list(lights_a, lights_b, "light");

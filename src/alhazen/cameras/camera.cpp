@@ -91,6 +91,22 @@ OrthographicCamera look_along_parallel(const Vec3& origin, const Vec3& look, con
     return {origin, forward, (height * aspect) * cross(forward, true_up), height * true_up};
 }
 
+Camera transformed(const Affine& to_from, const Camera& camera) {
+    Camera result = camera;
+    std::visit(Overloaded{[&](PerspectiveCamera& c) {
+                              c.eye = to_from.point(c.eye);
+                              for (Vec3* v : {&c.look, &c.right, &c.up}) *v = to_from.vector(*v);
+                          },
+                          [&](OrthographicCamera& c) {
+                              c.origin = to_from.point(c.origin);
+                              for (Vec3* v : {&c.direction, &c.right, &c.up}) {
+                                  *v = to_from.vector(*v);
+                              }
+                          }},
+               result);
+    return result;
+}
+
 Camera with_aspect(const Camera& camera, double described_aspect, double aspect) {
     Camera result = camera;
     const auto widen = [&](Vec3& right) { right = (aspect / described_aspect) * right; };

@@ -72,6 +72,9 @@ struct PicturePlane {
 [[nodiscard]] OrthographicCamera look_along_parallel(const Vec3& origin, const Vec3& look,
                                                      const Vec3& up, double height, double aspect);
 
+/// The camera moved by a transform.
+[[nodiscard]] Camera transformed(const Affine& to_from, const Camera& camera);
+
 /// The camera widened or narrowed from the aspect ratio (width / height) it was described for to
 /// another; the vertical extent is kept.
 [[nodiscard]] Camera with_aspect(const Camera& camera, double described_aspect, double aspect);

@@ -68,6 +68,8 @@ struct Instance {
     std::uint32_t part = 0;  ///< number of the part that placed it
     /// A single mesh shared by several parts is placed: `part` is the mesh's own part.
     bool of_shared_mesh = false;
+    /// It holds what rests in a MotionAggregate, and is no part.
+    bool holds_rest = false;
     RayMask visible_to = kAllRays;
     /// Where it moves; `placement` is as the shutter opens. Only in a MotionAggregate.
     std::shared_ptr<const TransformMotion> motion;

@@ -215,7 +215,7 @@ void surface_inside(const Aggregate& aggregate, const Ray& ray, const Hit& hit, 
                            time, surface);
             carry_outward(instance.placement, with_uv, surface);
         }
-        surface.instance = instance.part;
+        if (!instance.holds_rest) surface.instance = instance.part;
         if (instance.of_shared_mesh) surface.part = instance.part;
         aggregate.complete(ray, hit.t, hit.path[depth - 1], surface);
         return;

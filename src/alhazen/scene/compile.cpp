@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/aggregates/motion/motion_aggregate.h"
 #include "alhazen/base/error.h"
 #include "alhazen/csg/csg_aggregate.h"
 #include "alhazen/primitives/primitive_table.h"
@@ -62,7 +63,8 @@ class Compiler {
           built_objects_(description.objects.size()),
           built_solids_(description.objects.size()),
           object_uses_(description.objects.size(), 0),
-          mesh_uses_(description.meshes.size(), 0) {}
+          mesh_uses_(description.meshes.size(), 0),
+          moves_(description.objects.size(), Moves::Unknown) {}
 
     /// Fills in the aggregate and all that follows from the geometry.
     void build(Scene& scene) {
@@ -76,6 +78,7 @@ class Compiler {
         census_.instance_depth = root.instance_depth;
         scene.aggregate = root.aggregate;
         scene.has_masks = has_masks_;
+        scene.has_motion = census_.moving_things > 0;
         scene.census = census_;
         scene.accelerator = options_.accelerator;
     }
@@ -105,6 +108,7 @@ class Compiler {
 
     struct Draft {
         PrimitiveTable table;
+        std::vector<Instance> moving;  ///< what moves, or holds something that does
         Built built;
     };
 
@@ -125,9 +129,44 @@ class Compiler {
 
     /// `accelerator`: that of the object itself, or empty.
     Built seal(Draft draft, const std::string& accelerator = {}) {
+        if (!draft.moving.empty()) return seal_moving(std::move(draft), accelerator);
         Built built = finish(draft);
         built.aggregate = make_aggregate(accelerator.empty() ? options_.accelerator : accelerator,
                                          std::move(draft.table), options_.build);
+        census_.accelerator_bytes += built.aggregate->memory_bytes();
+        return built;
+    }
+
+    /// What rests becomes one instance beside all that moves.
+    Built seal_moving(Draft draft, const std::string& accelerator) {
+        Draft all;
+        all.built = draft.built;
+        std::optional<std::size_t> resting;
+        std::vector<Instance> moving = std::move(draft.moving);
+        draft.moving.clear();
+        draft.table.finish();  // for its size
+        if (draft.table.size() > 0) {
+            const Built rest = seal(std::move(draft), accelerator);
+            all.built = rest;
+            ++all.built.instance_depth;
+            all.table.instances.push_back({.aggregate = rest.aggregate, .holds_rest = true});
+            resting = 0;
+        }
+        for (Instance& instance : moving) all.table.instances.push_back(std::move(instance));
+        return seal_motion(std::move(all), resting);
+    }
+
+    Built seal_motion(Draft all, std::optional<std::size_t> resting) {
+        Built built = finish(all);
+        if (resting) --census_.instances;
+        if (built.instance_depth >= static_cast<int>(kMaxInstanceDepth)) {
+            throw Error(ErrorKind::Resource,
+                        fmt::format("objects that move are nested too deep: with what moves in "
+                                    "them {} levels, at most {} are supported",
+                                    built.instance_depth, kMaxInstanceDepth - 1));
+        }
+        census_.moving_things += all.table.size() - (resting ? 1 : 0);
+        built.aggregate = std::make_shared<const MotionAggregate>(std::move(all.table), resting);
         census_.accelerator_bytes += built.aggregate->memory_bytes();
         return built;
     }
@@ -254,7 +293,9 @@ class Compiler {
             const PlacedPart placed{part, outer_from_object * part.object_from_part, number++,
                                     visible_to & without_unused_bits(part.visible_to)};
             has_masks_ = has_masks_ || placed.visible_to != kAllRays;
-            if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
+            if (part.motion) {
+                add_moving_part(placed, outer_from_object, draft);
+            } else if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
                 add_shape(*shape, placed, draft.table);
             } else if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
                 add_mesh(*mesh, placed, draft);
@@ -263,11 +304,72 @@ class Compiler {
                     static_cast<std::size_t>(std::get<ObjectIndex>(part.what));
                 if (is_dissolved(child)) {
                     add_parts(child, placed.outer_from_part, placed.visible_to, draft);
+                } else if (moves_inside(child)) {
+                    add_moving(build_object(child), placed, nullptr, draft);
                 } else {
                     add_instance(build_object(child), placed, draft);
                 }
             }
         }
+    }
+
+    /// Whether something in the object moves against the object.
+    bool moves_inside(std::size_t object) {
+        Moves& known = moves_[object];
+        if (known != Moves::Unknown) return known == Moves::Yes;
+        bool moves = false;
+        for (const Part& part : d_.objects[object].parts) {
+            moves = moves || part.motion;
+            if (const auto* mesh = std::get_if<MeshIndex>(&part.what)) {
+                moves = moves || !d_.meshes[static_cast<std::size_t>(*mesh)].keys.empty();
+            } else if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                moves = moves || moves_inside(static_cast<std::size_t>(*child));
+            }
+        }
+        known = moves ? Moves::Yes : Moves::No;
+        return moves;
+    }
+
+    /// A part that moves becomes an instance, whatever it is.
+    void add_moving_part(const PlacedPart& placed, const Affine& outer_from_object, Draft& draft) {
+        const PartMotion& motion = *placed.part.motion;
+        const TransformMotion path =
+            TransformMotion(relative_to(d_.shutter, motion.keys))
+                .inside(outer_from_object == Affine{} ? motion.outer
+                                                      : outer_from_object * motion.outer);
+        const PlacedPart inside{placed.part, motion.inner, placed.number, kAllRays};
+        Draft alone;
+        if (const auto* shape = std::get_if<AnyShape>(&placed.part.what)) {
+            add_shape(*shape, inside, alone.table);
+        } else if (const auto* mesh = std::get_if<MeshIndex>(&placed.part.what)) {
+            add_mesh(*mesh, inside, alone);
+        } else {
+            const auto child = static_cast<std::size_t>(std::get<ObjectIndex>(placed.part.what));
+            if (motion.inner == Affine{}) {
+                return add_moving(build_object(child), placed, &path, draft);
+            }
+            if (moves_inside(child)) {
+                add_moving(build_object(child), inside, nullptr, alone);
+            } else {
+                add_instance(build_object(child), inside, alone);
+            }
+        }
+        add_moving(seal(std::move(alone)), placed, &path, draft);
+    }
+
+    /// `path`: null where only something inside moves.
+    static void add_moving(const Built& child, const PlacedPart& placed,
+                           const TransformMotion* path, Draft& draft) {
+        Draft one;
+        one.built = std::move(draft.built);
+        add_instance(child, placed, one);
+        Instance& instance = one.table.instances.back();
+        if (path != nullptr) {
+            instance.motion = std::make_shared<const TransformMotion>(*path);
+            instance.placement = path->at(0.0);
+        }
+        draft.built = std::move(one.built);
+        draft.moving.push_back(std::move(instance));
     }
 
     /// The parts of a child become parts of the object around it.
@@ -300,6 +402,11 @@ class Compiler {
         const std::shared_ptr<TriangleMesh>& mesh = d_.meshes[i].mesh;
         const MaterialId material = placed.part.material;
         if (mesh->triangles.empty()) return;
+        if (!d_.meshes[i].keys.empty()) {
+            add_moving(deforming_mesh(i, material), placed, nullptr, draft);
+            draft.moving.back().of_shared_mesh = true;
+            return;
+        }
         if (mesh_uses_[i] > 1 && mesh->triangles.size() > kInstancedMeshTriangles) {
             add_shared_mesh(index, placed, draft);
             return;
@@ -314,6 +421,20 @@ class Compiler {
         const bool mirrored = determinant(placed.outer_from_part.linear) < 0.0;
         draft.table.meshes.push_back(
             {moved, material, 0, mirrored, placed.number, placed.visible_to});
+    }
+
+    /// In its own frame. Every vertex of it may move.
+    Built deforming_mesh(std::size_t i, MaterialId material) {
+        const auto [found, fresh] = built_meshes_.try_emplace({i, material});
+        if (fresh) {
+            Draft alone;
+            PlacedMesh& mesh =
+                alone.table.meshes.emplace_back(PlacedMesh{d_.meshes[i].mesh, material});
+            mesh.motion =
+                std::make_shared<const MeshMotion>(relative_to(d_.shutter, d_.meshes[i].keys));
+            found->second = seal_motion(std::move(alone), std::nullopt);
+        }
+        return found->second;
     }
 
     void add_shared_mesh(MeshIndex index, const PlacedPart& placed, Draft& draft) {
@@ -360,6 +481,8 @@ class Compiler {
     std::map<std::pair<std::size_t, MaterialId>, Built> built_meshes_;
     std::vector<std::uint32_t> object_uses_;
     std::vector<std::uint32_t> mesh_uses_;
+    enum class Moves : std::uint8_t { Unknown, No, Yes };
+    std::vector<Moves> moves_;  ///< [object] moves_inside
     bool has_masks_ = false;
     SceneCensus census_;
 };

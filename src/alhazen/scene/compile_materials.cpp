@@ -48,7 +48,14 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
     for (const LightDescription& l : description.lights) {
         scene.lights.push_back(ready_to_sample(l.light));
     }
-    scene.cameras = description.cameras;
+    for (CameraDescription camera : description.cameras) {
+        camera.keys = relative_to(description.shutter, std::move(camera.keys));
+        if (!camera.keys.empty()) {
+            const Affine at_open = TransformMotion(camera.keys).at(0.0).outer_from_inner;
+            camera.camera = transformed(at_open, camera.camera);
+        }
+        scene.cameras.push_back(std::move(camera));
+    }
     const Conventions& conventions = description.conventions;
     scene.conventions = {conventions.shading, conventions.sampling, conventions.film};
     scene.background = description.picture.background.value_or(Rgb{});

@@ -22,6 +22,7 @@ struct SceneCensus {
     int instance_depth = 0;                  ///< deepest nesting of instances
     std::uint64_t solids = 0;                ///< of constructive geometry (CSG), each stored once
     std::uint64_t solid_leaves = 0;          ///< operands of these that are no operators
+    std::uint64_t moving_things = 0;         ///< instances and triangles that move
     std::uint64_t scene_bytes = 0;           ///< shapes, meshes, textures
     std::uint64_t texture_bytes = 0;         ///< of these, the textures
     std::uint64_t accelerator_bytes = 0;
@@ -39,13 +40,14 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Texture> textures;
     std::vector<Light> lights;
-    std::vector<CameraDescription> cameras;
+    std::vector<CameraDescription> cameras;  ///< as the shutter opens; keys have relative times
     RenderConventions conventions;
     Rgb background;
     bool all_opaque = false;   ///< no material lets light through
     bool has_masks = false;    ///< some part is not visible to all rays
     bool has_mipmaps = false;  ///< some texture is filtered by the cone of the ray
     bool has_solid_textures = false;
+    bool has_motion = false;  ///< some part or mesh moves while the shutter is open
     std::string accelerator;  ///< of the aggregate; empty without
     SceneCensus census;
 };

@@ -20,8 +20,10 @@
 #include "alhazen/geometry/ray_mask.h"
 #include "alhazen/math/affine.h"
 #include "alhazen/scene_model/conventions.h"
+#include "alhazen/scene_model/scene_motion.h"
 #include "alhazen/shading/lights/light.h"
 #include "alhazen/shading/materials/material.h"
+#include "alhazen/shapes/meshes/mesh_motion.h"
 #include "alhazen/shapes/meshes/triangle_mesh.h"
 #include "alhazen/shapes/shape_list.h"
 
@@ -40,6 +42,8 @@ struct Part {
     /// Bits of `mask_of(RayKind)`, or kAllRays. A kind of ray sees the part if it also sees all
     /// objects around it.
     RayMask visible_to = kAllRays;
+    /// Null: it rests. Else object_from_part is where it is as the shutter opens.
+    std::shared_ptr<const PartMotion> motion;
 };
 
 /// How the parts of an object combine.
@@ -73,6 +77,8 @@ struct MeshDescription {
     std::string name;
     std::shared_ptr<TriangleMesh> mesh;  ///< vertex_materials hold values of MaterialId
     FileLocation location;
+    /// Where vertices move; `mesh` is then as the shutter opens. Empty: they rest.
+    std::vector<MeshKey> keys;
 };
 
 struct TextureDescription {
@@ -86,6 +92,8 @@ struct CameraDescription {
     Camera camera;
     double aspect = 1;  ///< width / height the camera was described for
     FileLocation location;
+    /// Where it moves: world_from_camera * (the camera as given); empty: it rests.
+    std::vector<TransformKey> keys;
 };
 
 struct LightDescription {
@@ -138,13 +146,14 @@ struct SceneDescription {
     ObjectIndex root{0};
     std::vector<AnimationInfo> animations;
     PictureSettings picture;
+    Shutter shutter;
     UpAxis up_axis = UpAxis::Y;
     Conventions conventions;
 };
 
 /// Adds every finding about `description` to `diagnostics`: non-finite values, singular transforms,
-/// bad shapes and meshes, ids out of range, objects that contain themselves, nesting deeper than
-/// kMaxInstanceDepth, empty ray masks, operands of a solid that bound no volume, unknown
+/// bad shapes, meshes and keys, ids out of range, objects that contain themselves, nesting deeper
+/// than kMaxInstanceDepth, empty ray masks, operands of a solid that bound no volume, unknown
 /// accelerators, an empty scene (warning).
 void validate(const SceneDescription& description, Diagnostics& diagnostics);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "alhazen/accel/accelerator_names.h"
 #include "alhazen/base/error.h"
@@ -56,6 +57,7 @@ class Validator {
                             is_finite(plane.forward) && plane.forward != Vec3{} &&
                             length_squared(cross(plane.right, plane.up)) > 0.0;
             check_lens(camera);
+            check_keys(camera.keys, camera.location);
             if (!ok || !(camera.aspect > 0.0) || !std::isfinite(camera.aspect)) {
                 error(camera.location,
                       "the camera's vectors must be finite, its view direction not zero and its "
@@ -141,12 +143,28 @@ class Validator {
         }
         const TriangleMesh& mesh = *description.mesh;
         mesh.validate(description.location, out_);
+        if (const char* fault = fault_of(mesh, description.keys); fault != nullptr) {
+            error(description.location, fmt::format("{}: {}", in_words(description), fault));
+        }
         const auto bad = std::find_if(mesh.vertex_materials.begin(), mesh.vertex_materials.end(),
                                       [&](std::uint32_t m) { return m >= d_.materials.size(); });
         if (bad != mesh.vertex_materials.end()) {
             error(description.location,
                   fmt::format("a vertex of {} refers to material {} of {}", in_words(description),
                               *bad, d_.materials.size()));
+        }
+    }
+
+    void check_keys(const std::vector<TransformKey>& keys, const FileLocation& where) {
+        if (const char* fault = fault_of(keys); fault != nullptr) error(where, fault);
+    }
+
+    void check_motion(const Part& part) {
+        if (!part.motion) return;
+        if (part.motion->keys.empty()) error(part.location, "a motion needs at least one key");
+        check_keys(part.motion->keys, part.location);
+        if (!is_invertible(part.motion->outer) || !is_invertible(part.motion->inner)) {
+            error(part.location, "the transforms around a motion must have an inverse");
         }
     }
 
@@ -163,6 +181,7 @@ class Validator {
 
     void check_part(const Part& part) {
         check_mask(part);
+        check_motion(part);
         if (!is_invertible(part.object_from_part)) {
             error(part.location, "the transform is singular or not finite");
         }
@@ -295,6 +314,11 @@ class Validator {
         };
         side(d_.picture.width, "width");
         side(d_.picture.height, "height");
+        const Shutter& shutter = d_.shutter;
+        if (!std::isfinite(shutter.open) || !std::isfinite(shutter.close) ||
+            shutter.close < shutter.open) {
+            error({}, "the shutter must close at a finite time not before it opens");
+        }
         if (!finite(d_.picture.background.value_or(Rgb{}))) {
             error({}, "the background colour must be finite");
         }

@@ -28,6 +28,7 @@ class Checker {
         color(m.transmissive, "transmissive");
         scalar(m.shininess, "shininess");
         scalar(m.index, "index of refraction");
+        scalar(m.roughness, "roughness");
         if (m.density) not_negative(*m.density, "density");
         scalar(m.alpha, "alpha");
         not_negative(m.alpha_cutoff, "alpha cutoff");

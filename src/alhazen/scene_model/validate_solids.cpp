@@ -70,6 +70,13 @@ class SolidValidator {
             error(part.location,
                   "part of a solid, so it must be visible to all rays; the solid need not be");
         }
+        const auto* of_mesh = std::get_if<MeshIndex>(&part.what);
+        const bool deforms = of_mesh != nullptr &&
+                             static_cast<std::size_t>(*of_mesh) < d_.meshes.size() &&
+                             !d_.meshes[static_cast<std::size_t>(*of_mesh)].keys.empty();
+        if (part.motion || deforms) {
+            error(part.location, "part of a solid, so it cannot move by itself; the solid can");
+        }
         if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
             std::visit(
                 [&]<class S>(const S& s) {

@@ -3,6 +3,7 @@
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/seen_lights.h"
+#include "alhazen/session/shutter.h"
 #include "alhazen/session/statistics.h"
 #include "alhazen/session/stopwatch.h"
 
@@ -38,6 +39,9 @@ void add_aggregate(LoadedScene& loaded, const LoadOptions& options) {
 SceneDescription load_description(const std::filesystem::path& path, const LoadOptions& options,
                                   Diagnostics& diagnostics) {
     SceneDescription description = import_scene(path, options.import, diagnostics);
+    if (options.shutter) {
+        open_shutter_of(description, options.import, *options.shutter, diagnostics);
+    }
     if (options.strict) diagnostics.throw_if_warnings();
     return description;
 }

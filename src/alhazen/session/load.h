@@ -2,6 +2,7 @@
 /// Loading a scene: read, validate, compile, with the time of each phase.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "alhazen/base/progress.h"
@@ -13,7 +14,8 @@ namespace alhazen {
 struct LoadOptions {
     ImportOptions import;
     CompileOptions compile;
-    int threads = 0;  ///< for the build; 0 = all available cores
+    std::optional<Shutter> shutter;  ///< instead of that of the file
+    int threads = 0;                 ///< for the build; 0 = all available cores
     /// True: warnings are errors. A scene that is not read whole and as it says is refused.
     bool strict = false;
     /// False: meshes that are placed once may be moved into the scene and are then null in the

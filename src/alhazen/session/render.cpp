@@ -113,12 +113,15 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     RenderResult result(Film(frame.width, frame.height,
                              options.crop.value_or(PixelBox{0, 0, frame.width, frame.height})));
     AovFilm aovs(options.aovs, result.film.crop());
+    std::optional<TransformMotion> camera_motion;
+    if (!camera.keys.empty()) camera_motion.emplace(camera.keys);
     const RenderJob job{.scene = scene,
                         .camera = with_aspect(camera.camera, camera.aspect, aspect),
                         .samples_per_pixel = options.samples_per_pixel,
                         .seed = options.seed,
                         .count_tests = options.count_tests || options.aovs.has_tests(),
                         .cone = eye_cone(camera.camera, frame.height, samples_of_cone(options)),
+                        .camera_motion = camera_motion ? &*camera_motion : nullptr,
                         .aovs = options.aovs.empty() ? nullptr : &aovs,
                         .description = description,
                         .antialias = options.antialias ? &*options.antialias : nullptr,
@@ -198,13 +201,21 @@ std::vector<std::string> simplified(const Scene& scene, const RenderOptions& opt
     std::vector<std::string> notes;
     if (renderer.distributes()) return notes;
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
-    if (std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {
+    if (!renderer.lights_have_extent() &&
+        std::any_of(scene.lights.begin(), scene.lights.end(), has_extent)) {
         notes.push_back(
             fmt::format("renderer '{}' takes lights with extent as points at their "
                         "centres; 'distributed' does not",
                         options.renderer));
     }
-    const Camera& camera = find_camera(scene, options.camera).camera;
+    const CameraDescription& described = find_camera(scene, options.camera);
+    const Camera& camera = described.camera;
+    if (scene.has_motion || !described.keys.empty()) {
+        notes.push_back(
+            fmt::format("renderer '{}' shows the moment at which the shutter opens; 'distributed' "
+                        "all of its time",
+                        options.renderer));
+    }
     const auto* perspective = std::get_if<PerspectiveCamera>(&camera);
     if (perspective != nullptr && perspective->lens.radius > 0.0) {
         notes.push_back(

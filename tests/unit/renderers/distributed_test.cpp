@@ -161,6 +161,72 @@ TEST(Distributed, TheCircleOfConfusionIsThatOfAThinLens) {
     EXPECT_FALSE(LensRays(camera).open());
 }
 
+/// A bright screen whose edge runs over the picture while the shutter is open.
+TEST(Distributed, TheExposureOfAMovingEdgeRisesLinearly) {
+    SceneMaker maker;
+    Material bright;
+    bright.unlit = true;
+    bright.emission.color = {1, 1, 1};
+    Rectangle screen;
+    screen.corner = {-10, -5, 0};
+    screen.edge_u = {9.5, 0, 0};  // its edge at x = -0.5
+    screen.edge_v = {0, 10, 0};
+    maker.add(screen, maker.material(bright));
+    SceneDescription& d = maker.description();
+    d.objects[0].parts[0].motion = std::make_shared<const PartMotion>(
+        PartMotion{{}, {{10, Affine{}}, {14, Affine::translate({2, 0, 0})}}, {}});
+    // A unit of length each two units of time.
+    open_shutter(d, {11, 13});
+    const Scene scene = maker.compile();
+    ASSERT_TRUE(scene.has_motion);
+    constexpr int kSide = 32;
+    const Film film = picture_of(scene, Floor::above(-0.5, 2), Distributed{}, kSide, 256);
+    for (int i = 0; i < kSide; ++i) {
+        // The edge runs from 0 to 1.
+        const double x = -0.5 + 2 * (i + 0.5) / kSide;
+        EXPECT_NEAR(film.at(i, 7).r, std::clamp(1 - x, 0.0, 1.0), 0.03) << x;
+    }
+    const Film whitted = picture_of(scene, Floor::above(-0.5, 2), Whitted{}, kSide, 16);
+    EXPECT_EQ(whitted.at(4, 7).r, 1);  // x = -0.22, as the shutter opens
+    EXPECT_EQ(whitted.at(9, 7).r, 0);  // x = 0.09
+}
+
+TEST(Distributed, TheCameraMovesAndNotTheScene) {
+    SceneMaker maker;
+    Material bright;
+    bright.unlit = true;
+    bright.emission.color = {1, 1, 1};
+    maker.add(Sphere{{0.9, 0.2, 0}, 0.3}, maker.material(bright));
+    SceneDescription& d = maker.description();
+    SceneDescription moving = d;
+    // Both move the sphere in the picture by the same.
+    const Affine to = Affine::rotate({0, 0, 1}, 0.8);
+    d.cameras[0].keys = {{0, Affine{}}, {1, inverse(to)}};
+    const Scene by_camera = compile(d);
+    const TransformMotion camera(by_camera.cameras[0].keys);
+    const auto picture = [&](const Scene& scene, const TransformMotion* motion) {
+        const SamplingPlan plan;
+        Film film(24, 24, {0, 0, 24, 24});
+        RenderJob job{.scene = scene,
+                      .camera = scene.cameras[0].camera,
+                      .samples_per_pixel = 256,
+                      .camera_motion = motion,
+                      .sampling = &plan};
+        EXPECT_TRUE(Distributed{}.render(job, film).complete());
+        return film;
+    };
+    const Film a = picture(by_camera, &camera);
+    moving.objects[0].parts[0].motion =
+        std::make_shared<const PartMotion>(PartMotion{{}, {{0, Affine{}}, {1, to}}, {}});
+    const Film b = picture(compile(moving), nullptr);
+    double sum = 0;
+    for (int i = 0; i < 24 * 24; ++i) {
+        EXPECT_NEAR(a.at(i % 24, i / 24).r, b.at(i % 24, i / 24).r, 0.08);
+        sum += a.at(i % 24, i / 24).r;
+    }
+    EXPECT_GT(sum, 10);
+}
+
 TEST(Distributed, SameBitsForAnyNumberOfThreadsAndTileSize) {
     Floor floor;
     floor.maker.add(Sphere{{0, 0, 0.2}, 0.2}, floor.material);

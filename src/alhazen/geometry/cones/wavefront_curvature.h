@@ -56,10 +56,11 @@ struct RefractedCone {
     return {radius * std::sqrt(behind / cosine), equal_area_spread(t, s)};
 }
 
-/// A dull surface, or a translucent one: the cone is wider by an angle.
+/// A dull surface, or a translucent one, that spreads a ray over a cone of half angle `angle`:
+/// the directions are the sums of both, so their variances add.
 [[nodiscard]] inline double widened_spread(double spread, double angle) {
-    const double half = std::atan(std::abs(spread)) + angle;
-    const double wide = std::min(std::tan(std::min(half, 0.78539816339744831)), kWidestSpread);
+    const double tangent = std::tan(std::min(angle, 0.78539816339744831));
+    const double wide = std::min(std::hypot(spread, tangent), kWidestSpread);
     return angle > 0.0 ? wide : spread;
 }
 

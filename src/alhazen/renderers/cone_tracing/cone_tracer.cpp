@@ -1,10 +1,13 @@
 #include "alhazen/renderers/cone_tracing/cone_tracer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "alhazen/primitives/placed_surface.h"
 #include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/core/refraction.h"
+#include "alhazen/renderers/core/rough_lobe.h"
 
 namespace alhazen {
 
@@ -95,6 +98,13 @@ FootprintDiscs discs_of_footprint(const Vec3& point, const Vec3& n, const Vec3& 
         disc.radius = std::sqrt(disc.weight * major * minor);
     }
     return result;
+}
+
+/// Of the disc that looks as large as the light along `direction`; 0 for a point.
+double radius_of(const Light& light, const Vec3& direction) {
+    const auto* area = std::get_if<AreaLight>(&light);
+    if (area == nullptr) return 0.0;
+    return std::sqrt(area->surface->projected_area(direction) * std::numbers::inv_pi);
 }
 
 }  // namespace
@@ -234,12 +244,13 @@ Rgb ConeTracer::direct_light(const Seen& seen, const ShadingPoint& point) {
         if (!(cosine > 0.0) || l.intensity.is_black()) continue;
         const Rgb fraction = reflected_fraction(conventions_, point, l, cosine);
         if (fraction.is_black()) continue;
-        sum += fraction * l.intensity * shadow_at(seen, point, l);
+        sum += fraction * l.intensity * shadow_at(seen, point, l, radius_of(light, l.to_light));
     }
     return sum;
 }
 
-Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, const LightSample& light) {
+Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, const LightSample& light,
+                          double light_radius) {
     if (conventions_.shadow_tint == ShadingConventions::ShadowTint::None) return {1, 1, 1};
     const bool towards = dot(point.geometric, light.to_light) > 0.0;
     const bool closed = geometry_.sources[seen.piece.source].closed;
@@ -261,7 +272,7 @@ Rgb ConeTracer::shadow_at(const Seen& seen, const ShadingPoint& point, const Lig
         if (bounded) {
             distance = length(place - disc.center);
             cone.axis = (place - disc.center) / distance;
-            cone.spread = -disc.radius / distance;
+            cone.spread = std::min((light_radius - disc.radius) / distance, kWidestSpread);
         }
         ConeStart start = onward(seen, point, cone).start;
         start.kind = RayKind::Shadow;
@@ -409,9 +420,10 @@ Rgb ConeTracer::reflected(const Seen& seen, const ShadingPoint& point) {
     const double cosine = std::max(std::abs(dot(seen.ray.direction, point.normal)), 0.02);
     const double scale = std::sqrt(std::min(seen.piece.share, 1.0));
     const double sign = seen.cone.radius_at(seen.piece.z) < 0.0 ? -1.0 : 1.0;
-    const ConeRay cone{point.surface.point, direction, seen.radius,
-                       mirrored_spread(seen.radius, sign * scale * seen.cone.spread, cosine,
-                                       curvatures(seen, point))};
+    const double exact = mirrored_spread(seen.radius, sign * scale * seen.cone.spread, cosine,
+                                         curvatures(seen, point));
+    const double dull = lobe_half_angle(point.material->roughness);
+    const ConeRay cone{point.surface.point, direction, seen.radius, widened_spread(exact, dull)};
     ConePath path = onward(seen, point, cone);
     path.start.kind = RayKind::Reflection;
     path.contribution = contribution;
@@ -449,6 +461,7 @@ Rgb ConeTracer::transmitted(const Seen& seen, const ShadingPoint& point) {
         cone.radius = beyond.radius;
         cone.spread = beyond.spread;
     }
+    cone.spread = widened_spread(cone.spread, lobe_half_angle(material.roughness));
     ConePath path = onward(seen, point, cone);
     path.start.kind = RayKind::Refraction;
     path.contribution = contribution;

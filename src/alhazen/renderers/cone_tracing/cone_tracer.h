@@ -64,7 +64,7 @@ class ConeTracer {
     [[nodiscard]] Rgb color_of(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb direct_light(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb shadow_at(const Seen& seen, const ShadingPoint& point,
-                                const LightSample& light);
+                                const LightSample& light, double light_radius);
     [[nodiscard]] Rgb reflected(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb transmitted(const Seen& seen, const ShadingPoint& point);
     [[nodiscard]] Rgb transmittance_of(const ConePiece& piece, const ConeRay& cone,

@@ -22,6 +22,7 @@ class ConeTracing final : public Renderer {
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     /// Geometry is read from RenderJob::description.
     [[nodiscard]] bool needs_aggregate() const override { return false; }
+    [[nodiscard]] bool lights_have_extent() const override { return true; }
 
   private:
     ConeTracingOptions options_;

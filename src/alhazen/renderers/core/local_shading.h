@@ -78,6 +78,7 @@ struct Arrival {
     /// open surface has a back but no inside.
     bool inside = false;
     double width = 0;  ///< of the ray's cone at the hit
+    float time = 0;    ///< RayQuery::time
 };
 
 /// Parts of a shading point that the caller needs.

@@ -42,7 +42,9 @@ struct RenderJob {
     std::uint64_t seed = 0;
     bool count_tests = false;  ///< fill RayCounters::tests (rays are always counted)
     RayCone cone{};            ///< of each eye ray; zero: textures are not filtered by distance
-    AovFilm* aovs = nullptr;   ///< filled besides the film; may be null
+    /// Moves the camera, which is as the shutter opens; null: it rests.
+    const TransformMotion* camera_motion = nullptr;
+    AovFilm* aovs = nullptr;  ///< filled besides the film; may be null
     /// The source of `scene`, with all shapes and meshes: the geometry for renderers without an
     /// aggregate. Null where unknown.
     const SceneDescription* description = nullptr;
@@ -88,9 +90,11 @@ class Renderer {
     [[nodiscard]] virtual bool answers_single_rays() const { return false; }
     /// True: `render` heeds RenderJob::sampling.
     [[nodiscard]] virtual bool takes_samplers() const { return false; }
-    /// True: rays are distributed over lenses, lights with extent and rough reflections; others
-    /// see through the centre of the lens, and such lights as points.
+    /// True: rays are distributed over lenses, time, lights with extent and rough reflections;
+    /// others see through the centre of the lens, as the shutter opens.
     [[nodiscard]] virtual bool distributes() const { return false; }
+    /// True: lights with extent throw penumbras.
+    [[nodiscard]] virtual bool lights_have_extent() const { return distributes(); }
     /// Samples per pixel where nothing is said.
     [[nodiscard]] virtual int usual_samples() const { return 1; }
     /// True: reports have RenderReport::scan_lines.

@@ -46,7 +46,7 @@ void ShadowBatch::finish(Coherence coherence) {
     if (rays_.empty()) return;
     const std::span<bool> met(met_.get(), rays_.size());
     if (asks_first()) {
-        scene_.aggregate->occluded_batch(rays_, met, query(), coherence);
+        find_met(met, coherence);
     } else {
         std::fill(met.begin(), met.end(), true);
     }
@@ -58,6 +58,15 @@ void ShadowBatch::finish(Coherence coherence) {
     }
     rays_.clear();
     waiting_.clear();
+}
+
+void ShadowBatch::find_met(std::span<bool> met, Coherence coherence) {
+    if (!scene_.has_motion) {
+        return scene_.aggregate->occluded_batch(rays_, met, query(), coherence);
+    }
+    times_.clear();
+    for (const Waiting& w : waiting_) times_.push_back(w.path->time);
+    scene_.aggregate->occluded_batch_at(rays_, times_, met, query(), coherence);
 }
 
 /// Whether to find first which rays hit anything, and crossings only for these. False while
@@ -74,7 +83,7 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     }
     crossings_.clear();
     // A ray that hits may have no crossing: the back of a single-sided surface.
-    const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query());
+    const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query(path.time));
     count_.hit += blocked || !crossings_.empty();
     return blocked ? Rgb{0, 0, 0} : tint_of_crossings(ray, path);
 }
@@ -90,7 +99,7 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
     for (const Hit& crossing : crossings_) {
         if (crossing.t - met < min_distance) continue;
         met = crossing.t;
-        const Surface surface = surface_at(*scene_.aggregate, ray, crossing);
+        const Surface surface = surface_at(*scene_.aggregate, ray, crossing, path.time);
         MaterialSample material = material_at(scene_, surface);
         if (material.coverage == 0.0) continue;
         bool leaving = dot(ray.direction, surface.normal) >= 0.0;

@@ -36,7 +36,10 @@ class ShadowBatch {
         Rgb intensity, fraction;
     };
 
-    [[nodiscard]] RayQuery query() const { return {stats_, mask_of(RayKind::Shadow)}; }
+    [[nodiscard]] RayQuery query(float time = 0.0f) const {
+        return {stats_, mask_of(RayKind::Shadow), time};
+    }
+    void find_met(std::span<bool> met, Coherence coherence);
     [[nodiscard]] bool asks_first() const;
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
@@ -52,6 +55,7 @@ class ShadowBatch {
     bool opaque_;  ///< any surface in between blocks the light
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
+    std::vector<float> times_;  ///< [ray]; where something moves
     std::unique_ptr<bool[]> met_;
     std::vector<Hit> crossings_;
     std::vector<Rgb> media_;  ///< absorption of the volumes around the shadow ray, innermost last

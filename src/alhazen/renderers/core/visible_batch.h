@@ -18,9 +18,10 @@ class VisibleBatch {
     VisibleBatch(const Scene& scene, TraversalStats* stats)
         : scene_(scene), stats_(stats), constant_(scene) {}
 
-    /// `path(k)` returns `kind`, `cone` and `inside` of ray k. Calls `tell(k, point, t)` once for
-    /// each ray: with a null pointer where nothing is seen, else with the point and its distance
-    /// from the origin of the ray. `tell` must not change rays or paths that are not yet reported.
+    /// `path(k)` returns `kind`, `cone`, `inside` and `time` of ray k. Calls `tell(k, point, t)`
+    /// once for each ray: with a null pointer where nothing is seen, else with the point and its
+    /// distance from the origin of the ray. `tell` must not change rays or paths that are not yet
+    /// reported.
     template <class PathOf, class Tell>
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell) {
         find(rays, coherence, path, tell, [](std::size_t, const Hit&) { return false; });
@@ -31,8 +32,7 @@ class VisibleBatch {
     void find(std::span<const Ray> rays, Coherence coherence, PathOf&& path, Tell&& tell,
               Take&& take) {
         behind_.clear();
-        const auto kind = [&](std::size_t k) { return path(k).kind; };
-        for (std::size_t k = 0; const Hit& hit : closest(rays, coherence, kind)) {
+        for (std::size_t k = 0; const Hit& hit : closest(rays, coherence, path)) {
             if (hit.found()) {
                 if (!take(k, hit)) meet(k, rays[k], rays[k], 0.0, hit, path(k), tell);
             } else {
@@ -45,8 +45,10 @@ class VisibleBatch {
             behind_.clear();
             rest_.clear();
             for (const Passed& p : on_way_) rest_.push_back(p.rest);
-            const auto kind_behind = [&](std::size_t i) { return path(on_way_[i].ray).kind; };
-            for (std::size_t i = 0; const Hit& hit : closest(rest_, Coherence::Any, kind_behind)) {
+            const auto path_behind = [&](std::size_t i) -> decltype(auto) {
+                return path(on_way_[i].ray);
+            };
+            for (std::size_t i = 0; const Hit& hit : closest(rest_, Coherence::Any, path_behind)) {
                 const Passed& p = on_way_[i++];
                 if (hit.found()) {
                     meet(p.ray, rays[p.ray], p.rest, p.distance, hit, path(p.ray), tell);
@@ -66,12 +68,16 @@ class VisibleBatch {
         double distance;  ///< from the origin of the whole ray
     };
 
-    /// The first hits of the rays, ray i among the parts visible to `kind(i)`.
-    template <class KindOf>
+    /// The first hits of the rays, ray i among the parts visible to `path(i).kind`.
+    template <class PathOf>
     [[nodiscard]] std::span<const Hit> closest(std::span<const Ray> rays, Coherence coherence,
-                                               KindOf&& kind) {
+                                               PathOf&& path) {
         // Hits are large: existing ones are reused.
         if (hits_.size() < rays.size()) hits_.resize(rays.size());
+        if (scene_.has_motion) {
+            times_.clear();
+            for (std::size_t i = 0; i < rays.size(); ++i) times_.push_back(path(i).time);
+        }
         if (!scene_.has_masks) {
             trace(rays, hits_, coherence, kAllRays);
             return std::span(hits_).first(rays.size());
@@ -79,12 +85,13 @@ class VisibleBatch {
         for (std::size_t k = 0; k < kRayKindCount; ++k) {
             chosen_.clear();
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                if (kind(i) == static_cast<RayKind>(k)) chosen_.push_back(i);
+                if (path(i).kind == static_cast<RayKind>(k)) chosen_.push_back(i);
             }
             trace_chosen(rays, coherence, mask_of(static_cast<RayKind>(k)));
         }
         return std::span(hits_).first(rays.size());
     }
+    /// At `times_` where something moves.
     void trace(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, RayMask mask);
     void trace_chosen(std::span<const Ray> rays, Coherence coherence, RayMask mask);
 
@@ -95,7 +102,8 @@ class VisibleBatch {
               const Path& path, Tell&& tell) {
         const double t = distance + hit.t;
         const PointNeeds needs{.uv = !scene_.textures.empty(), .constant = &constant_};
-        set_shading_point(scene_, rest, hit, {path.inside, path.cone.width_at(t)}, needs, point_);
+        set_shading_point(scene_, rest, hit, {path.inside, path.cone.width_at(t), path.time}, needs,
+                          point_);
         if (point_.material->coverage > 0.0) {
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;
@@ -108,10 +116,12 @@ class VisibleBatch {
     MaterialCache constant_;
     ShadingPoint point_;
     std::vector<Hit> hits_;
+    std::vector<float> times_;  ///< [ray]; where something moves
     // Of the rays of one kind, where parts have visibility masks.
     std::vector<std::size_t> chosen_;
     std::vector<Ray> chosen_rays_;
     std::vector<Hit> chosen_hits_;
+    std::vector<float> chosen_times_;
     std::vector<Ray> rest_;
     std::vector<Passed> behind_, on_way_;
 };

@@ -27,6 +27,7 @@ struct Path {
     RayKind kind = RayKind::Eye;
     bool inside = false;        ///< it starts inside something transparent
     std::uint32_t sample = 0;   ///< of its batch of eye rays
+    float time = 0;             ///< RayQuery::time
     Rgb contribution{1, 1, 1};  ///< product of the coefficients along the path
     Rgb absorption;             ///< of the medium it starts in
     RayCone cone;

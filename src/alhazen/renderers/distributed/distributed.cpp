@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "alhazen/cameras/eye_rays.h"
-#include "alhazen/renderers/core/pixel_loop.h"
+#include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/renderers/core/rough_lobe.h"
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/whitted/recursive_estimator.h"
-#include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/sampling/samplers/sampler.h"
 
 namespace alhazen {
 
@@ -18,29 +19,12 @@ namespace {
 enum Pair : std::uint32_t { kLensPair = 1, kTimePair = 2, kFirstBounce = 3 };
 enum BouncePair : std::uint32_t { kReflectedLobe = 0, kRefractedLobe = 1, kFirstLight = 2 };
 
-/// The exponent of the lobe of rays about a mirror direction, where normals have a lobe of `alpha`
-/// (Blinn and Phong): a quarter of theirs.
-double exponent_of(double alpha) {
-    return 0.25 * (2.0 / (alpha * alpha) - 2.0);
-}
-
-/// A direction of the lobe cos^n about the unit `axis`.
-Vec3 in_lobe(const Vec3& axis, double n, const Vec2& u) {
-    const Vec2 p = on_unit_disc(u);
-    const double share = p.x * p.x + p.y * p.y;  // uniform in 0 .. 1
-    const double cosine = std::pow(1.0 - share, 1.0 / (n + 1.0));
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    const double scale = share > 0.0 ? sine / std::sqrt(share) : 0.0;
-    const Vec3 a = perpendicular(axis), b = cross(axis, a);
-    return normalize(cosine * axis + (scale * p.x) * a + (scale * p.y) * b);
-}
-
 /// Draws from the sampler of the round.
 class SamplerChance {
   public:
     explicit SamplerChance(const RenderJob& job)
-        : scene_(job.scene),
-          sampler_(job.round->sampler),
+        : sampler_(job.round->sampler),
+          moves_(job.scene.has_motion || job.camera_motion != nullptr),
           bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight) {}
 
     /// `ids`: of the eye rays from now on.
@@ -51,6 +35,13 @@ class SamplerChance {
     }
     [[nodiscard]] Vec2 draw(const Path& path, int depth, std::uint32_t pair) const {
         return draw(path.sample, kFirstBounce + static_cast<std::uint32_t>(depth) * bounce_ + pair);
+    }
+
+    /// Drawn where something moves.
+    [[nodiscard]] float time(std::uint32_t sample) const {
+        if (!moves_) return 0.0f;
+        // Below 1, where the double may round up to it.
+        return std::min(static_cast<float>(draw(sample, kTimePair).x), 0x1.fffffep-1f);
     }
 
     [[nodiscard]] LightSample light_from(const Light& light, std::size_t number, const Vec3& point,
@@ -64,10 +55,10 @@ class SamplerChance {
     /// Replaces an exact direction by one of the lobe of a rough material.
     void spread(RayKind kind, const ShadingPoint& point, const Path& path, int depth,
                 Vec3& direction) const {
-        const double roughness = roughness_at(point);
+        const double roughness = point.material->roughness;
         if (!(roughness > 0.0)) return;
         const bool reflected = kind == RayKind::Reflection;
-        const double n = exponent_of(roughness * roughness);
+        const double n = lobe_exponent(roughness);
         const Vec3 drawn =
             in_lobe(direction, n, draw(path, depth, reflected ? kReflectedLobe : kRefractedLobe));
         // On the side of the surface that the exact direction is on.
@@ -76,19 +67,8 @@ class SamplerChance {
     }
 
   private:
-    /// Of a material of metallic-roughness; others are smooth.
-    [[nodiscard]] double roughness_at(const ShadingPoint& point) const {
-        if (!point.material->physical) return 0.0;
-        const Surface& s = point.surface;
-        const Material& m = scene_.materials[static_cast<std::size_t>(s.materials[0])];
-        if (!m.metallic_roughness) return 0.0;
-        const SurfaceLookup lookup{{s.uv, s.uv2}, {}, s.color};
-        const double value = value_at(m.metallic_roughness->roughness, scene_.textures, lookup);
-        return std::clamp(value, 0.0, 1.0);
-    }
-
-    const Scene& scene_;
     const Sampler& sampler_;
+    bool moves_;
     std::uint32_t bounce_;  ///< pairs of one
     std::span<const SampleId> ids_;
 };
@@ -96,7 +76,9 @@ class SamplerChance {
 class DistributedEstimator {
   public:
     DistributedEstimator(const RenderJob& job, std::size_t rays_at_once, RayCounters& counters)
-        : tree_(job, rays_at_once, counters), lens_(job.camera) {}
+        : tree_(job, rays_at_once, counters), lens_(job.camera), motion_(job.camera_motion) {
+        if (motion_ != nullptr) camera_from_world_ = motion_->at(0.0).inner_from_outer;
+    }
 
     /// Of rays without samples: not called.
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) { tree_.trace(rays, radiance); }
@@ -104,30 +86,72 @@ class DistributedEstimator {
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                        std::span<Rgb> radiance) {
         tree_.chance().begin(ids);
-        if (!lens_.open()) return tree_.trace(rays, radiance);
-        through_lens_.clear();
+        if (!lens_.open() && motion_ == nullptr) return tree_.trace(rays, radiance);
+        drawn_.clear();
         for (std::uint32_t i = 0; const Ray& ray : rays) {
-            through_lens_.push_back(lens_.through(ray, tree_.chance().draw(i++, kLensPair)));
+            drawn_.push_back(lens_.open() ? lens_.through(ray, tree_.chance().draw(i, kLensPair))
+                                          : ray);
+            if (motion_ != nullptr) carry(tree_.chance().time(i), drawn_.back());
+            ++i;
         }
-        tree_.trace(through_lens_, radiance);
+        tree_.trace(drawn_, radiance);
     }
 
   private:
+    /// To where the camera is at `time`.
+    void carry(double time, Ray& ray) const {
+        const Affine moved = motion_->at(time).outer_from_inner * camera_from_world_;
+        ray = transformed(moved, ray);
+        ray.direction = normalize(ray.direction);
+    }
+
     RecursiveEstimator<SamplerChance> tree_;
     LensRays lens_;
-    std::vector<Ray> through_lens_;
+    const TransformMotion* motion_;
+    Affine camera_from_world_;  ///< as the shutter opens
+    std::vector<Ray> drawn_;
 };
 
 static_assert(SampleEstimator<DistributedEstimator>);
 
 constexpr std::size_t kSamplesAtOnce = 256;
 
+/// Tiles of a job without a round: all its samples, by the usual sampler and filter.
+class OneRound final : public TileRenderer {
+  public:
+    explicit OneRound(const RenderJob& job)
+        : sampler_(plan_.sampler->make(job.seed, count(job))),
+          filter_(*plan_.filter, plan_.radius),
+          round_{*sampler_, filter_, 0, count(job), {}, {}},
+          job_(with_round(job, round_)),
+          tiles_(job_, kSamplesAtOnce) {}
+
+    void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
+        tiles_.render(tile, film, counters);
+    }
+
+  private:
+    static std::uint32_t count(const RenderJob& job) {
+        return static_cast<std::uint32_t>(job.samples_per_pixel);
+    }
+    static RenderJob with_round(const RenderJob& job, const SampleRound& round) {
+        RenderJob sampled = job;
+        sampled.round = &round;
+        return sampled;
+    }
+
+    SamplingPlan plan_;
+    std::unique_ptr<Sampler> sampler_;
+    FilterKernel filter_;
+    SampleRound round_;
+    RenderJob job_;
+    RoundRenderer<DistributedEstimator> tiles_;
+};
+
 }  // namespace
 
 std::unique_ptr<TileRenderer> Distributed::begin(const RenderJob& job) const {
-    if (job.round == nullptr) {
-        return make_pixel_renderer<RecursiveEstimator<NoChance>>(job, kSamplesAtOnce);
-    }
+    if (job.round == nullptr) return std::make_unique<OneRound>(job);
     return std::make_unique<RoundRenderer<DistributedEstimator>>(job, kSamplesAtOnce);
 }
 

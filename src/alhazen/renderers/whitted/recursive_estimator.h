@@ -27,6 +27,8 @@ struct NoChance {
         return sample(light, point, clamp);
     }
     void spread(RayKind, const ShadingPoint&, const Path&, int /*depth*/, Vec3&) const {}
+    /// Of an eye ray and all that follow from it.
+    [[nodiscard]] static float time(std::uint32_t /*sample*/) { return 0.0f; }
 };
 
 /// From this depth on fewer rays are traced at a time, which bounds the memory of waiting
@@ -64,7 +66,8 @@ class RecursiveEstimator {
     void trace(std::span<const Ray> rays, std::span<Rgb> radiance) {
         eye_.clear();
         for (std::uint32_t i = 0; const Ray& ray : rays) {
-            eye_.add(ray, Path{.sample = i++, .cone = job_.cone});
+            eye_.add(ray, Path{.sample = i, .time = chance_.time(i), .cone = job_.cone});
+            ++i;
         }
         trace_all(eye_, 0);
         for (std::uint32_t i = 0; Rgb & c : radiance) c = eye_.radiance(i++);

@@ -22,7 +22,7 @@ Rgba texel_at(TextureId id, std::span<const Texture> textures, const SurfaceLook
 bool reads_textures(const Material& m) {
     const auto any = [](const auto&... input) { return ((input.texture != kNoTexture) || ...); };
     if (any(m.emission, m.ambient, m.diffuse, m.specular, m.reflective, m.transmissive, m.shininess,
-            m.index, m.alpha, m.normal_map)) {
+            m.index, m.roughness, m.alpha, m.normal_map)) {
         return true;
     }
     if (!m.metallic_roughness) return false;
@@ -89,6 +89,7 @@ MaterialSample evaluate_whitted(const Material& m, std::span<const Texture> text
             .transmissive = color(m.transmissive),
             .shininess = value(m.shininess),
             .index = value(m.index),
+            .roughness = std::clamp(value(m.roughness), 0.0, 1.0),
             .coverage = coverage_of(m, textures, lookup),
             .albedo = diffuse,
             .single_sided = !m.double_sided};
@@ -115,7 +116,7 @@ MaterialSample weighted_sum(double wa, const MaterialSample& a, double wb, const
     using S = MaterialSample;
     mix(&S::emission, &S::ambient, &S::diffuse, &S::specular, &S::reflective, &S::transmissive,
         &S::albedo, &S::absorption, &S::grazing);
-    mix(&S::shininess, &S::index, &S::coverage, &S::occlusion);
+    mix(&S::shininess, &S::index, &S::roughness, &S::coverage, &S::occlusion);
     return sum;
 }
 

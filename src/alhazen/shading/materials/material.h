@@ -76,6 +76,8 @@ struct Material {
     ColorInput transmissive;               ///< kt, the refracted direction
     ScalarInput shininess{0, kNoTexture};  ///< ns, exponent of the highlight
     ScalarInput index{1, kNoTexture};      ///< index of refraction inside the surface's normal
+    /// 0..1: how far reflected and refracted rays spread, for renderers in which they do.
+    ScalarInput roughness{0, kNoTexture};
 
     /// Mass of a unit of volume, in any unit; for measures, not for light.
     std::optional<double> density;
@@ -113,6 +115,7 @@ struct SurfaceLookup {
 struct MaterialSample {
     Rgb emission, ambient, diffuse, specular, reflective, transmissive;
     double shininess = 0, index = 1;
+    double roughness = 0;  ///< of the directions of rays; 0: exact
 
     double coverage = 1;   ///< share of the point that is there; a ray goes straight on by the rest
     Rgb albedo;            ///< colour of the surface itself, whatever it does with it

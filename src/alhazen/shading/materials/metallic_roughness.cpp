@@ -92,6 +92,7 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
     s.reflective = mirror * at_normal;
     s.grazing = mirror * Rgb{grazing, grazing, grazing};
 
+    s.roughness = std::clamp(roughness, 0.0, 1.0);
     const double alpha = std::pow(std::max(roughness, kLeastRoughness), 2.0);
     s.shininess = 2.0 / (alpha * alpha) - 2.0;
     s.specular = (s.shininess + 2.0) / 8.0 * at_normal;

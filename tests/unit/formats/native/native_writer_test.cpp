@@ -48,6 +48,50 @@ TEST(NativeWriter, AnEmptySceneIsItsHeader) {
     expect_round_trip(empty_scene());
 }
 
+TEST(NativeWriter, MotionComesBack) {
+    SceneDescription scene = empty_scene("room");
+    scene.materials.push_back({Material{.name = "m"}, {}});
+    const std::vector<TransformKey> keys{
+        {-0.5, Affine::rotate({0.3, 1, 0.2}, 0.1)},
+        {0.25, Affine::translate({1.0 / 3, -0.0, 2}) * Affine::scale({1, 2, 0.7})}};
+    std::vector<Part>& parts = scene.objects[0].parts;
+    for (const Affine& outer : {Affine{}, Affine::translate({0, 0, 0.1})}) {
+        for (const Affine& inner : {Affine{}, Affine::scale({3, 1, 1})}) {
+            Part part;
+            part.what = AnyShape{Sphere{}};
+            part.motion = std::make_shared<const PartMotion>(PartMotion{outer, keys, inner});
+            parts.push_back(part);
+        }
+    }
+    for (const std::uint32_t size : {3u, 40u}) {
+        TriangleMesh mesh;
+        MeshKey early{0, {}, {}}, late{1.5, {}, {}};
+        for (std::uint32_t i = 0; i < size; ++i) {
+            mesh.positions.push_back({double(i) / 3, double(i % 3), 0.1 * (i % 2)});
+            if (size > 3) mesh.normals.push_back({0, 0, 1});
+            early.positions.push_back(mesh.positions[i] + Vec3{0, 0, 0.1});
+            late.positions.push_back(mesh.positions[i] + Vec3{0, 0.7, 0});
+            if (size > 3) early.normals.push_back({0, 1, 0});
+            if (size > 3) late.normals.push_back({1, 0, 0});
+            if (i > 1) mesh.triangles.push_back({i - 2, i - 1, i});
+        }
+        scene.meshes.push_back(
+            {"g" + std::to_string(size), std::make_shared<TriangleMesh>(mesh), {}, {early, late}});
+        Part part;
+        part.what = MeshIndex(scene.meshes.size() - 1);
+        parts.push_back(part);
+    }
+    CameraDescription camera;
+    camera.keys = keys;
+    scene.cameras.push_back(camera);
+    open_shutter(scene, {0.1, 0.4});
+    expect_round_trip(scene);
+    scene.objects[0].parts.clear();
+    scene.shutter = {0, 1};
+    const std::string text = RoundTrip(scene).text;
+    EXPECT_EQ(text.find("shutter"), std::string::npos);  // the default
+}
+
 TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
     using C = ShadingConventions;
     for (int i = 0; i < 4; ++i) {
@@ -193,6 +237,7 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
         m.transmissive = color();
         m.shininess = scalar(Channel::Mean);
         m.index = scalar(Channel::Mean);
+        m.roughness = scalar(Channel::Mean);
         m.alpha_mode = AlphaMode(i % 3);
         m.alpha = scalar(Channel::Alpha);
         m.alpha_cutoff = n.positive();

@@ -120,9 +120,9 @@ class Patience {
     int wait_ = 0;  ///< levels to skip
 };
 
-class Builder {
+class SpatialBuilder {
   public:
-    Builder(std::vector<BuildReference>& references, const LeafKinds& kinds,
+    SpatialBuilder(std::vector<BuildReference>& references, const LeafKinds& kinds,
             const ReferenceSplitter& splitter)
         : references_(references), kinds_(kinds), splitter_(splitter) {}
 
@@ -328,7 +328,7 @@ void ReferenceSplitter::slice(const BuildReference& reference, const BinPlanes& 
 BinaryBvh build_with_spatial_splits(std::vector<BuildReference>& references, const LeafKinds& kinds,
                                     const ReferenceSplitter& splitter) {
     if (references.empty()) return {};
-    return Builder(references, kinds, splitter).build();
+    return SpatialBuilder(references, kinds, splitter).build();
 }
 
 }  // namespace alhazen

@@ -49,6 +49,7 @@ SceneDescription NativeImporter::import(const ImportSource& source,
     scene.objects[static_cast<std::size_t>(scene.root)].parts = std::move(parts);
     check_listed_objects(context);
     complete_cameras(context);
+    open_shutter(scene, scene.shutter);
     return scene;
 }
 

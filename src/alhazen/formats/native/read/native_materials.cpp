@@ -147,6 +147,7 @@ MaterialId add_material(TextNode block, std::string name, NativeContext& context
     read_color(reader, "reflective", context, m.reflective);
     read_color(reader, "transmissive", context, m.transmissive);
     read_scalar(reader, "shininess", context, m.shininess);
+    read_scalar(reader, "roughness", context, m.roughness);
     read_scalar(reader, "index", context, m.index);
     if (double density = 0; reader.read("density", density)) m.density = density;
     if (!has_ambient) m.ambient = m.diffuse;

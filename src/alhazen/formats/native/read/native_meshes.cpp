@@ -73,6 +73,56 @@ void read_vertex_materials(BlockReader& reader, NativeContext& context, Triangle
     }
 }
 
+/// The points of one key, in the list or in a mesh file, which may have normals.
+bool read_point_key(TextNode value, BlockReader& reader, NativeContext& context,
+                    const NativeScope& scope, TriangleMesh& pose) {
+    if (!value.is(NodeKind::String)) {
+        return read_points(value, "point_keys", reader.values(), pose);
+    }
+    try {
+        pose = read_mesh(resolve_inside(context.roots, scope.folder, std::string(value.text())),
+                         context.options, context.diagnostics);
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::Resource) throw;
+        reader.error(value, error.what());
+        return false;
+    }
+    return true;
+}
+
+/// `point_keys = [(time, points or "FILE"), ...]`.
+std::vector<MeshKey> read_point_keys(BlockReader& reader, NativeContext& context,
+                                     const NativeScope& scope, const TriangleMesh& mesh,
+                                     bool smooth) {
+    const auto list = reader.find("point_keys");
+    if (!list || !reader.values().is_list(*list, "point_keys")) return {};
+    std::vector<MeshKey> keys;
+    for (const TextNode entry : *list) {
+        MeshKey& key = keys.emplace_back();
+        TriangleMesh pose;
+        if (!entry.is(NodeKind::List) || entry.size() != 2) {
+            reader.values().fail(entry, "point_keys", "(time, points), ...");
+            return {};
+        }
+        auto part = entry.begin();
+        if (!reader.values().read(*part, "point_keys", key.time) ||
+            !read_point_key(*++part, reader, context, scope, pose)) {
+            return {};
+        }
+        if (smooth && pose.positions.size() == mesh.positions.size()) {
+            pose.triangles = mesh.triangles;
+            pose.generate_normals();
+        }
+        key.positions = std::move(pose.positions);
+        if (!mesh.normals.empty()) key.normals = std::move(pose.normals);
+    }
+    if (const char* fault = fault_of(mesh, keys); fault != nullptr) {
+        reader.error(*list, fault);
+        return {};
+    }
+    return keys;
+}
+
 MeshIndex add_geometry(BlockReader& reader, std::string name, const FileLocation& where,
                        NativeContext& context, const NativeScope& scope) {
     auto mesh = std::make_shared<TriangleMesh>();
@@ -85,8 +135,10 @@ MeshIndex add_geometry(BlockReader& reader, std::string name, const FileLocation
     }
     read_vertex_materials(reader, context, *mesh);
     if (reader.read("smooth", smooth) && smooth) mesh->generate_normals();
+    std::vector<MeshKey> keys = read_point_keys(reader, context, scope, *mesh, smooth);
     context.count_elements(mesh->positions.size() + mesh->triangles.size() + 1, where);
-    context.scene.meshes.push_back({std::move(name), std::move(mesh), where});
+    for (const MeshKey& key : keys) context.count_elements(key.positions.size(), where);
+    context.scene.meshes.push_back({std::move(name), std::move(mesh), where, std::move(keys)});
     return static_cast<MeshIndex>(context.scene.meshes.size() - 1);
 }
 

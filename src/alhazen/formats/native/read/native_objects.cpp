@@ -105,7 +105,7 @@ void read_native_solid(const NativeBlock& block, NativeContext& context, NativeS
     Part part;
     part.name = block.name;
     part.location = block.location;
-    part.object_from_part = scope.placed(read_native_transform(reader));
+    read_native_placement(reader, scope, part);
     part.visible_to = scope.visible_to & read_native_visibility(reader);
     ObjectDescription object{block.name.empty() ? block.type : block.name, {}, block.location};
     for (const auto& [word, combine] : native_words<Combine>()) {
@@ -140,7 +140,7 @@ void read_native_instance(TextNode entry, NativeContext& context, NativeScope& s
     part.location = entry.location();
     if (entry.size() == 2) {
         BlockReader reader = context.reader(*++entry.begin(), "instance");
-        part.object_from_part = scope.placed(read_native_transform(reader));
+        read_native_placement(reader, scope, part);
         part.visible_to &= read_native_visibility(reader);
         reader.read("name", part.name);
         reader.finish();

@@ -23,7 +23,7 @@ Part placed_part(BlockReader& reader, const NativeBlock& block, const NativeScop
     Part part;
     part.name = block.name;
     part.location = block.location;
-    part.object_from_part = scope.placed(read_native_transform(reader));
+    read_native_placement(reader, scope, part);
     part.visible_to = scope.visible_to & read_native_visibility(reader);
     return part;
 }

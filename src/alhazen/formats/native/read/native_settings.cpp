@@ -31,6 +31,8 @@ void read_picture(const NativeBlock& block, NativeContext& context) {
     if (color && read_native_color(*color, "background", reader.values(), background)) {
         picture.background = background;
     }
+    Vec2 shutter{context.scene.shutter.open, context.scene.shutter.close};
+    if (reader.read("shutter", shutter)) context.scene.shutter = {shutter.x, shutter.y};
     reader.read_word("up_axis", native_words<UpAxis>(), context.scene.up_axis);
     reader.finish();
 }

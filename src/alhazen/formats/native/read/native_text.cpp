@@ -61,6 +61,12 @@ std::string native_value(const Affine& transform) {
            tuple(x.z, y.z, z.z, t.z) + ")";
 }
 
+std::string native_value(const std::vector<TransformKey>& keys) {
+    return native_list_of(keys, [](const TransformKey& key) {
+        return "(" + native_value(key.time) + ", " + native_value(key.outer_from_inner) + ")";
+    });
+}
+
 std::string native_string(std::string_view text) {
     constexpr const char* kHex = "0123456789abcdef";
     std::string out = "\"";

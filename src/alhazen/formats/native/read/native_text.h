@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "alhazen/geometry/motion/transform_motion.h"
 #include "alhazen/imaging/image/rgb.h"
-#include "alhazen/math/affine.h"
 
 namespace alhazen {
 
@@ -25,6 +25,8 @@ std::string native_value(const char*) = delete;  // prevents a conversion to boo
 [[nodiscard]] std::string native_value(const Rgb& color);
 /// As matrix(row, row, row).
 [[nodiscard]] std::string native_value(const Affine& transform);
+/// [(time, matrix), ...].
+[[nodiscard]] std::string native_value(const std::vector<TransformKey>& keys);
 /// In quotes, escaped.
 [[nodiscard]] std::string native_string(std::string_view text);
 /// [a, b, c].

@@ -67,17 +67,51 @@ std::optional<Affine> read_one(TextNode value, const ValueReader& values) {
     return std::nullopt;
 }
 
+/// One transform, or a list of them.
+Affine read_any(TextNode value, const ValueReader& values) {
+    if (value.broken()) return {};
+    if (!value.is(NodeKind::List)) return read_one(value, values).value_or(Affine{});
+    Affine all;
+    for (const TextNode step : value) all = read_one(step, values).value_or(Affine{}) * all;
+    return all;
+}
+
 }  // namespace
 
 Affine read_native_transform(BlockReader& reader) {
     const std::optional<TextNode> value = reader.find("transform");
-    if (!value || value->broken()) return {};
-    if (!value->is(NodeKind::List)) return read_one(*value, reader.values()).value_or(Affine{});
-    Affine all;
-    for (const TextNode step : *value) {
-        all = read_one(step, reader.values()).value_or(Affine{}) * all;
+    return value ? read_any(*value, reader.values()) : Affine{};
+}
+
+std::vector<TransformKey> read_native_motion(BlockReader& reader) {
+    const std::optional<TextNode> list = reader.find("motion");
+    if (!list || list->broken() || !reader.values().is_list(*list, "motion")) return {};
+    std::vector<TransformKey> keys;
+    for (const TextNode entry : *list) {
+        TransformKey key;
+        if (!entry.is(NodeKind::List) || entry.size() != 2) {
+            reader.values().fail(entry, "motion", "(time, transform), ...");
+            return {};
+        }
+        auto part = entry.begin();
+        if (!reader.values().read(*part, "motion", key.time)) return {};
+        key.outer_from_inner = read_any(*++part, reader.values());
+        keys.push_back(key);
     }
-    return all;
+    if (const char* fault = fault_of(keys); fault != nullptr) {
+        reader.error(*list, fault);
+        return {};
+    }
+    return keys;
+}
+
+void read_native_placement(BlockReader& reader, const NativeScope& scope, Part& part) {
+    const Affine inner = read_native_transform(reader);
+    part.object_from_part = scope.placed(inner);
+    std::vector<TransformKey> keys = read_native_motion(reader);
+    if (keys.empty()) return;
+    part.motion = std::make_shared<const PartMotion>(
+        PartMotion{scope.object_from_here, std::move(keys), inner});
 }
 
 }  // namespace alhazen

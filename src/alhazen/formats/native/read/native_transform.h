@@ -1,8 +1,9 @@
 #pragma once
 /// Transforms of the native format.
 
-#include "alhazen/formats/text/block_reader.h"
-#include "alhazen/math/affine.h"
+#include <vector>
+
+#include "alhazen/formats/native/read/native_context.h"
 
 namespace alhazen {
 
@@ -10,5 +11,11 @@ namespace alhazen {
 /// z), matrix(row, row, row), or a list of them, applied from the first to the last. The identity
 /// when the key is absent or invalid.
 [[nodiscard]] Affine read_native_transform(BlockReader& reader);
+
+/// `motion = [(time, transform), ...]`; none when the key is absent or invalid.
+[[nodiscard]] std::vector<TransformKey> read_native_motion(BlockReader& reader);
+
+/// Sets where the part stands and how it moves, from `transform` and `motion`.
+void read_native_placement(BlockReader& reader, const NativeScope& scope, Part& part);
 
 }  // namespace alhazen

@@ -8,6 +8,7 @@
 
 #include "alhazen/formats/mesh/mesh_lists.h"
 #include "alhazen/formats/native/read/native_materials.h"
+#include "alhazen/formats/native/read/native_transform.h"
 #include "alhazen/math/constants.h"
 
 namespace alhazen {
@@ -77,8 +78,8 @@ View read_view(BlockReader& reader, NativeContext& context) {
 }
 
 void add_camera(const NativeBlock& block, NativeContext& context, const Camera& camera,
-                double aspect) {
-    context.scene.cameras.push_back({block.name, camera, aspect, block.location});
+                double aspect, std::vector<TransformKey> keys) {
+    context.scene.cameras.push_back({block.name, camera, aspect, block.location, std::move(keys)});
 }
 
 void read_emission(BlockReader& reader, Rgb& color, Rgb& ambient) {
@@ -168,8 +169,9 @@ void read_perspective_camera(const NativeBlock& block, NativeContext& context) {
     PerspectiveCamera camera =
         look_along(view.eye, view.look, view.up, fov_deg * kRadiansPerDegree, view.aspect);
     read_lens(reader, camera);
+    std::vector<TransformKey> keys = read_native_motion(reader);
     reader.finish();
-    add_camera(block, context, camera, view.aspect);
+    add_camera(block, context, camera, view.aspect, std::move(keys));
 }
 
 void read_sheared_camera(const NativeBlock& block, NativeContext& context) {
@@ -184,8 +186,9 @@ void read_sheared_camera(const NativeBlock& block, NativeContext& context) {
     reader.read("up", camera.up);
     read_positive(reader, "aspect", aspect);
     read_lens(reader, camera);
+    std::vector<TransformKey> keys = read_native_motion(reader);
     reader.finish();
-    add_camera(block, context, camera, aspect);
+    add_camera(block, context, camera, aspect, std::move(keys));
 }
 
 void read_sheared_orthographic_camera(const NativeBlock& block, NativeContext& context) {
@@ -199,8 +202,9 @@ void read_sheared_orthographic_camera(const NativeBlock& block, NativeContext& c
     reader.read("right", camera.right);
     reader.read("up", camera.up);
     read_positive(reader, "aspect", aspect);
+    std::vector<TransformKey> keys = read_native_motion(reader);
     reader.finish();
-    add_camera(block, context, camera, aspect);
+    add_camera(block, context, camera, aspect, std::move(keys));
 }
 
 void read_orthographic_camera(const NativeBlock& block, NativeContext& context) {
@@ -210,9 +214,11 @@ void read_orthographic_camera(const NativeBlock& block, NativeContext& context) 
     double height = 1;
     reader.require("height");
     read_positive(reader, "height", height);
+    std::vector<TransformKey> keys = read_native_motion(reader);
     reader.finish();
     add_camera(block, context,
-               look_along_parallel(view.eye, view.look, view.up, height, view.aspect), view.aspect);
+               look_along_parallel(view.eye, view.look, view.up, height, view.aspect), view.aspect,
+               std::move(keys));
 }
 
 void read_ambient_light(const NativeBlock& block, NativeContext& context) {

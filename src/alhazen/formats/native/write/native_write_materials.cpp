@@ -154,6 +154,7 @@ void write_native_materials(NativeWriteContext& context) {
         inputs.add("transmissive", m.transmissive, usual.transmissive);
         inputs.add("shininess", m.shininess, usual.shininess);
         inputs.add("index", m.index, usual.index);
+        inputs.add("roughness", m.roughness, usual.roughness);
         if (m.density) block.add("density", native_value(*m.density));
         if (m.alpha_mode != usual.alpha_mode) {
             block.add("alpha_mode", std::string(native_word(m.alpha_mode)));

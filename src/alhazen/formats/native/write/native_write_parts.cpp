@@ -73,9 +73,36 @@ void add_file(NativeBlockText& block, const NativeWriteContext& context, const T
     block.add("materials", native_list(labels));
 }
 
-void write_part(NativeWriteContext& context, const Part& part, int indent) {
+std::string write_pose(const NativeWriteContext& context, const TriangleMesh& mesh,
+                       const MeshKey& key, const std::string& file) {
+    TriangleMesh pose = mesh;
+    pose.positions = key.positions;
+    if (!key.normals.empty()) pose.normals = key.normals;
+    const std::string bytes = ply_bytes(pose);
+    return context.write_file(file, std::as_bytes(std::span(bytes)));
+}
+
+void add_point_keys(NativeBlockText& block, const NativeWriteContext& context,
+                    const MeshDescription& mesh, std::size_t number) {
+    std::vector<std::string> keys;
+    const bool in_text = can_stand_in_text(*mesh.mesh);
+    for (std::size_t k = 0; k < mesh.keys.size(); ++k) {
+        const MeshKey& key = mesh.keys[k];
+        const std::string file =
+            "mesh_" + std::to_string(number) + "_key_" + std::to_string(k) + ".ply";
+        const std::string points =
+            in_text ? native_list_of(key.positions, [](const Vec3& p) { return native_value(p); })
+                    : native_string(write_pose(context, *mesh.mesh, key, file));
+        keys.push_back("(" + native_value(key.time) + ", " + points + ")");
+    }
+    block.add("point_keys", native_list(keys));
+}
+
+void write_part_block(NativeWriteContext& context, const Part& part, int indent) {
     const auto add_placement = [&](NativeBlockText& block) {
-        block.add_unless("transform", part.object_from_part, Affine{});
+        block.add_unless("transform", part.motion ? part.motion->inner : part.object_from_part,
+                         Affine{});
+        if (part.motion) block.add("motion", native_value(part.motion->keys));
         if (part.visible_to != kAllRays)
             block.add("visible_to", native_visibility(part.visible_to));
     };
@@ -107,6 +134,18 @@ void write_part(NativeWriteContext& context, const Part& part, int indent) {
             context.append(block, indent);
         },
         std::get<AnyShape>(part.what));
+}
+
+/// What moves inside of a frame that rests stands in a group with that transform.
+void write_part(NativeWriteContext& context, const Part& part, int indent) {
+    if (!part.motion || part.motion->outer == Affine{}) {
+        return write_part_block(context, part, indent);
+    }
+    const std::string margin(static_cast<std::size_t>(indent), ' ');
+    context.text += margin + "group {\n" + margin +
+                    "    transform = " + native_value(part.motion->outer) + "\n";
+    write_part_block(context, part, indent + 4);
+    context.text += margin + "}\n";
 }
 
 /// How the object combines its parts, where it differs from the default.
@@ -163,6 +202,7 @@ void write_native_geometries(NativeWriteContext& context) {
         } else {
             add_file(block, context, *description.mesh, i);
         }
+        if (!description.keys.empty()) add_point_keys(block, context, description, i);
         context.append(block);
     }
 }

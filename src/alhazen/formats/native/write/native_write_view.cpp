@@ -158,6 +158,10 @@ void write_native_picture(NativeWriteContext& context) {
     if (picture.width) block.add("width", native_value(*picture.width));
     if (picture.height) block.add("height", native_value(*picture.height));
     if (picture.background) block.add("background", native_value(*picture.background));
+    if (context.scene.shutter != Shutter{}) {
+        block.add("shutter",
+                  native_value(Vec2{context.scene.shutter.open, context.scene.shutter.close}));
+    }
     if (context.scene.up_axis == UpAxis::Z) block.add("up_axis", "z");
     if (!block.empty()) context.append(block);
 }
@@ -207,6 +211,7 @@ void write_native_cameras(NativeWriteContext& context) {
         NativeBlockText block =
             std::visit([&](const auto& c) { return block_of(camera.name, c); }, camera.camera);
         block.add("aspect", native_value(camera.aspect));
+        if (!camera.keys.empty()) block.add("motion", native_value(camera.keys));
         context.append(block);
     }
 }

@@ -1,0 +1,213 @@
+#include "alhazen/aggregates/motion/motion_aggregate.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "alhazen/primitives/surface.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+
+std::vector<TransformKey> keys_of(std::mt19937_64& random) {
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto vector = [&] { return Vec3{number(random), number(random), number(random)}; };
+    std::vector<TransformKey> keys;
+    const Vec3 place = 3 * vector();
+    for (const double time : {0.1, 0.6, 1.2}) {
+        keys.push_back({time, Affine::translate(place + 0.6 * vector()) *
+                                  Affine::rotate(vector(), number(random)) *
+                                  Affine::scale({1, 1 + 0.3 * number(random), 1})});
+    }
+    return keys;
+}
+
+/// Things that rest, move, deform, and move inside of things that do.
+SceneDescription scene_in_motion() {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> number(-1, 1);
+    SceneMaker maker;
+    Material glass, single;
+    glass.transmissive.color = {0.5, 0.5, 0.5};
+    single.double_sided = false;
+    const MaterialId matt = maker.material({}), clear = maker.material(glass),
+                     front = maker.material(single);
+    SceneDescription& d = maker.description();
+    const auto move = [&](std::size_t object, const Affine& inner) {
+        Part& part = d.objects[object].parts.back();
+        part.motion = std::make_shared<const PartMotion>(PartMotion{
+            object == 0 ? Affine{} : Affine::translate({0.2, 0, 0}), keys_of(random), inner});
+    };
+    maker.add(Plane{.point = {0, 0, -6}, .normal = {0, 0, 1}}, matt);
+    for (int i = 0; i < 12; ++i) {
+        maker.add(Sphere{.center = {number(random) * 3, number(random) * 3, number(random)},
+                         .radius = 0.3},
+                  i % 2 == 0 ? matt : clear);
+        if (i < 8) move(0, i % 3 == 0 ? Affine::scale({1, 2, 1}) : Affine{});
+    }
+    const MeshIndex shared = maker.mesh(testing::tetrahedron());
+    maker.add(shared, front);
+    move(0, Affine::scale({0.5, 0.5, 0.5}));
+    maker.add(shared, matt, Affine::translate({-2, 2, 0}));
+    // A mesh that deforms; three keys, one inside of the shutter.
+    TriangleMesh bent = testing::tetrahedron();
+    const MeshIndex deforming = maker.mesh(bent);
+    for (const double time : {0.0, 0.4, 1.0}) {
+        MeshKey key{time, bent.positions, {}};
+        for (Vec3& p : key.positions) p += 0.4 * Vec3{number(random), number(random), 0};
+        d.meshes[static_cast<std::size_t>(deforming)].keys.push_back(key);
+    }
+    maker.add(deforming, front, Affine::translate({2, -2, 0}));
+    maker.add(deforming, clear, Affine::translate({2, 2, 1}));
+    move(0, Affine{});
+    // An object of things that move, placed twice: at rest, and moving.
+    const ObjectIndex swarm = maker.object("swarm");
+    for (int i = 0; i < 3; ++i) {
+        maker.add(Box{}, i == 1 ? clear : matt, {}, swarm);
+        if (i > 0) move(static_cast<std::size_t>(swarm), Affine::scale({0.3, 0.3, 0.3}));
+    }
+    maker.add(swarm, matt, Affine::translate({0, 0, 2}));
+    maker.add(swarm, matt);
+    move(0, Affine::scale({0.5, 0.5, 0.5}));
+    d.shutter = {0, 1};
+    open_shutter(d, d.shutter);
+    return d;
+}
+
+/// The same with everything at rest, as it is at that moment.
+Scene frozen(SceneDescription d, double time) {
+    // Meshes are shared with the original.
+    for (MeshDescription& mesh : d.meshes) mesh.mesh = std::make_shared<TriangleMesh>(*mesh.mesh);
+    open_shutter(d, {time, time});
+    for (MeshDescription& mesh : d.meshes) mesh.keys.clear();
+    for (ObjectDescription& object : d.objects) {
+        for (Part& part : object.parts) part.motion = nullptr;
+    }
+    Scene scene = compile(d, {.accelerator = "list"});
+    EXPECT_FALSE(scene.has_motion);
+    return scene;
+}
+
+std::vector<Ray> random_rays(int count) {
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> number(-1, 1);
+    std::vector<Ray> rays;
+    for (int i = 0; i < count; ++i) {
+        Ray ray{{6 * number(random), 6 * number(random), 5}, {}};
+        const Vec3 aim{4 * number(random), 4 * number(random), 2 * number(random)};
+        ray.direction = aim - ray.origin;
+        if (i % 3 == 0) ray.t_max = 1.2;
+        rays.push_back(ray);
+    }
+    return rays;
+}
+
+TEST(MotionAggregate, AtEveryMomentItIsTheSceneFrozenThen) {
+    const SceneDescription d = scene_in_motion();
+    Diagnostics diagnostics;
+    validate(d, diagnostics);
+    ASSERT_EQ(diagnostics.error_count(), 0u) << to_string(diagnostics.all().front());
+    const Scene moving = compile(d);
+    ASSERT_TRUE(moving.has_motion);
+    EXPECT_GT(moving.census.moving_things, 15u);
+    const std::vector<Ray> rays = random_rays(3000);
+    for (const float time : {0.0f, 0.25f, 0.5f, 0.8f, 0.999f}) {
+        SCOPED_TRACE(time);
+        const Scene still = frozen(d, time);
+        int found = 0, apart = 0;
+        for (const Ray& ray : rays) {
+            const RayQuery query{nullptr, kAllRays, time};
+            Hit a, b;
+            const bool hit = moving.aggregate->closest(ray, a, query);
+            EXPECT_EQ(moving.aggregate->occluded(ray, query), hit);
+            if (still.aggregate->closest(ray, b, {nullptr}) != hit ||
+                (hit && std::abs(a.t - b.t) > 1e-9)) {
+                ++apart;  // a ray along an edge
+                continue;
+            }
+            found += hit;
+            if (hit) {
+                const Surface s = surface_at(*moving.aggregate, ray, a, time);
+                const Surface t = surface_at(*still.aggregate, ray, b);
+                EXPECT_LT(length(s.point - t.point), 1e-9);
+                EXPECT_LT(length(s.normal - t.normal), 1e-7);
+                EXPECT_EQ(s.materials[0], t.materials[0]);
+                EXPECT_EQ(s.part, t.part);
+                EXPECT_EQ(s.instance, t.instance);
+            }
+            std::vector<Hit> all, all_still;
+            moving.aggregate->all_hits(ray, all, query);
+            still.aggregate->all_hits(ray, all_still, {nullptr});
+            ASSERT_EQ(all.size(), all_still.size());
+            if (hit) {
+                EXPECT_EQ(all.front().t, a.t);
+            }
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                EXPECT_NEAR(all[i].t, all_still[i].t, 1e-9);
+            }
+            std::vector<Hit> tints, tints_still;
+            const bool dark = moving.aggregate->shadowed(ray, tints, query);
+            EXPECT_EQ(still.aggregate->shadowed(ray, tints_still, {nullptr}), dark);
+            if (!dark) {
+                EXPECT_EQ(tints.size(), tints_still.size());
+            }
+        }
+        EXPECT_GT(found, 1500);
+        EXPECT_LE(apart, 2);
+    }
+}
+
+TEST(MotionAggregate, BatchesAreSingleRaysAtTheirTimes) {
+    const Scene scene = compile(scene_in_motion());
+    const std::vector<Ray> rays = random_rays(500);
+    std::vector<float> times;
+    for (std::size_t i = 0; i < rays.size(); ++i) times.push_back(float(i % 97) / 97);
+    std::vector<Hit> hits(rays.size());
+    const auto met = std::make_unique<bool[]>(rays.size());
+    scene.aggregate->closest_batch_at(rays, times, hits, {nullptr}, Coherence::Any);
+    scene.aggregate->occluded_batch_at(rays, times, {met.get(), rays.size()}, {nullptr},
+                                       Coherence::Any);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        Hit one;
+        const bool hit = scene.aggregate->closest(rays[i], one, {nullptr, kAllRays, times[i]});
+        EXPECT_EQ(hits[i].found(), hit);
+        EXPECT_EQ(met[i], hit);
+        if (!hit) continue;
+        EXPECT_EQ(hits[i].t, one.t);
+        EXPECT_EQ(hits[i].primitive, one.primitive);
+        EXPECT_TRUE(hits[i].path == one.path);
+    }
+}
+
+TEST(MotionAggregate, AShutterThatIsOpenForNoTimeShowsOneMoment) {
+    SceneDescription d = scene_in_motion();
+    open_shutter(d, {0.5, 0.5});
+    const Scene scene = compile(d);
+    for (const Ray& ray : random_rays(200)) {
+        Hit first, last;
+        (void)scene.aggregate->closest(ray, first, {nullptr, kAllRays, 0.0f});
+        (void)scene.aggregate->closest(ray, last, {nullptr, kAllRays, 0.99f});
+        ASSERT_EQ(first.found(), last.found());
+        if (first.found()) {
+            EXPECT_NEAR(first.t, last.t, 1e-12);
+        }
+    }
+}
+
+TEST(MotionAggregate, AnOperandOfASolidCannotMove) {
+    SceneMaker maker;
+    maker.add(Sphere{}, maker.material({}));
+    SceneDescription& d = maker.description();
+    d.objects[0].combine = Combine::Union;
+    d.objects[0].parts[0].motion = std::make_shared<const PartMotion>(
+        PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({1, 0, 0})}}, {}});
+    Diagnostics diagnostics;
+    validate(d, diagnostics);
+    EXPECT_EQ(diagnostics.error_count(), 1u);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
