@@ -185,7 +185,7 @@ void tell_unmet(const LoadedScene& loaded, const AntialiasReport& report) {
 
 /// What the stop rules came to.
 void tell_sampling(const RenderOptions& options, const SamplingReport& report) {
-    if (!options.sampling->has_rounds()) return;
+    if (!options.sampling || !options.sampling->has_rounds()) return;
     const double mean = static_cast<double>(report.samples()) / static_cast<double>(report.pixels);
     tell("{:.1f} samples per pixel, at most {}{}\n", mean, report.most_samples,
          report.out_of_time ? "; out of time" : "");

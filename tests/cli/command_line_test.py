@@ -96,6 +96,9 @@ class CommandLine(CommandLineCase):
                           ["render", self.scene, "-o", picture, "--max-image-mib", "0"],
                           # Options without effect.
                           ["render", self.scene, "-o", picture, "--animation", "0"],
+                          ["render", self.scene, "-o", picture, "--shutter", "0,-1"],
+                          ["render", self.scene, "-o", picture, "--shutter", "0"],
+                          ["render", self.scene, "-o", picture, "--shutter", "0,1", "--time", "0.5"],
                           ["info", self.scene, "--animation", "0"],
                           ["render", self.scene, "-o", picture, "--aov-png"],
                           ["render", self.scene, "-o", self.path("out.jpg"), "--bits", "16"],

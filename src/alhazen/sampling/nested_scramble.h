@@ -25,13 +25,14 @@ template <int kTreeDigits>
         const std::uint64_t above = done == 0 ? 0 : digits >> (64 - done);
         const std::uint64_t flips = mix64(tree ^ (above | std::uint64_t(done + 1) << 32));
         const std::uint32_t six = static_cast<std::uint32_t>(digits >> (64 - kLevels - done)) & 63u;
-        // Node 1 is the root; the children of node n are 2n and 2n + 1.
-        std::uint32_t node = 1;
-        for (int level = kLevels - 1; level >= 0; --level) {
-            const std::uint32_t digit = (six >> level) & 1u;
-            scrambled = scrambled << 1 | (digit ^ ((flips >> node) & 1u));
-            node = 2 * node + digit;
-        }
+        // Node 1 is the root; the children of node n are 2n and 2n + 1: the nodes on the way are
+        // the beginnings of the digits behind a one.
+        const std::uint32_t way = 64u | six;
+        const auto flip = [&](int level) {
+            return static_cast<std::uint32_t>((flips >> (way >> (level + 1))) & 1u) << level;
+        };
+        const std::uint32_t flipped = flip(0) | flip(1) | flip(2) | flip(3) | flip(4) | flip(5);
+        scrambled = scrambled << kLevels | (six ^ flipped);
     }
     // The remaining digits are drawn for this point alone.
     const std::uint64_t rest =

@@ -66,7 +66,7 @@ SceneDescription scene_in_motion() {
     // An object of things that move, placed twice: at rest, and moving.
     const ObjectIndex swarm = maker.object("swarm");
     for (int i = 0; i < 3; ++i) {
-        maker.add(Box{}, i == 1 ? clear : matt, {}, swarm);
+        maker.add(BoxShape{}, i == 1 ? clear : matt, {}, swarm);
         if (i > 0) move(static_cast<std::size_t>(swarm), Affine::scale({0.3, 0.3, 0.3}));
     }
     maker.add(swarm, matt, Affine::translate({0, 0, 2}));

@@ -165,7 +165,6 @@ TEST(Distributed, TheCircleOfConfusionIsThatOfAThinLens) {
 TEST(Distributed, TheExposureOfAMovingEdgeRisesLinearly) {
     SceneMaker maker;
     Material bright;
-    bright.unlit = true;
     bright.emission.color = {1, 1, 1};
     Rectangle screen;
     screen.corner = {-10, -5, 0};
@@ -194,7 +193,6 @@ TEST(Distributed, TheExposureOfAMovingEdgeRisesLinearly) {
 TEST(Distributed, TheCameraMovesAndNotTheScene) {
     SceneMaker maker;
     Material bright;
-    bright.unlit = true;
     bright.emission.color = {1, 1, 1};
     maker.add(Sphere{{0.9, 0.2, 0}, 0.3}, maker.material(bright));
     SceneDescription& d = maker.description();

@@ -25,27 +25,38 @@ class SamplerChance {
     explicit SamplerChance(const RenderJob& job)
         : sampler_(job.round->sampler),
           moves_(job.scene.has_motion || job.camera_motion != nullptr),
-          bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight) {}
+          bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight),
+          together_(kFirstBounce + bounce_) {}
 
     /// `ids`: of the eye rays from now on.
-    void begin(std::span<const SampleId> ids) { ids_ = ids; }
-
-    [[nodiscard]] Vec2 draw(std::uint32_t sample, std::uint32_t pair) const {
-        return sampler_.at(ids_[sample].pixel, pair, ids_[sample].number);
+    void begin(std::span<const SampleId> ids) {
+        ids_ = ids;
+        for (std::vector<Vec2>& pair : together_) pair.clear();
     }
-    [[nodiscard]] Vec2 draw(const Path& path, int depth, std::uint32_t pair) const {
+
+    /// Most samples use the pairs up to the first bounce: these are drawn for all at once, which
+    /// takes less time.
+    [[nodiscard]] Vec2 draw(std::uint32_t sample, std::uint32_t pair) {
+        if (pair >= together_.size()) {
+            return sampler_.at(ids_[sample].pixel, pair, ids_[sample].number);
+        }
+        std::vector<Vec2>& points = together_[pair];
+        if (points.empty()) draw_all(pair, points);
+        return points[sample];
+    }
+    [[nodiscard]] Vec2 draw(const Path& path, int depth, std::uint32_t pair) {
         return draw(path.sample, kFirstBounce + static_cast<std::uint32_t>(depth) * bounce_ + pair);
     }
 
     /// Drawn where something moves.
-    [[nodiscard]] float time(std::uint32_t sample) const {
+    [[nodiscard]] float time(std::uint32_t sample) {
         if (!moves_) return 0.0f;
         // Below 1, where the double may round up to it.
         return std::min(static_cast<float>(draw(sample, kTimePair).x), 0x1.fffffep-1f);
     }
 
     [[nodiscard]] LightSample light_from(const Light& light, std::size_t number, const Vec3& point,
-                                         bool clamp, const Path& path, int depth) const {
+                                         bool clamp, const Path& path, int depth) {
         const auto* area = std::get_if<AreaLight>(&light);
         if (area == nullptr) return sample(light, point, clamp);
         const auto pair = kFirstLight + static_cast<std::uint32_t>(number);
@@ -54,7 +65,7 @@ class SamplerChance {
 
     /// Replaces an exact direction by one of the lobe of a rough material.
     void spread(RayKind kind, const ShadingPoint& point, const Path& path, int depth,
-                Vec3& direction) const {
+                Vec3& direction) {
         const double roughness = point.material->roughness;
         if (!(roughness > 0.0)) return;
         const bool reflected = kind == RayKind::Reflection;
@@ -67,10 +78,24 @@ class SamplerChance {
     }
 
   private:
+    void draw_all(std::uint32_t pair, std::vector<Vec2>& points) const {
+        points.resize(ids_.size());
+        for (std::size_t i = 0, end = 0; i < ids_.size(); i = end) {
+            const auto goes_on = [&](std::size_t k) {
+                return ids_[k].pixel.id() == ids_[i].pixel.id() &&
+                       ids_[k].number == ids_[i].number + (k - i);
+            };
+            for (end = i + 1; end < ids_.size() && goes_on(end);) ++end;
+            sampler_.points(ids_[i].pixel, pair, ids_[i].number,
+                            std::span(points).subspan(i, end - i));
+        }
+    }
+
     const Sampler& sampler_;
     bool moves_;
     std::uint32_t bounce_;  ///< pairs of one
     std::span<const SampleId> ids_;
+    std::vector<std::vector<Vec2>> together_;  ///< [pair][sample]; empty: not yet drawn
 };
 
 class DistributedEstimator {

@@ -62,6 +62,7 @@ class Caster {
         RayCone cone;
         bool inside = false;
         RayKind kind = RayKind::Eye;
+        float time = 0;  ///< as the shutter opens
     };
 
     void end(std::size_t sample, double left, std::span<Rgb> radiance) const {

@@ -88,7 +88,7 @@ std::set<std::string> read_keys(const std::string& shape, const std::set<std::st
         messages.substr(at + begin.size(), messages.find('\n', at) - at - begin.size()));
     std::set<std::string> known;
     for (std::string key; std::getline(list >> std::ws, key, ',');) known.insert(key);
-    for (const char* common : {"transform", "material", "visible_to"}) {
+    for (const char* common : {"transform", "motion", "material", "visible_to"}) {
         EXPECT_EQ(known.erase(common), 1u) << shape << ": " << common;
     }
     return known;

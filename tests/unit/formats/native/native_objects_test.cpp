@@ -123,7 +123,7 @@ TEST(NativeImporter, ListsTheNamesThereAre) {
         << i.messages();
     EXPECT_TRUE(import_native("sphere {\n raduis = 1 }")
                     .says("scene.alhazen:3:2: error: sphere: unknown key 'raduis'; known are "
-                          "transform, visible_to, center, radius, material"));
+                          "transform, motion, visible_to, center, radius, material"));
     EXPECT_TRUE(import_native("sphare { }").says("unknown block 'sphare'; known are picture"));
     EXPECT_TRUE(
         import_native("conventions { highlight = gloss }").says("one of phong, blinn_phong"));
