@@ -68,6 +68,8 @@ struct Instance {
     std::uint32_t part = 0;  ///< number of the part that placed it
     /// A single mesh shared by several parts is placed: `part` is the mesh's own part.
     bool of_shared_mesh = false;
+    /// It holds one shape, which a MotionAggregate tests itself.
+    bool holds_one_shape = false;
     /// It holds what rests in a MotionAggregate, and is no part.
     bool holds_rest = false;
     RayMask visible_to = kAllRays;

@@ -355,6 +355,7 @@ class Compiler {
             }
         }
         add_moving(seal(std::move(alone)), placed, &path, draft);
+        draft.moving.back().holds_one_shape = std::holds_alternative<AnyShape>(placed.part.what);
     }
 
     /// `path`: null where only something inside moves.

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "alhazen/primitives/unused_shear.h"
+
 namespace alhazen {
 
 MotionAggregate::MotionAggregate(PrimitiveTable table, std::optional<std::size_t> resting)
@@ -34,8 +36,8 @@ MovingBox MotionAggregate::box_of(std::uint32_t primitive) const {
             padded(transformed(outer, inner.at_close), 1e-13)};
 }
 
-const Aggregate* MotionAggregate::rest() const {
-    return resting_ ? table_.instances[table_.index(*resting_)].aggregate.get() : nullptr;
+const Instance& MotionAggregate::resting_instance() const {
+    return table_.instances[table_.index(*resting_)];
 }
 
 bool MotionAggregate::hits_triangle(PrimitiveId id, const Ray& ray, const RayShear& shear,
@@ -61,7 +63,8 @@ PrimitiveTable::ShadowEffect MotionAggregate::effect_of(PrimitiveId id, const Ra
 template <class Reach, class OnTriangle, class OnInstance>
 void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
                             OnInstance&& on_instance) const {
-    const RayShear shear(ray.direction);
+    const bool has_triangles = table_.first(kInstanceKind) > 0;
+    const RayShear shear = has_triangles ? RayShear(ray.direction) : kUnusedShear;
     with_stats(query.stats, [&](auto stats) {
         tree_.traverse(
             ray, query.time, t_max,
@@ -81,11 +84,34 @@ void MotionAggregate::visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTri
                 const Placement placement = placement_at(instance, query.time);
                 Ray inner = transformed(placement.inner_from_outer, ray);
                 inner.t_max = t_max();
-                return on_instance(id, *instance.aggregate, inner);
+                return on_instance(id, instance, inner);
             },
             stats);
     });
 }
+
+namespace {
+
+/// Tests a lone shape without its aggregate.
+bool closest_in(const Instance& instance, const Ray& ray, Hit& hit, RayQuery query) {
+    if (!instance.holds_one_shape) return instance.aggregate->closest(ray, hit, query);
+    Ray shrinking = ray;
+    with_stats(query.stats, [&](auto stats) {
+        instance.aggregate->primitives().closest(PrimitiveId{0}, shrinking, kUnusedShear, hit,
+                                                 stats, query.mask);
+    });
+    return hit.found();
+}
+
+bool occluded_in(const Instance& instance, const Ray& ray, RayQuery query) {
+    if (!instance.holds_one_shape) return instance.aggregate->occluded(ray, query);
+    return with_stats(query.stats, [&](auto stats) {
+        return instance.aggregate->primitives().occluded(PrimitiveId{0}, ray, kUnusedShear, stats,
+                                                         query.mask);
+    });
+}
+
+}  // namespace
 
 void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) const {
     double t_max = best.found() ? best.t : ray.t_max;
@@ -99,9 +125,9 @@ void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) 
             t_max = hit.t;
             return false;
         },
-        [&](PrimitiveId id, const Aggregate& aggregate, const Ray& inner_ray) {
+        [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
             Hit inner;
-            if (!aggregate.closest(inner_ray, inner, query) || !wins(inner.t, id, best)) {
+            if (!closest_in(instance, inner_ray, inner, query) || !wins(inner.t, id, best)) {
                 return false;
             }
             best = inner;
@@ -114,7 +140,8 @@ void MotionAggregate::closest_moving(const Ray& ray, Hit& best, RayQuery query) 
 bool MotionAggregate::closest(const Ray& ray, Hit& hit, RayQuery query) const {
     hit = Hit{};
     if (!is_valid(ray)) return false;
-    if (resting_ && table_.is_seen(*resting_, query.mask) && rest()->closest(ray, hit, query)) {
+    if (resting_ && table_.is_seen(*resting_, query.mask) &&
+        resting_instance().aggregate->closest(ray, hit, query)) {
         hit.path.push_back(*resting_);
     }
     closest_moving(ray, hit, query);
@@ -126,28 +153,28 @@ bool MotionAggregate::occluded_by_moving(const Ray& ray, RayQuery query) const {
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId, const ShapeHit&) { return met = true; },
-        [&](PrimitiveId, const Aggregate& aggregate, const Ray& inner_ray) {
-            return met = aggregate.occluded(inner_ray, query);
+        [&](PrimitiveId, const Instance& instance, const Ray& inner_ray) {
+            return met = occluded_in(instance, inner_ray, query);
         });
     return met;
 }
 
 bool MotionAggregate::occluded(const Ray& ray, RayQuery query) const {
     if (!is_valid(ray)) return false;
-    if (resting_ && rest()->occluded(ray, query)) return true;
+    if (resting_ && resting_instance().aggregate->occluded(ray, query)) return true;
     return occluded_by_moving(ray, query);
 }
 
 void MotionAggregate::all_hits(const Ray& ray, std::vector<Hit>& hits, RayQuery query) const {
     if (!is_valid(ray)) return;
     const std::size_t before = hits.size();
-    const auto append = [&](PrimitiveId id, const Aggregate& aggregate, const Ray& inner_ray) {
+    const auto append = [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
         const std::size_t known = hits.size();
-        aggregate.all_hits(inner_ray, hits, query);
+        instance.aggregate->all_hits(inner_ray, hits, query);
         for (std::size_t i = known; i < hits.size(); ++i) hits[i].path.push_back(id);
         return false;
     };
-    if (resting_) append(*resting_, *rest(), ray);
+    if (resting_) append(*resting_, resting_instance(), ray);
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {
@@ -164,14 +191,14 @@ bool MotionAggregate::shadowed(const Ray& ray, std::vector<Hit>& crossings, RayQ
     if (!is_valid(ray)) return false;
     const std::size_t before = crossings.size();
     bool blocked = false;
-    const auto append = [&](PrimitiveId id, const Aggregate& aggregate, const Ray& inner_ray) {
+    const auto append = [&](PrimitiveId id, const Instance& instance, const Ray& inner_ray) {
         const std::size_t known = crossings.size();
-        blocked = aggregate.shadowed(inner_ray, crossings, query);
+        blocked = instance.aggregate->shadowed(inner_ray, crossings, query);
         if (blocked) return true;
         for (std::size_t i = known; i < crossings.size(); ++i) crossings[i].path.push_back(id);
         return false;
     };
-    if (resting_ && append(*resting_, *rest(), ray)) return true;
+    if (resting_ && append(*resting_, resting_instance(), ray)) return true;
     visit(
         ray, query, [&] { return ray.t_max; },
         [&](PrimitiveId id, const ShapeHit& hit) {
@@ -193,7 +220,7 @@ void MotionAggregate::closest_batch_at(std::span<const Ray> rays, std::span<cons
                                        std::span<Hit> hits, RayQuery query,
                                        Coherence coherence) const {
     if (resting_) {
-        rest()->closest_batch(rays, hits, query, coherence);
+        resting_instance().aggregate->closest_batch(rays, hits, query, coherence);
     } else {
         for (Hit& hit : hits) hit = Hit{};
     }
@@ -208,7 +235,7 @@ void MotionAggregate::occluded_batch_at(std::span<const Ray> rays, std::span<con
                                         std::span<bool> met, RayQuery query,
                                         Coherence coherence) const {
     for (bool& m : met) m = false;
-    if (resting_) rest()->occluded_batch(rays, met, query, coherence);
+    if (resting_) resting_instance().aggregate->occluded_batch(rays, met, query, coherence);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (met[i] || !is_valid(rays[i])) continue;
         met[i] = occluded_by_moving(rays[i], {query.stats, query.mask, times[i]});

@@ -43,8 +43,8 @@ class MotionAggregate final : public Aggregate {
 
   private:
     [[nodiscard]] MovingBox box_of(std::uint32_t primitive) const;
-    /// `first` is all that rests, if there is such; null else.
-    [[nodiscard]] const Aggregate* rest() const;
+    /// All that rests, where there is such.
+    [[nodiscard]] const Instance& resting_instance() const;
     [[nodiscard]] bool is_triangle(PrimitiveId id) const {
         return static_cast<std::uint32_t>(id) < table_.first(kInstanceKind);
     }
@@ -54,7 +54,8 @@ class MotionAggregate final : public Aggregate {
                                                          float time) const;
     void closest_moving(const Ray& ray, Hit& hit, RayQuery query) const;
     [[nodiscard]] bool occluded_by_moving(const Ray& ray, RayQuery query) const;
-    /// Calls `test(id, instance, inner_ray)` or `test(id, shape_hit)`.
+    /// Calls `on_triangle(id, shape_hit)` or `on_instance(id, instance, inner_ray)` for all that
+    /// the ray may hit, until that returns true.
     template <class Reach, class OnTriangle, class OnInstance>
     void visit(const Ray& ray, RayQuery query, Reach&& t_max, OnTriangle&& on_triangle,
                OnInstance&& on_instance) const;

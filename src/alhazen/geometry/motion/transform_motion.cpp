@@ -18,8 +18,8 @@ Mat3 mixed(double a, const Mat3& m, double b, const Mat3& n) {
     return {a * m.x_axis + b * n.x_axis, a * m.y_axis + b * n.y_axis, a * m.z_axis + b * n.z_axis};
 }
 double largest_entry(const Mat3& m) {
-    return std::max({max_component(abs(m.x_axis)), max_component(abs(m.y_axis)),
-                     max_component(abs(m.z_axis))});
+    return std::max(
+        {max_component(abs(m.x_axis)), max_component(abs(m.y_axis)), max_component(abs(m.z_axis))});
 }
 /// Bound of the length of m v for unit v (Frobenius).
 double norm_of(const Mat3& m) {
@@ -52,10 +52,14 @@ Quaternion quaternion_of(const Mat3& m) {
     const double xy2 = m.y_axis.x + m.x_axis.y, zx2 = m.x_axis.z + m.z_axis.x,
                  yz2 = m.z_axis.y + m.y_axis.z;
     switch (k) {
-        case 0: return {s / 4, xy2 / s, zx2 / s, yz / s};
-        case 1: return {xy2 / s, s / 4, yz2 / s, zx / s};
-        case 2: return {zx2 / s, yz2 / s, s / 4, xy / s};
-        default: return {yz / s, zx / s, xy / s, s / 4};
+        case 0:
+            return {s / 4, xy2 / s, zx2 / s, yz / s};
+        case 1:
+            return {xy2 / s, s / 4, yz2 / s, zx / s};
+        case 2:
+            return {zx2 / s, yz2 / s, s / 4, xy / s};
+        default:
+            return {yz / s, zx / s, xy / s, s / 4};
     }
 }
 
@@ -125,29 +129,48 @@ TransformMotion::TransformMotion(std::span<const TransformKey> keys) {
         Quaternion apart;
         for (std::size_t k = 0; k < 4; ++k) apart[k] = b.rotation[k] - a.rotation[k];
         const double half = 2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(dot(apart, apart))));
-        steps_.push_back({2.0 * half, m == n});
+        steps_.push_back({2.0 * half, m == n, {}, {}});
+    }
+    find_linear_parts();
+}
+
+TransformMotion::Moment TransformMotion::moment(double time) const {
+    if (time <= keys_.front().time) return {0, 0.0};
+    if (time >= keys_.back().time) return {keys_.size() - 1, 0.0};
+    std::size_t i = 0;
+    while (time >= keys_[i + 1].time) ++i;
+    return {i, (time - keys_[i].time) / (keys_[i + 1].time - keys_[i].time)};
+}
+
+Affine TransformMotion::own_at(const Moment& m) const {
+    const Key& a = keys_[m.i];
+    if (m.share == 0.0) return a.own;
+    const Key& b = keys_[m.i + 1];
+    const Vec3 translation = (1.0 - m.share) * a.own.translation + m.share * b.own.translation;
+    const Step& step = steps_[m.i];
+    if (step.translates) return {a.own.linear, translation};
+    const Quaternion q = slerp(a.rotation, b.rotation, 0.5 * step.angle, m.share);
+    return {matrix_of(q) * mixed(1.0 - m.share, a.stretch, m.share, b.stretch), translation};
+}
+
+void TransformMotion::find_linear_parts() {
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+        if (!steps_[i].translates) continue;
+        steps_[i].linear = has_outer_ ? outer_.linear * keys_[i].own.linear : keys_[i].own.linear;
+        steps_[i].inverse = alhazen::inverse(steps_[i].linear);
     }
 }
 
-Affine TransformMotion::between(std::size_t step, double share) const {
-    const Key &a = keys_[step], &b = keys_[step + 1];
-    const Vec3 translation = (1.0 - share) * a.own.translation + share * b.own.translation;
-    if (steps_[step].translates) return {a.own.linear, translation};
-    const Quaternion q = slerp(a.rotation, b.rotation, 0.5 * steps_[step].angle, share);
-    return {matrix_of(q) * mixed(1.0 - share, a.stretch, share, b.stretch), translation};
-}
-
-Affine TransformMotion::own_at(double time) const {
-    if (time <= keys_.front().time) return keys_.front().own;
-    if (time >= keys_.back().time) return keys_.back().own;
-    std::size_t i = 0;
-    while (time >= keys_[i + 1].time) ++i;
-    if (time == keys_[i].time) return keys_[i].own;
-    return between(i, (time - keys_[i].time) / (keys_[i + 1].time - keys_[i].time));
-}
-
 Placement TransformMotion::at(double time) const {
-    const Affine own = own_at(time);
+    const Moment m = moment(time);
+    if (m.i < steps_.size() && steps_[m.i].translates) {
+        const Step& step = steps_[m.i];
+        const Vec3 &a = keys_[m.i].own.translation, &b = keys_[m.i + 1].own.translation;
+        const Vec3 own = m.share == 0.0 ? a : (1.0 - m.share) * a + m.share * b;
+        const Vec3 translation = has_outer_ ? outer_.point(own) : own;
+        return {{step.linear, translation}, {step.inverse, -(step.inverse * translation)}};
+    }
+    const Affine own = own_at(m);
     const Affine outer_from_inner = has_outer_ ? outer_ * own : own;
     return {outer_from_inner, inverse(outer_from_inner)};
 }
@@ -157,6 +180,7 @@ TransformMotion TransformMotion::inside(const Affine& outer_from_here) const {
     TransformMotion motion = *this;
     motion.outer_ = outer_from_here * outer_;
     motion.has_outer_ = true;
+    motion.find_linear_parts();
     return motion;
 }
 

@@ -52,11 +52,18 @@ class TransformMotion {
     struct Step {
         double angle = 0;        ///< of the rotation from one to the other, radians
         bool translates = true;  ///< and does nothing else
+        Mat3 linear, inverse;    ///< where it translates: of the whole placement
+    };
+    /// Between key `i` and the next; `share` 0 is the key itself.
+    struct Moment {
+        std::size_t i;
+        double share;
     };
 
-    /// The transform before `outer_`.
-    [[nodiscard]] Affine own_at(double time) const;
-    [[nodiscard]] Affine between(std::size_t step, double share) const;
+    [[nodiscard]] Moment moment(double time) const;
+    /// The transform inside of `outer_`.
+    [[nodiscard]] Affine own_at(const Moment& m) const;
+    void find_linear_parts();
     /// Bound of the distance of a moving point from its chord, over an n-th of a step.
     [[nodiscard]] double sag(std::size_t step, double reach, int n) const;
 
