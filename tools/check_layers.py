@@ -101,6 +101,7 @@ INSIDE = {
         "codecs": ["film"],
         "figures": ["image"],
         "svg": ["image"],
+        "drawing": ["svg"],
     },
     "laboratory": {
         "": [],
@@ -156,6 +157,7 @@ LIBRARIES = {
     "Imath": {"imaging"},
     "OpenEXR/": {"imaging"},
     "png.h": {"imaging"},
+    "cairo": {"imaging"},
     "jpeglib.h": {"imaging"},
     "yaml-cpp/": {"formats"},
     "nlohmann/": {"formats", "solids", "session", "laboratory", "apps"},

@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
     add_measure(app, exit_status);
     add_section(app, exit_status);
     add_samples(app, exit_status);
+    add_vector(app, exit_status);
     add_diff(app, exit_status);
     add_list(app, exit_status);
     try {

@@ -21,10 +21,6 @@ constexpr int kSpdRays = 513;
 /// Bounds the recursion over generations to the stack size available in every thread.
 constexpr int kMaxDepth = 1000;
 
-struct FrameSize {
-    int width, height;
-};
-
 /// Refuses options that would change the counts of a protocol.
 void check_protocol(const RenderOptions& options) {
     if (options.protocol == Protocol::None) return;
@@ -32,26 +28,6 @@ void check_protocol(const RenderOptions& options) {
         options.antialias || options.sampling) {
         throw Error(ErrorKind::Usage, "the protocol fixes size, crop and samples per pixel");
     }
-}
-
-FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options, double aspect) {
-    if (options.protocol == Protocol::Spd) return {kSpdRays, kSpdRays};
-    std::optional<int> width = options.width;
-    std::optional<int> height = options.height;
-    if (!width && !height) {
-        width = picture.width;
-        height = picture.height;
-    }
-    if (!width && !height) height = kDefaultHeight;
-    if (!width) width = std::max(1, static_cast<int>(std::lround(*height * aspect)));
-    if (!height) height = std::max(1, static_cast<int>(std::lround(*width / aspect)));
-    if (*width < 1 || *height < 1 || *width > kMaxPictureSide || *height > kMaxPictureSide) {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("picture size {}x{} is out of range; each side must be "
-                                "1 to {} pixels",
-                                *width, *height, kMaxPictureSide));
-    }
-    return {*width, *height};
 }
 
 void check(const RenderOptions& options) {
@@ -148,6 +124,26 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
 }
 
 }  // namespace
+
+FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options, double aspect) {
+    if (options.protocol == Protocol::Spd) return {kSpdRays, kSpdRays};
+    std::optional<int> width = options.width;
+    std::optional<int> height = options.height;
+    if (!width && !height) {
+        width = picture.width;
+        height = picture.height;
+    }
+    if (!width && !height) height = kDefaultHeight;
+    if (!width) width = std::max(1, static_cast<int>(std::lround(*height * aspect)));
+    if (!height) height = std::max(1, static_cast<int>(std::lround(*width / aspect)));
+    if (*width < 1 || *height < 1 || *width > kMaxPictureSide || *height > kMaxPictureSide) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("picture size {}x{} is out of range; each side must be "
+                                "1 to {} pixels",
+                                *width, *height, kMaxPictureSide));
+    }
+    return {*width, *height};
+}
 
 void apply_spd(ShadingConventions& shading, SamplingConventions& sampling) {
     sampling.pixel_sample = SamplingConventions::PixelSample::FrameCorners;

@@ -71,6 +71,13 @@ struct RenderResult {
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
 };
 
+struct FrameSize {
+    int width, height;
+};
+/// The size of the picture for a camera that was described for `aspect`.
+[[nodiscard]] FrameSize frame_size(const PictureSettings& picture, const RenderOptions& options,
+                                   double aspect);
+
 /// Width / height of an image without a camera: that of the options, of the file, or 4 / 3.
 [[nodiscard]] double free_aspect(const PictureSettings& picture, const RenderOptions& options);
 

@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "alhazen/base/error.h"
+#include "alhazen/base/file.h"
+#include "alhazen/base/lower_case.h"
+#include "alhazen/session/framing.h"
+#include "alhazen/session/scene_files.h"
+#include "alhazen/session/vector_drawing.h"
+#include "commands.h"
+#include "messages.h"
+#include "options.h"
+#include "stop_signals.h"
+
+namespace alhazen::cli {
+
+namespace {
+
+struct VectorArguments {
+    SceneArguments scene;
+    std::string output, size, camera, view, style = "shaded";
+    int depth = -1;
+    bool quiet = false;
+};
+
+DrawingLook look_named(const std::string& style) {
+    if (style == "shaded") return DrawingLook::Shaded;
+    if (style == "lined") return DrawingLook::Lined;
+    if (style == "technical") return DrawingLook::Technical;
+    throw Error(ErrorKind::Usage,
+                fmt::format("--style '{}': expected shaded, lined or technical", style));
+}
+
+/// The writer for the suffix of a file.
+using WriteDrawing = std::string (*)(const Drawing&);
+WriteDrawing writer_for(const std::string& output) {
+    const std::string suffix = lower_suffix(output);
+    if (suffix == ".svg") return drawing_svg;
+    if (suffix == ".pdf") return drawing_pdf;
+    throw Error(ErrorKind::Usage, fmt::format("-o '{}': expected a file .svg or .pdf", output));
+}
+
+int run_vector(const VectorArguments& args) {
+    const DrawingLook look = look_named(args.style);
+    const WriteDrawing write = writer_for(args.output);
+    RenderOptions options;
+    if (!args.size.empty()) {
+        const Size size = parse_size(args.size);
+        options.width = size.width;
+        options.height = size.height;
+    }
+    options.camera = args.camera;
+    if (args.depth >= 0) options.max_depth = args.depth;
+    options.threads = args.scene.threads;
+    options.stop = &stop_on_signals();
+    FramingOptions framing;
+    if (!args.view.empty()) framing.view = parse_view(args.view);
+    if (!args.view.empty() && !args.camera.empty()) {
+        throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
+    }
+    check_writable(args.output);
+    LoadOptions load_options = args.scene.load_options();
+    load_options.with_aggregate = false;
+    LoadedScene loaded = load(args.scene.scene, load_options);
+    check_spares_scene(loaded.description, {args.output});
+    if (!args.quiet) print_warnings(loaded.diagnostics);
+    // Framing reads the tables of the aggregate.
+    if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
+    framing.camera = options.camera;
+    framing.aspect = free_aspect(loaded.description.picture, options);
+    for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {
+        if (!args.quiet) tell("{}\n", note);
+    }
+    const Drawing drawing = draw_scene(loaded, options, look);
+    if (options.stop->requested()) {
+        tell("stopped; nothing was written\n");
+        return kStopped;
+    }
+    write_report(args.output, write(drawing));
+    if (!args.quiet) {
+        std::size_t regions = 0;
+        for (const DrawingGroup& group : drawing.groups) regions += group.regions.size();
+        tell("{} regions of {} parts, {} lines\n", regions, drawing.groups.size(),
+             drawing.lines.size());
+    }
+    return kDone;
+}
+
+}  // namespace
+
+void add_vector(CLI::App& app, int& exit_status) {
+    CLI::App* command = app.add_subcommand(
+        "vector",
+        "Draw a scene of planar facets without pixels: SVG or PDF, with shadows and "
+        "mirror images");
+    const auto args = std::make_shared<VectorArguments>();
+    args->scene.add_to(*command, "wide_bvh");
+    command->add_option("-o,--output", args->output, "Drawing to write: .svg or .pdf")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("--size", args->size, "Size in pixels; default: the scene's")
+        ->type_name("WxH");
+    command
+        ->add_option("--style", args->style,
+                     "shaded: the colours of `whitted`; lined: the same with lines where planes "
+                     "and objects end; technical: these lines on white")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command->add_option("--depth", args->depth, "Recursion depth of mirrors and panes")
+        ->check(CLI::Range(0, 1000));
+    command->add_option("--camera", args->camera, "Camera by name or position")
+        ->type_name("NAME|INDEX");
+    command
+        ->add_option("--view", args->view,
+                     "Frame the whole scene from this side instead, degrees; 0,0 is the front")
+        ->type_name("AZIMUTH,ELEVATION");
+    command->add_flag("-q,--quiet", args->quiet, "Print errors only");
+    command->callback([args, &exit_status] { exit_status = run_vector(*args); });
+}
+
+}  // namespace alhazen::cli

@@ -1,0 +1,94 @@
+#include <cairo-pdf.h>
+
+#include <memory>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/drawing/drawing_style.h"
+
+namespace alhazen {
+
+namespace {
+
+struct Release {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+    void operator()(cairo_pattern_t* pattern) const { cairo_pattern_destroy(pattern); }
+};
+template <class T>
+using Owned = std::unique_ptr<T, Release>;
+
+cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count) {
+    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
+    return CAIRO_STATUS_SUCCESS;
+}
+
+void trace(cairo_t* page, const std::vector<Vec2>& points, bool closed) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i == 0) {
+            cairo_move_to(page, points[i].x, points[i].y);
+        } else {
+            cairo_line_to(page, points[i].x, points[i].y);
+        }
+    }
+    if (closed) cairo_close_path(page);
+}
+
+void set_color(cairo_t* page, const Rgb& c) {
+    cairo_set_source_rgb(page, c.r, c.g, c.b);
+}
+
+void fill(cairo_t* page, const DrawingRegion& region) {
+    for (const std::vector<Vec2>& loop : region.loops) trace(page, loop, true);
+    if (region.gradient) {
+        const DrawingGradient& g = *region.gradient;
+        const Owned<cairo_pattern_t> pattern(
+            cairo_pattern_create_linear(g.from.x, g.from.y, g.to.x, g.to.y));
+        cairo_pattern_add_color_stop_rgb(pattern.get(), 0, g.at_from.r, g.at_from.g, g.at_from.b);
+        cairo_pattern_add_color_stop_rgb(pattern.get(), 1, g.at_to.r, g.at_to.g, g.at_to.b);
+        cairo_set_source(page, pattern.get());
+        cairo_fill_preserve(page);
+        set_color(page, 0.5 * (g.at_from + g.at_to));
+    } else {
+        set_color(page, region.color);
+        cairo_fill_preserve(page);
+    }
+    cairo_set_line_width(page, kSeam);
+    cairo_stroke(page);
+}
+
+void draw(cairo_t* page, const DrawingLine& line) {
+    const LineLook& look = look_of(line.style);
+    cairo_set_line_width(page, look.width);
+    cairo_set_dash(page, look.dash.data(), look.dash[0] > 0 ? 2 : 0, 0);
+    set_color(page, {0, 0, 0});
+    trace(page, line.points, line.closed);
+    cairo_stroke(page);
+}
+
+}  // namespace
+
+std::string drawing_pdf(const Drawing& drawing) {
+    std::string bytes;
+    const Owned<cairo_surface_t> surface(
+        cairo_pdf_surface_create_for_stream(append, &bytes, drawing.width, drawing.height));
+    const Owned<cairo_t> page(cairo_create(surface.get()));
+    cairo_set_fill_rule(page.get(), CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_set_line_join(page.get(), CAIRO_LINE_JOIN_ROUND);
+    set_color(page.get(), drawing.background);
+    cairo_paint(page.get());
+    for (const DrawingGroup& group : drawing.groups) {
+        for (const DrawingRegion& region : group.regions) fill(page.get(), region);
+    }
+    cairo_set_line_cap(page.get(), CAIRO_LINE_CAP_ROUND);
+    for (const DrawingLine& line : drawing.lines) draw(page.get(), line);
+    cairo_show_page(page.get());
+    cairo_surface_finish(surface.get());
+    const cairo_status_t status = cairo_surface_status(surface.get());
+    if (status != CAIRO_STATUS_SUCCESS || cairo_status(page.get()) != CAIRO_STATUS_SUCCESS) {
+        throw Error(ErrorKind::Resource, std::string("the PDF could not be made: ") +
+                                             cairo_status_to_string(cairo_status(page.get())));
+    }
+    return bytes;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,197 @@
+#include "alhazen/renderers/beam_tracing/beam_drawing.h"
+
+#include <algorithm>
+
+#include "alhazen/imaging/image/encoding.h"
+#include "alhazen/renderers/beam_tracing/beam_cells.h"
+#include "alhazen/renderers/beam_tracing/beam_outlines.h"
+#include "alhazen/renderers/beam_tracing/beam_shading.h"
+#include "alhazen/renderers/beam_tracing/linear_shade.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Regions smaller than this are not divided further, pixels.
+constexpr double kLeastSide = 4;
+/// Points of a side of the grid, and triangles, at which a region is shaded.
+constexpr int kGrid = 5;
+constexpr std::size_t kMostTriangles = 48;
+
+/// From the window to the picture.
+class ToPicture {
+  public:
+    ToPicture(int width, int height) : x_(0.5 * width), y_(0.5 * height) {}
+    [[nodiscard]] Vec2 operator()(const Vec2& at) const {
+        return {x_ * (1.0 + at.x / kBeamFilm), y_ * (1.0 - at.y / kBeamFilm)};
+    }
+    [[nodiscard]] std::vector<std::vector<Vec2>> loops(const PolygonSet& region) const {
+        std::vector<std::vector<Vec2>> loops;
+        for (std::size_t i = 0; i < region.loop_count(); ++i) {
+            std::vector<Vec2>& loop = loops.emplace_back();
+            for (const LatticePoint p : region.loop(i)) {
+                loop.push_back((*this)({double(p.x), double(p.y)}));
+            }
+        }
+        return loops;
+    }
+
+  private:
+    double x_, y_;
+};
+
+/// Shades the cells of pieces.
+class CellPainter {
+  public:
+    CellPainter(const RenderJob& job, const BeamScene& scene, const BeamTree& tree,
+                const BeamDrawingOptions& options)
+        : job_(job),
+          tree_(tree),
+          options_(options),
+          picture_(options.width, options.height),
+          shading_(job, scene, tree) {}
+
+    void paint(const BeamCell& cell, std::vector<DrawingRegion>& regions) {
+        if (cell.region.empty()) return;
+        if (!options_.shaded) {
+            regions.push_back({picture_.loops(cell.region), {1, 1, 1}, {}});
+            return;
+        }
+        shade_points(cell);
+        const LinearShade shade = fit_shade(points_, options_.tolerance);
+        if (shade.error > options_.tolerance && is_large(cell.region)) return divide(cell, regions);
+        regions.push_back({picture_.loops(cell.region), shade.mean, shade.gradient});
+    }
+
+  private:
+    [[nodiscard]] bool is_large(const PolygonSet& region) const {
+        const LatticeBox& box = region.bounds();
+        const double width = 0.5 * options_.width * (box.hi.x - box.lo.x) / kBeamFilm;
+        const double height = 0.5 * options_.height * (box.hi.y - box.lo.y) / kBeamFilm;
+        return std::max(width, height) > kLeastSide;
+    }
+
+    void divide(const BeamCell& cell, std::vector<DrawingRegion>& regions) {
+        const LatticeBox box = cell.region.bounds();
+        LatticePoint middle = box.hi;
+        const double width = double(options_.width) * (box.hi.x - box.lo.x);
+        const double height = double(options_.height) * (box.hi.y - box.lo.y);
+        (width > height ? middle.x : middle.y) = width > height
+                                                     ? box.lo.x + (box.hi.x - box.lo.x) / 2
+                                                     : box.lo.y + (box.hi.y - box.lo.y) / 2;
+        const PolygonCut halves = cut(cell.region, lattice_rectangle(box.lo, middle));
+        paint({halves.inside, cell.terms}, regions);
+        paint({halves.outside, cell.terms}, regions);
+    }
+
+    void shade_points(const BeamCell& cell) {
+        points_.clear();
+        const std::vector<LatticeTriangle> triangles = triangulate(cell.region);
+        const std::size_t step = triangles.size() / kMostTriangles + 1;
+        for (std::size_t t = 0; t < triangles.size(); t += step) {
+            Vec2 corner[3], middle;
+            for (std::size_t k = 0; k < 3; ++k) {
+                corner[k] = {double(triangles[t][k].x), double(triangles[t][k].y)};
+                middle = middle + (1.0 / 3.0) * corner[k];
+            }
+            add(cell, middle);
+            for (const Vec2& c : corner) add(cell, 0.97 * c + 0.03 * middle);
+        }
+        const LatticeBox& box = cell.region.bounds();
+        for (int j = 0; j < kGrid; ++j) {
+            for (int i = 0; i < kGrid; ++i) {
+                const auto at = [&](std::int32_t lo, std::int32_t hi, int n) {
+                    return lo + static_cast<std::int32_t>((hi - lo) * (n + 0.5) / kGrid);
+                };
+                const LatticePoint p{at(box.lo.x, box.hi.x, i), at(box.lo.y, box.hi.y, j)};
+                if (side_of_point(cell.region, p) == PointSide::Inside) {
+                    add(cell, {double(p.x), double(p.y)});
+                }
+            }
+        }
+    }
+
+    void add(const BeamCell& cell, const Vec2& at) {
+        Rgb color;
+        for (const BeamTerm& term : cell.terms) {
+            const BeamPiece& piece = tree_.pieces[term.piece];
+            shading_.go(piece, at);
+            color += shading_.own();
+            for (const std::uint32_t l : term.lights) color += shading_.light(piece.lights[l]);
+        }
+        points_.push_back({picture_(at), encoded(color)});
+    }
+
+    [[nodiscard]] Rgb encoded(const Rgb& color) const {
+        const bool linear = job_.scene.conventions.film.linear_output;
+        Rgb out;
+        for (int k = 0; k < 3; ++k) {
+            const double c = std::clamp(color[k], 0.0, 1.0);
+            out[k] = linear ? c : srgb_from_linear(c);
+        }
+        return out;
+    }
+
+    const RenderJob& job_;
+    const BeamTree& tree_;
+    const BeamDrawingOptions& options_;
+    ToPicture picture_;
+    BeamShading shading_;
+    std::vector<ShadePoint> points_;
+};
+
+/// Regions of the pieces of a part, one group after the other as parts are first seen.
+std::vector<DrawingGroup> groups_of(const BeamScene& scene, const BeamTree& tree,
+                                    std::vector<std::vector<DrawingRegion>>& painted,
+                                    const BeamDrawingOptions& options) {
+    std::vector<DrawingGroup> groups;
+    std::vector<std::int64_t> group_of_part;
+    for (std::size_t p = 0; p < painted.size(); ++p) {
+        if (painted[p].empty()) continue;
+        const std::uint32_t facet = tree.pieces[p].seen.facet;
+        const std::uint32_t part =
+            facet == kNoFacet ? 0 : scene.sources[scene.facets[facet].source].part + 1;
+        if (part >= group_of_part.size()) group_of_part.resize(part + 1, -1);
+        if (group_of_part[part] < 0) {
+            group_of_part[part] = static_cast<std::int64_t>(groups.size());
+            groups.emplace_back();
+            if (part > 0 && options.name_of) groups.back().title = options.name_of(part - 1);
+        }
+        auto& regions = groups[static_cast<std::size_t>(group_of_part[part])].regions;
+        for (DrawingRegion& region : painted[p]) regions.push_back(std::move(region));
+    }
+    return groups;
+}
+
+}  // namespace
+
+Drawing beam_drawing(const RenderJob& job, const BeamScene& scene, const BeamTree& tree,
+                     const BeamDrawingOptions& options) {
+    Drawing drawing;
+    drawing.width = options.width;
+    drawing.height = options.height;
+    const auto behind = pieces_behind(tree);
+    std::vector<std::vector<DrawingRegion>> painted(tree.pieces.size());
+    constexpr std::size_t kBlock = 32;
+    parallel_for(tree.pieces.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+        CellPainter painter(job, scene, tree, options);
+        for (std::size_t p = begin; p < end; ++p) {
+            if (tree.pieces[p].beam != 0 || job.stop_requested()) continue;
+            for (const BeamCell& cell : cells_of(tree, behind, static_cast<std::uint32_t>(p))) {
+                painter.paint(cell, painted[p]);
+            }
+        }
+    });
+    drawing.groups = groups_of(scene, tree, painted, options);
+    if (options.lines) {
+        const ToPicture picture(options.width, options.height);
+        for (const BeamOutline& outline : beam_outlines(scene, tree)) {
+            for (std::vector<Vec2>& loop : picture.loops(outline.region)) {
+                drawing.lines.push_back({outline.style, std::move(loop), true});
+            }
+        }
+    }
+    return drawing;
+}
+
+}  // namespace alhazen

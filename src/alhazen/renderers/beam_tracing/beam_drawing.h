@@ -1,0 +1,33 @@
+#pragma once
+/// A tree of beams as a drawing: regions of even or linearly changing colour, and lines where
+/// planes and objects end.
+///
+/// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984, section 6 (the
+/// tree as polygons, for any resolution).
+/// Differs: a region whose shading is not linear within the tolerance is divided until it is. Lines
+/// follow from the regions: a plane ends where the union of all its pieces does, so that cuts of
+/// the tree and of shadows are no lines.
+/// Conventions: those of Drawing. Threads: regions are shaded in parallel; the drawing is the same
+/// for any number of them.
+
+#include <functional>
+#include <string>
+
+#include "alhazen/imaging/drawing/drawing.h"
+#include "alhazen/renderers/beam_tracing/beam_tree.h"
+
+namespace alhazen {
+
+struct BeamDrawingOptions {
+    int width = 0, height = 0;  ///< of the picture, pixels
+    bool shaded = true;         ///< else all regions are white
+    bool lines = false;
+    double tolerance = 1.5 / 255;  ///< of encoded colours
+    /// Name of a part, for its title.
+    std::function<std::string(std::uint32_t part)> name_of;
+};
+
+[[nodiscard]] Drawing beam_drawing(const RenderJob& job, const BeamScene& scene,
+                                   const BeamTree& tree, const BeamDrawingOptions& options);
+
+}  // namespace alhazen

@@ -1,0 +1,100 @@
+#include "alhazen/renderers/beam_tracing/beam_outlines.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <tuple>
+
+namespace alhazen {
+
+namespace {
+
+constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
+
+/// [facet] number of its plane among those of its part.
+std::vector<std::uint32_t> planes_of_facets(const BeamScene& scene) {
+    using Rounded = std::array<std::int64_t, 4>;
+    std::map<std::pair<std::uint32_t, Rounded>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> planes;
+    double reach = 0;
+    for (std::uint32_t f = 0; f < scene.facets.size(); ++f) {
+        reach = std::max(reach, std::abs(scene.plane(f).offset));
+    }
+    const double scale = 1e6 / (1.0 + reach);
+    for (std::uint32_t f = 0; f < scene.facets.size(); ++f) {
+        const std::uint32_t source = scene.facets[f].source;
+        Rounded rounded{};
+        if (!scene.sources[source].smooth) {
+            const FacetPlane& p = scene.plane(f);
+            rounded = {std::llround(1e5 * p.normal.x), std::llround(1e5 * p.normal.y),
+                       std::llround(1e5 * p.normal.z), std::llround(scale * p.offset)};
+        }
+        const auto next = static_cast<std::uint32_t>(numbers.size());
+        planes.push_back(numbers.try_emplace({source, rounded}, next).first->second);
+    }
+    return planes;
+}
+
+/// Numbers of the things that pieces are seen as: a plane, or a part, through a chain of mirrors.
+class Images {
+  public:
+    Images(const BeamTree& tree, std::span<const std::uint32_t> kinds) : tree_(tree) {
+        for (const BeamPiece& piece : tree.pieces) {
+            if (piece.seen.facet == kNoFacet) {
+                of_piece_.push_back(kNoPlane);
+                continue;
+            }
+            const BeamNode& beam = tree_.beams[piece.beam];
+            const std::uint32_t through = beam.piece == kNoFacet ? kNoPlane : of_piece_[beam.piece];
+            const auto next = static_cast<std::uint32_t>(numbers_.size());
+            of_piece_.push_back(
+                numbers_.try_emplace({through, beam.view.kind, kinds[piece.seen.facet]}, next)
+                    .first->second);
+        }
+    }
+    /// The union of the pieces of each.
+    [[nodiscard]] std::vector<PolygonSet> unions() const {
+        std::vector<std::vector<PolygonSet>> regions(numbers_.size());
+        for (std::size_t p = 0; p < of_piece_.size(); ++p) {
+            if (of_piece_[p] != kNoPlane)
+                regions[of_piece_[p]].push_back(tree_.pieces[p].seen.region);
+        }
+        std::vector<PolygonSet> result;
+        for (std::vector<PolygonSet>& some : regions) {
+            // Two by two: each region takes part in log n unions.
+            while (some.size() > 1) {
+                std::vector<PolygonSet> half;
+                for (std::size_t i = 0; i + 1 < some.size(); i += 2) {
+                    half.push_back(union_of(some[i], some[i + 1]));
+                }
+                if (some.size() % 2 == 1) half.push_back(std::move(some.back()));
+                some = std::move(half);
+            }
+            if (!some.empty()) result.push_back(std::move(some.front()));
+        }
+        return result;
+    }
+
+  private:
+    const BeamTree& tree_;
+    std::map<std::tuple<std::uint32_t, RayKind, std::uint32_t>, std::uint32_t> numbers_;
+    std::vector<std::uint32_t> of_piece_;
+};
+
+}  // namespace
+
+std::vector<BeamOutline> beam_outlines(const BeamScene& scene, const BeamTree& tree) {
+    std::vector<std::uint32_t> sources;
+    for (const BeamFacet& facet : scene.facets) sources.push_back(facet.source);
+    std::vector<BeamOutline> outlines;
+    for (PolygonSet& region : Images(tree, planes_of_facets(scene)).unions()) {
+        outlines.push_back({LineStyle::Crease, std::move(region)});
+    }
+    for (PolygonSet& region : Images(tree, sources).unions()) {
+        outlines.push_back({LineStyle::Silhouette, std::move(region)});
+    }
+    return outlines;
+}
+
+}  // namespace alhazen

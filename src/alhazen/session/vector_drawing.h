@@ -1,0 +1,21 @@
+#pragma once
+/// Draws a loaded scene of planar facets without pixels, by beams.
+
+#include "alhazen/imaging/drawing/drawing.h"
+#include "alhazen/session/load.h"
+#include "alhazen/session/render.h"
+
+namespace alhazen {
+
+enum class DrawingLook {
+    Shaded,     ///< regions in the colours of `whitted`
+    Lined,      ///< the same, with lines
+    Technical,  ///< lines on white
+};
+
+/// `options`: sizes, camera, depth, threads and stop are heeded. Throws Error: Usage where parts
+/// have no planar facets, or as `render`.
+[[nodiscard]] Drawing draw_scene(const LoadedScene& loaded, const RenderOptions& options,
+                                 DrawingLook look);
+
+}  // namespace alhazen
