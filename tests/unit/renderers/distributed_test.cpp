@@ -200,7 +200,7 @@ TEST(Distributed, TheCameraMovesAndNotTheScene) {
     // Both move the sphere in the picture by the same.
     const Affine to = Affine::rotate({0, 0, 1}, 0.8);
     d.cameras[0].keys = {{0, Affine{}}, {1, inverse(to)}};
-    const Scene by_camera = compile(d);
+    const Scene by_camera = compile(d, {.accelerator = "list"});
     const TransformMotion camera(by_camera.cameras[0].keys);
     const auto picture = [&](const Scene& scene, const TransformMotion* motion) {
         const SamplingPlan plan;
@@ -216,7 +216,7 @@ TEST(Distributed, TheCameraMovesAndNotTheScene) {
     const Film a = picture(by_camera, &camera);
     moving.objects[0].parts[0].motion =
         std::make_shared<const PartMotion>(PartMotion{{}, {{0, Affine{}}, {1, to}}, {}});
-    const Film b = picture(compile(moving), nullptr);
+    const Film b = picture(compile(moving, {.accelerator = "list"}), nullptr);
     double sum = 0;
     for (int i = 0; i < 24 * 24; ++i) {
         EXPECT_NEAR(a.at(i % 24, i / 24).r, b.at(i % 24, i / 24).r, 0.08);
