@@ -91,6 +91,7 @@ INSIDE = {
         "": [],
         "cones": [""],
         "polygon": [""],
+        "facets": ["polygon"],
     },
     "imaging": {
         "image": [],
