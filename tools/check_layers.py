@@ -91,6 +91,7 @@ INSIDE = {
         "": [],
         "cones": [""],
         "polygon": [""],
+        "polygon_sets": [""],
     },
     "imaging": {
         "image": [],
