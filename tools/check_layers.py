@@ -92,6 +92,7 @@ INSIDE = {
         "cones": [""],
         "polygon": [""],
         "facets": ["polygon"],
+        "polygon_sets": [""],
     },
     "imaging": {
         "image": [],
