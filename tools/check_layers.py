@@ -109,6 +109,7 @@ INSIDE = {
     "renderers": {
         "core": [],
         "antialias": ["core"],
+        "beam_tracing": ["core"],
         "cone_tracing": ["core"],
         "lane_carpenter": ["core"],
         "ray_casting": ["antialias"],

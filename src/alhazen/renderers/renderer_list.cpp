@@ -3,6 +3,7 @@
 #include <array>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/beam_tracing/beam_tracing.h"
 #include "alhazen/renderers/cone_tracing/cone_tracing.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
@@ -31,16 +32,32 @@ std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
         ConeTracingOptions{.tables = settings.choice("coverage", 0, kCoverage) == 1});
 }
 
+std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
+    static constexpr const char* kSort[] = {"tree", "list"};
+    static constexpr const char* kHulls[] = {"off", "on"};
+    BeamTreeOptions options;
+    options.cast.tree = settings.choice("sort", 0, kSort) == 0;
+    options.cast.hulls = settings.choice("hulls", 1, kHulls) == 1;
+    options.least_contribution = settings.number("contribution", 0.0, 0.0, 1.0);
+    options.least_area = settings.number("area", 0.0, 0.0, 1.0);
+    return std::make_unique<BeamTracing>(options);
+}
+
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 5> table{{
+    static constexpr std::array<RendererEntry, 6> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
          }},
+        {"beam_tracing",
+         "what is seen, mirrored and in shadow as exact polygons, found once for all resolutions "
+         "(Heckbert and Hanrahan 1984); sort=tree|list, hulls=on|off, contribution=SHARE, "
+         "area=SHARE",
+         [](RendererSettings& settings) { return make_beam_tracing(settings); }},
         {"cone_tracing",
          "a cone a pixel: covered areas in closed form, reflected, refracted and shadow cones "
          "(Amanatides 1984); coverage=formulas|tables",
