@@ -94,6 +94,8 @@ INSIDE = {
         "cones": [""],
         "motion": [""],
         "polygon": [""],
+        "facets": ["polygon"],
+        "polygon_sets": [""],
     },
     "imaging": {
         "image": [],
@@ -111,6 +113,7 @@ INSIDE = {
     "renderers": {
         "core": [],
         "antialias": ["core"],
+        "beam_tracing": ["core"],
         "cone_tracing": ["core"],
         "lane_carpenter": ["core"],
         "ray_casting": ["antialias"],

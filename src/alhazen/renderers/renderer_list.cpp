@@ -3,6 +3,7 @@
 #include <array>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/beam_tracing/beam_tracing.h"
 #include "alhazen/renderers/cone_tracing/cone_tracing.h"
 #include "alhazen/renderers/distributed/distributed.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
@@ -32,6 +33,17 @@ std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
         ConeTracingOptions{.tables = settings.choice("coverage", 0, kCoverage) == 1});
 }
 
+std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
+    static constexpr const char* kSort[] = {"tree", "list"};
+    static constexpr const char* kHulls[] = {"off", "on"};
+    BeamTreeOptions options;
+    options.cast.tree = settings.choice("sort", 0, kSort) == 0;
+    options.cast.hulls = settings.choice("hulls", 1, kHulls) == 1;
+    options.least_contribution = settings.number("contribution", 0.0, 0.0, 1.0);
+    options.least_area = settings.number("area", 0.0, 0.0, 1.0);
+    return std::make_unique<BeamTracing>(options);
+}
+
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
@@ -48,6 +60,11 @@ std::span<const RendererEntry> renderers() {
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
          }},
+        {"beam_tracing",
+         "what is seen, mirrored and in shadow as exact polygons, found once for all resolutions "
+         "(Heckbert and Hanrahan 1984); sort=tree|list, hulls=on|off, contribution=SHARE, "
+         "area=SHARE",
+         [](RendererSettings& settings) { return make_beam_tracing(settings); }},
         {"cone_tracing",
          "a cone a pixel: covered areas in closed form, reflected, refracted and shadow cones "
          "(Amanatides 1984); coverage=formulas|tables",

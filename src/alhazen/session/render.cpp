@@ -119,6 +119,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     result.antialias = report.antialias;
     result.sampling = report.sampling;
     result.scan_lines = report.scan_lines;
+    result.beams = report.beams;
     result.layers = std::move(aovs.layers());
     return result;
 }
@@ -155,7 +156,15 @@ void apply_spd(ShadingConventions& shading, SamplingConventions& sampling) {
 
 void check_antialias(const RenderOptions& options, const Renderer& renderer) {
     if (!options.antialias) return;
-    if (!renderer.answers_single_rays()) {
+    if (options.antialias->exact) {
+        if (!renderer.gives_exact_areas()) {
+            throw Error(
+                ErrorKind::Usage,
+                fmt::format("--antialias exact is for renderers that know the areas of "
+                            "what they show: {}; renderer '{}' does not",
+                            renderers_where(&Renderer::gives_exact_areas), options.renderer));
+        }
+    } else if (!renderer.answers_single_rays()) {
         throw Error(ErrorKind::Usage,
                     fmt::format("--antialias whitted is for renderers that answer single rays: "
                                 "{}; renderer '{}' does not",

@@ -17,6 +17,7 @@
 namespace alhazen {
 
 struct AntialiasReport;
+struct BeamReport;
 struct LoadedScene;
 class Renderer;
 struct SamplingReport;
@@ -69,6 +70,7 @@ struct RenderResult {
     std::shared_ptr<const AntialiasReport> antialias;  ///< of adaptive supersampling, else null
     std::shared_ptr<const SamplingReport> sampling;    ///< of RenderOptions::sampling, else null
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
+    std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
 };
 
 struct FrameSize {

@@ -7,6 +7,7 @@
 #include "alhazen/aggregates/accelerator_bytes.h"
 #include "alhazen/imaging/film/filter_kernel.h"
 #include "alhazen/renderers/core/antialias_report.h"
+#include "alhazen/renderers/core/beam_report.h"
 #include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/renderers/core/scan_line_report.h"
 #include "alhazen/sampling/samplers/sampler.h"
@@ -26,6 +27,29 @@ std::uint64_t peak_rss_bytes() {
 }
 
 namespace {
+
+/// Null: the renderer has none.
+nlohmann::ordered_json beams_json(const RenderResult& result) {
+    if (!result.beams) return nullptr;
+    const BeamReport& r = *result.beams;
+    return {{"polygons", r.polygons},
+            {"tree_splits", r.tree_splits},
+            {"tree_pieces", r.tree_pieces},
+            {"tree_nodes", r.tree_nodes},
+            {"tree_depth", r.tree_depth},
+            {"eye_beams", r.eye_beams},
+            {"reflected_beams", r.reflected_beams},
+            {"refracted_beams", r.refracted_beams},
+            {"shadow_beams", r.shadow_beams},
+            {"pieces", r.pieces},
+            {"hulls_tested", r.hulls_tested},
+            {"hulls_missed", r.hulls_missed},
+            {"polygons_tested", r.polygons_tested},
+            {"cuts", r.cuts},
+            {"seen_area", r.seen_area},
+            {"gather_seconds", r.gather_seconds},
+            {"beam_seconds", r.beam_seconds}};
+}
 
 /// null: without adaptive supersampling.
 nlohmann::ordered_json antialias_json(const SceneDescription& description,
@@ -141,6 +165,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"rays", rays},
         {"tests", tests_json},
         {"scan_lines", scan_lines},
+        {"beams", beams_json(result)},
         {"antialias", antialias_json(loaded.description, result)},
         {"sampling", sampling_json(options, result)},
         {"aov_rays", counters.aov_rays},

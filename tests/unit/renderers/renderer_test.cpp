@@ -115,8 +115,8 @@ TEST(Renderer, ASceneCompiledInTwoStepsIsTheSceneCompiledInOne) {
 TEST(Renderer, EveryOneOfTheTableIsMadeByItsName) {
     for (const RendererEntry& entry : renderers()) {
         const std::string name = entry.name;
-        const bool traces_rays =
-            name != "lane_carpenter" && name != "clark" && name != "cone_tracing";
+        const bool traces_rays = name != "lane_carpenter" && name != "clark" &&
+                                 name != "cone_tracing" && name != "beam_tracing";
         EXPECT_EQ(make_renderer(name)->needs_aggregate(), traces_rays) << name;
     }
     EXPECT_THROW((void)make_renderer("wited"), Error);

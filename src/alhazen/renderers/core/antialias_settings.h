@@ -13,6 +13,9 @@ struct AntialiasSettings {
     double threshold = 0.05;
     int depth = 4;          ///< most divisions of a pixel, at most kDeepest
     bool guarantee = true;  ///< look for objects between the rays
+    /// Instead of all above: the exact mean of each pixel, from renderers that know the areas of
+    /// what they show.
+    bool exact = false;
 };
 
 /// Throws Error (Usage) for an unknown name or setting and for values out of range.

@@ -29,6 +29,7 @@ struct RenderControl {
 
 struct AntialiasReport;
 struct AntialiasSettings;
+struct BeamReport;
 struct SampleRound;
 struct SamplingPlan;
 struct SamplingReport;
@@ -69,6 +70,7 @@ struct RenderReport {
     int threads = 1;                  ///< largest number in force
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
     std::shared_ptr<const AntialiasReport> antialias;  ///< of RenderJob::antialias, else null
+    std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
 
     std::shared_ptr<const SamplingReport> sampling;  ///< of RenderJob::sampling, else null
 
@@ -97,6 +99,8 @@ class Renderer {
     [[nodiscard]] virtual bool lights_have_extent() const { return distributes(); }
     /// Samples per pixel where nothing is said.
     [[nodiscard]] virtual int usual_samples() const { return 1; }
+    /// True: `render` heeds AntialiasSettings::exact.
+    [[nodiscard]] virtual bool gives_exact_areas() const { return false; }
     /// True: reports have RenderReport::scan_lines.
     [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };

@@ -1,0 +1,53 @@
+#pragma once
+/// Convex pieces of planar facets, in one array of points, and the cutting of them by planes.
+///
+/// Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 17, 1974.
+/// Differs: where an edge meets a plane is computed from its ends in one order, so that two pieces
+/// that share the edge get the same point.
+/// Conventions: corners counter-clockwise from the side of the normal of the facet's plane.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/geometry/facets/beam_projection.h"
+
+namespace alhazen {
+
+struct FacetPiece {
+    std::uint32_t facet = 0;
+    std::uint32_t first = 0, count = 0;  ///< of its corners
+};
+
+struct FacetPool {
+    std::vector<FacetPlane> planes;  ///< [facet] unit normals
+    std::vector<Vec3> points;
+
+    [[nodiscard]] std::span<const Vec3> corners(const FacetPiece& piece) const {
+        return std::span(points).subspan(piece.first, piece.count);
+    }
+    FacetPiece add(std::uint32_t facet, std::span<const Vec3> corners) {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        points.insert(points.end(), corners.begin(), corners.end());
+        return {facet, first, static_cast<std::uint32_t>(corners.size())};
+    }
+};
+
+/// The least and the largest distance of points from a plane.
+struct SideRange {
+    double least, most;
+};
+[[nodiscard]] SideRange side_range(const FacetPlane& plane, std::span<const Vec3> points);
+
+/// Where the edge from `a` to `b` meets the plane, at distances `at_a` and `at_b` of unlike sign.
+[[nodiscard]] Vec3 edge_meets(const Vec3& a, double at_a, const Vec3& b, double at_b);
+
+/// The part of a convex loop before the plane, less what is nearer to it than `margin`.
+void clip_before(const FacetPlane& plane, double margin, std::span<const Vec3> loop,
+                 std::vector<Vec3>& result);
+
+/// Both parts of a convex loop. Corners nearer to the plane than `margin` belong to both.
+void split_loop(const FacetPlane& plane, double margin, std::span<const Vec3> loop,
+                std::vector<Vec3>& before, std::vector<Vec3>& behind);
+
+}  // namespace alhazen

@@ -1,0 +1,315 @@
+#include "alhazen/geometry/polygon_sets/edge_sweep.h"
+
+#include <algorithm>
+
+namespace alhazen {
+
+namespace {
+
+std::uint64_t lattice_key(LatticePoint p) {
+    return (static_cast<std::uint64_t>(p.x + 2 * kLatticeLimit) << 32) |
+           static_cast<std::uint32_t>(p.y + 2 * kLatticeLimit);
+}
+
+LatticePoint lattice_point(std::uint64_t key) {
+    return {static_cast<std::int32_t>(key >> 32) - 2 * kLatticeLimit,
+            static_cast<std::int32_t>(key & 0xffffffff) - 2 * kLatticeLimit};
+}
+
+}  // namespace
+
+void EdgeSweep::clear() {
+    result_.clear();
+    active_.clear();
+    vertices_.clear();
+    next_vertex_ = 0;
+    crossings_.clear();
+    heap_.clear();
+    free_.clear();
+    status_.clear();
+}
+
+void EdgeSweep::add_loop(std::span<const LatticePoint> loop, std::uint8_t owner) {
+    const auto first = static_cast<std::uint32_t>(result_.edges.size());
+    if (loop.empty()) {
+        return;
+    }
+    LatticePoint from = loop.back();
+    for (const LatticePoint to : loop) {
+        if (from == to) {
+            continue;
+        }
+        // The edge that arrives at `to`, and the one that will leave it.
+        const auto edge = static_cast<std::uint32_t>(result_.edges.size());
+        result_.edges.push_back(from < to ? ArrangementEdge{from, to} : ArrangementEdge{to, from});
+        active_.push_back({.owner = owner});
+        vertices_.push_back({lattice_key(to), {edge, edge + 1}});
+        from = to;
+    }
+    if (result_.edges.size() > first) {
+        vertices_.back().edges[1] = first;
+    }
+}
+
+void EdgeSweep::sort_vertices() {
+    constexpr std::size_t kFew = 24;
+    if (vertices_.size() > kFew) {
+        std::ranges::sort(vertices_, {}, &Vertex::key);
+        return;
+    }
+    for (std::size_t i = 1; i < vertices_.size(); ++i) {
+        const Vertex v = vertices_[i];
+        std::size_t j = i;
+        for (; j > 0 && vertices_[j - 1].key > v.key; --j) {
+            vertices_[j] = vertices_[j - 1];
+        }
+        vertices_[j] = v;
+    }
+}
+
+void EdgeSweep::run_with_intervals() {
+    with_intervals_ = true;
+    run();
+    with_intervals_ = false;
+}
+
+void EdgeSweep::run() {
+    sort_vertices();
+    while (next_point()) {
+        sweep_point();
+    }
+}
+
+// Sets the place to the next point and the fan to the edges that begin there.
+bool EdgeSweep::next_point() {
+    fan_.clear();
+    through_[0] = through_[1] = kNone;
+    if (next_vertex_ == vertices_.size()) {
+        return false;  // crossings are before the ends of their edges
+    }
+    at_ = lattice_point(vertices_[next_vertex_].key);
+    at_vertex_ = true;
+    place_ = place_of(at_);
+    if (!heap_.empty()) {
+        const Crossing& first = crossings_[heap_.front()];
+        const auto order = compare(first.place, place_);
+        at_vertex_ = order >= 0;
+        if (order < 0) {
+            place_ = first.place;
+            through_[0] = first.edges[0];
+            through_[1] = first.edges[1];
+        }
+        if (order <= 0) {
+            drop_crossings_at_place();
+        }
+    }
+    if (at_vertex_) {
+        take_vertices();
+    } else {
+        ++result_.crossings;
+        result_.rounds = result_.rounds || !on_lattice(place_);
+    }
+    result_.points.push_back(place_);
+    return true;
+}
+
+void EdgeSweep::take_vertices() {
+    const std::uint64_t key = vertices_[next_vertex_].key;
+    for (; next_vertex_ < vertices_.size() && vertices_[next_vertex_].key == key; ++next_vertex_) {
+        for (const std::uint32_t edge : vertices_[next_vertex_].edges) {
+            if (result_.edges[edge].lo == at_) {
+                fan_.push_back(edge);
+            }
+        }
+    }
+}
+
+void EdgeSweep::drop_crossings_at_place() {
+    const auto later = [this](std::uint32_t a, std::uint32_t b) {
+        return compare(crossings_[a].place, crossings_[b].place) > 0;
+    };
+    do {
+        std::ranges::pop_heap(heap_, later);
+        free_.push_back(heap_.back());
+        heap_.pop_back();
+    } while (!heap_.empty() && compare(crossings_[heap_.front()].place, place_) == 0);
+}
+
+// The sign of (edge x place): positive where the place is above the edge.
+int EdgeSweep::side(std::uint32_t edge) const {
+    const ArrangementEdge& e = result_.edges[edge];
+    if (at_vertex_) {
+        const std::int64_t s = turn(e.lo, e.hi, at_);
+        return s > 0 ? 1 : (s < 0 ? -1 : 0);
+    }
+    if (edge == through_[0] || edge == through_[1]) {
+        return 0;
+    }
+    return side_of(e.lo, e.hi, place_);
+}
+
+std::size_t EdgeSweep::first_not_below() const {
+    std::size_t lo = 0;
+    std::size_t hi = status_.size();
+    while (lo < hi) {
+        const std::size_t mid = (lo + hi) / 2;
+        if (side(status_[mid]) > 0) {
+            lo = mid + 1;
+        } else {
+            hi = mid;
+        }
+    }
+    return lo;
+}
+
+void EdgeSweep::sweep_point() {
+    const std::size_t lo = first_not_below();
+    std::size_t hi = lo;
+    while (hi < status_.size() && side(status_[hi]) == 0) {
+        close_bundle(status_[hi++]);
+    }
+    if (with_intervals_) {
+        record_intervals(lo, hi);
+    }
+    sort_fan();
+    bundle_fan(lo > 0 ? active_[status_[lo - 1]].above : std::uint8_t{0});
+    replace(lo, hi);
+    const std::size_t end = lo + fan_.size();
+    if (lo > 0 && lo < status_.size()) {
+        test_neighbors(status_[lo - 1], status_[lo]);
+    }
+    if (end > lo && end < status_.size()) {
+        test_neighbors(status_[end - 1], status_[end]);
+    }
+}
+
+// The intervals that end at the point: below, between and above the bundles [lo, hi) of the status.
+void EdgeSweep::record_intervals(std::size_t lo, std::size_t hi) {
+    const auto point = static_cast<std::uint32_t>(result_.points.size() - 1);
+    std::uint32_t lower = kNone;
+    for (std::size_t i = lo; i-- > 0 && lower == kNone;) {
+        lower = active_[status_[i]].sub_edge;
+    }
+    for (std::size_t i = lo; i < status_.size(); ++i) {
+        const std::uint32_t upper = active_[status_[i]].sub_edge;
+        if (upper == kNone) {
+            continue;
+        }
+        if (lower != kNone && (result_.sub_edges[upper].below & kInFirst) != 0) {
+            result_.intervals.push_back({point, lower, upper});
+        }
+        lower = upper;
+        if (i >= hi) {
+            break;
+        }
+    }
+}
+
+// Ends the piece of a bundle at the place; its members that go on join the fan.
+void EdgeSweep::close_bundle(std::uint32_t leader) {
+    const Active& bundle = active_[leader];
+    if (bundle.sub_edge != kNone) {
+        result_.sub_edges[bundle.sub_edge].end =
+            static_cast<std::uint32_t>(result_.points.size() - 1);
+    }
+    if (bundle.next_member != kNone) {
+        ++result_.overlaps;
+    }
+    for (std::uint32_t edge = leader; edge != kNone; edge = active_[edge].next_member) {
+        if (!at_vertex_ || result_.edges[edge].hi != at_) {
+            fan_.push_back(edge);
+        }
+    }
+}
+
+bool EdgeSweep::steeper(std::uint32_t a, std::uint32_t b) const {
+    const ArrangementEdge& ea = result_.edges[a];
+    const ArrangementEdge& eb = result_.edges[b];
+    return cross_of(eb.lo, eb.hi, ea.lo, ea.hi) > 0;
+}
+
+void EdgeSweep::sort_fan() {
+    constexpr std::size_t kFew = 16;
+    if (fan_.size() > kFew) {
+        std::ranges::sort(fan_, [this](std::uint32_t a, std::uint32_t b) { return steeper(b, a); });
+        return;
+    }
+    for (std::size_t i = 1; i < fan_.size(); ++i) {
+        const std::uint32_t edge = fan_[i];
+        std::size_t j = i;
+        for (; j > 0 && steeper(fan_[j - 1], edge); --j) {
+            fan_[j] = fan_[j - 1];
+        }
+        fan_[j] = edge;
+    }
+}
+
+// Makes bundles of the fan's edges of equal direction, each led by its first, and walks the state
+// up through them. The fan keeps the leaders.
+void EdgeSweep::bundle_fan(std::uint8_t state) {
+    const auto point = static_cast<std::uint32_t>(result_.points.size() - 1);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < fan_.size();) {
+        const std::uint32_t leader = fan_[i];
+        std::uint8_t parity = active_[leader].owner;
+        std::uint32_t last = leader;
+        for (++i; i < fan_.size() && !steeper(fan_[i], leader); ++i) {
+            active_[last].next_member = fan_[i];
+            last = fan_[i];
+            parity ^= active_[last].owner;
+        }
+        active_[last].next_member = kNone;
+        const std::uint8_t below = state;
+        state ^= parity;
+        active_[leader].above = state;
+        active_[leader].sub_edge = kNone;
+        if (parity != 0) {
+            active_[leader].sub_edge = static_cast<std::uint32_t>(result_.sub_edges.size());
+            result_.sub_edges.push_back({point, point, leader, below, state});
+        }
+        fan_[kept++] = leader;
+    }
+    fan_.resize(kept);
+}
+
+void EdgeSweep::replace(std::size_t lo, std::size_t hi) {
+    const std::size_t common = std::min(hi - lo, fan_.size());
+    std::copy_n(fan_.begin(), common, status_.begin() + static_cast<std::ptrdiff_t>(lo));
+    const auto at = status_.begin() + static_cast<std::ptrdiff_t>(lo + common);
+    if (fan_.size() > common) {
+        status_.insert(at, fan_.begin() + static_cast<std::ptrdiff_t>(common), fan_.end());
+    } else {
+        status_.erase(at, status_.begin() + static_cast<std::ptrdiff_t>(hi));
+    }
+}
+
+// Both are there right of the place, `lower` below `upper`; they cross if the first to end does so
+// on the other side.
+void EdgeSweep::test_neighbors(std::uint32_t lower, std::uint32_t upper) {
+    const ArrangementEdge& a = result_.edges[lower];
+    const ArrangementEdge& b = result_.edges[upper];
+    const bool cross = b.hi < a.hi ? turn(a.lo, a.hi, b.hi) < 0 : turn(b.lo, b.hi, a.hi) > 0;
+    if (cross) {
+        push_crossing(lower, upper);
+    }
+}
+
+void EdgeSweep::push_crossing(std::uint32_t a, std::uint32_t b) {
+    const ArrangementEdge& ea = result_.edges[a];
+    const ArrangementEdge& eb = result_.edges[b];
+    const Crossing crossing_ab{crossing(ea.lo, ea.hi, eb.lo, eb.hi), {a, b}};
+    std::uint32_t slot = static_cast<std::uint32_t>(crossings_.size());
+    if (free_.empty()) {
+        crossings_.push_back(crossing_ab);
+    } else {
+        slot = free_.back();
+        free_.pop_back();
+        crossings_[slot] = crossing_ab;
+    }
+    heap_.push_back(slot);
+    std::ranges::push_heap(heap_, [this](std::uint32_t x, std::uint32_t y) {
+        return compare(crossings_[x].place, crossings_[y].place) > 0;
+    });
+}
+
+}  // namespace alhazen

@@ -1,0 +1,253 @@
+#include "alhazen/renderers/beam_tracing/beam_caster.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/geometry/polygon_sets/mending.h"
+
+namespace alhazen {
+
+namespace {
+
+/// A rest of more corners is divided.
+constexpr std::size_t kManyCorners = 120;
+/// Nearer than this times the rounding of the tree, things touch.
+constexpr double kTouch = 8;
+
+std::int32_t on_lattice_line(double x) {
+    const double limit = kLatticeLimit;
+    return static_cast<std::int32_t>(std::lround(std::clamp(x, -limit, limit)));
+}
+
+/// Removes repeated points and those on straight lines. False where it does not turn left
+/// everywhere.
+bool make_canonical(std::vector<LatticePoint>& loop) {
+    loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+    for (std::size_t k = 0; k < loop.size() && loop.size() >= 3;) {
+        const std::size_t n = loop.size();
+        if (turn(loop[(k + n - 1) % n], loop[k], loop[(k + 1) % n]) == 0) {
+            loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
+            k = k == 0 ? 0 : k - 1;
+        } else {
+            ++k;
+        }
+    }
+    if (loop.size() < 3) {
+        loop.clear();
+        return true;
+    }
+    if (twice_area(std::span<const LatticePoint>(loop)) < 0) std::reverse(loop.begin(), loop.end());
+    int turns_back = 0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        const std::size_t n = loop.size();
+        const LatticePoint a = loop[k], b = loop[(k + 1) % n], c = loop[(k + 2) % n];
+        if (turn(a, b, c) <= 0) return false;
+        turns_back += (a < b) != (b < c);
+    }
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    return turns_back <= 2;
+}
+
+}  // namespace
+
+BeamCounts& BeamCounts::operator+=(const BeamCounts& other) {
+    beams += other.beams;
+    shadow_beams += other.shadow_beams;
+    pieces += other.pieces;
+    cuts += other.cuts;
+    seen += other.seen;
+    shadow += other.shadow;
+    return *this;
+}
+
+void BeamCaster::set_sides(const BeamProjection& projection, const LatticeBox& box) {
+    sides_ = limits_;
+    sides_.push_back(projection.plane(1, 0, -box.lo.x));
+    sides_.push_back(projection.plane(-1, 0, box.hi.x));
+    sides_.push_back(projection.plane(0, 1, -box.lo.y));
+    sides_.push_back(projection.plane(0, -1, box.hi.y));
+}
+
+bool BeamCaster::project(const BeamProjection& projection, std::span<const Vec3> corners,
+                         PolygonSet& result) {
+    const double margin = kTouch * scene_.tree.margin();
+    loop_.assign(corners.begin(), corners.end());
+    const auto clip = [&](const FacetPlane& plane, double least) {
+        if (loop_.empty() || side_range(plane, loop_).least >= least) return;
+        clip_before(plane, least, loop_, clipped_);
+        loop_.swap(clipped_);
+    };
+    for (const FacetPlane& plane : limits_) clip(plane, margin);
+    const double limit = kLatticeLimit;
+    clip(projection.plane(1, 0, limit), 0.0);
+    clip(projection.plane(-1, 0, limit), 0.0);
+    clip(projection.plane(0, 1, limit), 0.0);
+    clip(projection.plane(0, -1, limit), 0.0);
+    if (loop_.empty()) return false;
+    flat_.clear();
+    for (const Vec3& p : loop_) {
+        const Vec3 w = projection(p);
+        flat_.push_back({on_lattice_line(w.x / w.z), on_lattice_line(w.y / w.z)});
+    }
+    if (!make_canonical(flat_)) {
+        result = polygon_set(flat_);
+        return !result.empty();
+    }
+    if (flat_.empty()) return false;
+    result.clear();
+    for (const LatticePoint& p : flat_) result.add_vertex(p);
+    result.end_loop();
+    return true;
+}
+
+bool BeamCaster::is_seen(const BeamView& view, std::uint32_t facet) const {
+    const BeamFacet& f = scene_.facets[facet];
+    if (facet == view.from) return false;
+    if ((scene_.sources[f.source].visible_to & mask_of(view.kind)) == 0) return false;
+    return !f.one_sided || view.apex.side(scene_.plane(facet)) > 0.0;
+}
+
+std::span<const FacetPiece> BeamCaster::next(Order& order, const BeamSides& sides) {
+    if (options_.tree) return order.walk.next(sides, counts_.seen);
+    if (order.next == list_.size()) return {};
+    ++counts_.seen.polygons;
+    return std::span(list_).subspan(order.next++, 1);
+}
+
+void BeamCaster::see(const BeamView& view, PolygonSet region, std::vector<SeenFacet>& result) {
+    ++counts_.beams;
+    limits_ = {view.projection.plane(0, 0, 1)};
+    if (view.has_start) limits_.push_back(view.start);
+    if (!options_.tree) {
+        set_sides(view.projection, region.bounds());
+        list_pool_ = scene_.tree.pool();
+        DepthOrderReport report;
+        list_ = depth_order(list_pool_, scene_.tree.pieces(), view.apex, view.projection, sides_,
+                            scene_.tree.margin(), report);
+        counts_.seen.polygons += report.polygons;
+    }
+    std::vector<Rest> waiting;
+    waiting.push_back({std::move(region), {FacetWalk(scene_.tree, view.apex, options_.hulls), 0}});
+    while (!waiting.empty()) {
+        Rest rest = std::move(waiting.back());
+        waiting.pop_back();
+        see_rest(view, rest, waiting, result);
+        if (!rest.region.empty()) result.push_back({kNoFacet, std::move(rest.region)});
+    }
+    for (const SeenFacet& s : result) counts_.pieces += s.facet != kNoFacet;
+}
+
+void BeamCaster::see_rest(const BeamView& view, Rest& rest, std::vector<Rest>& waiting,
+                          std::vector<SeenFacet>& result) {
+    set_sides(view.projection, rest.region.bounds());
+    const FacetPool& pool = options_.tree ? scene_.tree.pool() : list_pool_;
+    const double margin = scene_.tree.margin();
+    while (true) {
+        const std::span<const FacetPiece> pieces = next(rest.order, sides_);
+        if (pieces.empty()) return;
+        for (const FacetPiece& piece : pieces) {
+            if (!is_seen(view, piece.facet)) continue;
+            const std::span<const Vec3> corners = pool.corners(piece);
+            if (misses(corners, sides_, margin)) continue;
+            if (!project(view.projection, corners, shape_)) continue;
+            if (!shape_.bounds().meets(rest.region.bounds())) continue;
+            ++counts_.cuts;
+            cut(rest.region, shape_, cut_);
+            if (cut_.inside.empty()) continue;
+            take_slivers(cut_);
+            result.push_back({piece.facet, std::move(cut_.inside)});
+            std::swap(rest.region, cut_.outside);
+            if (rest.region.empty()) return;
+            set_sides(view.projection, rest.region.bounds());
+        }
+        if (rest.region.vertex_count() > kManyCorners) {
+            divide(rest, waiting);
+            set_sides(view.projection, rest.region.bounds());
+        }
+    }
+}
+
+void BeamCaster::take_slivers(PolygonCut& parts) {
+    PolygonSet slivers;
+    for (std::size_t k = 0; k < parts.outside.loop_count(); ++k) {
+        const std::span<const LatticePoint> loop = parts.outside.loop(k);
+        LatticeBox box;
+        for (const LatticePoint& p : loop) box.extend(p);
+        const Int128 sides = Int128{box.hi.x} - box.lo.x + box.hi.y - box.lo.y;
+        const Int128 area = twice_area(loop);
+        if (area < 0 || area > 4 * sides) continue;
+        for (const LatticePoint& p : loop) slivers.add_vertex(p);
+        slivers.end_loop();
+    }
+    if (slivers.empty()) return;
+    counts_.cuts += 2;
+    const PolygonCut thin = cut(parts.outside, slivers);
+    parts.inside = union_of(parts.inside, thin.inside);
+    parts.outside = thin.outside;
+}
+
+void BeamCaster::divide(Rest& rest, std::vector<Rest>& waiting) {
+    const LatticeBox& box = rest.region.bounds();
+    const std::int32_t wide = box.hi.x - box.lo.x, high = box.hi.y - box.lo.y;
+    if (std::max(wide, high) < 4096) return;
+    LatticePoint hi = box.hi;
+    (wide >= high ? hi.x : hi.y) -= std::max(wide, high) / 2;
+    ++counts_.cuts;
+    cut(rest.region, lattice_rectangle(box.lo, hi), cut_);
+    if (cut_.inside.empty() || cut_.outside.empty()) return;
+    waiting.push_back({std::move(cut_.outside), rest.order});
+    rest.region = std::move(cut_.inside);
+}
+
+std::vector<LitPart> BeamCaster::lit(const BeamView& view, const SeenFacet& piece,
+                                     const BeamApex& light, bool opaque) {
+    ++counts_.shadow_beams;
+    const FacetPlane& outer = scene_.plane(piece.facet);
+    const double side = light.side(outer);
+    const FacetPlane plane = side < 0.0 ? outer.reversed() : outer;
+    if (!(std::abs(side) > kTouch * scene_.tree.margin() * light.weight)) return {};
+    const BeamProjection projection = view.projection.after(SpaceMap::shadow(plane, light));
+    limits_ = {plane, projection.plane(0, 0, 1)};
+    if (light.weight != 0.0) {
+        limits_.push_back({-plane.normal, -(plane.offset + std::abs(side))});
+    }
+    std::vector<LitPart> parts;
+    parts.push_back({piece.region, {}});
+    set_sides(projection, piece.region.bounds());
+    FacetWalk walk(scene_.tree, light, options_.hulls);
+    while (!parts.empty()) {
+        const std::span<const FacetPiece> pieces = walk.next(sides_, counts_.shadow);
+        if (pieces.empty()) break;
+        for (const FacetPiece& occluder : pieces) {
+            const BeamFacet& facet = scene_.facets[occluder.facet];
+            if (occluder.facet == piece.facet) continue;
+            if ((scene_.sources[facet.source].visible_to & mask_of(RayKind::Shadow)) == 0) continue;
+            if (facet.one_sided && light.side(scene_.plane(occluder.facet)) < 0.0) continue;
+            const std::span<const Vec3> corners = scene_.tree.pool().corners(occluder);
+            if (misses(corners, sides_, scene_.tree.margin())) continue;
+            if (!project(projection, corners, shape_)) continue;
+            darken(shape_, occluder.facet, opaque || facet.blocks_light, parts);
+        }
+    }
+    return parts;
+}
+
+void BeamCaster::darken(const PolygonSet& shadow, std::uint32_t facet, bool opaque,
+                        std::vector<LitPart>& parts) {
+    const std::size_t count = parts.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        if (!shadow.bounds().meets(parts[k].region.bounds())) continue;
+        ++counts_.cuts;
+        cut(parts[k].region, shadow, cut_);
+        if (cut_.inside.empty()) continue;
+        parts[k].region = std::move(cut_.outside);
+        if (opaque) continue;
+        LitPart tinted{std::move(cut_.inside), parts[k].through};
+        tinted.through.push_back(facet);
+        parts.push_back(std::move(tinted));
+    }
+    std::erase_if(parts, [](const LitPart& part) { return part.region.empty(); });
+}
+
+}  // namespace alhazen

@@ -1,0 +1,52 @@
+#pragma once
+/// Pixels of polygons of the window: the sample points inside, or the exact part of each pixel.
+///
+/// Source: the closed form of the box filter: areas and first moments to the right of each edge
+/// (Green's theorem), summed along each row of pixels.
+/// Conventions: a point on an edge belongs to the region above it or to its right, so that regions
+/// without gap and overlap share no point. Rows count from the top.
+/// Complexity: O(edges * rows + pixels).
+
+#include <vector>
+
+#include "alhazen/geometry/polygon_sets/polygon_set.h"
+#include "alhazen/imaging/film/film.h"
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+/// A pixel of a region.
+struct BeamSample {
+    int i = 0, j = 0;
+    double share = 1;  ///< of the pixel
+    Vec2 at;           ///< in the window: the sample point, or the middle of the part
+};
+
+/// Appends the samples of a row: `xs` are the sample points of the columns from `first` on.
+void add_points(const PolygonSet& region, int j, double y, int first, std::span<const double> xs,
+                std::vector<double>& crossings, std::vector<BeamSample>& samples);
+
+/// The parts of the pixels of one row.
+class RowAreas {
+  public:
+    /// Pixels of the row lie between `lo` and `hi`, columns between successive `edges`.
+    void begin(double lo, double hi, std::span<const double> edges);
+    void add(const PolygonSet& region);
+    /// Appends the pixels of row `j`, the first of which has the column `first`, and forgets them.
+    void take(int j, int first, std::vector<BeamSample>& samples);
+
+  private:
+    /// Area, and integrals of x and y.
+    struct Moments {
+        double area = 0, x = 0, y = 0;
+    };
+    void add_edge(double x0, double y0, double x1, double y1);
+    void add_within(std::size_t column, double x0, double y0, double x1, double y1, double sign);
+
+    double lo_ = 0, hi_ = 0;
+    std::span<const double> edges_;
+    std::vector<Moments> own_;  ///< [column] to the right of edges in it
+    std::vector<Vec2> full_;    ///< [column] height, and integral of y, of the columns on
+};
+
+}  // namespace alhazen

@@ -1,0 +1,268 @@
+#include "alhazen/renderers/beam_tracing/beam_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "alhazen/base/error.h"
+#include "alhazen/geometry/facets/convex_parts.h"
+#include "alhazen/geometry/polygon/convex_corners.h"
+#include "alhazen/math/unit_vector.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Twice the area of loops, along their normal.
+Vec3 normal_of_loops(std::span<const Vec3> corners, std::span<const std::uint32_t> ends) {
+    Vec3 sum;
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < std::max<std::size_t>(ends.size(), 1); ++k) {
+        const std::size_t end = ends.empty() ? corners.size() : ends[k];
+        for (std::size_t i = first; i < end; ++i) {
+            sum +=
+                cross(corners[i] - corners[0], corners[i + 1 == end ? first : i + 1] - corners[0]);
+        }
+        first = end;
+    }
+    return sum;
+}
+
+/// Walks the objects of a description as the compiler of scenes does.
+class BeamGatherer {
+  public:
+    BeamGatherer(const SceneDescription& description, const Scene& scene)
+        : d_(description), scene_(scene), uses_(description.objects.size()) {
+        std::uint32_t next = 0;
+        for (const ObjectDescription& object : d_.objects) {
+            first_part_.push_back(next);
+            next += static_cast<std::uint32_t>(object.parts.size());
+            for (const Part& part : object.parts) {
+                if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+                    ++uses_[static_cast<std::size_t>(*child)];
+                }
+            }
+        }
+    }
+
+    BeamScene gather() {
+        add_object(static_cast<std::size_t>(d_.root), {}, kAllRays, nullptr);
+        if (!refused_.empty()) {
+            throw Error(ErrorKind::Usage,
+                        "beams take planar facets: polygons, rectangles, boxes, polyhedra and "
+                        "triangle meshes, of materials without alpha; these are none: " +
+                            refused_);
+        }
+        result_.tree = FacetTree(std::move(pool_), std::move(pieces_));
+        return std::move(result_);
+    }
+
+  private:
+    void refuse(const std::string& what, const std::string& name, const FileLocation& where) {
+        if (++refusals_ > kMostNamed) {
+            if (refusals_ == kMostNamed + 1) refused_ += "; and others";
+            return;
+        }
+        if (!refused_.empty()) refused_ += "; ";
+        refused_ += what;
+        if (!name.empty()) refused_ += " '" + name + "'";
+        if (where.line > 0) refused_ += " (line " + std::to_string(where.line) + ")";
+    }
+
+    void add_object(std::size_t index, const Affine& world_from_object, RayMask mask,
+                    const std::uint32_t* instance) {
+        const ObjectDescription& object = d_.objects[index];
+        if (object.combine != Combine::Group) {
+            refuse("solid of constructive geometry", object.name, object.location);
+            return;
+        }
+        std::uint32_t number = first_part_[index];
+        for (const Part& part : object.parts) {
+            add_part(part, number++, world_from_object * part.object_from_part,
+                     mask & part.visible_to, instance);
+        }
+    }
+
+    void add_part(const Part& part, std::uint32_t number, const Affine& world_from_part,
+                  RayMask mask, const std::uint32_t* instance) {
+        if (mask == 0) return;
+        if (const auto* child = std::get_if<ObjectIndex>(&part.what)) {
+            const auto index = static_cast<std::size_t>(*child);
+            const ObjectDescription& object = d_.objects[index];
+            const bool dissolved =
+                uses_[index] == 1 && object.combine == Combine::Group && object.accelerator.empty();
+            const std::uint32_t* around = instance != nullptr || dissolved ? instance : &number;
+            add_object(index, world_from_part, mask, around);
+            return;
+        }
+        BeamSource source;
+        source.placement = {world_from_part, inverse(world_from_part)};
+        source.placed = world_from_part != Affine{};
+        source.material = part.material;
+        source.part = number;
+        source.instance = instance != nullptr ? *instance : number;
+        source.visible_to = mask;
+        mirrored_ = determinant(world_from_part.linear) < 0.0;
+        if (const auto* shape = std::get_if<AnyShape>(&part.what)) {
+            add_shape(*shape, part, std::move(source));
+        } else {
+            const MeshDescription& mesh =
+                d_.meshes[static_cast<std::size_t>(std::get<MeshIndex>(part.what))];
+            add_mesh(mesh.mesh.get(), part, std::move(source));
+        }
+    }
+
+    [[nodiscard]] const Material& material_of(MaterialId id) const {
+        return scene_.materials[static_cast<std::size_t>(id)];
+    }
+    /// Sets what facets of the material have in common; false where beams cannot show it.
+    bool take_material(const Material& material, BeamFacet& facet) const {
+        if (material.alpha_mode != AlphaMode::Opaque) return false;
+        facet.one_sided = !material.double_sided && is_unseen_from_behind(evaluate(
+                                                        material, scene_.textures, Vec2{0.5, 0.5}));
+        facet.blocks_light = material.is_opaque();
+        return true;
+    }
+
+    void add_mesh(const TriangleMesh* mesh, const Part& part, BeamSource source) {
+        // Shared without counting: the description outlives the picture.
+        source.mesh.mesh = std::shared_ptr<const TriangleMesh>(std::shared_ptr<void>(), mesh);
+        source.mesh.material = source.material;
+        source.smooth = !mesh->normals.empty();
+        std::vector<BeamFacet> kinds;
+        const std::vector<std::uint32_t>& own = mesh->vertex_materials;
+        std::vector<bool> has_alpha;
+        for (std::size_t k = 0; k < (own.empty() ? 1 : scene_.materials.size()); ++k) {
+            kinds.emplace_back();
+            has_alpha.push_back(!take_material(
+                own.empty() ? material_of(source.material) : scene_.materials[k], kinds[k]));
+        }
+        if (own.empty() ? has_alpha[0] : std::any_of(own.begin(), own.end(), [&](std::uint32_t id) {
+                return has_alpha[id];
+            })) {
+            refuse("mesh with alpha", part.name, part.location);
+            return;
+        }
+        const Affine world = source.placement.outer_from_inner;
+        const auto number = static_cast<std::uint32_t>(result_.sources.size());
+        for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t) {
+            const auto& corners = mesh->triangles[t];
+            BeamFacet facet = kinds[own.empty() ? 0 : own[corners[0]]];
+            facet.source = number;
+            facet.part = t;
+            std::array<Vec3, 3> loop;
+            for (std::size_t k = 0; k < 3; ++k) loop[k] = world.point(mesh->positions[corners[k]]);
+            add_facet(facet, loop, {});
+        }
+        result_.sources.push_back(std::move(source));
+    }
+
+    void add_shape(const AnyShape& shape, const Part& part, BeamSource source) {
+        auto prepared = std::make_shared<AnyShape>(shape);
+        std::visit([](auto& s) { s.prepare(); }, *prepared);
+        source.shape = prepared;
+        source.smooth = material_of(part.material).normal_map.texture != kNoTexture;
+        BeamFacet facet;
+        facet.source = static_cast<std::uint32_t>(result_.sources.size());
+        const bool plain = take_material(material_of(part.material), facet);
+        world_ = source.placement.outer_from_inner;
+        const std::string name = std::visit(
+            [&]<class S>(const S& s) -> std::string {
+                if (!plain) return std::string(S::kName) + " with alpha";
+                return add_kind(s, facet) ? "" : S::kName;
+            },
+            *prepared);
+        if (!name.empty()) refuse(name, part.name, part.location);
+        result_.sources.push_back(std::move(source));
+    }
+
+    template <class S>
+    bool add_kind(const S&, BeamFacet) {
+        return false;
+    }
+    bool add_kind(const Polygon& s, BeamFacet facet) {
+        add_placed(facet, s.vertices, s.loop_ends);
+        return true;
+    }
+    bool add_kind(const Rectangle& s, BeamFacet facet) {
+        const std::array<Vec3, 4> loop{s.corner, s.corner + s.edge_u,
+                                       s.corner + s.edge_u + s.edge_v, s.corner + s.edge_v};
+        add_placed(facet, loop, {});
+        return true;
+    }
+    bool add_kind(const BoxShape& s, BeamFacet facet) {
+        for (int face = 0; face < 6; ++face) {
+            const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+            std::array<Vec3, 4> loop;
+            for (int k = 0; k < 4; ++k) {
+                Vec3& p = loop[static_cast<std::size_t>(face % 2 == 1 ? k : 3 - k)];
+                p[axis] = face % 2 == 1 ? s.hi[axis] : s.lo[axis];
+                p[u] = k == 1 || k == 2 ? s.hi[u] : s.lo[u];
+                p[v] = k >= 2 ? s.hi[v] : s.lo[v];
+            }
+            facet.part = static_cast<std::uint32_t>(face);
+            add_placed(facet, loop, {});
+        }
+        return true;
+    }
+    bool add_kind(const Polyhedron& s, BeamFacet facet) {
+        const ConvexCorners corners = convex_corners(s.faces);
+        if (!corners.bounded) return false;
+        std::size_t first = 0;
+        for (std::size_t face = 0; face < corners.face_ends.size(); ++face) {
+            std::vector<Vec3> loop(
+                corners.corners.begin() + static_cast<std::ptrdiff_t>(first),
+                corners.corners.begin() + static_cast<std::ptrdiff_t>(corners.face_ends[face]));
+            first = corners.face_ends[face];
+            if (loop.size() < 3) continue;
+            if (dot(normal_of_loops(loop, {}), s.faces[face].normal) < 0.0) {
+                std::reverse(loop.begin(), loop.end());
+            }
+            facet.part = static_cast<std::uint32_t>(face);
+            add_placed(facet, loop, {});
+        }
+        return true;
+    }
+
+    void add_placed(const BeamFacet& facet, std::span<const Vec3> corners,
+                    std::span<const std::uint32_t> ends) {
+        std::vector<Vec3> placed;
+        for (const Vec3& p : corners) placed.push_back(world_.point(p));
+        add_facet(facet, placed, ends);
+    }
+    void add_facet(const BeamFacet& facet, std::span<const Vec3> corners,
+                   std::span<const std::uint32_t> ends) {
+        Vec3 normal = unit_or(normal_of_loops(corners, ends), {0, 0, 0});
+        if (!(length_squared(normal) > 0.0)) return;
+        if (mirrored_) normal = -normal;
+        double offset = 0.0;
+        for (const Vec3& p : corners) offset += dot(normal, p);
+        const auto number = static_cast<std::uint32_t>(result_.facets.size());
+        pool_.planes.push_back({normal, offset / static_cast<double>(corners.size())});
+        result_.facets.push_back(facet);
+        for (const std::vector<Vec3>& part : convex_parts(corners, ends, normal)) {
+            pieces_.push_back(pool_.add(number, part));
+        }
+    }
+
+    static constexpr int kMostNamed = 20;
+    const SceneDescription& d_;
+    const Scene& scene_;
+    std::vector<std::uint32_t> uses_, first_part_;
+    BeamScene result_;
+    FacetPool pool_;
+    std::vector<FacetPiece> pieces_;
+    Affine world_;
+    bool mirrored_ = false;  ///< the placement turns corners round
+    int refusals_ = 0;
+    std::string refused_;
+};
+
+}  // namespace
+
+BeamScene beam_scene(const SceneDescription& description, const Scene& scene) {
+    return BeamGatherer(description, scene).gather();
+}
+
+}  // namespace alhazen

@@ -1,0 +1,59 @@
+#pragma once
+/// Shades points of the pieces of a tree of beams, with the look of `whitted`.
+///
+/// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984, section 5 (the
+/// tree of beams is shaded as a tree of rays is).
+/// Differs: factors of mirrors and panes are those of the ray through the point.
+/// Conventions: as in Whitted. Threads: used by one thread; memory is kept.
+
+#include "alhazen/renderers/beam_tracing/beam_tree.h"
+#include "alhazen/renderers/core/aov_geometry.h"
+#include "alhazen/renderers/core/local_shading.h"
+
+namespace alhazen {
+
+class BeamShading {
+  public:
+    /// All must outlive the object.
+    BeamShading(const RenderJob& job, const BeamScene& scene, const BeamTree& tree);
+
+    /// Goes to a point of a piece, in the window. What leads there is in `share`.
+    void go(const BeamPiece& piece, const Vec2& at);
+    /// Emission and ambient light; the background beside all facets.
+    [[nodiscard]] Rgb own() const;
+    /// The light that reaches the point through the facets of the part.
+    [[nodiscard]] Rgb light(const BeamLight& light);
+    /// For a piece that the eye sees.
+    void add_to(PixelGeometry& geometry) const;
+
+  private:
+    /// The state of a ray on its way from the eye.
+    struct Way {
+        bool inside = false;
+        Rgb share{1, 1, 1}, absorption;
+    };
+    void set_surface_of(std::uint32_t facet, const Ray& ray, double t, Surface& surface);
+    /// Sets the point where a ray of a beam meets a facet. Returns the way from `from`.
+    double meet(std::uint32_t facet, const Ray& ray, const Vec3& from, const Way& way);
+    void attenuate(double distance, Way& way) const;
+    void pass(RayKind kind, double distance, Way& way) const;
+    [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light);
+
+    const RenderJob& job_;
+    const Scene& scene_;
+    const ShadingConventions& conventions_;
+    const BeamScene& geometry_;
+    const BeamTree& tree_;
+    EyeRays eye_;
+    const std::vector<Rgb> ambient_;
+    MaterialCache constant_;
+    DepthScale depth_;
+    ShadingPoint point_;
+    Surface between_;
+    Way way_;
+    Rgb filter_{1, 1, 1};  ///< of all light of the point
+    bool nothing_ = false;
+    std::vector<std::uint32_t> chain_;  ///< pieces from the leaf to the eye
+};
+
+}  // namespace alhazen

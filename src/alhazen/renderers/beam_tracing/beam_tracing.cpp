@@ -1,0 +1,245 @@
+#include "alhazen/renderers/beam_tracing/beam_tracing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/renderers/beam_tracing/beam_raster.h"
+#include "alhazen/renderers/beam_tracing/beam_shading.h"
+#include "alhazen/renderers/core/antialias_settings.h"
+#include "alhazen/renderers/core/beam_report.h"
+#include "alhazen/renderers/core/samplers.h"
+#include "alhazen/renderers/core/tiles.h"
+
+namespace alhazen {
+
+namespace {
+
+double to_window(double film) {
+    return (2.0 * film - 1.0) * kBeamFilm;
+}
+
+/// The sample points and the edges of the pixels of a frame, in the window.
+class BeamPixels {
+  public:
+    BeamPixels(const RenderJob& job, int width, int height) {
+        const PointSampler middle(job, width, height);
+        for (int i = 0; i < width; ++i) xs_.push_back(to_window(middle.at(i, 0).x));
+        for (int j = 0; j < height; ++j) ys_.push_back(to_window(middle.at(0, j).y));
+        for (int i = 0; i <= width; ++i) edges_.push_back(to_window(double(i) / width));
+        for (int j = 0; j <= height; ++j) rows_.push_back(to_window(1.0 - double(j) / height));
+    }
+    [[nodiscard]] std::span<const double> xs(int first, int end) const {
+        return std::span(xs_).subspan(static_cast<std::size_t>(first),
+                                      static_cast<std::size_t>(end - first));
+    }
+    [[nodiscard]] std::span<const double> edges(int first, int end) const {
+        return std::span(edges_).subspan(static_cast<std::size_t>(first),
+                                         static_cast<std::size_t>(end - first + 1));
+    }
+    [[nodiscard]] double y(int j) const { return ys_[static_cast<std::size_t>(j)]; }
+    [[nodiscard]] double top(int j) const { return rows_[static_cast<std::size_t>(j)]; }
+    [[nodiscard]] double bottom(int j) const { return rows_[static_cast<std::size_t>(j) + 1]; }
+
+    /// The part of the window around the pixels of a crop.
+    [[nodiscard]] PolygonSet around(const PixelBox& crop) const {
+        const auto down = [](double x) {
+            return static_cast<std::int32_t>(std::max(std::floor(x) - 2.0, -1.0 * kLatticeLimit));
+        };
+        const auto up = [](double x) {
+            return static_cast<std::int32_t>(std::min(std::ceil(x) + 2.0, 1.0 * kLatticeLimit));
+        };
+        const auto i0 = static_cast<std::size_t>(crop.x0), i1 = static_cast<std::size_t>(crop.x1);
+        const double x_lo = std::min(edges_[i0], xs_[i0]), x_hi = std::max(edges_[i1], xs_[i1 - 1]);
+        const double y_lo = std::min(bottom(crop.y1 - 1), y(crop.y1 - 1));
+        const double y_hi = std::max(top(crop.y0), y(crop.y0));
+        return lattice_rectangle({down(x_lo), down(y_lo)}, {up(x_hi), up(y_hi)});
+    }
+
+  private:
+    std::vector<double> xs_, ys_, edges_, rows_;
+};
+
+/// Pieces by the rows of pixels that they touch, in bands.
+class BeamBands {
+  public:
+    static constexpr int kRows = 16;
+    BeamBands(const BeamTree& tree, const BeamPixels& pixels, const PixelBox& crop) : crop_(crop) {
+        bands_.resize(static_cast<std::size_t>((crop.y1 - crop.y0 + kRows - 1) / kRows));
+        for (std::uint32_t k = 0; k < tree.pieces.size(); ++k) {
+            const LatticeBox& box = tree.pieces[k].seen.region.bounds();
+            // Rows count downwards; all that have something at or below the top of the box.
+            for (std::size_t b = 0; b < bands_.size(); ++b) {
+                const int first = crop.y0 + static_cast<int>(b) * kRows;
+                const int last = std::min(first + kRows, crop.y1) - 1;
+                const double hi = std::max(pixels.top(first), pixels.y(first));
+                const double lo = std::min(pixels.bottom(last), pixels.y(last));
+                if (box.lo.y <= hi && box.hi.y >= lo) bands_[b].push_back(k);
+            }
+        }
+    }
+    [[nodiscard]] std::span<const std::uint32_t> pieces_of(int j) const {
+        return bands_[static_cast<std::size_t>((j - crop_.y0) / kRows)];
+    }
+
+  private:
+    PixelBox crop_;
+    std::vector<std::vector<std::uint32_t>> bands_;
+};
+
+class BeamTileRenderer final : public TileRenderer {
+  public:
+    BeamTileRenderer(const RenderJob& job, const BeamScene& scene, const BeamTree& tree,
+                     const BeamPixels& pixels, const BeamBands& bands)
+        : job_(job),
+          tree_(tree),
+          pixels_(pixels),
+          bands_(bands),
+          exact_(job.antialias != nullptr),
+          shading_(job, scene, tree) {}
+
+    void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
+        const bool layers = job_.aovs != nullptr && job_.aovs->wanted().has_geometry();
+        const auto columns = static_cast<std::size_t>(tile.x1 - tile.x0);
+        for (int j = tile.y0; j < tile.y1; ++j) {
+            if (job_.stop_requested()) return;
+            row_.assign(columns, {});
+            geometry_.assign(layers ? columns : 0, PixelGeometry{.samples = 1});
+            for (const std::uint32_t k : bands_.pieces_of(j)) add(tree_.pieces[k], tile, j);
+            for (std::size_t c = 0; c < columns; ++c) {
+                const int i = tile.x0 + static_cast<int>(c);
+                BoxFilter filter;
+                counters.non_finite += !filter.add(row_[c]);
+                film.set(i, j, filter.value());
+                if (layers) write_geometry(*job_.aovs, i, j, geometry_[c]);
+            }
+        }
+    }
+
+  private:
+    void add(const BeamPiece& piece, const PixelBox& tile, int j) {
+        find(piece.seen.region, tile, j);
+        const bool of_eye = tree_.beams[piece.beam].piece == kNoFacet;
+        for (const BeamSample& s : samples_) {
+            shading_.go(piece, s.at);
+            at(tile, s) += s.share * shading_.own();
+            if (of_eye && !geometry_.empty()) {
+                PixelGeometry& g = geometry_[static_cast<std::size_t>(s.i - tile.x0)];
+                if (g.hits == 0) shading_.add_to(g);
+            }
+        }
+        for (const BeamLight& light : piece.lights) {
+            find(light.part.region, tile, j);
+            for (const BeamSample& s : samples_) {
+                shading_.go(piece, s.at);
+                at(tile, s) += s.share * shading_.light(light);
+            }
+        }
+    }
+    [[nodiscard]] Rgb& at(const PixelBox& tile, const BeamSample& s) {
+        return row_[static_cast<std::size_t>(s.i - tile.x0)];
+    }
+
+    /// The samples of a region in a row of the tile.
+    void find(const PolygonSet& region, const PixelBox& tile, int j) {
+        samples_.clear();
+        const LatticeBox& box = region.bounds();
+        if (exact_) {
+            const double lo = pixels_.bottom(j), hi = pixels_.top(j);
+            if (box.hi.y <= lo || box.lo.y >= hi) return;
+            areas_.begin(lo, hi, pixels_.edges(tile.x0, tile.x1));
+            areas_.add(region);
+            areas_.take(j, tile.x0, samples_);
+            return;
+        }
+        const double y = pixels_.y(j);
+        if (box.hi.y < y || box.lo.y > y) return;
+        add_points(region, j, y, tile.x0, pixels_.xs(tile.x0, tile.x1), crossings_, samples_);
+    }
+
+    const RenderJob& job_;
+    const BeamTree& tree_;
+    const BeamPixels& pixels_;
+    const BeamBands& bands_;
+    bool exact_;
+    BeamShading shading_;
+    RowAreas areas_;
+    std::vector<double> crossings_;
+    std::vector<BeamSample> samples_;
+    std::vector<Rgb> row_;
+    std::vector<PixelGeometry> geometry_;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::shared_ptr<BeamReport> report_of(const BeamScene& scene, const BeamTree& tree,
+                                      const PolygonSet& window) {
+    auto report = std::make_shared<BeamReport>();
+    const FacetTreeReport& of_tree = scene.tree.report();
+    report->polygons = of_tree.polygons;
+    report->tree_splits = of_tree.splits;
+    report->tree_pieces = of_tree.pieces;
+    report->tree_nodes = of_tree.nodes;
+    report->tree_depth = of_tree.depth;
+    const auto beams = [&](RayKind kind) {
+        return tree.beams_of_kind[static_cast<std::size_t>(kind)];
+    };
+    report->eye_beams = beams(RayKind::Eye);
+    report->reflected_beams = beams(RayKind::Reflection);
+    report->refracted_beams = beams(RayKind::Refraction);
+    report->shadow_beams = tree.counts.shadow_beams;
+    report->pieces = tree.counts.pieces;
+    FacetWalkCounts walks = tree.counts.seen;
+    walks += tree.counts.shadow;
+    report->hulls_tested = walks.hulls;
+    report->hulls_missed = walks.missed;
+    report->polygons_tested = walks.polygons;
+    report->cuts = tree.counts.cuts;
+    Int128 area = 0;
+    for (const BeamPiece& piece : tree.pieces) {
+        if (piece.beam == 0) area += twice_area(piece.seen.region);
+    }
+    report->seen_area = static_cast<double>(area) / static_cast<double>(twice_area(window));
+    return report;
+}
+
+void check_job(const RenderJob& job) {
+    if (job.description == nullptr) {
+        throw Error(ErrorKind::Usage, "beams need the description of the scene");
+    }
+    if (job.samples_per_pixel != 1) {
+        throw Error(ErrorKind::Usage,
+                    "renderer 'beam_tracing' takes --spp 1, or --antialias exact for the whole "
+                    "area of each pixel");
+    }
+}
+
+}  // namespace
+
+RenderReport BeamTracing::render(const RenderJob& job, Film& film) const {
+    check_job(job);
+    const auto start = std::chrono::steady_clock::now();
+    const BeamScene scene = beam_scene(*job.description, job.scene);
+    const double gathered = seconds_since(start);
+    const BeamPixels pixels(job, film.frame_width(), film.frame_height());
+    const PolygonSet window = pixels.around(film.crop());
+    BeamTree tree;
+    ThreadLimit limit(job.control.threads);
+    limit.run([&] { tree = beam_tree(job, scene, window, options_); });
+    const double beams = seconds_since(start) - gathered;
+    const BeamBands bands(tree, pixels, film.crop());
+    RenderReport report = render_tiles(job, film, [&]() -> std::unique_ptr<TileRenderer> {
+        return std::make_unique<BeamTileRenderer>(job, scene, tree, pixels, bands);
+    });
+    const std::shared_ptr<BeamReport> of_beams = report_of(scene, tree, window);
+    of_beams->gather_seconds = gathered;
+    of_beams->beam_seconds = beams;
+    report.beams = of_beams;
+    return report;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,30 @@
+#pragma once
+/// Beam tracing: what the eye sees, its mirror images and its shadows as exact polygons, found once
+/// for all resolutions.
+///
+/// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984; Atherton, Weiler
+/// and Greenberg, "Polygon Shadow Generation", SIGGRAPH 1978; Dadoun, Kirkpatrick and Walsh, "The
+/// Geometry of Beam Tracing", Computational Geometry 1985.
+/// Differs: docs/design/beam_tracing.md. Takes planar facets (beam_scene.h) and refuses other
+/// shapes by name. Pixels are shaded at their sample points, or by the exact part of each pixel
+/// that each piece covers (`--antialias exact`).
+
+#include "alhazen/renderers/beam_tracing/beam_tree.h"
+#include "alhazen/renderers/core/renderer.h"
+
+namespace alhazen {
+
+class BeamTracing final : public Renderer {
+  public:
+    explicit BeamTracing(const BeamTreeOptions& options = {}) : options_(options) {}
+
+    [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    /// Geometry is read from RenderJob::description.
+    [[nodiscard]] bool needs_aggregate() const override { return false; }
+    [[nodiscard]] bool gives_exact_areas() const override { return true; }
+
+  private:
+    BeamTreeOptions options_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,67 @@
+#pragma once
+/// The tree of beams of a picture: pieces that the eye sees, and behind mirrors and panes those
+/// that reflected and refracted beams see, with the parts that each light reaches.
+///
+/// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984.
+/// Differs: refraction stretches space along the normal by tan(refracted) / tan(incident) of the
+/// ray through the middle of the piece, where the paper takes the ratio of the indices, which is
+/// the same for rays along the normal.
+/// Conventions: beams come in generations, each in the order of its pieces. Threads: the tree is
+/// the same for any number of them.
+
+#include <span>
+
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/parallel/parallel.h"
+#include "alhazen/renderers/beam_tracing/beam_caster.h"
+#include "alhazen/renderers/core/renderer.h"
+
+namespace alhazen {
+
+struct BeamTreeOptions {
+    BeamCastOptions cast;
+    double least_contribution = 0;  ///< of reflected and refracted beams
+    double least_area = 0;          ///< of them, as a share of the film
+};
+
+struct BeamNode {
+    BeamView view;
+    SpaceMap back;                   ///< from the space of the eye
+    std::uint32_t piece = kNoFacet;  ///< that it left; kNoFacet: the eye
+    int depth = 0;
+    Rgb contribution{1, 1, 1};  ///< at most
+    bool inside = false;        ///< of something transparent
+};
+
+/// Light that reaches a part of a piece.
+struct BeamLight {
+    std::uint32_t light = 0;
+    LitPart part;
+};
+
+struct BeamPiece {
+    std::uint32_t beam = 0;
+    SeenFacet seen;
+    std::vector<BeamLight> lights;
+};
+
+struct BeamTree {
+    std::vector<BeamNode> beams;
+    std::vector<BeamPiece> pieces;
+    BeamCounts counts;
+    std::vector<std::uint64_t> beams_of_kind;  ///< [RayKind]
+};
+
+/// The projection of a camera whose film reaches kBeamFilm from the middle, and its apex.
+[[nodiscard]] BeamView eye_view(const Camera& camera);
+
+/// The ray of a point of the window, in the space of the eye.
+[[nodiscard]] Ray window_ray(const EyeRays& eye, const Vec2& at);
+/// The ray in the space of a beam; unit.
+[[nodiscard]] Ray space_ray(const SpaceMap& back, const Ray& ray);
+
+/// `region`: of the window. Returns early after a stop.
+[[nodiscard]] BeamTree beam_tree(const RenderJob& job, const BeamScene& scene,
+                                 const PolygonSet& region, const BeamTreeOptions& options);
+
+}  // namespace alhazen

@@ -1,0 +1,249 @@
+#include "alhazen/renderers/beam_tracing/beam_tracing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/geometry/facets/convex_parts.h"
+#include "alhazen/renderers/beam_tracing/beam_raster.h"
+#include "alhazen/renderers/core/antialias_settings.h"
+#include "alhazen/renderers/core/beam_report.h"
+#include "alhazen/renderers/whitted/whitted.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+
+constexpr int kWidth = 96, kHeight = 72;
+
+struct Picture {
+    Film film{kWidth, kHeight, {0, 0, kWidth, kHeight}};
+    RenderReport report;
+};
+
+Picture beams_of(SceneMaker& maker, const BeamTreeOptions& options = {}, bool exact = false,
+                 const RenderControl& control = {}) {
+    const Scene scene = maker.compile();
+    AntialiasSettings settings;
+    settings.exact = true;
+    const RenderJob job{.scene = scene,
+                        .camera = scene.cameras[0].camera,
+                        .description = &maker.description(),
+                        .antialias = exact ? &settings : nullptr,
+                        .control = control};
+    Picture picture;
+    picture.report = BeamTracing(options).render(job, picture.film);
+    EXPECT_TRUE(picture.report.complete());
+    return picture;
+}
+
+Picture rays_of(SceneMaker& maker) {
+    const Scene scene = maker.compile();
+    const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
+    Picture picture;
+    picture.report = Whitted().render(job, picture.film);
+    return picture;
+}
+
+/// Pixels that differ by more than `bound`.
+int differing(const Film& a, const Film& b, double bound) {
+    int count = 0;
+    for (int j = 0; j < kHeight; ++j) {
+        for (int i = 0; i < kWidth; ++i) {
+            const Rgb d = a.at(i, j) - b.at(i, j);
+            count += std::fmax(std::abs(d.r), std::fmax(std::abs(d.g), std::abs(d.b))) > bound;
+        }
+    }
+    return count;
+}
+
+Material painted(const Rgb& color, double reflective = 0) {
+    Material material;
+    material.diffuse.color = color;
+    material.ambient.color = color;
+    material.reflective.color = {reflective, reflective, reflective};
+    return material;
+}
+
+void look(SceneMaker& maker, const Vec3& eye, const Vec3& at) {
+    maker.description().cameras[0].camera =
+        look_along(eye, at - eye, {0, 0, 1}, 0.9, double(kWidth) / kHeight);
+}
+
+/// Blocks and a mesh between two mirrors, under a lamp and the sun, partly behind a pane.
+void furnish(SceneMaker& maker, double transmissive) {
+    look(maker, {-1.13, -3.07, 1.61}, {0.31, 0.9, 0.83});
+    const auto floor = maker.material(painted({0.6, 0.5, 0.4}, 0.1));
+    const auto mirror = maker.material(painted({0.05, 0.05, 0.05}, 0.8));
+    const auto red = maker.material(painted({0.8, 0.2, 0.1}));
+    const auto blue = maker.material(painted({0.1, 0.3, 0.8}));
+    maker.add(Rectangle{.corner = {-2, -4, 0}, .edge_u = {4, 0, 0}, .edge_v = {0, 8, 0}}, floor);
+    maker.add(Rectangle{.corner = {-1.9, -2, 0.2}, .edge_u = {0, 4, 0}, .edge_v = {0, 0, 2}},
+              mirror);
+    maker.add(Rectangle{.corner = {1.9, 2, 0.2}, .edge_u = {0, -4, 0}, .edge_v = {0, 0, 2}},
+              mirror);
+    Polygon wall;
+    wall.vertices = {{-2, 2.5, 0},    {2, 2.5, 0},      {2, 2.5, 3},     {-2, 2.5, 3},
+                     {-1.2, 2.5, .8}, {-1.2, 2.5, 2.1}, {0.3, 2.5, 2.1}, {0.3, 2.5, .8}};
+    wall.loop_ends = {4, 8};
+    maker.add(wall, red);
+    const auto block = maker.object("block");
+    maker.add(BoxShape{{-0.3, -0.3, 0}, {0.3, 0.3, 0.6}}, blue, {}, block);
+    maker.add(block, blue, Affine::rotate({0, 0, 1}, 0.4));
+    maker.add(block, blue, Affine::translate({0.8, 0.9, 0.013}) * Affine::scale({0.7, -1, 1.5}));
+    TriangleMesh tent;
+    tent.positions = {{-1, 0.5, 0}, {-0.2, 0.6, 0}, {-0.5, 1.3, 0}, {-0.6, 0.8, 1.1}};
+    tent.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 2, 1}};
+    maker.add(maker.mesh(tent), red);
+    if (transmissive > 0.0) {
+        Material pane = painted({0.1, 0.1, 0.1}, 0.1);
+        pane.transmissive.color = {transmissive, 0.9 * transmissive, transmissive};
+        pane.index.value = 1.0;
+        maker.add(
+            Rectangle{.corner = {-0.4, -0.9, 0.1}, .edge_u = {1, 0, 0}, .edge_v = {0, 0.1, 1}},
+            maker.material(pane));
+    }
+    maker.light(AmbientLight{{0.2, 0.2, 0.2}});
+    maker.light(PointLight{.position = {0.21, -0.43, 2.9}, .color = {0.7, 0.7, 0.6}});
+    maker.light(DirectionalLight{normalize(Vec3{-0.5, 0.83, 0.61}), {0.5, 0.5, 0.5}});
+}
+
+TEST(BeamTracing, ShadowsAndMirrorsEqualThoseOfRays) {
+    SceneMaker maker;
+    furnish(maker, 0.0);
+    const Picture beams = beams_of(maker);
+    EXPECT_EQ(differing(beams.film, rays_of(maker).film, 1e-9), 0);
+    EXPECT_GT(beams.report.beams->reflected_beams, 10u);
+    EXPECT_NEAR(beams.report.beams->seen_area, 1.0, 1e-7);
+}
+
+TEST(BeamTracing, APaneThatDoesNotBendLightTintsWhatIsBehindAndItsShadow) {
+    SceneMaker maker;
+    furnish(maker, 0.7);
+    const Picture beams = beams_of(maker);
+    EXPECT_GT(beams.report.beams->refracted_beams, 0u);
+    EXPECT_EQ(differing(beams.film, rays_of(maker).film, 1e-9), 0);
+}
+
+TEST(BeamTracing, ParallelBeamsEqualParallelRays) {
+    SceneMaker maker;
+    furnish(maker, 0.5);
+    maker.description().cameras[0].camera =
+        look_along_parallel({-2.03, -3.9, 3.1}, {1.9, 4.1, -2.3}, {0, 0, 1}, 4.0, 4.0 / 3.0);
+    EXPECT_EQ(differing(beams_of(maker).film, rays_of(maker).film, 1e-9), 0);
+}
+
+TEST(BeamTracing, TheOrderComesFromTheTreeOrFromDepth) {
+    SceneMaker maker;
+    furnish(maker, 0.0);
+    const Picture plain = beams_of(maker);
+    const Picture listed = beams_of(maker, {.cast = {.tree = false}});
+    const Picture without = beams_of(maker, {.cast = {.hulls = false}});
+    EXPECT_EQ(differing(plain.film, listed.film, 1e-9), 0);
+    EXPECT_EQ(differing(plain.film, without.film, 0.0), 0);
+    EXPECT_LT(plain.report.beams->polygons_tested, without.report.beams->polygons_tested);
+}
+
+TEST(BeamTracing, ThreadsAndTilesChangeNothing) {
+    SceneMaker maker;
+    furnish(maker, 0.7);
+    const Picture one = beams_of(maker, {}, true, {.threads = 1, .tile_size = 7});
+    const Picture many = beams_of(maker, {}, true, {.threads = 4, .tile_size = 64});
+    EXPECT_EQ(differing(one.film, many.film, 1e-13), 0);
+}
+
+TEST(BeamTracing, SmallSharesEndTheTree) {
+    SceneMaker maker;
+    furnish(maker, 0.0);
+    const Picture all = beams_of(maker);
+    const Picture few = beams_of(maker, {.least_contribution = 0.5});
+    EXPECT_LT(few.report.beams->reflected_beams, all.report.beams->reflected_beams);
+    EXPECT_EQ(beams_of(maker, {.least_area = 1.0}).report.beams->reflected_beams, 0u);
+}
+
+TEST(BeamTracing, ExactAreasGiveAPixelItsCoveredShare) {
+    SceneMaker maker;
+    Material glow;
+    glow.emission.color = {1, 1, 1};
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {double(kWidth), 0, 0}, {0, double(kHeight), 0}};
+    Polygon triangle;
+    triangle.vertices = {{-10.3, -7.7, 0}, {21.4, -3.2, 0}, {2.6, 19.9, 0}};
+    maker.add(triangle, maker.material(glow));
+    const Picture picture = beams_of(maker, {}, true);
+    double sum = 0.0;
+    for (int j = 0; j < kHeight; ++j) {
+        for (int i = 0; i < kWidth; ++i) {
+            const double c = picture.film.at(i, j).r;
+            EXPECT_GE(c, -1e-9);
+            EXPECT_LE(c, 1.0 + 1e-9);
+            sum += c;
+        }
+    }
+    const double area = 0.5 * (31.7 * 27.6 - 4.5 * 12.9);
+    EXPECT_NEAR(sum, area, 1e-3);
+}
+
+TEST(BeamTracing, OtherShapesAreRefusedByName) {
+    SceneMaker maker;
+    maker.add(Sphere{.center = {0, 0, 0}, .radius = 1}, maker.material({}));
+    const Scene scene = maker.compile();
+    Film film(4, 4, {0, 0, 4, 4});
+    const RenderJob job{
+        .scene = scene, .camera = scene.cameras[0].camera, .description = &maker.description()};
+    try {
+        (void)BeamTracing().render(job, film);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("sphere"), std::string::npos) << error.what();
+    }
+}
+
+TEST(BeamTracing, AreasOfARowHaveTheirMiddles) {
+    PolygonSet triangle;
+    for (const LatticePoint p : {LatticePoint{0, 0}, LatticePoint{40, 0}, LatticePoint{0, 30}}) {
+        triangle.add_vertex(p);
+    }
+    triangle.end_loop();
+    const std::array<double, 5> edges{-10, 0, 10, 20, 50};
+    RowAreas areas;
+    areas.begin(0, 30, edges);
+    areas.add(triangle);
+    std::vector<BeamSample> samples;
+    areas.take(3, 7, samples);
+    double area = 0.0, x = 0.0, y = 0.0;
+    for (const BeamSample& s : samples) {
+        const auto c = static_cast<std::size_t>(s.i - 7);
+        const double part = s.share * 30 * (edges[c + 1] - edges[c]);
+        area += part;
+        x += part * s.at.x;
+        y += part * s.at.y;
+        EXPECT_EQ(s.j, 3);
+    }
+    EXPECT_NEAR(area, 600, 1e-9);
+    EXPECT_NEAR(x / area, 40.0 / 3, 1e-9);
+    EXPECT_NEAR(y / area, 10, 1e-9);
+}
+
+TEST(ConvexParts, CoverAPolygonWithHolesOnce) {
+    const std::vector<Vec3> corners{{0, 0, 1}, {9, 0, 1}, {9, 9, 1},     {5, 6, 1},     {0, 9, 1},
+                                    {1, 1, 1}, {3, 1, 1}, {3, 3, 1},     {1, 3, 1},     {5, 1, 1},
+                                    {8, 1, 1}, {7, 4, 1}, {5.5, 1.2, 1}, {7.5, 1.2, 1}, {7, 2, 1}};
+    const std::vector<std::uint32_t> ends{5, 9, 12, 15};
+    double area = 0.0;
+    for (const std::vector<Vec3>& part : convex_parts(corners, ends, {0, 0, 1})) {
+        const Vec3 c = cross(part[1] - part[0], part[2] - part[0]);
+        EXPECT_GT(c.z, 0.0);
+        area += 0.5 * c.z;
+    }
+    // The outline, less two holes, and an island in the second.
+    EXPECT_NEAR(area, (81 - 13.5) - 4 - 4.5 + 0.8, 1e-12);
+    const std::vector<Vec3> square{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}};
+    EXPECT_EQ(convex_parts(square, {}, {1, 0, 0}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
