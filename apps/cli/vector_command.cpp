@@ -64,7 +64,8 @@ int run_vector(const VectorArguments& args) {
     LoadOptions load_options = args.scene.load_options();
     load_options.with_aggregate = false;
     LoadedScene loaded = load(args.scene.scene, load_options);
-    check_spares_scene(loaded.description, {args.output});
+    const std::filesystem::path outputs[] = {args.output};
+    check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
     // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);

@@ -47,7 +47,7 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 6> table{{
+    static constexpr std::array<RendererEntry, 7> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"distributed",

@@ -29,7 +29,7 @@ struct ArrangementEdge {
 
 /// Two successive sub-edges between which a point of the arrangement ends the free view, from below
 /// to above; between them is the inside of the first operand.
-struct Interval {
+struct EdgeInterval {
     std::uint32_t point = 0;
     std::uint32_t lower = 0;  ///< index of a sub-edge
     std::uint32_t upper = 0;
@@ -39,7 +39,7 @@ struct Arrangement {
     std::vector<ArrangementEdge> edges;
     std::vector<LatticePlace> points;  ///< in ascending order, no two equal
     std::vector<SubEdge> sub_edges;    ///< no two on each other, none in the other's inside
-    std::vector<Interval> intervals;   ///< where asked for; in ascending order of the points
+    std::vector<EdgeInterval> intervals;   ///< where asked for; in ascending order of the points
     bool rounds = false;               ///< a point is not on the lattice
     std::size_t crossings = 0;         ///< points where edges cross that end at neither
     std::size_t overlaps = 0;          ///< sub-edges of several edges

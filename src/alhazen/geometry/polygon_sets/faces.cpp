@@ -85,7 +85,7 @@ std::vector<OuterLoop> loops_with_holes(const PolygonSet& set) {
     const std::vector<std::uint32_t> loops = loops_of_edges(set);
     std::vector<std::uint32_t> parents(set.loop_count());
     std::iota(parents.begin(), parents.end(), 0U);
-    for (const Interval& interval : faces.intervals) {
+    for (const EdgeInterval& interval : faces.intervals) {
         const std::uint32_t lower = loops[faces.sub_edges[interval.lower].edge];
         const std::uint32_t upper = loops[faces.sub_edges[interval.upper].edge];
         parents[root_of(parents, lower)] = root_of(parents, upper);
@@ -111,7 +111,7 @@ std::vector<LatticeTriangle> triangulate(const PolygonSet& set) {
     std::vector<LatticeTriangle> triangles;
     triangles.reserve(set.vertex_count() + 2 * set.loop_count());
     Mountains mountains(faces);
-    for (const Interval& interval : faces.intervals) {
+    for (const EdgeInterval& interval : faces.intervals) {
         mountains.pass(interval.lower, interval.point, triangles);
         mountains.pass(interval.upper, interval.point, triangles);
     }

@@ -46,12 +46,10 @@ void fill(cairo_t* page, const DrawingRegion& region) {
         cairo_pattern_add_color_stop_rgb(pattern.get(), 0, g.at_from.r, g.at_from.g, g.at_from.b);
         cairo_pattern_add_color_stop_rgb(pattern.get(), 1, g.at_to.r, g.at_to.g, g.at_to.b);
         cairo_set_source(page, pattern.get());
-        cairo_fill_preserve(page);
-        set_color(page, 0.5 * (g.at_from + g.at_to));
     } else {
         set_color(page, region.color);
-        cairo_fill_preserve(page);
     }
+    cairo_fill_preserve(page);
     cairo_set_line_width(page, kSeam);
     cairo_stroke(page);
 }

@@ -11,6 +11,8 @@ namespace alhazen {
 namespace {
 
 constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
+/// Fainter images have no lines.
+constexpr double kLeastContribution = 0.25;
 
 /// [facet] number of its plane among those of its part.
 std::vector<std::uint32_t> planes_of_facets(const BeamScene& scene) {
@@ -41,11 +43,11 @@ class Images {
   public:
     Images(const BeamTree& tree, std::span<const std::uint32_t> kinds) : tree_(tree) {
         for (const BeamPiece& piece : tree.pieces) {
-            if (piece.seen.facet == kNoFacet) {
+            const BeamNode& beam = tree_.beams[piece.beam];
+            if (piece.seen.facet == kNoFacet || beam.contribution.max() < kLeastContribution) {
                 of_piece_.push_back(kNoPlane);
                 continue;
             }
-            const BeamNode& beam = tree_.beams[piece.beam];
             const std::uint32_t through = beam.piece == kNoFacet ? kNoPlane : of_piece_[beam.piece];
             const auto next = static_cast<std::uint32_t>(numbers_.size());
             of_piece_.push_back(

@@ -22,6 +22,9 @@ BeamApex apex_of(const Light& light) {
                                  },
                                  [](const SpotLight& l) {
                                      return BeamApex{l.position, 1};
+                                 },
+                                 [](const AreaLight& l) {
+                                     return BeamApex{l.surface->center(), 1};
                                  }},
                       light);
 }
