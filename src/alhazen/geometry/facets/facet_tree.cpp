@@ -22,6 +22,10 @@ std::span<const FacetPiece> FacetWalk::next(const BeamSides& sides, FacetWalkCou
         stack_.pop_back();
         const FacetTree::Node& node = tree_->node(waiting.node);
         if (!waiting.whole) {
+            if (node.in != FacetTree::kNone) {
+                stack_.push_back({node.in, true});
+                continue;
+            }
             counts.polygons += node.count;
             return tree_->pieces(node);
         }
@@ -36,7 +40,7 @@ std::span<const FacetPiece> FacetWalk::next(const BeamSides& sides, FacetWalkCou
         const std::uint32_t near = is_before ? node.before : node.behind;
         const std::uint32_t far = is_before ? node.behind : node.before;
         if (far != FacetTree::kNone) stack_.push_back({far, true});
-        if (node.count > 0) stack_.push_back({waiting.node, false});
+        if (node.count > 0 || node.in != FacetTree::kNone) stack_.push_back({waiting.node, false});
         if (near != FacetTree::kNone) stack_.push_back({near, true});
     }
     return {};

@@ -9,6 +9,8 @@
 /// mesh, a plane across the axes at the middle of the polygons is a candidate too; without it such
 /// a tree is a list. Hulls of more than 32 corners are replaced by a polytope around them
 /// (point_hull.h), so that the test of a beam costs the same at every node.
+/// Many polygons of one plane have a tree of their own, for its hulls: they do not hide each other,
+/// and are divided at the middle along an axis.
 /// Conventions: corners nearer to a plane than `margin` lie in it. The tree depends on the polygons
 /// and their order alone.
 /// Complexity: O(n log n) to build where planes divide well. Threads: immutable once built.
@@ -41,6 +43,7 @@ class FacetTree {
     struct Node {
         FacetPlane plane;
         std::uint32_t before = kNone, behind = kNone;  ///< children, on the side of the normal
+        std::uint32_t in = kNone;                      ///< a tree of the pieces in the plane
         std::uint32_t first = 0, count = 0;            ///< pieces in the plane
         std::uint32_t first_corner = 0, corners = 0;   ///< of the hull
     };

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kRaters = 384;
 /// So many are divided by a plane across an axis where candidates leave too many on one side.
 constexpr std::size_t kManyOnOneSide = 48;
+/// So many of one plane have a tree of their own.
+constexpr std::size_t kManyInPlane = 6;
 constexpr std::size_t kHullCorners = 32;
 
 enum class PlaneSide : std::uint8_t { In, Before, Behind, Both };
@@ -39,28 +41,15 @@ class FacetTreeBuilder {
     void build(std::vector<FacetPiece> polygons) {
         set_margin();
         tree_.report_.polygons = polygons.size();
-        struct Waiting {
-            std::vector<FacetPiece> polygons;
-            std::uint32_t parent;
-            bool before;
-            std::uint32_t depth;
-        };
-        std::vector<Waiting> waiting;
-        waiting.push_back({std::move(polygons), FacetTree::kNone, false, 1});
-        while (!waiting.empty()) {
-            Waiting now = std::move(waiting.back());
-            waiting.pop_back();
-            if (now.polygons.empty()) continue;
+        add({std::move(polygons), FacetTree::kNone, &FacetTree::Node::before, 1, false});
+        while (!waiting_.empty()) {
+            const Waiting now = std::move(waiting_.back());
+            waiting_.pop_back();
             const auto number = static_cast<std::uint32_t>(tree_.nodes_.size());
-            if (now.parent != FacetTree::kNone) {
-                FacetTree::Node& parent = tree_.nodes_[now.parent];
-                (now.before ? parent.before : parent.behind) = number;
-            }
+            if (now.parent != FacetTree::kNone) tree_.nodes_[now.parent].*now.child = number;
             tree_.report_.depth = std::max(tree_.report_.depth, now.depth);
-            std::vector<FacetPiece> before, behind;
-            divide(now.polygons, before, behind);
-            waiting.push_back({std::move(before), number, true, now.depth + 1});
-            waiting.push_back({std::move(behind), number, false, now.depth + 1});
+            tree_.nodes_.emplace_back();
+            now.of_one_plane ? halve(now, number) : divide(now, number);
         }
         merge_hulls();
         tree_.report_.nodes = tree_.nodes_.size();
@@ -69,6 +58,18 @@ class FacetTreeBuilder {
     }
 
   private:
+    /// Polygons for a node that is not made yet.
+    struct Waiting {
+        std::vector<FacetPiece> polygons;
+        std::uint32_t parent;
+        std::uint32_t FacetTree::Node::*child;
+        std::uint32_t depth;
+        bool of_one_plane;
+    };
+    void add(Waiting waiting) {
+        if (!waiting.polygons.empty()) waiting_.push_back(std::move(waiting));
+    }
+
     void set_margin() {
         double size = 0.0;
         for (const Vec3& p : tree_.pool_.points) size = std::fmax(size, max_component(abs(p)));
@@ -128,15 +129,13 @@ class FacetTreeBuilder {
         return best;
     }
 
-    void divide(std::span<const FacetPiece> polygons, std::vector<FacetPiece>& before,
-                std::vector<FacetPiece>& behind) {
-        FacetTree::Node node;
-        node.plane = choose(polygons).plane;
-        node.first = static_cast<std::uint32_t>(tree_.pieces_.size());
-        for (const FacetPiece& piece : polygons) {
-            switch (side_of(node.plane, tree_.margin_, tree_.pool_.corners(piece))) {
+    void divide(const Waiting& now, std::uint32_t number) {
+        const FacetPlane plane = choose(now.polygons).plane;
+        std::vector<FacetPiece> in, before, behind;
+        for (const FacetPiece& piece : now.polygons) {
+            switch (side_of(plane, tree_.margin_, tree_.pool_.corners(piece))) {
                 case PlaneSide::In:
-                    tree_.pieces_.push_back(piece);
+                    in.push_back(piece);
                     break;
                 case PlaneSide::Before:
                     before.push_back(piece);
@@ -145,19 +144,54 @@ class FacetTreeBuilder {
                     behind.push_back(piece);
                     break;
                 case PlaneSide::Both:
-                    split(node.plane, piece, before, behind);
+                    split(plane, piece, before, behind);
                     break;
             }
         }
-        node.count = static_cast<std::uint32_t>(tree_.pieces_.size()) - node.first;
-        if (node.count == 0 && (before.empty() || behind.empty())) {
+        if (in.empty() && (before.empty() || behind.empty())) {
             // A plane of rounding alone: its polygon is the node.
             std::vector<FacetPiece>& rest = before.empty() ? behind : before;
-            tree_.pieces_.push_back(rest.back());
+            in.push_back(rest.back());
             rest.pop_back();
-            node.count = 1;
         }
-        tree_.nodes_.push_back(node);
+        tree_.nodes_[number].plane = plane;
+        if (in.size() <= kManyInPlane) {
+            keep(in, number);
+        } else {
+            add({std::move(in), number, &FacetTree::Node::in, now.depth + 1, true});
+        }
+        add({std::move(before), number, &FacetTree::Node::before, now.depth + 1, false});
+        add({std::move(behind), number, &FacetTree::Node::behind, now.depth + 1, false});
+    }
+    void keep(std::span<const FacetPiece> polygons, std::uint32_t number) {
+        tree_.nodes_[number].first = static_cast<std::uint32_t>(tree_.pieces_.size());
+        tree_.nodes_[number].count = static_cast<std::uint32_t>(polygons.size());
+        tree_.pieces_.insert(tree_.pieces_.end(), polygons.begin(), polygons.end());
+    }
+
+    /// Polygons of one plane: the order of the halves does not matter.
+    void halve(const Waiting& now, std::uint32_t number) {
+        if (now.polygons.size() <= kManyInPlane) {
+            keep(now.polygons, number);
+            return;
+        }
+        std::vector<FacetPiece> sorted = now.polygons;
+        Vec3 lo = tree_.pool_.points[sorted[0].first], hi = lo;
+        for (const FacetPiece& piece : sorted) {
+            const Vec3& p = tree_.pool_.points[piece.first];
+            lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+            hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+        }
+        const int axis = dominant_axis(hi - lo);
+        const auto half = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+        std::nth_element(sorted.begin(), half, sorted.end(),
+                         [&](const FacetPiece& a, const FacetPiece& b) {
+                             const double of_a = tree_.pool_.points[a.first][axis];
+                             const double of_b = tree_.pool_.points[b.first][axis];
+                             return of_a != of_b ? of_a < of_b : a.first < b.first;
+                         });
+        add({{sorted.begin(), half}, number, &FacetTree::Node::before, now.depth + 1, true});
+        add({{half, sorted.end()}, number, &FacetTree::Node::behind, now.depth + 1, true});
     }
 
     void split(const FacetPlane& plane, const FacetPiece& piece, std::vector<FacetPiece>& before,
@@ -175,7 +209,7 @@ class FacetTreeBuilder {
             FacetTree::Node& node = tree_.nodes_[n];
             points.clear();
             for (const FacetPiece& piece : tree_.pieces(node)) append(piece, points);
-            for (const std::uint32_t child : {node.before, node.behind}) {
+            for (const std::uint32_t child : {node.before, node.behind, node.in}) {
                 if (child == FacetTree::kNone) continue;
                 const std::span<const Vec3> hull = tree_.hull(tree_.nodes_[child]);
                 points.insert(points.end(), hull.begin(), hull.end());
@@ -195,6 +229,7 @@ class FacetTreeBuilder {
 
     FacetTree& tree_;
     const FacetTreeOptions& options_;
+    std::vector<Waiting> waiting_;
     std::vector<Vec3> loop_before_, loop_behind_;
 };
 

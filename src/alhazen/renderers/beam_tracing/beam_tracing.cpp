@@ -152,6 +152,7 @@ class BeamTileRenderer final : public TileRenderer {
             areas_.begin(lo, hi, pixels_.edges(tile.x0, tile.x1));
             areas_.add(region);
             areas_.take(j, tile.x0, samples_);
+            divide_whole_pixels();
             return;
         }
         const double y = pixels_.y(j);
@@ -159,6 +160,28 @@ class BeamTileRenderer final : public TileRenderer {
         add_points(region, j, y, tile.x0, pixels_.xs(tile.x0, tile.x1), crossings_, samples_);
     }
 
+    /// Shades whole pixels at the four points of Gauss' rule, parts in their middles.
+    void divide_whole_pixels() {
+        const double x = kGauss * (pixels_.edges(0, 1)[1] - pixels_.edges(0, 1)[0]);
+        const double y = kGauss * (pixels_.top(0) - pixels_.bottom(0));
+        const std::size_t count = samples_.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            if (samples_[k].share < 1.0 - 1e-9) continue;
+            BeamSample s = samples_[k];
+            s.share *= 0.25;
+            const Vec2 middle = s.at;
+            for (int n = 0; n < 4; ++n) {
+                s.at = middle + Vec2{(n & 1) != 0 ? x : -x, (n & 2) != 0 ? y : -y};
+                if (n == 0) {
+                    samples_[k] = s;
+                } else {
+                    samples_.push_back(s);
+                }
+            }
+        }
+    }
+
+    static constexpr double kGauss = 0.28867513459481287;  ///< 1 / sqrt(12)
     const RenderJob& job_;
     const BeamTree& tree_;
     const BeamPixels& pixels_;
