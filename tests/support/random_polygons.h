@@ -74,6 +74,7 @@ class RandomPolygons {
             p.y = clamped(coordinate());
             loop.push_back(p);
         }
+        loop.push_back({loop.front().x, p.y});
         return loop;
     }
     /// Points within two units of a line.

@@ -131,7 +131,7 @@ TEST(SetOperations, TenThousandOperationsOnOnePolygonLoseNothing) {
     double moved = 0;
     std::size_t most = 0;
     for (int i = 0; i < 10000; ++i) {
-        LatticeLoop loop = random.star(100000 + random.below(400000), 9);
+        LatticeLoop loop = random.star(200000 + random.below(1000000), 9);
         const LatticePoint shift = random.point(1000000);
         for (LatticePoint& p : loop) {
             p = {p.x + shift.x, p.y + shift.y};
