@@ -55,4 +55,11 @@ struct Arrangement {
     }
 };
 
+class PolygonSet;
+
+/// The arrangement of two sets before anything is rounded: what exact areas are taken from. Valid
+/// until the next call in this thread.
+[[nodiscard]] const Arrangement& exact_arrangement(const PolygonSet& first,
+                                                   const PolygonSet& second);
+
 }  // namespace alhazen

@@ -172,7 +172,7 @@ void RegionTracer::take_loop(std::size_t begin) {
         points_.resize(start);
         return;
     }
-    std::ranges::rotate(loop, std::ranges::min_element(loop));
+    std::rotate(loop.begin(), std::ranges::min_element(loop), loop.end());
     loops_.emplace_back(start, static_cast<std::uint32_t>(points_.size()));
 }
 

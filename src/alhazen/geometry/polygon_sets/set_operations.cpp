@@ -24,7 +24,7 @@ constexpr RegionTracer::States kFirstOnly{false, true, false, false};
 constexpr RegionTracer::States kAny{false, true, true, true};
 constexpr RegionTracer::States kOne{false, true, true, false};
 
-RegionTracer& arrange(const PolygonSet& a, const PolygonSet& b) {
+EdgeSweep& sweep_both(const PolygonSet& a, const PolygonSet& b) {
     SetWorkspace& w = set_workspace();
     w.sweep.clear();
     for (std::size_t i = 0; i < a.loop_count(); ++i) {
@@ -34,8 +34,14 @@ RegionTracer& arrange(const PolygonSet& a, const PolygonSet& b) {
         w.sweep.add_loop(b.loop(i), kInSecond);
     }
     w.sweep.run();
-    w.tracer.prepare(w.sweep.result());
-    return w.tracer;
+    return w.sweep;
+}
+
+RegionTracer& arrange(const PolygonSet& a, const PolygonSet& b) {
+    const Arrangement& arrangement = sweep_both(a, b).result();
+    RegionTracer& tracer = set_workspace().tracer;
+    tracer.prepare(arrangement);
+    return tracer;
 }
 
 /// Whether the sets are too far apart to have more than a boundary in common.
@@ -44,6 +50,10 @@ bool apart(const PolygonSet& a, const PolygonSet& b) {
 }
 
 }  // namespace
+
+const Arrangement& exact_arrangement(const PolygonSet& first, const PolygonSet& second) {
+    return sweep_both(first, second).result();
+}
 
 PolygonSet intersection(const PolygonSet& a, const PolygonSet& b) {
     PolygonSet result;

@@ -1,0 +1,78 @@
+#pragma once
+/// Compares all operations on a pair of sets with exact areas and with each other.
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "alhazen/geometry/polygon_sets/mending.h"
+#include "alhazen/geometry/polygon_sets/set_operations.h"
+#include "alhazen/geometry/polygon_sets/weiler_atherton.h"
+#include "support/exact_areas.h"
+#include "support/random_polygons.h"
+
+namespace alhazen {
+
+struct PolygonChecks {
+    long operations = 0;
+    long general = 0;  ///< pairs that Weiler and Atherton's walk took
+    long rounded = 0;  ///< pairs that had to be rounded
+};
+
+/// Whether the set is what polygon_set makes of its own loops, without mending.
+inline bool is_canonical(const PolygonSet& set) {
+    Mending mending;
+    const PolygonSet again = polygon_set(loops_of(set), &mending);
+    return again == set && mending.crossings == 0 && mending.overlaps == 0 &&
+           mending.flat_loops == 0 && mending.repeated_points == 0;
+}
+
+/// What is wrong with the operations on a and b; empty where nothing is. Number: exact_areas.h.
+template <class Number>
+std::string polygon_flaw(const PolygonSet& a, const PolygonSet& b, PolygonChecks& checks) {
+    const Arrangement& exact = exact_arrangement(a, b);
+    const Number common = common_area<Number>(a, b);
+    const Number area_a(twice_area(a));
+    const Number area_b(twice_area(b));
+    if (!(arrangement_area<Number>(exact, {false, false, false, true}) == common)) {
+        return "area of the intersection";
+    }
+    if (!(arrangement_area<Number>(exact, {false, true, false, false}) == area_a - common)) {
+        return "area of the difference";
+    }
+    if (!(arrangement_area<Number>(exact, {false, true, true, true}) == area_a + area_b - common)) {
+        return "area of the union";
+    }
+    checks.operations += 3;
+    checks.rounded += exact.rounds ? 1 : 0;
+    const bool rounds = exact.rounds;
+    const PolygonCut parts = cut(a, b);
+    const PolygonSet all = union_of(a, b);
+    const PolygonSet rest = difference(b, a);
+    if (twice_area(all) !=
+        twice_area(parts.inside) + twice_area(parts.outside) + twice_area(rest)) {
+        return "rounded areas do not add up";
+    }
+    const Int128 moved = twice_area(parts.inside) + twice_area(parts.outside) - twice_area(a);
+    if (rounds ? std::abs(static_cast<double>(moved)) > 2 * (perimeter(a) + 4) : moved != 0) {
+        return "rounding moves too far";
+    }
+    for (const PolygonSet* set : {&parts.inside, &parts.outside, &all, &rest}) {
+        if (!is_canonical(*set)) {
+            return "not canonical";
+        }
+    }
+    if (!intersection(parts.inside, parts.outside).empty()) {
+        return "parts overlap";
+    }
+    if (const std::optional<WeilerAtherton> walked = weiler_atherton(a, b)) {
+        ++checks.general;
+        if (walked->inside != parts.inside || walked->outside != parts.outside ||
+            walked->merged != all) {
+            return "Weiler and Atherton's walk differs";
+        }
+    }
+    return {};
+}
+
+}  // namespace alhazen
