@@ -53,6 +53,9 @@ std::string polygon_flaw(const PolygonSet& a, const PolygonSet& b, PolygonChecks
         twice_area(parts.inside) + twice_area(parts.outside) + twice_area(rest)) {
         return "rounded areas do not add up";
     }
+    if (twice_area(symmetric_difference(a, b)) != twice_area(parts.outside) + twice_area(rest)) {
+        return "area of the symmetric difference";
+    }
     const Int128 moved = twice_area(parts.inside) + twice_area(parts.outside) - twice_area(a);
     if (rounds ? std::abs(static_cast<double>(moved)) > 2 * (perimeter(a) + 4) : moved != 0) {
         return "rounding moves too far";
