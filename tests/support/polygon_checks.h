@@ -53,6 +53,9 @@ std::string polygon_flaw(const PolygonSet& a, const PolygonSet& b, PolygonChecks
         twice_area(parts.inside) + twice_area(parts.outside) + twice_area(rest)) {
         return "rounded areas do not add up";
     }
+    if (twice_area(symmetric_difference(a, b)) != twice_area(parts.outside) + twice_area(rest)) {
+        return "area of the symmetric difference";
+    }
     const Int128 moved = twice_area(parts.inside) + twice_area(parts.outside) - twice_area(a);
     if (rounds ? std::abs(static_cast<double>(moved)) > 2 * (perimeter(a) + 4) : moved != 0) {
         return "rounding moves too far";
@@ -73,6 +76,37 @@ std::string polygon_flaw(const PolygonSet& a, const PolygonSet& b, PolygonChecks
         }
     }
     return {};
+}
+
+/// Takes pieces away from a polygon and puts pieces on by turns; what went wrong, else nothing.
+inline std::string chain_flaw(int operations) {
+    RandomPolygons random(24);
+    PolygonSet set = lattice_rectangle({-1000000, -1000000}, {1000000, 1000000});
+    double moved = 0;
+    for (int i = 0; i < operations; ++i) {
+        LatticeLoop loop = random.star(200000 + random.below(1000000), 9);
+        const LatticePoint shift = random.point(1000000);
+        for (LatticePoint& p : loop) {
+            p = {p.x + shift.x, p.y + shift.y};
+        }
+        const PolygonSet piece = polygon_set(loop);
+        PolygonCut parts = cut(set, piece);
+        const Int128 both = twice_area(parts.inside) + twice_area(parts.outside);
+        moved += std::abs(static_cast<double>(both - twice_area(set)));
+        if (i % 2 == 0) {
+            set = std::move(parts.outside);
+        } else {
+            PolygonSet merged = union_of(set, piece);
+            if (twice_area(merged) != both + twice_area(difference(piece, set))) {
+                return "areas at operation " + std::to_string(i);
+            }
+            set = std::move(merged);
+        }
+        if (i % 100 == 0 && !is_canonical(set)) {
+            return "form at operation " + std::to_string(i);
+        }
+    }
+    return moved < operations * 1e-6 * 8e12 ? "" : "the outline wanders";
 }
 
 }  // namespace alhazen

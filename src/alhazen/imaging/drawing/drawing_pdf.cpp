@@ -37,7 +37,8 @@ void set_color(cairo_t* page, const Rgb& c) {
     cairo_set_source_rgb(page, c.r, c.g, c.b);
 }
 
-void fill(cairo_t* page, const DrawingRegion& region) {
+/// `seams`: with a line around it.
+void fill(cairo_t* page, const DrawingRegion& region, bool seams) {
     for (const std::vector<Vec2>& loop : region.loops) trace(page, loop, true);
     if (region.gradient) {
         const DrawingGradient& g = *region.gradient;
@@ -49,6 +50,7 @@ void fill(cairo_t* page, const DrawingRegion& region) {
     } else {
         set_color(page, region.color);
     }
+    if (!seams) return cairo_fill(page);
     cairo_fill_preserve(page);
     cairo_set_line_width(page, kSeam);
     cairo_stroke(page);
@@ -74,8 +76,12 @@ std::string drawing_pdf(const Drawing& drawing) {
     cairo_set_line_join(page.get(), CAIRO_LINE_JOIN_ROUND);
     set_color(page.get(), drawing.background);
     cairo_paint(page.get());
-    for (const DrawingGroup& group : drawing.groups) {
-        for (const DrawingRegion& region : group.regions) fill(page.get(), region);
+    // Readers smooth the edges of regions, so that what lies below shines through between two that
+    // abut: below are the same regions, a little larger.
+    for (const bool seams : {true, false}) {
+        for (const DrawingGroup& group : drawing.groups) {
+            for (const DrawingRegion& region : group.regions) fill(page.get(), region, seams);
+        }
     }
     cairo_set_line_cap(page.get(), CAIRO_LINE_CAP_ROUND);
     for (const DrawingLine& line : drawing.lines) draw(page.get(), line);

@@ -28,12 +28,16 @@ class ToPicture {
     [[nodiscard]] std::vector<std::vector<Vec2>> loops(const PolygonSet& region) const {
         std::vector<std::vector<Vec2>> loops;
         for (std::size_t i = 0; i < region.loop_count(); ++i) {
-            std::vector<Vec2>& loop = loops.emplace_back();
-            for (const LatticePoint p : region.loop(i)) {
-                loop.push_back((*this)({double(p.x), double(p.y)}));
-            }
+            loops.push_back(points(region.loop(i)));
         }
         return loops;
+    }
+    [[nodiscard]] std::vector<Vec2> points(std::span<const LatticePoint> of_window) const {
+        std::vector<Vec2> points;
+        for (const LatticePoint p : of_window) {
+            points.push_back((*this)({double(p.x), double(p.y)}));
+        }
+        return points;
     }
 
   private:
@@ -186,9 +190,8 @@ Drawing beam_drawing(const RenderJob& job, const BeamScene& scene, const BeamTre
     if (options.lines) {
         const ToPicture picture(options.width, options.height);
         for (const BeamOutline& outline : beam_outlines(scene, tree)) {
-            for (std::vector<Vec2>& loop : picture.loops(outline.region)) {
-                drawing.lines.push_back({outline.style, std::move(loop), true});
-            }
+            drawing.lines.push_back(
+                {outline.style, picture.points(outline.points), outline.closed});
         }
     }
     return drawing;

@@ -84,18 +84,65 @@ class Images {
     std::vector<std::uint32_t> of_piece_;
 };
 
+/// Whether there is region on both sides of an edge of its boundary: pieces that were cut apart and
+/// rounded leave cracks far thinner than a pixel.
+bool is_crack(const PolygonSet& region, LatticePoint a, LatticePoint b) {
+    constexpr double kBeside = 64;
+    const double x = 0.5 * (double(a.x) + b.x), y = 0.5 * (double(a.y) + b.y);
+    const double dx = b.x - a.x, dy = b.y - a.y, scale = kBeside / std::hypot(dx, dy);
+    const auto inside = [&](double side) {
+        const LatticePoint p{static_cast<std::int32_t>(std::lround(x - side * scale * dy)),
+                             static_cast<std::int32_t>(std::lround(y + side * scale * dx))};
+        return side_of_point(region, p) != PointSide::Outside;
+    };
+    return inside(1) && inside(-1);
+}
+
+/// The lines of a loop without its cracks.
+void add_lines(LineStyle style, const PolygonSet& region, std::span<const LatticePoint> loop,
+               std::vector<BeamOutline>& outlines) {
+    /// The test takes time by the square.
+    constexpr std::size_t kMostTested = 4000;
+    const std::size_t n = loop.size();
+    std::vector<bool> crack(n, false);
+    std::size_t first = n;  // after a crack
+    for (std::size_t i = 0; i < n && region.vertex_count() <= kMostTested; ++i) {
+        crack[i] = is_crack(region, loop[i], loop[(i + 1) % n]);
+        if (crack[i]) first = (i + 1) % n;
+    }
+    if (first == n) {
+        outlines.push_back({style, {loop.begin(), loop.end()}, true});
+        return;
+    }
+    LatticeLoop line;
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = (first + k) % n;
+        if (line.empty()) line.push_back(loop[i]);
+        if (!crack[i]) {
+            line.push_back(loop[(i + 1) % n]);
+        } else {
+            if (line.size() > 1) outlines.push_back({style, line, false});
+            line.clear();
+        }
+    }
+    if (line.size() > 1) outlines.push_back({style, std::move(line), false});
+}
+
 }  // namespace
 
 std::vector<BeamOutline> beam_outlines(const BeamScene& scene, const BeamTree& tree) {
     std::vector<std::uint32_t> sources;
     for (const BeamFacet& facet : scene.facets) sources.push_back(facet.source);
     std::vector<BeamOutline> outlines;
-    for (PolygonSet& region : Images(tree, planes_of_facets(scene)).unions()) {
-        outlines.push_back({LineStyle::Crease, std::move(region)});
-    }
-    for (PolygonSet& region : Images(tree, sources).unions()) {
-        outlines.push_back({LineStyle::Silhouette, std::move(region)});
-    }
+    const auto add = [&](LineStyle style, std::span<const std::uint32_t> kinds) {
+        for (const PolygonSet& region : Images(tree, kinds).unions()) {
+            for (std::size_t i = 0; i < region.loop_count(); ++i) {
+                add_lines(style, region, region.loop(i), outlines);
+            }
+        }
+    };
+    add(LineStyle::Crease, planes_of_facets(scene));
+    add(LineStyle::Silhouette, sources);
     return outlines;
 }
 

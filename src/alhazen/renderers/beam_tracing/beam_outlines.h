@@ -14,11 +14,13 @@
 
 namespace alhazen {
 
-/// Loops in the window, creases first.
+/// A line in the window.
 struct BeamOutline {
     LineStyle style = LineStyle::Crease;
-    PolygonSet region;
+    LatticeLoop points;
+    bool closed = true;
 };
+/// Creases first.
 [[nodiscard]] std::vector<BeamOutline> beam_outlines(const BeamScene& scene, const BeamTree& tree);
 
 }  // namespace alhazen

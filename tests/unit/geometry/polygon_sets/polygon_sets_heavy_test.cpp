@@ -61,6 +61,10 @@ TEST(PolygonSetsHeavy, AMillionOperationsHaveTheirExactRationalAreas) {
                 checks.general, checks.rounded);
 }
 
+TEST(PolygonSetsHeavy, TenThousandOperationsOnOnePolygonLoseNothing) {
+    EXPECT_EQ(chain_flaw(10000), "");
+}
+
 TEST(PolygonSetsHeavy, AMillionVerticesTakeSeconds) {
     RandomPolygons random(5);
     const auto wave = [&random](double phase) {
