@@ -7,6 +7,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/formats/nff/nff_importer.h"
 #include "alhazen/session/generated_solids.h"
+#include "alhazen/session/generators/city.h"
 #include "alhazen/session/generators/field.h"
 #include "alhazen/session/generators/spd.h"
 #include "alhazen/session/generators/stress_scenes.h"
@@ -46,6 +47,8 @@ constexpr std::array kGenerators{
                    "SIZE long thin cylinders in all directions", &thin_sticks, nullptr},
     GeneratorEntry{"coincident_clusters", "spheres", 10'000, 10 * kMillion,
                    "SIZE spheres in heaps of 64 with one centre", &coincident_clusters, nullptr},
+    GeneratorEntry{"city", "houses", 10'000, 10 * kMillion,
+                   "SIZE boxes on a square of ground, every fourth a mirror", &city, nullptr},
     GeneratorEntry{"field", "triangles", 2000 * kMillion, 100 * kMillion* kMillion,
                    "a meadow of SIZE triangles or a little more, instances of instances of 4000",
                    &field, nullptr},
