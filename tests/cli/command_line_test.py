@@ -124,6 +124,39 @@ class CommandLine(CommandLineCase):
             self.assertEqual(result.stdout, "", arguments)
         self.assertEqual(os.listdir(self.folder.name), ["scene with space.alhazen"])
 
+    def test_every_renderer_renders(self):
+        scene = self.path("facets.alhazen")
+        with open(scene, "w") as file:
+            file.write("""alhazen 1
+                perspective_camera { eye = (0, 0, 4); look_at = (0, 0, 0); lens_radius = 0.1; focus_distance = 4 }
+                point_light { position = (1, 2, 3) }
+                rectangle_light { corner = (-1, 2, 1); edge_u = (0, 0, 1); edge_v = (1, 0, 0); radiance = 2 }
+                box { motion = [(0, translate(0, 0, 0)), (1, translate(0.2, 0, 0))] }""")
+        names = [line.split()[0] for line in run("list", "renderers").stdout.splitlines() if line.startswith("  ")]
+        self.assertIn("distributed", names)
+        for name in names:
+            picture = self.path(f"{name}.png")
+            result = run("render", scene, "-o", picture, "--size", "9x7", "--renderer", name)
+            self.assertEqual(result.returncode, 0, (name, result.stderr))
+            self.assertTrue(os.path.getsize(picture) > 50, name)
+
+    def test_vector_draws(self):
+        scene = self.path("boxes.alhazen")
+        with open(scene, "w") as file:
+            file.write("alhazen 1\nbox {}\nbox { lo = (1, 0, 0); hi = (2, 1, 1) }")
+        for name, start in (("a.svg", "<svg"), ("b.pdf", "%PDF-")):
+            result = run("vector", scene, "-o", self.path(name), "--style", "lined", "--size", "64x48")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.path(name), "rb") as file:
+                self.assertIn(start.encode(), file.read()[:200])
+        for arguments in (["-o", self.path("c.png")], ["-o", self.path("c.svg"), "--style", "fancy"]):
+            self.assertEqual(run("vector", scene, *arguments).returncode, 2, arguments)
+        with open(scene, "a") as file:
+            file.write("\nsphere {}")
+        result = run("vector", scene, "-o", self.path("d.svg"))
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("sphere", result.stderr)
+
     def test_samples_draws_every_sampler(self):
         names = [line.split()[0] for line in run("list", "samplers").stdout.splitlines() if line.startswith("  ")]
         self.assertIn("sobol", names)
