@@ -1,0 +1,90 @@
+#pragma once
+/// All that sends light into a scene, ready to be sampled: punctual lights, emitting surfaces, the
+/// environment.
+///
+/// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997 (densities for
+/// multiple importance sampling); Conty Estevez and Kulla, "Importance Sampling of Many Lights with
+/// Adaptive Tree Splitting", HPG 2018 (light_tree.h).
+/// Conventions: densities are by solid angle at the point that is lit and contain the probability
+/// with which the light is chosen. Singular lights (points, spots, directions) are hit by no ray.
+/// Intensities of singular lights are times pi: Whitted's coefficients are not divided by pi, those
+/// of a BSDF are, and both show the same diffuse surface.
+/// Threads: const functions may be called from many.
+
+#include <memory>
+
+#include "alhazen/primitives/surface.h"
+#include "alhazen/scene/scene.h"
+
+namespace alhazen {
+
+/// A point that is to be lit.
+struct LitPoint {
+    Vec3 point;
+    Vec3 normal;              ///< unit, shading, on the side of the view
+    bool both_sides = false;  ///< light from behind counts, too
+};
+
+/// A direction from which light comes.
+struct LightDraw {
+    Vec3 to_light;          ///< unit
+    double distance = 0;    ///< to the light; infinite where it has no place
+    Rgb radiance;           ///< that arrives unhindered; of a singular light what it gives a
+                            ///< surface across its direction (irradiance)
+    double density = 0;     ///< by solid angle; of a singular light the probability of its choice;
+                            ///< 0: no light from there
+    bool singular = false;  ///< no other strategy finds this light
+    RayMask passes = kAllRays;  ///< mask for the shadow ray
+};
+
+/// A ray of light as it leaves its source. Its power is radiance * cosine / (both densities).
+struct LightRay {
+    Ray ray;
+    Vec3 normal;                   ///< unit, of the surface; the direction where there is none
+    Rgb radiance;                  ///< of singular places: intensity; of parallel light: irradiance
+    double place_density = 0;      ///< by area, choice included; of a singular place: of the choice
+    double direction_density = 0;  ///< by solid angle; of singular directions: 1
+    bool singular_place = false;   ///< a point
+    bool singular_direction = false;  ///< parallel light
+    bool infinite = false;            ///< of the environment or parallel: it starts outside the
+                                      ///< scene, and its place lies on a disc across its direction
+};
+
+class Illumination {
+  public:
+    explicit Illumination(const Scene& scene);
+    ~Illumination();
+
+    /// False: nothing shines.
+    [[nodiscard]] bool shines() const;
+
+    /// A direction to a light. `choice` and `u` in [0, 1).
+    [[nodiscard]] LightDraw draw(const LitPoint& at, double choice, const Vec2& u) const;
+
+    /// The density with which `draw(at)` gives the direction of a ray that hit an emitting surface
+    /// `distance` away; 0 where `draw` never gives it.
+    [[nodiscard]] double density(const LitPoint& at, const Ray& ray, const Hit& hit,
+                                 const Surface& surface, double distance) const;
+
+    /// The radiance that a ray finds which leaves the scene.
+    [[nodiscard]] Rgb environment(const Vec3& direction) const;
+    /// The density with which `draw(at)` gives that direction to the environment.
+    [[nodiscard]] double environment_density(const LitPoint& at, const Vec3& direction) const;
+
+    /// A ray from a light into the scene.
+    [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction) const;
+    /// Densities with which `emit` gives a ray from a point of an emitting surface.
+    struct EmitDensity {
+        double place = 0, direction = 0;
+    };
+    [[nodiscard]] EmitDensity emit_density(const Hit& hit, const Surface& surface,
+                                           const Vec3& direction) const;
+    /// The same for light of the environment that travels along `direction`.
+    [[nodiscard]] EmitDensity environment_emit_density(const Vec3& direction) const;
+
+  private:
+    struct Data;
+    std::unique_ptr<const Data> data_;
+};
+
+}  // namespace alhazen
