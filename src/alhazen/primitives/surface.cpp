@@ -289,7 +289,7 @@ std::optional<MaterialId> plain_material(const Aggregate& aggregate, const Hit& 
     return varies ? std::nullopt : std::optional(placed.material);
 }
 
-Ray leaving_ray(const Surface& surface, const Vec3& direction, double t_max) {
+Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction, double t_max) {
     const double margin = 32.0 * dot(abs(surface.normal), surface.error);
     const Vec3 offset = dot(direction, surface.normal) >= 0.0 ? margin * surface.normal
                                                               : (-margin) * surface.normal;

@@ -62,7 +62,7 @@ void set_surface(const Aggregate& aggregate, const Ray& ray, const Hit& hit, boo
 /// Source: Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 6.8.6.
 /// Differs: the margin is 32 times the bound, which also covers the rounding of the next
 /// intersection test.
-[[nodiscard]] Ray leaving_ray(const Surface& surface, const Vec3& direction,
+[[nodiscard]] Ray leaving_ray(const ShapeSurface& surface, const Vec3& direction,
                               double t_max = std::numeric_limits<double>::infinity());
 
 }  // namespace alhazen

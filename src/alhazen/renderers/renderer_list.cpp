@@ -3,10 +3,13 @@
 #include <array>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/ambient_occlusion/ambient_occlusion.h"
 #include "alhazen/renderers/beam_tracing/beam_tracing.h"
 #include "alhazen/renderers/cone_tracing/cone_tracing.h"
 #include "alhazen/renderers/distributed/distributed.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
+#include "alhazen/renderers/light_tracing/light_tracing.h"
+#include "alhazen/renderers/path_tracing/path_tracing.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
 
@@ -33,6 +36,27 @@ std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
         ConeTracingOptions{.tables = settings.choice("coverage", 0, kCoverage) == 1});
 }
 
+PathSettings path_settings(RendererSettings& settings) {
+    PathSettings paths;
+    paths.depth = settings.whole("depth", paths.depth, 0, 100000);
+    paths.roulette = settings.whole("roulette", paths.roulette, 0, 100000);
+    return paths;
+}
+
+std::unique_ptr<Renderer> make_ambient_occlusion(RendererSettings& settings) {
+    static constexpr const char* kColors[] = {"white", "albedo"};
+    OcclusionSettings occlusion;
+    occlusion.distance = settings.number("distance", 0.0, 0.0, 1e300);
+    occlusion.albedo = settings.choice("color", 0, kColors) == 1;
+    return std::make_unique<AmbientOcclusion>(occlusion);
+}
+
+std::unique_ptr<Renderer> make_path_tracing(RendererSettings& settings) {
+    PathSettings paths = path_settings(settings);
+    paths.clamp = settings.number("clamp", paths.clamp, 0.0, 1e30);
+    return std::make_unique<PathTracing>(paths);
+}
+
 std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
     static constexpr const char* kSort[] = {"tree", "list"};
     static constexpr const char* kHulls[] = {"off", "on"};
@@ -47,7 +71,7 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 7> table{{
+    static constexpr std::array<RendererEntry, 10> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"distributed",
@@ -56,10 +80,25 @@ std::span<const RendererEntry> renderers() {
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<Distributed>());
          }},
+        {"light_tracing",
+         "all light by random paths from the lights, joined to the lens at each surface (Arvo "
+         "1986); depth=N, roulette=N",
+         [](RendererSettings& settings) {
+             return std::unique_ptr<Renderer>(
+                 std::make_unique<LightTracing>(path_settings(settings)));
+         }},
+        {"path_tracing",
+         "all light by random paths from the eye, lights sampled at each surface (Kajiya 1986, "
+         "Veach 1997); depth=N, roulette=N, clamp=X",
+         [](RendererSettings& settings) { return make_path_tracing(settings); }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());
          }},
+        {"ambient_occlusion",
+         "how much of an even sky each point sees, as a quick look; distance=D, "
+         "color=white|albedo",
+         [](RendererSettings& settings) { return make_ambient_occlusion(settings); }},
         {"beam_tracing",
          "what is seen, mirrored and in shadow as exact polygons, found once for all resolutions "
          "(Heckbert and Hanrahan 1984); sort=tree|list, hulls=on|off, contribution=SHARE, "

@@ -74,12 +74,13 @@ class RoundRender {
         const RoundClock::time_point begin = RoundClock::now();
         const std::uint32_t count = next_count();
         const bool first = samples_ == 0;
+        std::uint64_t seed = job_.seed;
         if (!plan_.sampler->progressive) {
-            const std::uint64_t seed = first ? job_.seed : mix64(job_.seed ^ mix64(samples_));
+            if (!first) seed = mix64(job_.seed ^ mix64(samples_));
             sampler_ = plan_.sampler->make(seed, count);
         }
         const SampleRound round{*sampler_, filter_, plan_.sampler->progressive ? samples_ : 0,
-                                count,     wanted_, sums_};
+                                count,     wanted_, sums_, seed};
         RenderJob part = job_;
         part.round = &round;
         if (!first) part.aovs = nullptr;
@@ -183,6 +184,13 @@ class RoundRender {
 };
 
 }  // namespace
+
+RenderJob with_plan(const RenderJob& job) {
+    static const SamplingPlan usual;
+    RenderJob planned = job;
+    if (planned.sampling == nullptr) planned.sampling = &usual;
+    return planned;
+}
 
 RenderReport render_in_rounds(const TiledRenderer& renderer, const RenderJob& job, Film& film) {
     return RoundRender(renderer, job, film).run();

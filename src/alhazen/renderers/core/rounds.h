@@ -17,6 +17,9 @@
 
 namespace alhazen {
 
+/// The job with the usual sampler and filter (SamplingPlan) where it names none.
+[[nodiscard]] RenderJob with_plan(const RenderJob& job);
+
 /// RenderJob::sampling must be set. Layers are those of the first round. After a stop finished
 /// pixels have the round in hand, the others the ones before.
 [[nodiscard]] RenderReport render_in_rounds(const TiledRenderer& renderer, const RenderJob& job,

@@ -30,6 +30,7 @@ struct SampleRound {
     std::span<const std::uint8_t> wanted;
     /// [pixel of the crop] the samples so far, added to; empty: this round is the only one.
     std::span<SampleSum> sums;
+    std::uint64_t seed = 0;  ///< of the sampler
 };
 
 class SampleLoop {
@@ -176,11 +177,14 @@ class SampleLoop {
 };
 
 /// Renders a round of tiles by SampleLoop.
-template <RadianceEstimator Estimator>
+template <class Estimator>
 class RoundRenderer final : public TileRenderer {
   public:
-    RoundRenderer(const RenderJob& job, std::size_t rays_at_once)
-        : estimator_(job, rays_at_once, counters_), loop_(job, rays_at_once, counters_) {}
+    /// `more`: further arguments of the estimator.
+    template <class... More>
+    RoundRenderer(const RenderJob& job, std::size_t rays_at_once, const More&... more)
+        : estimator_(job, rays_at_once, counters_, more...),
+          loop_(job, rays_at_once, counters_) {}
 
     void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
         loop_.run(tile, film, estimator_);

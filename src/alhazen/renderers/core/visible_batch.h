@@ -60,6 +60,9 @@ class VisibleBatch {
         for (const Passed& p : behind_) tell(p.ray, static_cast<const ShadingPoint*>(nullptr), 0.0);
     }
 
+    /// The hit of the point that is being reported; t counts from the last surface passed.
+    [[nodiscard]] const Hit& reported_hit() const { return *reported_; }
+
   private:
     /// A ray behind surfaces with no coverage.
     struct Passed {
@@ -105,6 +108,7 @@ class VisibleBatch {
         set_shading_point(scene_, rest, hit, {path.inside, path.cone.width_at(t), path.time}, needs,
                           point_);
         if (point_.material->coverage > 0.0) {
+            reported_ = &hit;
             tell(k, static_cast<const ShadingPoint*>(&point_), t);
             return;
         }
@@ -115,6 +119,7 @@ class VisibleBatch {
     TraversalStats* stats_;
     MaterialCache constant_;
     ShadingPoint point_;
+    const Hit* reported_ = nullptr;
     std::vector<Hit> hits_;
     std::vector<float> times_;  ///< [ray]; where something moves
     // Of the rays of one kind, where parts have visibility masks.

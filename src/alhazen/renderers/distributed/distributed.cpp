@@ -181,11 +181,7 @@ std::unique_ptr<TileRenderer> Distributed::begin(const RenderJob& job) const {
 }
 
 RenderReport Distributed::render(const RenderJob& job, Film& film) const {
-    if (job.sampling != nullptr) return render_in_rounds(*this, job, film);
-    const SamplingPlan plan;
-    RenderJob sampled = job;
-    sampled.sampling = &plan;
-    return render_in_rounds(*this, sampled, film);
+    return render_in_rounds(*this, with_plan(job), film);
 }
 
 }  // namespace alhazen

@@ -1,0 +1,137 @@
+#include "alhazen/renderers/light_tracing/light_tracing.h"
+
+#include <memory>
+#include <vector>
+
+#include "alhazen/base/error.h"
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/imaging/film/filter_kernel.h"
+#include "alhazen/renderers/core/rounds.h"
+#include "alhazen/renderers/core/sample_loop.h"
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/core/tiles.h"
+#include "alhazen/renderers/light_transport/camera_lens.h"
+#include "alhazen/renderers/light_transport/camera_rays.h"
+#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/light_start.h"
+#include "alhazen/renderers/light_transport/random_walk.h"
+#include "alhazen/renderers/light_transport/splat_film.h"
+#include "alhazen/renderers/path_tracing/path_tracing.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Pairs of dimensions: of the light, then of the lens at each vertex, then of the walk.
+constexpr std::uint32_t kLightPairs = 1u << 12, kLensPairs = 2u << 12, kWalk = 3u << 12;
+
+/// The light paths of tiles: as many for each pixel as it has samples.
+class LightTiles final : public TileRenderer {
+  public:
+    LightTiles(const RenderJob& job, const Illumination& lights, const PathSettings& settings,
+               SplatFilm& splats)
+        : job_(job),
+          lights_(lights),
+          settings_(settings),
+          chance_(job),
+          camera_(job),
+          lens_(job),
+          walk_(job.scene, lights, counters_, job.count_tests ? &counters_.tests : nullptr),
+          joins_(job.scene, counters_, job.count_tests ? &counters_.tests : nullptr),
+          splats_(splats) {}
+
+    void render(const PixelBox& tile, Film&, RayCounters& counters) override {
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                if (job_.stop_requested()) return;
+                for (std::uint32_t s = 0; s < job_.round->count; ++s) {
+                    trace({{x, y}, job_.round->first + s});
+                }
+            }
+        }
+        counters += counters_;
+        counters_ = {};
+    }
+
+  private:
+    void trace(const SampleId& id) {
+        const float time = camera_.time(chance_, id);
+        const Vec2 choice = chance_.draw(id, kLightPairs);
+        const LightRay light = lights_.emit(choice.x, chance_.draw(id, kLightPairs + 1),
+                                            chance_.draw(id, kLightPairs + 2));
+        const WalkStart start = start_of(light, time);
+        if (start.throughput.is_black() || !start.throughput.is_finite()) return;
+        walk_.walk(Transport::Importance, start,
+                   {chance_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
+        for (std::uint32_t i = 0; const PathVertex& v : vertices_) join(v, id, kLensPairs + i++, time);
+    }
+
+    void join(const PathVertex& v, const SampleId& id, std::uint32_t pair, float time) {
+        if (!v.connects()) return;
+        const auto joined = lens_.connect(v.surface.point, chance_.draw(id, pair), time);
+        if (!joined) return;
+        const Rgb value = v.scatter.value(joined->to_lens, Transport::Importance);
+        if (value.is_black()) return;
+        Rgb light = v.scatter.importance_correction(joined->to_lens) * joined->density *
+                    (v.throughput * value);
+        const Ray ray = leaving_ray(v.surface, joined->to_lens, joined->distance);
+        light = light * joins_.passing(ray, time, absorption_towards(v, joined->to_lens));
+        if (!light.is_black() && !splats_.add(joined->film, light)) ++counters_.non_finite;
+    }
+
+    const RenderJob& job_;
+    const Illumination& lights_;
+    const PathSettings settings_;
+    RayCounters counters_;
+    PathChance chance_;
+    CameraRays camera_;
+    CameraLens lens_;
+    RandomWalk walk_;
+    LightBatch joins_;
+    SplatFilm& splats_;
+    std::vector<PathVertex> vertices_;
+};
+
+/// What the eye sees of the lights themselves.
+RenderReport see_lights(const RenderJob& job, const PathSettings& settings, Film& film) {
+    PathSettings seen = settings;
+    seen.depth = 0;
+    return PathTracing(seen).render(job, film);
+}
+
+}  // namespace
+
+RenderReport LightTracing::render(const RenderJob& job, Film& film) const {
+    const SamplingPlan& plan = *with_plan(job).sampling;
+    if (plan.has_rounds()) {
+        throw Error(ErrorKind::Usage,
+                    "light_tracing traces a fixed number of paths: it takes --spp, not --noise "
+                    "or a limit of --time");
+    }
+    RenderReport report = see_lights(job, settings_, film);
+    if (!report.complete()) return report;
+    const Illumination lights(job.scene);
+    if (!lights.shines()) return report;
+    const auto count = static_cast<std::uint32_t>(job.samples_per_pixel);
+    const std::unique_ptr<Sampler> sampler = plan.sampler->make(job.seed, count);
+    const FilterKernel filter(*plan.filter, plan.radius);
+    const SampleRound round{*sampler, filter, 0, count, {}, {}, job.seed};
+    RenderJob paths = job;
+    paths.round = &round;
+    paths.aovs = nullptr;
+    SplatFilm splats(film, plan);
+    const int width = film.frame_width(), height = film.frame_height();
+    Film frame(width, height, {0, 0, width, height});
+    const RenderReport traced = render_tiles(paths, frame, [&] {
+        return std::make_unique<LightTiles>(paths, lights, settings_, splats);
+    });
+    report.counters += traced.counters;
+    report.done += traced.done;
+    report.parts += traced.parts;
+    if (traced.complete()) {
+        splats.add_to(film, static_cast<double>(width) * height * job.samples_per_pixel);
+    }
+    return report;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,39 @@
+#pragma once
+/// Eye rays spread over the lens and the time of the shutter.
+
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/renderers/light_transport/path_chance.h"
+
+namespace alhazen {
+
+class CameraRays {
+  public:
+    explicit CameraRays(const RenderJob& job)
+        : lens_(job.camera),
+          motion_(job.camera_motion),
+          moves_(job.scene.has_motion || job.camera_motion != nullptr) {
+        if (motion_ != nullptr) camera_from_world_ = motion_->at(0.0).inner_from_outer;
+    }
+
+    /// The moment of a sample.
+    [[nodiscard]] float time(const PathChance& chance, const SampleId& id) const {
+        return moves_ ? chance.time(id) : 0.0f;
+    }
+    /// The ray of a sample for the one through the centre of the lens.
+    [[nodiscard]] Ray through_lens(const PathChance& chance, const SampleId& id, const Ray& ray,
+                                   float time) const {
+        Ray drawn = lens_.open() ? lens_.through(ray, chance.draw(id, PathChance::kLens)) : ray;
+        if (motion_ == nullptr) return drawn;
+        drawn = transformed(motion_->at(time).outer_from_inner * camera_from_world_, drawn);
+        drawn.direction = normalize(drawn.direction);
+        return drawn;
+    }
+
+  private:
+    LensRays lens_;
+    const TransformMotion* motion_;
+    bool moves_;
+    Affine camera_from_world_;  ///< as the shutter opens
+};
+
+}  // namespace alhazen

@@ -1,0 +1,101 @@
+#include "alhazen/renderers/light_transport/light_batch.h"
+
+#include <cmath>
+
+#include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/light_transport/scatter_point.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Rays per cast: enough to fill the stream kernel, few enough to stay in the cache.
+constexpr std::size_t kMostRays = 512;
+
+}  // namespace
+
+LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats)
+    : scene_(scene),
+      count_(counters[RayKind::Shadow]),
+      stats_(stats),
+      met_(std::make_unique<bool[]>(kMostRays)) {
+    rays_.reserve(kMostRays);
+    waiting_.reserve(kMostRays);
+}
+
+void LightBatch::add(const Ray& ray, float time, const Rgb& absorption, const Rgb& light,
+                     Rgb& sum) {
+    if (rays_.size() == kMostRays) finish();
+    const Rgb left = absorption.is_black()
+                         ? light
+                         : light * transmittance(absorption, ray.t_max * length(ray.direction));
+    if (left.is_black()) return;
+    rays_.push_back(ray);
+    times_.push_back(time);
+    waiting_.push_back({left, &sum});
+}
+
+void LightBatch::finish() {
+    if (rays_.empty()) return;
+    const std::span<bool> met(met_.get(), rays_.size());
+    find_met(met);
+    count_.cast += rays_.size();
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+        count_.hit += met[i];
+        const Waiting& w = waiting_[i];
+        if (!met[i]) {
+            *w.sum += w.light;
+        } else if (!scene_.all_opaque) {
+            *w.sum += through_surfaces(rays_[i], times_[i]) * w.light;
+        }
+    }
+    rays_.clear();
+    times_.clear();
+    waiting_.clear();
+}
+
+void LightBatch::find_met(std::span<bool> met) {
+    if (scene_.has_motion) {
+        scene_.aggregate->occluded_batch_at(rays_, times_, met, query(0.0f), Coherence::Any);
+    } else {
+        scene_.aggregate->occluded_batch(rays_, met, query(0.0f), Coherence::Any);
+    }
+}
+
+Rgb LightBatch::passing(const Ray& ray, float time, const Rgb& absorption) {
+    ++count_.cast;
+    const Rgb left = absorption.is_black()
+                         ? Rgb{1, 1, 1}
+                         : transmittance(absorption, ray.t_max * length(ray.direction));
+    if (!scene_.aggregate->occluded(ray, query(time))) return left;
+    ++count_.hit;
+    return scene_.all_opaque ? Rgb{} : left * through_surfaces(ray, time);
+}
+
+Rgb LightBatch::through_surfaces(const Ray& ray, float time) {
+    crossings_.clear();
+    if (scene_.aggregate->shadowed(ray, crossings_, query(time))) return {};
+    Rgb share{1, 1, 1};
+    for (const Hit& crossing : crossings_) {
+        share = share * through(ray, time, crossing);
+        if (share.is_black()) break;
+    }
+    return share;
+}
+
+Rgb LightBatch::through(const Ray& ray, float time, const Hit& crossing) const {
+    ShadingPoint point;
+    set_shading_point(scene_, ray, crossing, {false, 0.0, time}, {}, point);
+    const double coverage = point.material->coverage;
+    if (coverage == 0.0) return {1, 1, 1};
+    Rgb covered;
+    if (point.material->thin) {
+        ScatterPoint scatter;
+        scatter.set(scene_, point, {});
+        covered = scatter.straight();
+    }
+    return (1.0 - coverage) * Rgb{1, 1, 1} + coverage * covered;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,53 @@
+#pragma once
+/// Light that may be blocked: connections between points are gathered, then cast together.
+///
+/// Conventions: alpha coverage and thin sheets let light through, tinted; what bends light blocks
+/// it, for a straight connection does not exist there.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "alhazen/renderers/core/ray_counters.h"
+#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/scene/scene.h"
+
+namespace alhazen {
+
+class LightBatch {
+  public:
+    LightBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
+
+    /// Adds `light` to `sum`, now or in `finish`, times what passes along `ray` up to its t_max;
+    /// `absorption`: of the medium in between. Sums are added to in the order of the calls.
+    void add(const Ray& ray, float time, const Rgb& absorption, const Rgb& light, Rgb& sum);
+    /// Casts the gathered rays.
+    void finish();
+
+    /// The share that passes along one ray.
+    [[nodiscard]] Rgb passing(const Ray& ray, float time, const Rgb& absorption);
+
+  private:
+    struct Waiting {
+        Rgb light;
+        Rgb* sum;
+    };
+
+    [[nodiscard]] RayQuery query(float time) const {
+        return {stats_, mask_of(RayKind::Shadow), time};
+    }
+    void find_met(std::span<bool> met);
+    [[nodiscard]] Rgb through_surfaces(const Ray& ray, float time);
+    [[nodiscard]] Rgb through(const Ray& ray, float time, const Hit& crossing) const;
+
+    const Scene& scene_;
+    RayCount& count_;
+    TraversalStats* stats_;
+    std::vector<Ray> rays_;
+    std::vector<Waiting> waiting_;
+    std::vector<float> times_;
+    std::unique_ptr<bool[]> met_;
+    std::vector<Hit> crossings_;
+};
+
+}  // namespace alhazen

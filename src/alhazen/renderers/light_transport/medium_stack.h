@@ -1,0 +1,60 @@
+#pragma once
+/// The volumes around the end of a path, innermost last.
+///
+/// Conventions: a volume is known by the part that bounds it, so that volumes which overlap are
+/// left in any order. Where a solid tells the media on both sides of a surface, its word counts.
+/// More than kMost volumes around one point: the outermost are forgotten.
+
+#include <cstdint>
+
+#include "alhazen/base/inline_vector.h"
+#include "alhazen/imaging/image/rgb.h"
+
+namespace alhazen {
+
+struct Medium {
+    std::uint64_t part = 0;  ///< that bounds it
+    double index = 1;
+    Rgb absorption;  ///< light falls by exp(-absorption * length)
+};
+
+class MediumStack {
+  public:
+    static constexpr std::size_t kMost = 8;
+
+    [[nodiscard]] bool empty() const { return media_.empty(); }
+    /// Null outside all volumes.
+    [[nodiscard]] const Medium* here() const { return media_.empty() ? nullptr : &media_.back(); }
+    /// The medium where the volume of `part` has been left; null outside.
+    [[nodiscard]] const Medium* without(std::uint64_t part) const {
+        const std::size_t left = place_of(part);
+        for (std::size_t i = media_.size(); i-- > 0;) {
+            if (i != left) return &media_[i];
+        }
+        return nullptr;
+    }
+    void enter(const Medium& medium) {
+        if (media_.full()) remove(0);
+        media_.push_back(medium);
+    }
+    /// Nothing happens where the volume was never entered.
+    void leave(std::uint64_t part) {
+        if (const std::size_t i = place_of(part); i < media_.size()) remove(i);
+    }
+
+  private:
+    [[nodiscard]] std::size_t place_of(std::uint64_t part) const {
+        for (std::size_t i = media_.size(); i-- > 0;) {
+            if (media_[i].part == part) return i;
+        }
+        return media_.size();
+    }
+    void remove(std::size_t i) {
+        for (; i + 1 < media_.size(); ++i) media_[i] = media_[i + 1];
+        media_.pop_back();
+    }
+
+    InlineVector<Medium, kMost> media_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,53 @@
+#pragma once
+/// The random numbers of paths: from the sampler of the round for the first bounces, from a hash
+/// for those behind, where stratification no longer shows.
+///
+/// Conventions: pairs of dimensions: 0 the pixel, 1 the lens, 2 the time; from 3 + 4 b on those of
+/// bounce b: direction of the BSDF, place on a light, the two choices (lobe, light), roulette.
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/core/sample_loop.h"
+#include "alhazen/sampling/random.h"
+
+namespace alhazen {
+
+class PathChance {
+  public:
+    enum Pair : std::uint32_t { kLens = 1, kTime = 2, kFirstBounce = 3 };
+    enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kLuck, kPairsOfBounce };
+
+    explicit PathChance(const RenderJob& job) : sampler_(job.round->sampler), seed_(mix64(job.round->seed)) {}
+
+    [[nodiscard]] Vec2 draw(const SampleId& id, std::uint32_t pair) const {
+        constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
+        if (pair < kByHash) return sampler_.at(id.pixel, pair, id.number);
+        const std::uint64_t pixel = id.pixel.id();
+        return {random_at(seed_, pixel, id.number, 2 * std::uint64_t{pair}),
+                random_at(seed_, pixel, id.number, 2 * std::uint64_t{pair} + 1)};
+    }
+    [[nodiscard]] Vec2 draw(const SampleId& id, int bounce, BouncePair pair) const {
+        return draw(id, kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair);
+    }
+    /// Whether the path stops at a surface that is there by `coverage`, the `met`-th on its way.
+    [[nodiscard]] bool stops(const SampleId& id, std::uint32_t met, double coverage) const {
+        if (coverage >= 1.0) return true;
+        return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
+    }
+    [[nodiscard]] float time(const SampleId& id) const {
+        // Below 1, where the double may round up to it.
+        return std::min(static_cast<float>(draw(id, kTime).x), 0x1.fffffep-1f);
+    }
+
+  private:
+    static constexpr std::uint32_t kStratified = 3;  ///< bounces
+    static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
+
+    const Sampler& sampler_;
+    std::uint64_t seed_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,73 @@
+#pragma once
+/// A surface point at which a path scatters: its BSDF in world space, and the media on its sides.
+///
+/// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section 5.3
+/// (shading normals are not symmetric).
+/// Conventions: the view is where the path came from. A direction counts as reflected or
+/// transmitted by the geometric normal; where the shading normal disagrees nothing is scattered.
+
+#include <optional>
+
+#include "alhazen/renderers/core/local_shading.h"
+#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/renderers/light_transport/shading_frame.h"
+#include "alhazen/shading/bsdf/bsdf.h"
+
+namespace alhazen {
+
+struct Scattered {
+    Vec3 direction;         ///< unit
+    Rgb weight;             ///< value * |cosine| / density
+    double density = 0;     ///< by solid angle; of a singular one its probability
+    bool singular = false;  ///< its direction has no density
+    bool transmitted = false;
+    double eta = 1;         ///< index where it enters over where it came from
+    bool straight = false;  ///< through a thin sheet, as if nothing were there
+};
+
+class ScatterPoint {
+  public:
+    /// `media`: around the path before the surface. `both_ways`: `reverse_density` will be asked.
+    void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
+             bool both_ways = false);
+
+    /// value * |cosine| for light from `direction`; singular lobes apart.
+    [[nodiscard]] Rgb value(const Vec3& direction, Transport transport) const;
+    /// With which `sample` gives `direction`.
+    [[nodiscard]] double density(const Vec3& direction) const;
+    /// With which a path that came from `direction` would go to the view. Only after `set` with
+    /// `both_ways`.
+    [[nodiscard]] double reverse_density(const Vec3& direction) const;
+    [[nodiscard]] std::optional<Scattered> sample(double choice, const Vec2& u,
+                                                  Transport transport) const;
+
+    /// The share of light that goes straight on through a thin sheet.
+    [[nodiscard]] const Rgb& straight() const { return straight_; }
+    [[nodiscard]] bool has_density() const { return bsdf_.has_density(); }
+    [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
+    [[nodiscard]] const Vec3& normal() const { return frame_.z; }
+    [[nodiscard]] const Vec3& geometric() const { return geometric_; }
+    [[nodiscard]] const Vec3& view() const { return view_; }
+    /// Factor of importance that leaves along `direction` because of shading normals.
+    [[nodiscard]] double importance_correction(const Vec3& direction) const;
+
+    /// The media beyond the surface, for a path that is transmitted.
+    void cross(MediumStack& media) const;
+
+  private:
+    [[nodiscard]] bool sides_agree(const Vec3& direction, const Vec3& local) const {
+        return local.z * dot(direction, geometric_) > 0.0;
+    }
+
+    Bsdf bsdf_;
+    std::optional<Bsdf> from_behind_;  ///< the same surface as seen from its other side
+    ShadingFrame frame_;
+    Vec3 geometric_, view_, local_view_;
+    Rgb straight_;
+    Medium inside_;  ///< of the volume that the surface bounds
+    bool entering_ = true, thin_ = false;
+    bool media_known_ = false;  ///< a solid tells what is behind
+    bool behind_inside_ = false;
+};
+
+}  // namespace alhazen

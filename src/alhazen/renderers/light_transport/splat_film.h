@@ -1,0 +1,39 @@
+#pragma once
+/// Light that reaches the lens wherever it does: contributions to a film in any order, from any
+/// thread, with the same bits.
+
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/imaging/film/film.h"
+#include "alhazen/math/vec.h"
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/light_transport/fixed_sum.h"
+
+namespace alhazen {
+
+class SplatFilm {
+  public:
+    SplatFilm(const Film& film, const SamplingPlan& plan);
+
+    /// `place`: film coordinates in [0, 1], y up. False where the light is not finite.
+    bool add(const Vec2& place, const Rgb& light);
+
+    /// Adds the mean over `paths` paths to the pixels of `film`.
+    void add_to(Film& film, double paths) const;
+
+  private:
+    struct Sum {
+        FixedSum r, g, b;
+    };
+    [[nodiscard]] double kernel(double offset) const;
+
+    const FilterEntry& filter_;
+    double radius_;
+    double scale_ = 1;  ///< makes the integral of the kernel 1
+    int width_, height_;
+    PixelBox crop_;
+    std::vector<Sum> sums_;  ///< [pixel of the crop]
+};
+
+}  // namespace alhazen

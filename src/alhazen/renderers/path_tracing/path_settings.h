@@ -1,0 +1,12 @@
+#pragma once
+/// Settings of the renderers of paths.
+
+namespace alhazen {
+
+struct PathSettings {
+    int depth = 64;      ///< largest number of scatterings of a path
+    int roulette = 4;    ///< scatterings after which a path may end by chance
+    double clamp = 0.0;  ///< largest contribution of indirect light to a sample; 0: none
+};
+
+}  // namespace alhazen

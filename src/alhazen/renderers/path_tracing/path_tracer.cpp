@@ -1,0 +1,177 @@
+#include "alhazen/renderers/path_tracing/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/light_transport/power_heuristic.h"
+
+namespace alhazen {
+
+PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
+                       const Illumination& lights, const PathSettings& settings)
+    : job_(job),
+      scene_(job.scene),
+      lights_(lights),
+      settings_(settings),
+      counters_(counters),
+      chance_(job),
+      camera_(job),
+      visible_(scene_, job.count_tests ? &counters.tests : nullptr),
+      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr) {}
+
+void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
+                               std::span<Rgb> radiance) {
+    ids_ = ids;
+    paths_.clear();
+    rays_.clear();
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        EyePath& path = paths_.emplace_back();
+        path.sample = i;
+        path.time = camera_.time(chance_, ids[i]);
+        path.cone = job_.cone;
+        rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
+    }
+    for (bool first = true; !paths_.empty(); first = false) {
+        if (job_.stop_requested()) return;
+        bounce(radiance, first);
+    }
+}
+
+void PathTracer::bounce(std::span<Rgb> radiance, bool first) {
+    next_paths_.clear();
+    next_rays_.clear();
+    for (const EyePath& path : paths_) ++counters_[path.kind].cast;
+    visible_.find(
+        rays_, first ? Coherence::Coherent : Coherence::Any,
+        [&](std::size_t k) -> const EyePath& { return paths_[k]; },
+        [&](std::size_t k, const ShadingPoint* point, double t) {
+            EyePath& path = paths_[k];
+            Rgb& sum = radiance[path.sample];
+            if (point == nullptr) return escape(path, rays_[k], sum);
+            ++counters_[path.kind].hit;
+            meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
+        });
+    shadows_.finish();
+    paths_.swap(next_paths_);
+    rays_.swap(next_rays_);
+}
+
+Rgb PathTracer::limited(const Rgb& light, const EyePath& path) const {
+    if (!(settings_.clamp > 0.0) || path.scatterings < 2) return light;
+    const double largest = light.max();
+    return largest > settings_.clamp ? (settings_.clamp / largest) * light : light;
+}
+
+void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) const {
+    Rgb light = path.throughput * lights_.environment(ray.direction);
+    if (light.is_black()) return;
+    if (const Medium* medium = path.media.here(); medium != nullptr) {
+        if (!medium->absorption.is_black()) return;
+    }
+    if (!path.singular) {
+        const double other = lights_.environment_density(path.from, ray.direction);
+        light = power_heuristic(path.density, other) * light;
+    }
+    sum += limited(light, path);
+}
+
+void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
+                      double t, Rgb& sum) {
+    if (const Medium* medium = path.media.here(); medium != nullptr) {
+        path.throughput = path.throughput * transmittance(medium->absorption, t);
+    }
+    path.travelled += t;
+    path.cone = path.cone.from(t);
+    if (!chance_.stops(ids_[path.sample], path.met++, point.material->coverage)) {
+        if (path.met < kMaxPassedSurfaces) {
+            go_on(path, leaving_ray(point.surface, ray.direction));
+        }
+        return;
+    }
+    add_emission(path, ray, hit, point, sum);
+    if (point.material->unlit || path.scatterings >= settings_.depth) return;
+    scatter_.set(scene_, point, path.media);
+    if (scatter_.has_density()) add_direct_light(path, point, sum);
+    scatter(path, point);
+}
+
+void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
+                              const ShadingPoint& point, Rgb& sum) const {
+    const Rgb& emission = point.material->emission;
+    if (emission.is_black()) return;
+    Rgb light = path.throughput * emission;
+    if (!path.singular) {
+        // What shows its colour whatever the light is no lamp.
+        if (point.material->unlit) return;
+        const double other = lights_.density(path.from, ray, hit, point.surface, path.travelled);
+        light = power_heuristic(path.density, other) * light;
+    }
+    sum += limited(light, path);
+}
+
+void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum) {
+    const SampleId& id = ids_[path.sample];
+    const Vec2 place = chance_.draw(id, path.scatterings, PathChance::kLight);
+    const Vec2 choices = chance_.draw(id, path.scatterings, PathChance::kChoices);
+    const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
+    const LightDraw drawn = lights_.draw(at, choices.y, place);
+    if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
+    Rgb light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    if (light.is_black()) return;
+    double weight = 1.0 / drawn.density;
+    if (!drawn.singular) {
+        weight *= power_heuristic(drawn.density, scatter_.density(drawn.to_light));
+    }
+    light = path.throughput * (weight * light);
+    EyePath onward = path;
+    ++onward.scatterings;
+    MediumStack media = path.media;
+    if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
+    const Medium* const medium = media.here();
+    // The light itself does not block its ray.
+    constexpr double kBefore = 1.0 - 1e-7;
+    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
+                 medium != nullptr ? medium->absorption : Rgb{}, limited(light, onward), sum);
+}
+
+void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
+    const SampleId& id = ids_[path.sample];
+    const Vec2 u = chance_.draw(id, path.scatterings, PathChance::kDirection);
+    const Vec2 choices = chance_.draw(id, path.scatterings, PathChance::kChoices);
+    const std::optional<Scattered> drawn = scatter_.sample(choices.x, u, Transport::Radiance);
+    if (!drawn || drawn->weight.is_black()) return;
+    path.throughput = path.throughput * drawn->weight;
+    if (drawn->straight) {
+        // Shadow rays pass thin sheets, too: the densities remain those of the last scattering.
+        if (++path.scatterings > settings_.depth) return;
+    } else {
+        ++path.scatterings;
+        path.singular = drawn->singular;
+        path.density = drawn->density;
+        path.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};
+        path.travelled = 0.0;
+        path.eta_scale *= drawn->transmitted ? drawn->eta * drawn->eta : 1.0;
+        path.kind = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;
+    }
+    if (drawn->transmitted) {
+        scatter_.cross(path.media);
+        path.inside = !path.media.empty();
+    }
+    if (!survives(path)) return;
+    go_on(path, leaving_ray(point.surface, drawn->direction));
+}
+
+bool PathTracer::survives(EyePath& path) const {
+    if (!path.throughput.is_finite()) return false;
+    if (path.scatterings <= settings_.roulette) return true;
+    constexpr double kMost = 0.95;
+    const double share = std::min(kMost, path.eta_scale * path.throughput.max());
+    const double luck =
+        chance_.draw(ids_[path.sample], path.scatterings - 1, PathChance::kLuck).x;
+    if (!(luck < share)) return false;
+    path.throughput = (1.0 / share) * path.throughput;
+    return true;
+}
+
+}  // namespace alhazen

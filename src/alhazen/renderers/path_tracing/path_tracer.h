@@ -1,0 +1,78 @@
+#pragma once
+/// The paths of a batch of samples, one bounce of all of them at a time.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/core/visible_batch.h"
+#include "alhazen/renderers/light_transport/camera_rays.h"
+#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/path_chance.h"
+#include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/path_tracing/path_settings.h"
+
+namespace alhazen {
+
+/// A path so far, and the ray that continues it.
+struct EyePath {
+    // Read by VisibleBatch.
+    RayKind kind = RayKind::Eye;
+    bool inside = false;
+    float time = 0;
+    RayCone cone;
+
+    std::uint32_t sample = 0;  ///< of the batch
+    std::uint32_t met = 0;     ///< surfaces on its way
+    int scatterings = 0;
+    Rgb throughput{1, 1, 1};
+    double eta_scale = 1;   ///< of radiance, undone where roulette looks at the throughput
+    bool singular = true;   ///< the last scattering: no light is sampled for it
+    double density = 0;     ///< of the last scattering
+    LitPoint from;          ///< the last scattering
+    double travelled = 0;   ///< since then
+    MediumStack media;
+};
+
+class PathTracer {
+  public:
+    PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
+               const Illumination& lights, const PathSettings& settings);
+
+    /// `rays`: those through the centre of the lens.
+    void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
+                       std::span<Rgb> radiance);
+
+  private:
+    void bounce(std::span<Rgb> radiance, bool first);
+    void escape(const EyePath& path, const Ray& ray, Rgb& sum) const;
+    void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
+              Rgb& sum);
+    void add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
+                      const ShadingPoint& point, Rgb& sum) const;
+    void add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum);
+    void scatter(EyePath& path, const ShadingPoint& point);
+    [[nodiscard]] bool survives(EyePath& path) const;
+    void go_on(const EyePath& path, const Ray& ray) {
+        next_paths_.push_back(path);
+        next_rays_.push_back(ray);
+    }
+    [[nodiscard]] Rgb limited(const Rgb& light, const EyePath& path) const;
+
+    const RenderJob& job_;
+    const Scene& scene_;
+    const Illumination& lights_;
+    PathSettings settings_;
+    RayCounters& counters_;
+    PathChance chance_;
+    CameraRays camera_;
+    VisibleBatch visible_;
+    LightBatch shadows_;
+    ScatterPoint scatter_;
+    std::span<const SampleId> ids_;
+    std::vector<EyePath> paths_, next_paths_;
+    std::vector<Ray> rays_, next_rays_;
+};
+
+}  // namespace alhazen

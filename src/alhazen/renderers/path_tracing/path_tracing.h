@@ -1,0 +1,34 @@
+#pragma once
+/// Path tracing: the rendering equation by random paths from the eye, lights sampled at each
+/// surface and hit by chance, both weighed by their densities.
+///
+/// Source: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach and Guibas, "Optimally Combining
+/// Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995 (multiple importance sampling, the
+/// power heuristic); Arvo and Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990
+/// (Russian roulette); Laine, Karras and Aila, "Megakernels Considered Harmful", HPG 2013
+/// (wavefronts).
+/// Differs: the terms of Whitted's equation that stand for light from everywhere (ambient lights)
+/// are not used; that light is found.
+/// Conventions: pairs of dimensions as in light_transport/path_chance.h. Pixels depend neither on
+/// the threads nor on tiles.
+
+#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/path_tracing/path_settings.h"
+
+namespace alhazen {
+
+class PathTracing final : public Renderer {
+  public:
+    explicit PathTracing(const PathSettings& settings) : settings_(settings) {}
+
+    /// Without RenderJob::sampling: `sobol` and `box`.
+    [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool takes_samplers() const override { return true; }
+    [[nodiscard]] bool distributes() const override { return true; }
+    [[nodiscard]] int usual_samples() const override { return 64; }
+
+  private:
+    PathSettings settings_;
+};
+
+}  // namespace alhazen
