@@ -132,8 +132,10 @@ INSIDE = {
     },
     "shading": {
         "lights": [],
+        "optics": [],
         "textures": [],
-        "materials": ["textures"],
+        "materials": ["optics", "textures"],
+        "bsdf": ["materials"],
     },
     "shapes": {
         "core": [],

@@ -5,35 +5,44 @@
 /// Source: Nicodemus et al., "Geometrical Considerations and Nomenclature for Reflectance", NBS
 /// 1977; Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, chapters 3 and 5
 /// (BSDFs, and their adjoints where light is refracted).
-/// Conventions: directions are unit, away from the surface, in the local frame of the point: z is
-/// the shading normal on the side of the view (the z of a view is > 0), x the tangent. `value` has
-/// no cosine. Singular lobes (mirrors, smooth glass) are known to `sample` alone.
+/// Differs: what lies below a cover loses, of the light to the eye, the share that the cover
+/// reflects at the angle of the eye. That keeps energy exactly; it makes the two directions
+/// unequal, and importance the adjoint: value(v, l, Radiance) = value(l, v, Importance) for every
+/// material. Conventions: directions are unit, away from the surface, in the local frame of the
+/// point: z is the shading normal on the side of the view (the z of a view is > 0), x the tangent.
+/// `value` has no cosine. Singular lobes (mirrors, smooth glass) are known to `sample` alone.
 /// Threads: const functions may be called from many.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
+#include "alhazen/base/inline_vector.h"
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/vec.h"
+#include "alhazen/shading/bsdf/cover.h"
+#include "alhazen/shading/bsdf/lobe.h"
+#include "alhazen/shading/bsdf/transport.h"
 #include "alhazen/shading/materials/material.h"
 
 namespace alhazen {
 
-/// What is carried along `view`: radiance to an eye, or importance to a light. They differ by
-/// eta^2 where a ray is refracted.
-enum class Transport : std::uint8_t { Radiance, Importance };
-
-struct BsdfSample {
-    Vec3 direction;         ///< unit, local; z < 0: transmitted
-    Rgb weight;             ///< value * |cosine| / density
-    double density = 0;     ///< by solid angle; of a singular lobe the probability of its choice
-    bool singular = false;  ///< its directions have no density
-    double eta = 1;         ///< of a transmitted ray: index where it enters over where it came from
-};
+/// Lobes of a Bsdf: three materials of a glTF surface, blended, have no more.
+inline constexpr std::size_t kMaxLobes = 18;
+/// A set of covers (bits by their index in the Bsdf).
+using CoverSet = std::uint32_t;
 
 class Bsdf {
   public:
+    /// Adds a lobe `weight` times, below `covers`. More than kMaxLobes: the one that matters least
+    /// is left out.
+    void add(const Rgb& weight, const Lobe& lobe, CoverSet covers = 0);
+    /// A layer over lobes to be added; null set where there is no place for more.
+    CoverSet add_cover(const Cover& cover);
+    /// All lobes of another, each `weight` times: materials that are blended.
+    void add(const Bsdf& other, double weight);
+
     /// Per steradian, without singular lobes.
     [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
     /// With which `sample(view)` gives `direction`, by solid angle, without singular lobes. (A
@@ -48,6 +57,27 @@ class Bsdf {
     [[nodiscard]] bool has_density() const;
     /// Whether `value` may be above 0 below the surface.
     [[nodiscard]] bool transmits() const;
+    [[nodiscard]] std::size_t lobe_count() const { return parts_.size(); }
+
+  private:
+    struct Part {
+        Rgb weight;
+        CoverSet covers = 0;
+        Lobe lobe;
+    };
+    /// Probabilities of the parts, for a view.
+    struct Choice {
+        std::array<double, kMaxLobes> share;
+        bool any = false;
+    };
+    [[nodiscard]] Choice choose(const Vec3& view) const;
+    /// What the covers let through to a part.
+    [[nodiscard]] double through(CoverSet covers, double cosine) const;
+    [[nodiscard]] double density(const Choice& choice, const Vec3& view,
+                                 const Vec3& direction) const;
+
+    InlineVector<Part, kMaxLobes> parts_;
+    InlineVector<Cover, 9> covers_;
 };
 
 /// Where a BSDF is asked for.

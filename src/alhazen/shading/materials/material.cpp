@@ -28,7 +28,9 @@ bool reads_textures(const Material& m) {
     if (!m.metallic_roughness) return false;
     const MetallicRoughness& p = *m.metallic_roughness;
     return any(p.base_color, p.metallic, p.roughness, p.occlusion, p.specular, p.specular_color,
-               p.transmission, p.thickness);
+               p.transmission, p.thickness, p.coat.strength, p.coat.roughness, p.coat.normal_map,
+               p.sheen.color, p.sheen.roughness, p.film.strength, p.anisotropy) ||
+           p.film.thickness_texture != kNoTexture;
 }
 
 double channel_of(const Rgba& texel, Channel channel) {

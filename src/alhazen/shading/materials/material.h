@@ -7,7 +7,8 @@
 /// MaterialSample holds the terms of Whitted's equation.
 ///
 /// Source: Khronos, "glTF 2.0 Specification", 2021, section 3.9 and appendix B; the extensions
-/// KHR_materials_{ior, transmission, volume, specular, emissive_strength, unlit}.
+/// KHR_materials_{anisotropy, clearcoat, dispersion, emissive_strength, ior, iridescence, sheen,
+/// specular, transmission, unlit, volume}.
 
 #include <array>
 #include <cstdint>
@@ -46,6 +47,32 @@ struct NormalMap {
     double scale = 1;  ///< of x and y
 };
 
+/// A clear layer of index 1.5 over all else.
+struct ClearCoat {
+    ScalarInput strength{0, kNoTexture, Channel::Red};
+    ScalarInput roughness{0, kNoTexture, Channel::Green};
+    NormalMap normal_map;
+};
+/// Fibres that stand off the surface.
+struct SheenLayer {
+    ColorInput color{{0, 0, 0}, kNoTexture};
+    ScalarInput roughness{0, kNoTexture, Channel::Alpha};
+};
+/// A film whose two sides interfere. A texture of the thickness blends from `thinnest` to
+/// `thickest`; without one it is `thickest`.
+struct IridescentFilm {
+    ScalarInput strength{0, kNoTexture, Channel::Red};
+    double index = 1.3;
+    double thinnest_nm = 100, thickest_nm = 400;
+    TextureId thickness_texture = kNoTexture;  ///< its green channel
+};
+/// Grooves along a direction in the surface: `rotation` (radians) from the tangent to the
+/// bitangent. Red and green of the texture turn it further, blue times `strength`.
+struct Grooves {
+    double strength = 0, rotation = 0;
+    TextureId texture = kNoTexture;
+};
+
 /// The metallic-roughness parameters, kept as the file gives them. Emission and index of refraction
 /// are those of the Material.
 struct MetallicRoughness {
@@ -61,7 +88,22 @@ struct MetallicRoughness {
     ScalarInput thickness{0, kNoTexture, Channel::Green};
     double attenuation_distance = std::numeric_limits<double>::infinity();  ///< scene units
     Rgb attenuation_color{1, 1, 1};  ///< what is left of white light after that distance
-    bool unlit = false;              ///< shows its base colour whatever the light
+    ClearCoat coat;
+    SheenLayer sheen;
+    IridescentFilm film;
+    Grooves anisotropy;
+    double dispersion = 0;  ///< 20 / Abbe number; kept, and not seen by renderers of three colours
+    bool unlit = false;     ///< shows its base colour whatever the light
+};
+
+/// A metal by its complex index of refraction n + i k at red, green and blue.
+struct Conductor {
+    Rgb index, extinction;
+    std::string name;  ///< of a measured metal (metals.h); empty: by the numbers
+};
+/// A clear body that reflects and refracts by Fresnel's equations. Its index is the Material's.
+struct Dielectric {
+    Rgb absorption;  ///< inside: light falls by exp(-absorption * length)
 };
 
 /// Coefficients are 0..1 by custom, not by force. Importers fill in what their format leaves out
@@ -90,6 +132,10 @@ struct Material {
     /// Given: the Whitted coefficients above (emission and index apart) are not used; `evaluate`
     /// derives them.
     std::optional<MetallicRoughness> metallic_roughness;
+    /// Given: the same, of a surface by its physical constants. `roughness` is that of the
+    /// Material.
+    std::optional<Conductor> conductor;
+    std::optional<Dielectric> dielectric;
 
     /// True when no light passes anywhere.
     [[nodiscard]] bool is_opaque() const {
@@ -97,6 +143,7 @@ struct Material {
             return c.texture == kNoTexture && c.color.is_black();
         };
         if (alpha_mode != AlphaMode::Opaque) return false;
+        if (conductor || dielectric) return !dielectric;
         return metallic_roughness ? metallic_roughness->transmission.value == 0.0
                                   : is_black(transmissive);
     }

@@ -1,0 +1,193 @@
+#include "alhazen/shading/bsdf/bsdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace alhazen {
+
+namespace {
+
+template <class L>
+inline constexpr bool singular_v = std::remove_cvref_t<L>::kSingular;
+
+bool is_singular(const Lobe& lobe) {
+    return std::visit([](const auto& l) { return singular_v<decltype(l)>; }, lobe);
+}
+Rgb albedo_of(const Lobe& lobe, const Vec3& view) {
+    return std::visit([&](const auto& l) { return l.albedo(view); }, lobe);
+}
+Rgb value_of(const Lobe& lobe, const Vec3& view, const Vec3& direction, Transport transport) {
+    return std::visit(
+        [&]<class L>(const L& l) {
+            if constexpr (L::kSingular) {
+                return Rgb{};
+            } else {
+                return l.value(view, direction, transport);
+            }
+        },
+        lobe);
+}
+double density_of(const Lobe& lobe, const Vec3& view, const Vec3& direction) {
+    return std::visit(
+        [&]<class L>(const L& l) {
+            if constexpr (L::kSingular) {
+                return 0.0;
+            } else {
+                return l.density(view, direction);
+            }
+        },
+        lobe);
+}
+
+/// NaN and infinities count as nothing.
+bool is_usable(const Rgb& weight) {
+    return weight.is_finite() && weight.max() > 0.0;
+}
+
+}  // namespace
+
+void Bsdf::add(const Rgb& weight, const Lobe& lobe, CoverSet covers) {
+    if (!is_usable(weight)) return;
+    const Part part{weight, covers, lobe};
+    if (!parts_.full()) {
+        parts_.push_back(part);
+        return;
+    }
+    const auto importance = [](const Part& p) {
+        return (p.weight * albedo_of(p.lobe, {0, 0, 1})).max();
+    };
+    Part* least = std::ranges::min_element(parts_, {}, importance);
+    if (importance(*least) < importance(part)) *least = part;
+}
+
+CoverSet Bsdf::add_cover(const Cover& cover) {
+    if (covers_.full() || !(cover.share > 0.0)) return 0;
+    covers_.push_back(cover);
+    return CoverSet{1} << (covers_.size() - 1);
+}
+
+void Bsdf::add(const Bsdf& other, double weight) {
+    if (!(weight > 0.0)) return;
+    std::array<CoverSet, decltype(covers_)::capacity()> renamed{};
+    for (std::size_t i = 0; i < other.covers_.size(); ++i) {
+        renamed[i] = add_cover(other.covers_[i]);
+    }
+    for (const Part& part : other.parts_) {
+        CoverSet covers = 0;
+        for (std::size_t i = 0; i < other.covers_.size(); ++i) {
+            if ((part.covers >> i & 1) != 0) covers |= renamed[i];
+        }
+        add(weight * part.weight, part.lobe, covers);
+    }
+}
+
+double Bsdf::through(CoverSet covers, double cosine) const {
+    double share = 1.0;
+    for (std::size_t i = 0; covers >> i != 0; ++i) {
+        if ((covers >> i & 1) != 0) share *= covers_[i].transmittance(cosine);
+    }
+    return share;
+}
+
+Bsdf::Choice Bsdf::choose(const Vec3& view) const {
+    Choice choice;
+    double sum = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const Part& part = parts_[i];
+        double share = (part.weight * albedo_of(part.lobe, view)).max();
+        // Never 0 below a cover: for importance it is the other direction that counts.
+        if (part.covers != 0) share *= std::max(0.02, through(part.covers, view.z));
+        choice.share[i] = share > 0.0 ? share : 0.0;
+        sum += choice.share[i];
+    }
+    if (!(sum > 0.0) || !std::isfinite(sum)) return choice;
+    choice.any = true;
+    for (std::size_t i = 0; i < parts_.size(); ++i) choice.share[i] /= sum;
+    return choice;
+}
+
+Rgb Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport) const {
+    if (!(view.z > 0.0) || direction.z == 0.0) return {};
+    const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
+    Rgb sum;
+    for (const Part& part : parts_) {
+        const Rgb value = part.weight * value_of(part.lobe, view, direction, transport);
+        if (!is_usable(value)) continue;
+        sum += part.covers != 0 ? through(part.covers, cosine) * value : value;
+    }
+    return sum;
+}
+
+double Bsdf::density(const Choice& choice, const Vec3& view, const Vec3& direction) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        if (!(choice.share[i] > 0.0)) continue;
+        const double density = density_of(parts_[i].lobe, view, direction);
+        if (density > 0.0 && std::isfinite(density)) sum += choice.share[i] * density;
+    }
+    return sum;
+}
+
+double Bsdf::density(const Vec3& view, const Vec3& direction) const {
+    if (!(view.z > 0.0) || direction.z == 0.0) return 0.0;
+    const Choice choice = choose(view);
+    return choice.any ? density(choice, view, direction) : 0.0;
+}
+
+std::optional<BsdfSample> Bsdf::sample(const Vec3& view, double choice, const Vec2& u,
+                                       Transport transport) const {
+    if (!(view.z > 0.0)) return std::nullopt;
+    const Choice shares = choose(view);
+    if (!shares.any) return std::nullopt;
+    std::size_t i = 0;
+    double below = 0;
+    // The last part that can be chosen takes what rounding leaves.
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        if (!(shares.share[k] > 0.0)) continue;
+        if (i != k && choice < below) break;
+        i = k;
+        below += shares.share[k];
+    }
+    const double share = shares.share[i];
+    const double rest = std::clamp((choice - (below - share)) / share, 0.0, 0x1.fffffffffffffp-1);
+
+    const Part& part = parts_[i];
+    auto sample =
+        std::visit([&](const auto& l) { return l.sample(view, rest, u, transport); }, part.lobe);
+    if (!sample || sample->direction.z == 0.0) return std::nullopt;
+    if (sample->singular) {
+        const double cosine =
+            transport == Transport::Radiance ? view.z : std::abs(sample->direction.z);
+        sample->weight = (through(part.covers, cosine) / share) * part.weight * sample->weight;
+        sample->density *= share;
+    } else {
+        sample->density = density(shares, view, sample->direction);
+        sample->weight = (std::abs(sample->direction.z) / sample->density) *
+                         value(view, sample->direction, transport);
+    }
+    if (!(sample->density > 0.0) || !is_usable(sample->weight)) return std::nullopt;
+    return sample;
+}
+
+Rgb Bsdf::albedo(const Vec3& view) const {
+    if (!(view.z > 0.0)) return {};
+    Rgb sum;
+    for (const Part& part : parts_) {
+        const Rgb albedo = through(part.covers, view.z) * part.weight * albedo_of(part.lobe, view);
+        if (is_usable(albedo)) sum += albedo;
+    }
+    return sum;
+}
+
+bool Bsdf::has_density() const {
+    return std::ranges::any_of(parts_, [](const Part& p) { return !is_singular(p.lobe); });
+}
+
+bool Bsdf::transmits() const {
+    return std::ranges::any_of(parts_, [](const Part& p) {
+        return std::visit([]<class L>(const L&) { return !L::kSingular && L::kTransmits; }, p.lobe);
+    });
+}
+
+}  // namespace alhazen

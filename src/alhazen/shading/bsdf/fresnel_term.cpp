@@ -1,0 +1,86 @@
+#include "alhazen/shading/bsdf/fresnel_term.h"
+
+#include <algorithm>
+
+#include "alhazen/base/overloaded.h"
+#include "alhazen/shading/optics/fresnel.h"
+#include "alhazen/shading/optics/thin_film.h"
+
+namespace alhazen {
+
+namespace {
+
+Rgb at(const SchlickTerm& t, double cosine) {
+    return t.f0 + schlick_weight(cosine) * (t.f90 - t.f0);
+}
+Rgb at(const ConductorTerm& t, double cosine) {
+    Rgb result;
+    for (int i = 0; i < 3; ++i) {
+        result[i] = conductor_reflectance(cosine, t.index[i], t.extinction[i]);
+    }
+    return result;
+}
+Rgb at(const DielectricTerm& t, double cosine) {
+    const double r = dielectric_reflectance(cosine, t.eta);
+    return {r, r, r};
+}
+Rgb at(const FilmTerm& t, double cosine) {
+    const Rgb film = thin_film_reflectance(cosine, t.index, t.thickness_nm, t.base.f0);
+    return (1.0 - t.share) * at(t.base, cosine) + t.share * film;
+}
+
+/// f90 of Schlick's formula through `value` at this cosine; where the formula hardly depends on it,
+/// the usual 1 by and by.
+Rgb f90_through(const Rgb& f0, const Rgb& value, double cosine) {
+    const double w = schlick_weight(cosine);
+    Rgb result;
+    for (int i = 0; i < 3; ++i) {
+        const double exact = w > 0.0 ? f0[i] + (value[i] - f0[i]) / w : 1.0;
+        const double trust = std::min(1.0, 20.0 * w);
+        result[i] = std::clamp(1.0 + trust * (exact - 1.0), 0.0, 1.0);
+    }
+    return result;
+}
+
+}  // namespace
+
+Rgb reflectance(const FresnelTerm& term, double cosine) {
+    return std::visit([&](const auto& t) { return at(t, cosine); }, term);
+}
+
+SchlickTerm schlick_fit(const FresnelTerm& term, double cosine) {
+    return std::visit(Overloaded{[](const SchlickTerm& t) { return t; },
+                                 [&](const FilmTerm& t) {
+                                     // A film's colour at the view says more than that at normal
+                                     // incidence: it changes with the angle.
+                                     const Rgb now = at(t, cosine);
+                                     const double w = std::min(schlick_weight(cosine), 0.5);
+                                     SchlickTerm fit{{}, {1, 1, 1}};
+                                     for (int i = 0; i < 3; ++i) {
+                                         fit.f0[i] = std::clamp((now[i] - w) / (1.0 - w), 0.0, 1.0);
+                                     }
+                                     return fit;
+                                 },
+                                 [&](const auto& t) {
+                                     const Rgb f0 = at(t, 1.0);
+                                     return SchlickTerm{f0, f90_through(f0, at(t, cosine), cosine)};
+                                 }},
+                      term);
+}
+
+Rgb mean_reflectance(const FresnelTerm& term) {
+    const auto of_schlick = [](const SchlickTerm& t) {
+        return t.f0 + (1.0 / 21.0) * (t.f90 - t.f0);
+    };
+    // Three points of Gauss and Legendre of the integral of 2 R(c) c.
+    const auto by_quadrature = [](const auto& t) {
+        constexpr double kPoints[] = {0.11270166537925831, 0.5, 0.88729833462074169};
+        constexpr double kWeights[] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+        Rgb sum;
+        for (int i = 0; i < 3; ++i) sum += 2.0 * kPoints[i] * kWeights[i] * at(t, kPoints[i]);
+        return sum;
+    };
+    return std::visit(Overloaded{of_schlick, by_quadrature}, term);
+}
+
+}  // namespace alhazen

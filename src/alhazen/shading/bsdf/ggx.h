@@ -1,0 +1,67 @@
+#pragma once
+/// Rough surfaces as ellipsoidal microfacets (GGX, or Trowbridge and Reitz), which may be rougher
+/// along one tangent than along the other.
+///
+/// Source: Trowbridge and Reitz, "Average Irregularity Representation of a Rough Surface for Ray
+/// Reflection", JOSA 65, 1975; Walter et al., "Microfacet Models for Refraction through Rough
+/// Surfaces", EGSR 2007; Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based
+/// BRDFs", JCGT 3(2), 2014 (equations 72 and 99); Dupuy and Benyoub, "Sampling Visible GGX Normals
+/// with Spherical Caps", HPG 2023, algorithm 3.
+/// Conventions: local frame; normals of microfacets have z > 0; views above the surface.
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/math/constants.h"
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+/// Below it a surface counts as smooth: its lobe is narrower than a pixel sees anything in.
+inline constexpr double kSmoothAlpha = 5e-4;
+
+struct Ggx {
+    double x = 0.1, y = 0.1;  ///< roughness alpha along the tangents
+
+    /// Length of `v` stretched to where the surface is a hemisphere. Masking follows from it.
+    [[nodiscard]] double stretched_length(const Vec3& v) const {
+        return std::sqrt(x * x * v.x * v.x + y * y * v.y * v.y + v.z * v.z);
+    }
+
+    /// Density of normals by solid angle and area of the surface.
+    [[nodiscard]] double normals(const Vec3& m) const {
+        const double a = m.x / x, b = m.y / y;
+        const double s = a * a + b * b + m.z * m.z;
+        return 1.0 / (kPi * x * y * s * s);
+    }
+
+    /// Share of the facets that `v` faces which it sees.
+    [[nodiscard]] double masking(const Vec3& v) const {
+        const double z = std::abs(v.z);
+        return 2.0 * z / (z + stretched_length(v));
+    }
+    /// Share of the facets that both see, of those that `v` sees.
+    [[nodiscard]] double shadowing(const Vec3& v, const Vec3& l) const {
+        const double vz = std::abs(v.z), lz = std::abs(l.z);
+        const double a = stretched_length(v);
+        return lz * (vz + a) / (vz * stretched_length(l) + lz * a);
+    }
+
+    /// Density of the visible normals over the cosine of v to them: with `cosine` = dot(v, m) > 0
+    /// it is the density of `m` by solid angle.
+    [[nodiscard]] double visible_normals(const Vec3& v, const Vec3& m, double cosine) const {
+        return 2.0 * cosine * normals(m) / (v.z + stretched_length(v));
+    }
+
+    /// A normal that `v` sees, with density `visible_normals`.
+    [[nodiscard]] Vec3 sample_visible(const Vec3& v, const Vec2& u) const {
+        const Vec3 s = Vec3{x * v.x, y * v.y, v.z} / stretched_length(v);
+        const double angle = 2.0 * kPi * u.x;
+        const double z = (1.0 - u.y) * (1.0 + s.z) - s.z;
+        const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
+        const Vec3 h = Vec3{radius * std::cos(angle), radius * std::sin(angle), z} + s;
+        return normalize(Vec3{x * h.x, y * h.y, std::max(h.z, 0.0)});
+    }
+};
+
+}  // namespace alhazen

@@ -1,0 +1,36 @@
+#include "alhazen/shading/bsdf/lambert.h"
+
+#include "alhazen/shading/bsdf/local_directions.h"
+
+namespace alhazen {
+
+Rgb Lambert::value(const Vec3&, const Vec3& direction, Transport) const {
+    return direction.z > 0.0 ? (1.0 / kPi) * color : Rgb{};
+}
+double Lambert::density(const Vec3&, const Vec3& direction) const {
+    return cosine_density(direction);
+}
+std::optional<BsdfSample> Lambert::sample(const Vec3&, double, const Vec2& u, Transport) const {
+    const Vec3 direction = cosine_direction(u);
+    return BsdfSample{direction, color, cosine_density(direction)};
+}
+Rgb Lambert::albedo(const Vec3&) const {
+    return color;
+}
+
+Rgb LambertTransmission::value(const Vec3&, const Vec3& direction, Transport) const {
+    return direction.z < 0.0 ? (1.0 / kPi) * color : Rgb{};
+}
+double LambertTransmission::density(const Vec3&, const Vec3& direction) const {
+    return cosine_density(flipped(direction));
+}
+std::optional<BsdfSample> LambertTransmission::sample(const Vec3&, double, const Vec2& u,
+                                                      Transport) const {
+    const Vec3 direction = cosine_direction(u);
+    return BsdfSample{flipped(direction), color, cosine_density(direction)};
+}
+Rgb LambertTransmission::albedo(const Vec3&) const {
+    return color;
+}
+
+}  // namespace alhazen

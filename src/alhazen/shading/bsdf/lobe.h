@@ -1,0 +1,22 @@
+#pragma once
+/// The ways in which surfaces scatter light: a closed variant of plain structs.
+///
+/// ADD A LOBE HERE: a file pair with the struct, and an entry in `Lobe`. Each has
+///   - kSingular: light comes back in single directions, which have no density; kTransmits: it may
+///     come from below;
+///   - sample(view, choice, u, transport) and albedo(view), as class Bsdf has them;
+///   - unless singular, value(view, direction, transport) and density(view, direction).
+/// Conventions: those of bsdf.h; a view has z > 0, a direction z != 0. The density integrates to 1,
+/// or to the share of samples that are not absorbed, and is above 0 where the value is.
+
+#include <variant>
+
+#include "alhazen/shading/bsdf/lambert.h"
+#include "alhazen/shading/bsdf/mirror.h"
+#include "alhazen/shading/bsdf/smooth_dielectric.h"
+
+namespace alhazen {
+
+using Lobe = std::variant<Lambert, LambertTransmission, Mirror, SmoothDielectric, ThinSheet>;
+
+}  // namespace alhazen

@@ -1,0 +1,34 @@
+#pragma once
+/// How much light a smooth boundary reflects.
+///
+/// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, sections 1.5.2 (dielectrics)
+/// and 14.2 (metals); Schlick, "An Inexpensive BRDF Model for Physically-Based Rendering",
+/// Eurographics 1994.
+/// Conventions: cosines are to the normal on the side of the ray, 0..1 (outside of it: clamped).
+/// Light is unpolarised before and taken as unpolarised after: in truth reflection polarises it,
+/// completely so at Brewster's angle, and a second mirror would show that.
+
+#include "alhazen/imaging/image/rgb.h"
+
+namespace alhazen {
+
+/// Share reflected where a ray goes on in a medium whose index is `1 / eta` times that of its own;
+/// 1 beyond the critical angle. `cosine_behind`: of the refracted ray, 0 where there is none.
+[[nodiscard]] double dielectric_reflectance(double cosine, double eta, double& cosine_behind);
+[[nodiscard]] double dielectric_reflectance(double cosine, double eta);
+
+/// Of a conductor with index `n + i k` relative to the medium of the ray.
+[[nodiscard]] double conductor_reflectance(double cosine, double n, double k);
+
+/// At normal incidence, of relative index `n` (or 1 / n).
+[[nodiscard]] double normal_reflectance_of(double n);
+
+/// (1 - cosine)^5.
+[[nodiscard]] double schlick_weight(double cosine);
+
+/// Mean over the hemisphere of a dielectric's reflectance, weighted by the cosine; `eta` as above.
+/// Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
+/// course, slide on dielectrics (fits; error below 0.5 % for indices up to 3).
+[[nodiscard]] double mean_dielectric_reflectance(double eta);
+
+}  // namespace alhazen

@@ -1,0 +1,29 @@
+#pragma once
+/// Metals by name, with their complex indices of refraction at red, green and blue.
+///
+/// Source: Johnson and Christy, "Optical Constants of the Noble Metals", Phys. Rev. B 6, 1972
+/// (copper, gold, silver) and "Optical Constants of Transition Metals", Phys. Rev. B 9, 1974
+/// (chromium, iron, nickel, titanium); Rakic, "Algorithm for the Determination of Intrinsic Optical
+/// Constants of Metal Films", Applied Optics 34, 1995 (aluminium); the tables of them in
+/// Polyanskiy, refractiveindex.info (public domain). Linearly interpolated at 611.4, 549.1 and
+/// 464.3 nm, the dominant wavelengths of the primaries of sRGB, and rounded to three digits.
+/// Differs: three wavelengths stand for three channels; a spectrum would be integrated.
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "alhazen/imaging/image/rgb.h"
+
+namespace alhazen {
+
+struct Metal {
+    std::string_view name;
+    Rgb index, extinction;
+};
+
+/// In the order of their names.
+[[nodiscard]] std::span<const Metal> metals();
+[[nodiscard]] const Metal* find_metal(std::string_view name);
+
+}  // namespace alhazen
