@@ -9,21 +9,17 @@
 /// with which the light is chosen. Singular lights (points, spots, directions) are hit by no ray.
 /// Intensities of singular lights are times pi: Whitted's coefficients are not divided by pi, those
 /// of a BSDF are, and both show the same diffuse surface.
+/// Left to chance hits (density 0): emitting surfaces that cannot be sampled (emitter_list.h).
 /// Threads: const functions may be called from many.
 
+#include <cstdint>
 #include <memory>
 
+#include "alhazen/illumination/lit_point.h"
 #include "alhazen/primitives/surface.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
-
-/// A point that is to be lit.
-struct LitPoint {
-    Vec3 point;
-    Vec3 normal;              ///< unit, shading, on the side of the view
-    bool both_sides = false;  ///< light from behind counts, too
-};
 
 /// A direction from which light comes.
 struct LightDraw {
@@ -50,10 +46,25 @@ struct LightRay {
                                       ///< scene, and its place lies on a disc across its direction
 };
 
+/// How one of many lights is chosen.
+enum class LightChoice : std::uint8_t {
+    Uniform,  ///< all alike
+    Power,    ///< by how much they send out
+    Tree,     ///< by how much may arrive (light_tree.h)
+};
+inline constexpr const char* kLightChoiceNames[] = {"uniform", "power", "tree"};
+
+struct IlluminationOptions {
+    LightChoice choice = LightChoice::Tree;
+};
+
 class Illumination {
   public:
-    explicit Illumination(const Scene& scene);
+    /// The scene must stay as it is while this is used.
+    explicit Illumination(const Scene& scene, const IlluminationOptions& options = {});
     ~Illumination();
+    Illumination(Illumination&&) noexcept;
+    Illumination& operator=(Illumination&&) noexcept;
 
     /// False: nothing shines.
     [[nodiscard]] bool shines() const;

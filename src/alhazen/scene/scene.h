@@ -13,6 +13,8 @@
 
 namespace alhazen {
 
+class Environment;
+
 /// Counts of a scene. Those of shapes are 0 without an aggregate.
 struct SceneCensus {
     std::uint64_t analytic_shapes = 0;       ///< stored, each object once
@@ -50,6 +52,8 @@ struct Scene {
     bool has_motion = false;  ///< some part or mesh moves while the shutter is open
     std::string accelerator;  ///< of the aggregate; empty without
     SceneCensus census;
+    /// Null: renderers that follow light physically are lit by `background`.
+    std::shared_ptr<const Environment> environment;
 };
 
 struct CompileOptions {

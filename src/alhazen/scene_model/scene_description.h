@@ -21,6 +21,7 @@
 #include "alhazen/math/affine.h"
 #include "alhazen/scene_model/conventions.h"
 #include "alhazen/scene_model/scene_motion.h"
+#include "alhazen/shading/lights/environment_settings.h"
 #include "alhazen/shading/lights/light.h"
 #include "alhazen/shading/materials/material.h"
 #include "alhazen/shapes/meshes/mesh_motion.h"
@@ -102,6 +103,11 @@ struct LightDescription {
     FileLocation location;
 };
 
+struct EnvironmentDescription {
+    EnvironmentSettings settings;
+    FileLocation location;
+};
+
 struct MaterialDescription {
     Material material;
     FileLocation location;
@@ -149,6 +155,8 @@ struct SceneDescription {
     Shutter shutter;
     UpAxis up_axis = UpAxis::Y;
     Conventions conventions;
+    /// For renderers that follow light physically; others see `picture.background`.
+    std::optional<EnvironmentDescription> environment;
 };
 
 /// Adds every finding about `description` to `diagnostics`: non-finite values, singular transforms,

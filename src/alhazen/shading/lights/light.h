@@ -20,6 +20,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <variant>
 
 #include "alhazen/imaging/image/rgb.h"
@@ -48,6 +49,16 @@ struct Attenuation {
 /// Source: Khronos, KHR_lights_punctual, "Range Property".
 inline constexpr double kNoRange = std::numeric_limits<double>::infinity();
 
+class IesProfile;
+
+/// How much a light at a point sends in each direction (ies_profile.h).
+struct LightProfile {
+    std::string file;                           ///< as named; empty: the same in all directions
+    std::shared_ptr<const IesProfile> profile;  ///< already read, beside `file`
+    Vec3 down{0, 0, -1};                        ///< of its vertical angle 0
+    Vec3 front{1, 0, 0};                        ///< of its horizontal angle 0
+};
+
 struct PointLight {
     Vec3 position;
     Rgb color{1, 1, 1};
@@ -55,6 +66,7 @@ struct PointLight {
     Rgb ambient;
     double range = kNoRange;
     bool glints = true;  ///< false: no highlights on materials that transmit light
+    LightProfile profile;
 };
 
 /// A point light that shines into a cone: full within `inner_angle` of the axis, none beyond
@@ -67,6 +79,7 @@ struct SpotLight {
     Attenuation attenuation;
     Rgb ambient;
     double range = kNoRange;
+    LightProfile profile;
 };
 
 /// A surface that shines with the same radiance from everywhere into all directions of its outer

@@ -1,0 +1,433 @@
+#include "alhazen/illumination/emitter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/illumination/spherical_polygons.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/light_extent.h"
+#include "alhazen/shapes/patches/patch_value.h"
+
+namespace alhazen {
+
+namespace {
+
+/// What is seen under a smaller solid angle is sampled by area: there both are alike, and the
+/// formulas of solid angles lose digits.
+constexpr double kLeastSolidAngle = 1e-4;
+/// A point within this of the surface of a sphere, relative to the radius, is inside of it: there a
+/// cone would look at the point itself.
+constexpr double kOnSphere = 1e-9;
+/// From inside of a sphere nothing nearer than this, relative to the radius, is drawn.
+constexpr double kNearOnSphere = 1e-7;
+
+Vec3 corner_of(const Emitter& e) {
+    return e.world_from_own.translation;
+}
+const Vec3& axis_x(const Emitter& e) {
+    return e.world_from_own.linear.x_axis;
+}
+const Vec3& axis_y(const Emitter& e) {
+    return e.world_from_own.linear.y_axis;
+}
+const Vec3& axis_z(const Emitter& e) {
+    return e.world_from_own.linear.z_axis;
+}
+
+/// What an area of normal `n` becomes; the result's direction is the normal, not unit.
+Vec3 transformed_area(const Mat3& m, const Vec3& n) {
+    return n.x * cross(m.y_axis, m.z_axis) + n.y * cross(m.z_axis, m.x_axis) +
+           n.z * cross(m.x_axis, m.y_axis);
+}
+
+/// The outer normal of a point of the sphere or the tube whose own normal is `n`.
+Vec3 outer_normal(const Emitter& e, const Vec3& n) {
+    const Mat3& m = e.world_from_own.linear;
+    return normalize(std::copysign(1.0, determinant(m)) * transformed_area(m, n));
+}
+
+// ---- flat forms
+
+EmitterSample seen_by_area(const Emitter& e, const Vec3& from, const EmitterPoint& p) {
+    const Vec3 offset = p.point - from;
+    const double squared = length_squared(offset), distance = std::sqrt(squared);
+    if (!(distance > 0.0)) return {};
+    const Vec3 to_light = offset / distance;
+    double cosine = -dot(to_light, p.normal);
+    if (e.two_sided) cosine = std::abs(cosine);
+    if (!(cosine > 0.0)) return {};
+    return {to_light, distance, p.density * squared / cosine, p.parameters};
+}
+
+double by_solid_angle(double area_density, const EmitterHit& hit) {
+    const double cosine = std::abs(dot(hit.direction, hit.normal));
+    return cosine > 0.0 ? area_density * hit.distance * hit.distance / cosine : 0.0;
+}
+
+SphericalTriangle triangle_from(const Emitter& e, const Vec3& from) {
+    const Vec3 a = corner_of(e) - from;
+    return {a, a + axis_x(e), a + axis_y(e)};
+}
+
+/// The weights of the second and third corner at a point of the plane.
+Vec2 weights_at(const Emitter& e, const Vec3& p) {
+    const Vec3 &x = axis_x(e), &y = axis_y(e);
+    const double xx = dot(x, x), xy = dot(x, y), yy = dot(y, y);
+    const double px = dot(p, x), py = dot(p, y), below = xx * yy - xy * xy;
+    const double u = std::clamp((yy * px - xy * py) / below, 0.0, 1.0);
+    return {u, std::clamp((xx * py - xy * px) / below, 0.0, 1.0 - u)};
+}
+
+EmitterSample sample_triangle(const Emitter& e, const Vec3& from, const Vec2& u) {
+    const SphericalTriangle seen = triangle_from(e, from);
+    if (!(seen.solid_angle() > kLeastSolidAngle)) return seen_by_area(e, from, point_of(e, u));
+    const Vec3 direction = seen.direction(u), corner = corner_of(e) - from;
+    const double height = dot(corner, axis_z(e)), slope = dot(direction, axis_z(e));
+    if (!e.two_sided && !(height < 0.0)) return {};
+    const double distance = height / slope;
+    if (!(distance > 0.0) || !std::isfinite(distance)) return {};
+    return {direction, distance, 1.0 / seen.solid_angle(),
+            weights_at(e, distance * direction - corner)};
+}
+
+EmitterSample sample_rectangle(const Emitter& e, const Vec3& from, const Vec2& u) {
+    if (e.right_angled) {
+        const SphericalRectangle seen(corner_of(e) - from, axis_x(e), axis_y(e));
+        if (seen.solid_angle() > kLeastSolidAngle) {
+            if (!e.two_sided && !(dot(corner_of(e) - from, axis_z(e)) < 0.0)) return {};
+            const Vec3 offset = seen.point(u);
+            const double distance = length(offset);
+            return {offset / distance, distance, 1.0 / seen.solid_angle(), {}};
+        }
+    }
+    return seen_by_area(e, from, point_of(e, u));
+}
+
+Vec2 on_own_disc(const Emitter& e, const Vec2& u) {
+    if (!(e.inner > 0.0)) return on_unit_disc(u);
+    const double r = std::sqrt(e.inner * e.inner + u.x * (1.0 - e.inner * e.inner));
+    return {r * std::cos(2.0 * kPi * u.y), r * std::sin(2.0 * kPi * u.y)};
+}
+
+EmitterPoint point_of_parts(const Emitter& e, const Vec2& u) {
+    const EmitterParts& parts = *e.parts;
+    const double wanted = u.x * parts.areas.back();
+    const auto found = std::upper_bound(parts.areas.begin(), parts.areas.end(), wanted);
+    const std::size_t i = std::min<std::size_t>(std::size_t(found - parts.areas.begin()),
+                                                parts.areas.size() - 1);
+    const double before = i == 0 ? 0.0 : parts.areas[i - 1];
+    const double x = std::clamp((wanted - before) / (parts.areas[i] - before), 0.0, 1.0);
+    const double root = std::sqrt(x);
+    const Vec3* c = parts.corners.data() + 3 * i;
+    return {(1.0 - root) * c[0] + (root * (1.0 - u.y)) * c[1] + (root * u.y) * c[2], axis_z(e),
+            1.0 / e.area,
+            {}};
+}
+
+// ---- the sphere
+
+Vec3 on_own_sphere(const Vec2& u) {
+    const Vec2 p = on_unit_disc(u);
+    const double share = p.x * p.x + p.y * p.y;
+    const double scale = 2.0 * std::sqrt(std::max(0.0, 1.0 - share));
+    return {scale * p.x, scale * p.y, 1.0 - 2.0 * share};
+}
+
+/// The sphere in its own frame, seen from a point.
+struct SeenSphere {
+    Vec3 from;       ///< own
+    double squared;  ///< distance to the centre
+    double cap = 0;  ///< 1 - cosine of half the cone's angle, from outside
+    bool inside;
+
+    SeenSphere(const Emitter& e, const Vec3& world_from)
+        : from(inverse(e.world_from_own.linear) * (world_from - e.world_from_own.translation)),
+          squared(length_squared(from)),
+          inside(!(squared > 1.0 + kOnSphere)) {
+        const double sine2 = 1.0 / squared;
+        if (!inside) cap = sine2 / (1.0 + std::sqrt(1.0 - sine2));
+    }
+    /// By own solid angle.
+    [[nodiscard]] double density() const {
+        return inside ? 1.0 / (4.0 * kPi) : 1.0 / (2.0 * kPi * cap);
+    }
+};
+
+/// World solid angle density over own, for an own unit direction that becomes `length` long.
+double change_of_angle(const Emitter& e, double length) {
+    return length * length * length / std::abs(determinant(e.world_from_own.linear));
+}
+
+EmitterSample sample_sphere(const Emitter& e, const Vec3& world_from, const Vec2& u) {
+    const SeenSphere seen(e, world_from);
+    Vec3 own;
+    double t = 0.0;
+    if (seen.inside) {
+        if (!e.two_sided) return {};
+        own = on_own_sphere(u);
+        const double b = dot(seen.from, own);
+        t = -b + std::sqrt(std::max(0.0, b * b + 1.0 - seen.squared));
+        if (!(t > kNearOnSphere)) return {};
+    } else {
+        const double d = std::sqrt(seen.squared);
+        const Vec2 p = on_unit_disc(u);
+        const double height = (p.x * p.x + p.y * p.y) * seen.cap, cosine = 1.0 - height;
+        const double across = std::sqrt(seen.cap * (2.0 - height));
+        const Vec3 axis = (-1.0 / d) * seen.from, x = perpendicular(axis), y = cross(axis, x);
+        own = normalize(cosine * axis + (across * p.x) * x + (across * p.y) * y);
+        const double sine2 = height * (2.0 - height);
+        t = d * cosine - std::sqrt(std::max(0.0, 1.0 - seen.squared * sine2));
+    }
+    const Vec3 direction = e.world_from_own.linear * own;
+    const double scale = length(direction);
+    return {direction / scale, t * scale, seen.density() * change_of_angle(e, scale), {}};
+}
+
+double density_of_sphere(const Emitter& e, const Vec3& world_from, const EmitterHit& hit) {
+    const SeenSphere seen(e, world_from);
+    const bool from_behind = dot(hit.direction, hit.normal) > 0.0;
+    if (from_behind != seen.inside) return 0.0;
+    const Vec3 own = inverse(e.world_from_own.linear) * hit.direction;
+    const double scale = 1.0 / length(own);
+    if (seen.inside && !(hit.distance > kNearOnSphere * scale)) return 0.0;
+    return seen.density() * change_of_angle(e, scale);
+}
+
+// ---- the tube
+
+/// The part of the angle around a tube that is sampled from a point: `half` to both sides of `x`.
+struct SeenTube {
+    Vec3 x{1, 0, 0}, y{0, 1, 0};
+    double half = kPi;
+
+    SeenTube(const Emitter& e, const Vec3& world_from) {
+        const Vec3 from =
+            inverse(e.world_from_own.linear) * (world_from - e.world_from_own.translation);
+        const double away = std::hypot(from.x, from.y);
+        if (!(away > 0.0)) return;
+        if (!e.two_sided && away > 1.0) half = std::acos(1.0 / away);
+        x = {from.x / away, from.y / away, 0};
+        y = {-x.y, x.x, 0};
+    }
+};
+
+/// Area for an angle and a share of the length, where the own normal is `n`.
+double stretch_of_tube(const Emitter& e, const Vec3& n) {
+    return length(cross(e.world_from_own.linear * Vec3{-n.y, n.x, 0}, axis_z(e)));
+}
+
+EmitterPoint point_of_tube(const Emitter& e, const SeenTube& seen, const Vec2& u) {
+    const double angle = seen.half * (2.0 * u.x - 1.0);
+    const Vec3 n = std::cos(angle) * seen.x + std::sin(angle) * seen.y;
+    return {e.world_from_own.point(n + Vec3{0, 0, u.y}), outer_normal(e, n),
+            1.0 / (2.0 * seen.half * stretch_of_tube(e, n)),
+            {}};
+}
+
+/// The own normal of the tube for that of the world.
+Vec3 own_normal_of_tube(const Emitter& e, const Vec3& normal) {
+    Vec3 n = transpose_times(e.world_from_own.linear, normal);
+    n.z = 0.0;
+    return normalize(n);
+}
+
+// ---- the patch
+
+EmitterPoint point_of_patch(const Emitter& e, const Vec2& parameters) {
+    const PatchValue value = patch_value(e.patch->net, parameters.x, parameters.y);
+    const Mat3& m = e.world_from_own.linear;
+    const Vec3 across = cross(m * value.du, m * value.dv);
+    const double stretch = length(across);
+    if (!(stretch > 0.0)) return {};
+    // A mirror turns du x dv, but not the outer side.
+    const bool turned = e.patch->turned != (determinant(m) < 0.0);
+    return {e.world_from_own.point(value.point), (turned ? -1.0 : 1.0) / stretch * across,
+            1.0 / stretch, parameters};
+}
+
+/// Area of a curved form: a mean over a grid of its parameters.
+double integrated_area(const Emitter& e) {
+    constexpr int kGrid = 32;
+    double sum = 0.0;
+    for (int i = 0; i < kGrid; ++i) {
+        for (int j = 0; j < kGrid; ++j) {
+            const EmitterPoint p = point_of(e, {(i + 0.5) / kGrid, (j + 0.5) / kGrid});
+            if (p.density > 0.0) sum += 1.0 / p.density;
+        }
+    }
+    return sum / (kGrid * kGrid);
+}
+
+}  // namespace
+
+bool make_ready(Emitter& e) {
+    const Vec3 &x = axis_x(e), &y = axis_y(e);
+    const double span = length(cross(x, y));
+    switch (e.form) {
+        case EmitterForm::Triangle:
+            e.area = 0.5 * span;
+            break;
+        case EmitterForm::Rectangle:
+            e.area = span;
+            e.right_angled = std::abs(dot(x, y)) <= 1e-12 * length(x) * length(y);
+            break;
+        case EmitterForm::Disc:
+            e.area = kPi * (1.0 - e.inner * e.inner) * span;
+            break;
+        case EmitterForm::Polygon:
+            e.area = e.parts->areas.empty() ? 0.0 : e.parts->areas.back();
+            break;
+        case EmitterForm::Sphere:
+        case EmitterForm::Tube:
+        case EmitterForm::Patch:
+            e.area = integrated_area(e);
+            break;
+    }
+    return e.area > 0.0 && std::isfinite(e.area) && is_finite(corner_of(e)) &&
+           is_finite(axis_z(e)) && e.radiance.is_finite();
+}
+
+EmitterSample sample(const Emitter& e, const Vec3& from, const Vec2& u) {
+    switch (e.form) {
+        case EmitterForm::Triangle:
+            return sample_triangle(e, from, u);
+        case EmitterForm::Rectangle:
+            return sample_rectangle(e, from, u);
+        case EmitterForm::Sphere:
+            return sample_sphere(e, from, u);
+        case EmitterForm::Tube:
+            return seen_by_area(e, from, point_of_tube(e, SeenTube(e, from), u));
+        case EmitterForm::Disc:
+        case EmitterForm::Polygon:
+        case EmitterForm::Patch:
+            break;
+    }
+    return seen_by_area(e, from, point_of(e, u));
+}
+
+double density(const Emitter& e, const Vec3& from, const EmitterHit& hit) {
+    if (!e.two_sided && !(dot(hit.direction, hit.normal) < 0.0)) return 0.0;
+    switch (e.form) {
+        case EmitterForm::Triangle: {
+            const double solid = triangle_from(e, from).solid_angle();
+            if (solid > kLeastSolidAngle) return 1.0 / solid;
+            break;
+        }
+        case EmitterForm::Rectangle:
+            if (e.right_angled) {
+                const SphericalRectangle seen(corner_of(e) - from, axis_x(e), axis_y(e));
+                if (seen.solid_angle() > kLeastSolidAngle) return 1.0 / seen.solid_angle();
+            }
+            break;
+        case EmitterForm::Sphere:
+            return density_of_sphere(e, from, hit);
+        case EmitterForm::Tube: {
+            const Vec3 n = own_normal_of_tube(e, hit.normal);
+            const double half = SeenTube(e, from).half;
+            return by_solid_angle(1.0 / (2.0 * half * stretch_of_tube(e, n)), hit);
+        }
+        case EmitterForm::Disc:
+        case EmitterForm::Polygon:
+        case EmitterForm::Patch:
+            break;
+    }
+    return by_solid_angle(area_density(e, hit.normal, hit.parameters), hit);
+}
+
+EmitterPoint point_of(const Emitter& e, const Vec2& u) {
+    const Affine& world = e.world_from_own;
+    switch (e.form) {
+        case EmitterForm::Triangle: {
+            const double root = std::sqrt(u.x);
+            const Vec2 w{root * (1.0 - u.y), root * u.y};
+            return {world.point({w.x, w.y, 0}), axis_z(e), 1.0 / e.area, w};
+        }
+        case EmitterForm::Rectangle:
+            return {world.point({u.x, u.y, 0}), axis_z(e), 1.0 / e.area, {}};
+        case EmitterForm::Disc: {
+            const Vec2 p = on_own_disc(e, u);
+            return {world.point({p.x, p.y, 0}), axis_z(e), 1.0 / e.area, {}};
+        }
+        case EmitterForm::Polygon:
+            return point_of_parts(e, u);
+        case EmitterForm::Sphere: {
+            const Vec3 n = on_own_sphere(u);
+            return {world.point(n), outer_normal(e, n),
+                    1.0 / (4.0 * kPi * length(transformed_area(world.linear, n))),
+                    {}};
+        }
+        case EmitterForm::Tube: {
+            SeenTube all(e, world.translation);
+            all.half = kPi;
+            return point_of_tube(e, all, u);
+        }
+        case EmitterForm::Patch:
+            break;
+    }
+    return point_of_patch(e, u);
+}
+
+double area_density(const Emitter& e, const Vec3& normal, const Vec2& parameters) {
+    switch (e.form) {
+        case EmitterForm::Sphere: {
+            const Vec3 n = normalize(transpose_times(e.world_from_own.linear, normal));
+            return 1.0 / (4.0 * kPi * length(transformed_area(e.world_from_own.linear, n)));
+        }
+        case EmitterForm::Tube:
+            return 1.0 / (2.0 * kPi * stretch_of_tube(e, own_normal_of_tube(e, normal)));
+        case EmitterForm::Patch:
+            return point_of_patch(e, parameters).density;
+        default:
+            return 1.0 / e.area;
+    }
+}
+
+EmitterBounds bounds_of(const Emitter& e) {
+    EmitterBounds bounds;
+    bounds.axis = axis_z(e);
+    const Vec3 at = corner_of(e), &x = axis_x(e), &y = axis_y(e), &z = axis_z(e);
+    const auto include_round = [&](const Vec3& center, bool ball) {
+        Vec3 reach;
+        for (int k = 0; k < 3; ++k) {
+            reach[k] = std::sqrt(x[k] * x[k] + y[k] * y[k] + (ball ? z[k] * z[k] : 0.0));
+        }
+        bounds.box.include(center - reach);
+        bounds.box.include(center + reach);
+    };
+    switch (e.form) {
+        case EmitterForm::Triangle:
+            for (const Vec3& p : {at, at + x, at + y}) bounds.box.include(p);
+            break;
+        case EmitterForm::Rectangle:
+            for (const Vec3& p : {at, at + x, at + y, at + x + y}) bounds.box.include(p);
+            break;
+        case EmitterForm::Disc:
+            include_round(at, false);
+            break;
+        case EmitterForm::Polygon:
+            for (const Vec3& p : e.parts->corners) bounds.box.include(p);
+            break;
+        case EmitterForm::Sphere:
+            include_round(at, true);
+            break;
+        case EmitterForm::Tube:
+            include_round(at, false);
+            include_round(at + z, false);
+            break;
+        case EmitterForm::Patch:
+            for (int i = 0; i < e.patch->net.count(); ++i) {
+                const HomogeneousPoint& p = e.patch->net.points[static_cast<std::size_t>(i)];
+                bounds.box.include(e.world_from_own.point(projected(p)));
+            }
+            break;
+    }
+    const bool curved = e.form == EmitterForm::Sphere || e.form == EmitterForm::Tube ||
+                        e.form == EmitterForm::Patch;
+    if (curved) {
+        bounds.axis = {0, 0, 1};
+        bounds.cosine_spread = -1.0;
+    }
+    return bounds;
+}
+
+}  // namespace alhazen

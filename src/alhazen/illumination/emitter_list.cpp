@@ -1,0 +1,226 @@
+#include "alhazen/illumination/emitter_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/csg/csg_aggregate.h"
+#include "alhazen/illumination/emitters_of_shape.h"
+#include "alhazen/primitives/primitive_columns.h"
+#include "alhazen/shading/materials/texture_inputs.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The emission of a surface, times how much of it is there.
+Rgb emission_at(const Scene& scene, const Surface& surface) {
+    const SurfaceLookup lookup{
+        {surface.uv, surface.uv2}, {}, surface.color, {surface.point, {}, {}}};
+    Rgb sum;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(surface.material_count); ++i) {
+        const Material& m = scene.materials[static_cast<std::size_t>(surface.materials[i])];
+        const MaterialSample s = evaluate(m, scene.textures, lookup);
+        if (!s.unlit) sum += (surface.weights[i] * s.coverage) * s.emission;
+    }
+    return sum;
+}
+
+}  // namespace
+
+EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
+    if (!scene.aggregate) return;
+    const bool any = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                 [&](const Material& m) { return emits(m); });
+    if (!any) return;
+    emitters_.reserve(count(*scene.aggregate).count());
+    expand(*scene.aggregate, {});
+    for (std::size_t i = 0; i < emitters_.size(); ++i) {
+        if (!make_ready(emitters_[i])) {
+            emitters_[i].area = 0.0;
+        } else if (varying_[i]) {
+            emitters_[i].radiance = mean_radiance(i);
+            if (!emitters_[i].radiance.is_finite()) emitters_[i].area = 0.0;
+        }
+    }
+}
+
+bool EmitterList::emits(const Material& m) const {
+    if (m.metallic_roughness && m.metallic_roughness->unlit) return false;
+    return m.emission.color.max() > 0.0 && m.emission.color.is_finite();
+}
+
+bool EmitterList::varies(const Material& m) const {
+    return m.emission.texture != kNoTexture || m.alpha_mode != AlphaMode::Opaque;
+}
+
+std::uint32_t EmitterList::emitters_of(const PrimitiveTable& table, PrimitiveId id) {
+    if (!table.is_seen(id, mask_of(RayKind::Reflection))) return 0;
+    const std::uint32_t kind = table.kind(id), i = table.index(id);
+    if (kind == kInstanceKind) {
+        const Instance& instance = table.instances[i];
+        return instance.motion ? 0 : count(*instance.aggregate).count();
+    }
+    const auto shines = [&](MaterialId m) {
+        return emits(scene_.materials[static_cast<std::size_t>(m)]);
+    };
+    if (kind != kTriangleKind) {
+        return shines(table.shape_material(id)) ? emitters_of_shape(table, id) : 0;
+    }
+    const PlacedMesh& placed = table.mesh_of(i);
+    const auto& of_vertices = placed.mesh->vertex_materials;
+    if (of_vertices.empty()) return shines(placed.material) ? emitters_of_shape(table, id) : 0;
+    const auto& corners = *table.triangle_corners(i);
+    const bool any = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+        return shines(MaterialId{of_vertices[v]});
+    });
+    return any ? emitters_of_shape(table, id) : 0;
+}
+
+const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
+    const auto known = tables_.find(&aggregate);
+    if (known != tables_.end()) return known->second;
+    Table result;
+    std::uint64_t sum = 0;
+    if (dynamic_cast<const CsgAggregate*>(&aggregate) == nullptr) {
+        const PrimitiveTable& table = aggregate.primitives();
+        for (std::uint32_t i = 0; i < table.size(); ++i) {
+            const std::uint32_t found = emitters_of(table, PrimitiveId{i});
+            if (found == 0) continue;
+            result.primitives.push_back(i);
+            result.before.push_back(static_cast<std::uint32_t>(sum));
+            sum = std::min<std::uint64_t>(sum + found, kMostEmitters);
+        }
+    }
+    result.before.push_back(static_cast<std::uint32_t>(sum));
+    return tables_.emplace(&aggregate, std::move(result)).first->second;
+}
+
+void EmitterList::expand(const Aggregate& aggregate, const Affine& world_from_table) {
+    const PrimitiveTable& table = aggregate.primitives();
+    for (const std::uint32_t i : tables_.at(&aggregate).primitives) {
+        if (emitters_.size() >= kMostEmitters) return;
+        const PrimitiveId id{i};
+        if (table.kind(id) == kInstanceKind) {
+            const Instance& instance = table.instances[table.index(id)];
+            expand(*instance.aggregate, world_from_table * instance.placement.outer_from_inner);
+        } else {
+            expand_primitive(table, id, world_from_table);
+        }
+    }
+}
+
+void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,
+                                   const Affine& world_from_table) {
+    const std::size_t first = emitters_.size();
+    append_emitters_of_shape(table, id, world_from_table, emitters_);
+    MaterialId material{};
+    bool of_vertices = false;
+    if (table.kind(id) == kTriangleKind) {
+        const PlacedMesh& placed = table.mesh_of(table.index(id));
+        material = placed.material;
+        of_vertices = !placed.mesh->vertex_materials.empty();
+        if (of_vertices) {
+            material =
+                MaterialId{placed.mesh->vertex_materials[(*table.triangle_corners(table.index(id)))[0]]};
+        }
+    } else {
+        material = table.shape_material(id);
+    }
+    const Material& m = scene_.materials[static_cast<std::size_t>(material)];
+    varying_.resize(emitters_.size(), of_vertices || varies(m));
+    for (std::size_t i = first; i < emitters_.size(); ++i) {
+        emitters_[i].two_sided = m.double_sided;
+        emitters_[i].radiance = m.emission.color;
+    }
+}
+
+std::optional<std::size_t> EmitterList::find(const Hit& hit) const {
+    if (emitters_.empty()) return std::nullopt;
+    std::size_t number = 0;
+    const Aggregate* aggregate = scene_.aggregate.get();
+    for (std::size_t level = hit.path.size() + 1; level-- > 0;) {
+        const auto known = tables_.find(aggregate);
+        if (known == tables_.end()) return std::nullopt;
+        const Table& counted = known->second;
+        const PrimitiveId id = level == 0 ? hit.primitive : hit.path[level - 1];
+        const auto found = std::lower_bound(counted.primitives.begin(), counted.primitives.end(),
+                                            static_cast<std::uint32_t>(id));
+        if (found == counted.primitives.end() || *found != static_cast<std::uint32_t>(id)) {
+            return std::nullopt;
+        }
+        const std::size_t i = std::size_t(found - counted.primitives.begin());
+        number += counted.before[i];
+        const PrimitiveTable& table = aggregate->primitives();
+        if (level > 0) {
+            aggregate = table.instances[table.index(id)].aggregate.get();
+        } else if (counted.before[i + 1] - counted.before[i] > 1) {
+            number += hit.part;
+        }
+    }
+    if (number >= emitters_.size() || !(emitters_[number].area > 0.0)) return std::nullopt;
+    return number;
+}
+
+Hit EmitterList::hit_of(std::size_t emitter, const Ray& ray, double distance,
+                        const Vec2& parameters) const {
+    Hit hit;
+    hit.t = distance;
+    hit.u = parameters.x;
+    hit.v = parameters.y;
+    std::vector<PrimitiveId> path;
+    Ray inner = ray;
+    const Aggregate* aggregate = scene_.aggregate.get();
+    std::uint32_t rest = static_cast<std::uint32_t>(emitter);
+    for (;;) {
+        const Table& counted = tables_.at(aggregate);
+        const auto after = std::upper_bound(counted.before.begin(), counted.before.end() - 1, rest);
+        const std::size_t i = std::size_t(after - counted.before.begin()) - 1;
+        rest -= counted.before[i];
+        hit.primitive = PrimitiveId{counted.primitives[i]};
+        const PrimitiveTable& table = aggregate->primitives();
+        const std::uint32_t kind = table.kind(hit.primitive);
+        if (kind != kInstanceKind) break;
+        path.push_back(hit.primitive);
+        const Instance& instance = table.instances[table.index(hit.primitive)];
+        inner = inner_ray(instance, inner);
+        aggregate = instance.aggregate.get();
+    }
+    for (std::size_t i = path.size(); i-- > 0;) hit.path.push_back(path[i]);
+    hit.part = rest;
+    const EmitterForm form = emitters_[emitter].form;
+    if (form == EmitterForm::Triangle || form == EmitterForm::Patch) return hit;
+    // Other forms have parameters of their own: those of the crossing nearest to the point.
+    ShapeHits crossings;
+    aggregate->primitives().intersect(hit.primitive, inner, RayShear(inner.direction), crossings);
+    double nearest = kInfinity;
+    for (const ShapeHit& crossing : crossings) {
+        const double away = std::abs(crossing.t - distance);
+        if (!(away < nearest)) continue;
+        nearest = away;
+        static_cast<ShapeHit&>(hit) = crossing;
+    }
+    return hit;
+}
+
+Rgb EmitterList::radiance(std::size_t emitter, const Vec3& from, const Vec3& direction,
+                          double distance, const Vec2& parameters) const {
+    if (!varying_[emitter]) return emitters_[emitter].radiance;
+    const Ray ray{from, direction};
+    const Hit hit = hit_of(emitter, ray, distance, parameters);
+    return emission_at(scene_, surface_at(*scene_.aggregate, ray, hit));
+}
+
+Rgb EmitterList::mean_radiance(std::size_t emitter) const {
+    constexpr int kGrid = 4;
+    Rgb sum;
+    for (int i = 0; i < kGrid * kGrid; ++i) {
+        const EmitterPoint p = point_of(
+            emitters_[emitter], {(i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid});
+        if (!(p.density > 0.0)) continue;
+        const double away = std::sqrt(1.0 / p.density);
+        sum += radiance(emitter, p.point + away * p.normal, -p.normal, away, p.parameters);
+    }
+    return (1.0 / (kGrid * kGrid)) * sum;
+}
+
+}  // namespace alhazen

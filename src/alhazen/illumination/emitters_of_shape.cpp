@@ -1,0 +1,184 @@
+#include "alhazen/illumination/emitters_of_shape.h"
+
+#include <cmath>
+
+#include "alhazen/base/overloaded.h"
+#include "alhazen/geometry/polygon/triangulate.h"
+#include "alhazen/math/unit_vector.h"
+#include "alhazen/primitives/primitive_columns.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The frame of what is flat: x and y as given; z is its outer normal, along x cross y in the frame
+/// of the shape.
+Affine flat_frame(const Affine& world, const Vec3& origin, const Vec3& x, const Vec3& y) {
+    Affine frame;
+    frame.translation = world.point(origin);
+    frame.linear.x_axis = world.vector(x);
+    frame.linear.y_axis = world.vector(y);
+    const Vec3 n = cross(frame.linear.x_axis, frame.linear.y_axis);
+    const double side = determinant(world.linear) < 0.0 ? -1.0 : 1.0;
+    frame.linear.z_axis = side * unit_or(n, {0, 0, 1});
+    return frame;
+}
+
+Emitter flat(EmitterForm form, const Affine& world, const Vec3& origin, const Vec3& x,
+             const Vec3& y) {
+    Emitter e;
+    e.form = form;
+    e.world_from_own = flat_frame(world, origin, x, y);
+    return e;
+}
+
+Emitter disc(const Affine& world, const Vec3& center, const Vec3& normal, double radius,
+             double inner) {
+    const Vec3 n = unit_or(normal, {0, 0, 1}), x = perpendicular(n);
+    Emitter e = flat(EmitterForm::Disc, world, center, radius * x, radius * cross(n, x));
+    e.inner = inner / radius;
+    return e;
+}
+
+Emitter curved(EmitterForm form, const Affine& world, const Affine& shape) {
+    Emitter e;
+    e.form = form;
+    e.world_from_own = world * shape;
+    return e;
+}
+
+Emitter patch(const Affine& world, const BezierNet& net, bool turned) {
+    Emitter e = curved(EmitterForm::Patch, world, {});
+    e.patch = std::make_shared<const EmittingPatch>(EmittingPatch{net, turned});
+    return e;
+}
+
+/// One loop that neither leaves its plane nor crosses itself; else an emitter without parts.
+Emitter polygon(const Affine& world, const Polygon& p) {
+    std::vector<std::uint32_t> loop(p.vertices.size());
+    for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = static_cast<std::uint32_t>(i);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    triangulate(p.vertices, loop, triangles);
+    EmitterParts parts;
+    double sum = 0.0, own_sum = 0.0;
+    for (const auto& t : triangles) {
+        const Vec3 &a = p.vertices[t[0]], &b = p.vertices[t[1]], &c = p.vertices[t[2]];
+        own_sum += 0.5 * length(cross(b - a, c - a));
+        const Vec3 wa = world.point(a), wb = world.point(b), wc = world.point(c);
+        sum += 0.5 * length(cross(wb - wa, wc - wa));
+        for (const Vec3& corner : {wa, wb, wc}) parts.corners.push_back(corner);
+        parts.areas.push_back(sum);
+    }
+    const double true_area = 0.5 * length(newell_normal(p.vertices, loop));
+    const Vec3 y = cross(p.normal, p.u_axis);
+    Emitter e = flat(EmitterForm::Polygon, world, p.point, p.u_axis, y);
+    const bool simple = p.loop_ends.size() <= 1 && own_sum <= true_area * (1.0 + 1e-9) &&
+                        p.off_plane <= 1e-9 * std::sqrt(true_area);
+    e.parts = std::make_shared<const EmitterParts>(simple ? std::move(parts) : EmitterParts{});
+    return e;
+}
+
+// ---- the forms of each shape
+
+using List = std::vector<Emitter>;
+
+void append(const Sphere& s, const Affine& world, List& list) {
+    list.push_back(curved(EmitterForm::Sphere, world,
+                          Affine::translate(s.center) *
+                              Affine::scale({s.radius, s.radius, s.radius})));
+}
+void append(const Ellipsoid& s, const Affine& world, List& list) {
+    list.push_back(
+        curved(EmitterForm::Sphere, world, {{s.axis_a, s.axis_b, s.axis_c}, s.center}));
+}
+void append(const Disc& s, const Affine& world, List& list) {
+    list.push_back(disc(world, s.center, s.normal, s.radius, s.inner_radius));
+}
+void append(const Rectangle& s, const Affine& world, List& list) {
+    list.push_back(flat(EmitterForm::Rectangle, world, s.corner, s.edge_u, s.edge_v));
+}
+/// In the order of its parts: -x +x -y +y -z +z.
+void append(const BoxShape& s, const Affine& world, List& list) {
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face / 2;
+        Vec3 corner = s.lo, x, y;
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        x[u] = s.hi[u] - s.lo[u];
+        y[v] = s.hi[v] - s.lo[v];
+        const bool high = face % 2 == 1;
+        if (high) corner[axis] = s.hi[axis];
+        list.push_back(high ? flat(EmitterForm::Rectangle, world, corner, x, y)
+                            : flat(EmitterForm::Rectangle, world, corner, y, x));
+    }
+}
+/// Its side, and the caps.
+void append(const Cylinder& s, const Affine& world, List& list) {
+    const Vec3 n = unit_or(s.top - s.base, {0, 0, 1}), x = perpendicular(n);
+    list.push_back(
+        curved(EmitterForm::Tube, world,
+               {{s.radius * x, s.radius * cross(n, x), s.top - s.base}, s.base}));
+    if (!s.capped) return;
+    list.push_back(disc(world, s.base, -n, s.radius, 0.0));
+    list.push_back(disc(world, s.top, n, s.radius, 0.0));
+}
+void append(const Polygon& s, const Affine& world, List& list) {
+    list.push_back(polygon(world, s));
+}
+void append(const BezierPatch& s, const Affine& world, List& list) {
+    list.push_back(patch(world, s.net(), false));
+}
+void append(const PatchMesh& s, const Affine& world, List& list) {
+    for (std::size_t i = 0; i < s.patch_count(); ++i) {
+        list.push_back(patch(world, s.net(i), i < s.inward.size() && s.inward[i]));
+    }
+}
+
+std::uint32_t count_of(const BoxShape&) {
+    return 6;
+}
+std::uint32_t count_of(const Cylinder& s) {
+    return s.capped ? 3 : 1;
+}
+std::uint32_t count_of(const PatchMesh& s) {
+    return static_cast<std::uint32_t>(s.patch_count());
+}
+template <class S>
+std::uint32_t count_of(const S& s) {
+    List* none = nullptr;
+    return requires { append(s, Affine{}, *none); } ? 1 : 0;
+}
+
+void append_triangle(const PrimitiveTable& table, std::uint32_t triangle, const Affine& world,
+                     List& list) {
+    const auto [a, b, c] = table.triangle_vertices(triangle);
+    Emitter& e = list.emplace_back(flat(EmitterForm::Triangle, world, a, b - a, c - a));
+    if (table.mesh_of(triangle).mirrored) {
+        e.world_from_own.linear.z_axis = -e.world_from_own.linear.z_axis;
+    }
+}
+
+}  // namespace
+
+std::uint32_t emitters_of_shape(const PrimitiveTable& table, PrimitiveId id) {
+    const std::uint32_t kind = table.kind(id), i = table.index(id);
+    if (kind == kInstanceKind) return 0;
+    if (kind == kTriangleKind) return table.mesh_of(i).motion ? 0 : 1;
+    return with_column(table.columns, kind,
+                       [&](const auto& column) { return count_of(column.shapes[i]); });
+}
+
+void append_emitters_of_shape(const PrimitiveTable& table, PrimitiveId id,
+                              const Affine& world_from_table, std::vector<Emitter>& emitters) {
+    const std::uint32_t kind = table.kind(id), i = table.index(id);
+    if (kind == kTriangleKind) return append_triangle(table, i, world_from_table, emitters);
+    with_column(table.columns, kind, [&](const auto& column) {
+        const auto& shape = column.shapes[i];
+        const std::uint32_t p = column.placements[i];
+        const Affine world = p == kNoPlacement
+                                 ? world_from_table
+                                 : world_from_table * table.placements[p].outer_from_inner;
+        if constexpr (requires { append(shape, world, emitters); }) append(shape, world, emitters);
+    });
+}
+
+}  // namespace alhazen

@@ -1,0 +1,234 @@
+#include "alhazen/illumination/illumination.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/base/overloaded.h"
+#include "alhazen/illumination/emitters_of_light.h"
+#include "alhazen/illumination/illumination_data.h"
+#include "alhazen/math/constants.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Neither near nor far lights are chosen more rarely than this where both shine.
+constexpr double kLeastShare = 0.25;
+
+double mean_channel(const Rgb& c) {
+    return (c.r + c.g + c.b) / 3.0;
+}
+
+/// Largest intensity of an emitter in any direction: radiance times the area of its outline.
+double intensity_of(const Emitter& e) {
+    const double radiance = mean_channel(e.radiance);
+    switch (e.form) {
+        case EmitterForm::Sphere:
+            return radiance * e.area / 4.0;
+        case EmitterForm::Tube:
+            return radiance * e.area / kPi;
+        case EmitterForm::Patch:
+            return radiance * e.area / 2.0;
+        default:
+            return radiance * e.area;
+    }
+}
+
+const Attenuation& attenuation_of(const Light& light) {
+    const auto* point = std::get_if<PointLight>(&light);
+    return point != nullptr ? point->attenuation : std::get<SpotLight>(light).attenuation;
+}
+
+const Rgb& color_of(const Light& light) {
+    return std::visit(Overloaded{[](const AmbientLight& l) -> const Rgb& { return l.ambient; },
+                                 [](const AreaLight& l) -> const Rgb& { return l.radiance; },
+                                 [](const auto& l) -> const Rgb& { return l.color; }},
+                      light);
+}
+
+/// A sphere around what is bounded, and the lights' places.
+void set_scene_sphere(const Scene& scene, Vec3& center, double& radius) {
+    Box3 box;
+    if (scene.aggregate) {
+        box = scene.aggregate->box();
+        if (!box.empty() && !box.bounded()) {
+            const PrimitiveTable& table = scene.aggregate->primitives();
+            box = {};
+            for (std::size_t i = 0; i < table.size(); ++i) {
+                const Box3 b = table.box(i);
+                if (!b.empty() && b.bounded()) box.include(b);
+            }
+        }
+    }
+    if (box.empty()) box = {{-1, -1, -1}, {1, 1, 1}};
+    center = box.center();
+    radius = std::max(0.5 * length(box.size()) * (1.0 + 1e-9), 1e-100);
+}
+
+}  // namespace
+
+Illumination::Data::Data(const Scene& of, const IlluminationOptions& how)
+    : scene(&of), options(how), emitters(of) {
+    set_scene_sphere(of, center, radius);
+    environment = of.environment;
+    if (!environment && of.background.max() > 0.0 && of.background.is_finite()) {
+        environment = std::make_shared<const Environment>(
+            EnvironmentSettings{.color = of.background}, Vec3{0, 1, 0});
+    }
+    if (environment && !environment->shines()) environment = nullptr;
+    sort_lights();
+    set_choices();
+    set_sources();
+}
+
+void Illumination::Data::sort_lights() {
+    for (std::size_t i = 0; i < scene->lights.size(); ++i) {
+        const Light& light = scene->lights[i];
+        if (!illuminates(light) || !(color_of(light).max() > 0.0)) continue;
+        if (const auto* area = std::get_if<AreaLight>(&light)) {
+            // What is seen is a part of the scene already.
+            if (!area->seen) append_emitters_of_light(*area, hidden);
+        } else if (place_of(light) == LightPlace::Point && attenuation_of(light).quadratic > 0.0) {
+            points.push_back(i);
+        } else {
+            parallel.push_back(i);
+        }
+    }
+}
+
+void Illumination::Data::set_choices() {
+    std::vector<double> near_weights, far_weights;
+    double intensity = 0.0;
+    for (std::size_t i = 0; i < near_count(); ++i) {
+        const Light* light = point_light(i);
+        const double own = light != nullptr ? kPi * mean_channel(color_of(*light)) /
+                                                  attenuation_of(*light).quadratic
+                           : emitter(i).area > 0.0 ? intensity_of(emitter(i))
+                                                   : 0.0;
+        intensity += own;
+        near_weights.push_back(options.choice == LightChoice::Uniform ? (own > 0.0 ? 1.0 : 0.0)
+                                                                      : own);
+    }
+    for (const std::size_t i : parallel) {
+        far_weights.push_back(kPi * mean_channel(color_of(scene->lights[i])));
+    }
+    if (environment) far_weights.push_back(kPi * mean_channel(environment->mean()));
+    near = LightChooser(near_weights);
+    far = LightChooser(far_weights);
+    if (near.total() > 0.0 && far.total() > 0.0) {
+        const double irradiance = intensity / (radius * radius);
+        near_share = std::clamp(irradiance / (irradiance + far.total()), kLeastShare,
+                                1.0 - kLeastShare);
+    } else {
+        near_share = near.total() > 0.0 ? 1.0 : 0.0;
+    }
+}
+
+ChosenLight Illumination::Data::choose_near(const LitPoint&, double choice) const {
+    return near.choose(choice);
+}
+
+double Illumination::Data::probability_of_near(const LitPoint&, std::size_t light) const {
+    return near.probability(light);
+}
+
+Illumination::Illumination(const Scene& scene, const IlluminationOptions& options)
+    : data_(std::make_unique<const Data>(scene, options)) {}
+Illumination::~Illumination() = default;
+Illumination::Illumination(Illumination&&) noexcept = default;
+Illumination& Illumination::operator=(Illumination&&) noexcept = default;
+
+bool Illumination::shines() const {
+    return data_->near.total() > 0.0 || data_->far.total() > 0.0;
+}
+
+namespace {
+
+/// A light at a point or from one direction, chosen with that probability.
+LightDraw draw_singular(const Scene& scene, const Light& light, const LitPoint& at,
+                        double probability) {
+    const LightSample s = sample(light, at.point, scene.conventions.shading.clamp_attenuation);
+    LightDraw draw;
+    if (s.intensity.is_black() || !s.intensity.is_finite()) return draw;
+    draw.to_light = s.to_light;
+    draw.distance = s.distance;
+    draw.radiance = kPi * s.intensity;
+    draw.density = probability;
+    draw.singular = true;
+    draw.passes = mask_of(RayKind::Shadow);
+    return draw;
+}
+
+LightDraw draw_environment(const Environment& environment, const LitPoint& at, double probability,
+                           const Vec2& u) {
+    LightDraw draw;
+    draw.to_light = environment.sample(at.normal, at.both_sides, u);
+    draw.distance = kInfinity;
+    draw.radiance = environment.radiance(draw.to_light);
+    draw.density =
+        probability * environment.density(at.normal, at.both_sides, draw.to_light);
+    draw.passes = mask_of(RayKind::Shadow);
+    return draw;
+}
+
+}  // namespace
+
+LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u) const {
+    const Data& d = *data_;
+    if (choice >= d.near_share) {
+        const double rest = (choice - d.near_share) / (1.0 - d.near_share);
+        const ChosenLight chosen = d.far.choose(rest);
+        const double probability = (1.0 - d.near_share) * chosen.probability;
+        if (!(probability > 0.0)) return {};
+        if (d.is_environment(chosen.light)) {
+            return draw_environment(*d.environment, at, probability, u);
+        }
+        return draw_singular(*d.scene, d.scene->lights[d.parallel[chosen.light]], at, probability);
+    }
+    const ChosenLight chosen = d.choose_near(at, choice / d.near_share);
+    const double probability = d.near_share * chosen.probability;
+    if (!(probability > 0.0)) return {};
+    if (const Light* light = d.point_light(chosen.light)) {
+        return draw_singular(*d.scene, *light, at, probability);
+    }
+    const Emitter& emitter = d.emitter(chosen.light);
+    const EmitterSample s = sample(emitter, at.point, u);
+    if (!(s.density > 0.0) || !std::isfinite(s.density)) return {};
+    LightDraw draw;
+    draw.to_light = s.to_light;
+    draw.distance = s.distance;
+    draw.density = probability * s.density;
+    draw.passes = mask_of(RayKind::Shadow);
+    if (chosen.light < d.emitters.size()) {
+        draw.radiance =
+            d.emitters.radiance(chosen.light, at.point, s.to_light, s.distance, s.parameters);
+    } else {
+        // No ray sees it: as a light of one direction, with its irradiance.
+        draw.radiance = (1.0 / s.density) * emitter.radiance;
+        draw.density = probability;
+        draw.singular = true;
+    }
+    return draw;
+}
+
+double Illumination::density(const LitPoint& at, const Ray& ray, const Hit& hit,
+                             const Surface& surface, double distance) const {
+    const std::optional<std::size_t> found = data_->emitters.find(hit);
+    if (!found) return 0.0;
+    const double probability = data_->near_share * data_->probability_of_near(at, *found);
+    if (!(probability > 0.0)) return 0.0;
+    const EmitterHit there{normalize(ray.direction), distance, surface.normal, {hit.u, hit.v}};
+    return probability * alhazen::density(data_->emitters[*found], at.point, there);
+}
+
+Rgb Illumination::environment(const Vec3& direction) const {
+    return data_->environment ? data_->environment->radiance(direction) : Rgb{};
+}
+
+double Illumination::environment_density(const LitPoint& at, const Vec3& direction) const {
+    if (!data_->environment) return 0.0;
+    return data_->probability_of_environment() *
+           data_->environment->density(at.normal, at.both_sides, direction);
+}
+
+}  // namespace alhazen

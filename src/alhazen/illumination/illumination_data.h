@@ -1,0 +1,65 @@
+#pragma once
+/// The lights of an `Illumination`, sorted by how they are chosen and sampled.
+///
+/// Internal to illumination.cpp and illumination_emission.cpp.
+/// Conventions: near lights are numbered: the emitters of the scene, then those of lights that no
+/// ray sees (`hidden`), then `points`, indices into Scene::lights. Far ones: `parallel`, then the
+/// environment. Sources of `emit` are the near lights, then the far ones.
+
+#include <memory>
+#include <vector>
+
+#include "alhazen/illumination/emitter_list.h"
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/illumination/light_chooser.h"
+#include "alhazen/shading/lights/environment.h"
+
+namespace alhazen {
+
+struct Illumination::Data {
+    Data(const Scene& scene, const IlluminationOptions& options);
+
+    const Scene* scene;
+    IlluminationOptions options;
+    EmitterList emitters;
+    std::vector<Emitter> hidden;
+    std::vector<std::size_t> points;    ///< point and spot lights that fall with distance
+    std::vector<std::size_t> parallel;  ///< directions, and points that do not fall
+    std::shared_ptr<const Environment> environment;  ///< null: black
+    Vec3 center;                                     ///< of a sphere around the scene
+    double radius = 1;
+
+    LightChooser near;      ///< for choices Uniform and Power
+    LightChooser far;       ///< [of parallel, then environment]
+    double near_share = 0;  ///< probability that a near light is chosen
+    LightChooser sources;   ///< for `emit`, by power
+
+    [[nodiscard]] std::size_t near_count() const {
+        return emitters.size() + hidden.size() + points.size();
+    }
+    [[nodiscard]] bool is_environment(std::size_t far_light) const {
+        return far_light == parallel.size();
+    }
+    /// An emitter of the scene or a hidden one.
+    [[nodiscard]] const Emitter& emitter(std::size_t near_light) const {
+        return near_light < emitters.size() ? emitters[near_light]
+                                            : hidden[near_light - emitters.size()];
+    }
+    /// Null: an emitter.
+    [[nodiscard]] const Light* point_light(std::size_t near_light) const {
+        const std::size_t surfaces = emitters.size() + hidden.size();
+        return near_light < surfaces ? nullptr : &scene->lights[points[near_light - surfaces]];
+    }
+    [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const;
+    [[nodiscard]] double probability_of_near(const LitPoint& at, std::size_t light) const;
+    [[nodiscard]] double probability_of_environment() const {
+        return (1.0 - near_share) * far.probability(parallel.size());
+    }
+
+  private:
+    void sort_lights();
+    void set_choices();
+    void set_sources();
+};
+
+}  // namespace alhazen

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/base/overloaded.h"
+#include "alhazen/illumination/illumination_data.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/light_extent.h"
+
+namespace alhazen {
+
+namespace {
+
+double mean_power(const Rgb& c) {
+    return (c.r + c.g + c.b) / 3.0;
+}
+
+/// Shift of the start of a ray off its surface, relative to the coordinates: above all rounding of
+/// the shapes' crossings.
+constexpr double kOffSurface = 1e-11;
+
+/// Half of the largest angle from the axis, as a cosine, of what a light at a point sends.
+double cosine_of_cone(const Light& light) {
+    const auto* spot = std::get_if<SpotLight>(&light);
+    return spot != nullptr ? std::cos(spot->outer_angle) : -1.0;
+}
+
+Vec3 axis_of_cone(const Light& light) {
+    const auto* spot = std::get_if<SpotLight>(&light);
+    return spot != nullptr ? spot->direction : Vec3{0, 0, 1};
+}
+
+Vec3 position_of(const Light& light) {
+    const auto* spot = std::get_if<SpotLight>(&light);
+    return spot != nullptr ? spot->position : std::get<PointLight>(light).position;
+}
+
+/// Towards a light at `distance` 1 what arrives there: intensity.
+Rgb intensity_towards(const Light& light, const Vec3& direction) {
+    Light plain = light;
+    std::visit(Overloaded{[](PointLight& l) {
+                              l.attenuation = {0, 0, l.attenuation.quadratic};
+                              l.range = kNoRange;
+                          },
+                          [](SpotLight& l) {
+                              l.attenuation = {0, 0, l.attenuation.quadratic};
+                              l.range = kNoRange;
+                          },
+                          [](auto&) {}},
+               plain);
+    return kPi * sample(plain, position_of(light) + direction, false).intensity;
+}
+
+/// A direction within a cone, uniform by solid angle, and its density.
+Vec3 in_cone(const Vec3& axis, double cosine, const Vec2& u) {
+    const double z = 1.0 - u.x * (1.0 - cosine);
+    const double across = std::sqrt(std::max(0.0, 1.0 - z * z)), angle = 2.0 * kPi * u.y;
+    const Vec3 a = perpendicular(axis), b = cross(axis, a);
+    return normalize(z * axis + (across * std::cos(angle)) * a + (across * std::sin(angle)) * b);
+}
+
+/// The start of a ray along `direction` on a disc before the scene.
+Ray ray_from_afar(const Vec3& center, double radius, const Vec3& direction, const Vec2& place) {
+    const Vec2 p = on_unit_disc(place);
+    const Vec3 a = perpendicular(direction), b = cross(direction, a);
+    return {center + radius * (p.x * a + p.y * b - direction), direction};
+}
+
+LightRay emit_from_point(const Light& light, double probability, const Vec2& direction) {
+    LightRay out;
+    const double cosine = cosine_of_cone(light);
+    const Vec3 d = in_cone(axis_of_cone(light), cosine, direction);
+    out.ray = {position_of(light), d};
+    out.normal = d;
+    out.radiance = intensity_towards(light, d);
+    out.place_density = probability;
+    out.direction_density = 1.0 / (2.0 * kPi * (1.0 - cosine));
+    out.singular_place = true;
+    return out;
+}
+
+}  // namespace
+
+void Illumination::Data::set_sources() {
+    std::vector<double> powers;
+    for (std::size_t i = 0; i < near_count(); ++i) {
+        if (const Light* light = point_light(i)) {
+            const double solid = 2.0 * kPi * (1.0 - cosine_of_cone(*light));
+            const auto& color = std::visit(
+                Overloaded{[](const PointLight& l) { return l.color; },
+                           [](const SpotLight& l) { return l.color; },
+                           [](const auto&) { return Rgb{}; }},
+                *light);
+            const double q = std::visit(
+                Overloaded{[](const PointLight& l) { return l.attenuation.quadratic; },
+                           [](const SpotLight& l) { return l.attenuation.quadratic; },
+                           [](const auto&) { return 1.0; }},
+                *light);
+            powers.push_back(kPi * solid * mean_power(color) / q);
+        } else {
+            const Emitter& e = emitter(i);
+            powers.push_back((e.two_sided ? 2.0 : 1.0) * kPi * e.area * mean_power(e.radiance));
+        }
+    }
+    const double disc = kPi * radius * radius;
+    for (const std::size_t i : parallel) {
+        const auto* sun = std::get_if<DirectionalLight>(&scene->lights[i]);
+        powers.push_back(sun != nullptr ? kPi * disc * mean_power(sun->color) : 0.0);
+    }
+    if (environment) powers.push_back(4.0 * kPi * disc * mean_power(environment->mean()));
+    sources = LightChooser(powers);
+}
+
+LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direction) const {
+    const Data& d = *data_;
+    const ChosenLight chosen = d.sources.choose(choice);
+    LightRay out;
+    if (!(chosen.probability > 0.0)) return out;
+    if (chosen.light >= d.near_count()) {
+        const std::size_t far_light = chosen.light - d.near_count();
+        out.infinite = true;
+        out.place_density = chosen.probability / (kPi * d.radius * d.radius);
+        if (d.is_environment(far_light)) {
+            const Vec3 from = d.environment->sample(direction);
+            out.ray = ray_from_afar(d.center, d.radius, -from, place);
+            out.radiance = d.environment->radiance(from);
+            out.direction_density = d.environment->density(from);
+        } else {
+            const auto& sun = std::get<DirectionalLight>(d.scene->lights[d.parallel[far_light]]);
+            out.ray = ray_from_afar(d.center, d.radius, -sun.to_light, place);
+            out.radiance = kPi * sun.color;
+            out.direction_density = 1.0;
+            out.singular_direction = true;
+        }
+        out.normal = out.ray.direction;
+        return out;
+    }
+    if (const Light* light = d.point_light(chosen.light)) {
+        return emit_from_point(*light, chosen.probability, direction);
+    }
+    const Emitter& e = d.emitter(chosen.light);
+    const EmitterPoint p = point_of(e, place);
+    if (!(p.density > 0.0)) return out;
+    Vec2 u = direction;
+    const bool behind = e.two_sided && u.x < 0.5;
+    if (e.two_sided) u.x = behind ? 2.0 * u.x : 2.0 * u.x - 1.0;
+    out.normal = behind ? -p.normal : p.normal;
+    const Vec2 q = on_unit_disc(u);
+    const double cosine = std::sqrt(std::max(0.0, 1.0 - q.x * q.x - q.y * q.y));
+    const Vec3 a = perpendicular(out.normal), b = cross(out.normal, a);
+    const Vec3 along = normalize(q.x * a + q.y * b + cosine * out.normal);
+    const double reach = max_component(abs(p.point)) + std::sqrt(e.area);
+    out.ray = {p.point + (kOffSurface * reach) * out.normal, along};
+    out.place_density = chosen.probability * p.density;
+    out.direction_density = cosine / (e.two_sided ? 2.0 * kPi : kPi);
+    out.radiance = e.radiance;
+    if (chosen.light < d.emitters.size()) {
+        const double away = std::sqrt(e.area);
+        out.radiance = d.emitters.radiance(chosen.light, p.point + away * out.normal, -out.normal,
+                                           away, p.parameters);
+    }
+    return out;
+}
+
+Illumination::EmitDensity Illumination::emit_density(const Hit& hit, const Surface& surface,
+                                                     const Vec3& direction) const {
+    const std::optional<std::size_t> found = data_->emitters.find(hit);
+    if (!found) return {};
+    const Emitter& e = data_->emitters[*found];
+    const double cosine = dot(surface.normal, direction);
+    if (!e.two_sided && !(cosine > 0.0)) return {};
+    return {data_->sources.probability(*found) * area_density(e, surface.normal, {hit.u, hit.v}),
+            std::abs(cosine) / (e.two_sided ? 2.0 * kPi : kPi)};
+}
+
+Illumination::EmitDensity Illumination::environment_emit_density(const Vec3& direction) const {
+    if (!data_->environment) return {};
+    const double probability =
+        data_->sources.probability(data_->near_count() + data_->parallel.size());
+    return {probability / (kPi * data_->radius * data_->radius),
+            data_->environment->density(-direction)};
+}
+
+}  // namespace alhazen

@@ -1,0 +1,31 @@
+#pragma once
+/// One of a list of lights, chosen by fixed weights.
+///
+/// Conventions: a light of weight 0 is never chosen; all weights 0: none is.
+/// Complexity: O(log n). Threads: const functions may be called from many.
+
+#include <cstddef>
+#include <vector>
+
+namespace alhazen {
+
+struct ChosenLight {
+    std::size_t light = 0;
+    double probability = 0;  ///< 0: none
+};
+
+class LightChooser {
+  public:
+    LightChooser() = default;
+    explicit LightChooser(const std::vector<double>& weights);
+
+    /// `choice` in [0, 1).
+    [[nodiscard]] ChosenLight choose(double choice) const;
+    [[nodiscard]] double probability(std::size_t light) const;
+    [[nodiscard]] double total() const { return sums_.empty() ? 0.0 : sums_.back(); }
+
+  private:
+    std::vector<double> sums_;  ///< [light] weights of all up to and with it
+};
+
+}  // namespace alhazen

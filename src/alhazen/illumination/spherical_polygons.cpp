@@ -1,0 +1,102 @@
+#include "alhazen/illumination/spherical_polygons.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/math/constants.h"
+#include "alhazen/math/unit_vector.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The angle between the planes through the unit vector `at` and one of the other two each.
+double dihedral(const Vec3& at, const Vec3& p, const Vec3& q) {
+    const Vec3 np = cross(at, p), nq = cross(at, q);
+    return std::atan2(length(cross(np, nq)), dot(np, nq));
+}
+
+/// The unit part of `v` that is perpendicular to the unit vector `axis`.
+Vec3 beside(const Vec3& v, const Vec3& axis) {
+    return unit_or(v - dot(v, axis) * axis, perpendicular(axis));
+}
+
+double root_of_rest(double cosine) {
+    return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+}
+
+}  // namespace
+
+SphericalTriangle::SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double la = length(a), lb = length(b), lc = length(c);
+    if (!(la > 0.0 && lb > 0.0 && lc > 0.0)) return;
+    corners_ = {a / la, b / lb, c / lc};
+    const double triple = std::abs(dot(corners_[0], cross(corners_[1], corners_[2])));
+    const double below = 1.0 + dot(corners_[0], corners_[1]) + dot(corners_[1], corners_[2]) +
+                         dot(corners_[2], corners_[0]);
+    solid_angle_ = triple > 0.0 ? 2.0 * std::atan2(triple, below) : 0.0;
+}
+
+Vec3 SphericalTriangle::direction(const Vec2& u) const {
+    const auto& [a, b, c] = corners_;
+    // The arc from `b` divides the triangle into a share u.x of its area and the rest.
+    const double alpha = dihedral(a, b, c);
+    const double sine_alpha = std::sin(alpha), cosine_alpha = std::cos(alpha);
+    const double phi = u.x * solid_angle_ - alpha;
+    const double s = std::sin(phi), t = std::cos(phi);
+    const double p = t - cosine_alpha, q = s + sine_alpha * dot(a, b);
+    const double above = (q * t - p * s) * cosine_alpha - q;
+    const double below = (q * s + p * t) * sine_alpha;
+    // u.x = 0: both vanish, and the arc ends in `a`.
+    double cosine = below != 0.0 ? std::clamp(above / below, -1.0, 1.0) : 1.0;
+    // No farther along the side from `a` than `c`.
+    cosine = std::max(cosine, std::min(1.0, dot(a, c)));
+    const Vec3 end = cosine * a + root_of_rest(cosine) * beside(c, a);
+    const double z = 1.0 - u.y * (1.0 - dot(end, b));
+    return normalize(z * b + root_of_rest(z) * beside(end, b));
+}
+
+SphericalRectangle::SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v) {
+    const double width = length(edge_u), height = length(edge_v);
+    x_ = edge_u / width;
+    y_ = edge_v / height;
+    z_ = cross(x_, y_);
+    z0_ = dot(corner, z_);
+    if (z0_ > 0.0) {
+        z_ = -z_;
+        z0_ = -z0_;
+    }
+    x0_ = dot(corner, x_);
+    y0_ = dot(corner, y_);
+    x1_ = x0_ + width;
+    y1_ = y0_ + height;
+    if (!(z0_ < 0.0)) return;
+    // Normals of the planes through the sides, in the local frame; only these parts matter.
+    const auto across = [&](double a) { return 1.0 / std::hypot(a, z0_); };
+    const double n0 = across(y0_), n1 = across(x1_), n2 = across(y1_), n3 = across(x0_);
+    // Normals: n0 = (0, z0, -y0), n1 = (-z0, 0, x1), n2 = (0, -z0, y1), n3 = (z0, 0, -x0).
+    const double z_of_0 = -y0_ * n0, z_of_1 = x1_ * n1, z_of_2 = y1_ * n2, z_of_3 = -x0_ * n3;
+    const auto angle = [](double a, double b) { return std::acos(std::clamp(-a * b, -1.0, 1.0)); };
+    const double g0 = angle(z_of_0, z_of_1), g1 = angle(z_of_1, z_of_2);
+    const double g2 = angle(z_of_2, z_of_3), g3 = angle(z_of_3, z_of_0);
+    b0_ = z_of_0;
+    b1_ = z_of_2;
+    k_ = 2.0 * kPi - g2 - g3;
+    solid_angle_ = std::max(0.0, g0 + g1 - k_);
+}
+
+Vec3 SphericalRectangle::point(const Vec2& u) const {
+    const double au = u.x * solid_angle_ + k_;
+    const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
+    const double cu =
+        std::clamp(std::copysign(1.0, fu) / std::sqrt(fu * fu + b0_ * b0_), -1.0, 1.0);
+    const double x = std::clamp(-(cu * z0_) / root_of_rest(cu), x0_, x1_);
+    const double d = std::hypot(x, z0_);
+    const double h0 = y0_ / std::hypot(d, y0_), h1 = y1_ / std::hypot(d, y1_);
+    const double h = h0 + u.y * (h1 - h0);
+    const double rest = 1.0 - h * h;
+    const double y = rest > 1e-14 ? std::clamp(h * d / std::sqrt(rest), y0_, y1_) : y1_;
+    return x * x_ + y * y_ + z0_ * z_;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,48 @@
+#pragma once
+/// Triangles and rectangles as they are seen from a point: directions chosen uniformly in their
+/// solid angle.
+///
+/// Source: Van Oosterom and Strackee, "The Solid Angle of a Plane Triangle", IEEE Trans. Biomed.
+/// Eng. 30(2), 1983; Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995; Urena,
+/// Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", EGSR 2013.
+/// Conventions: corners are relative to the point that sees them; `solid_angle` is 0 where they are
+/// degenerate or seen edge on. Exact up to rounding where the solid angle is above about 1e-6;
+/// smaller ones are better sampled by area. Either side may face the point.
+/// Threads: const functions may be called from many.
+
+#include <array>
+
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+class SphericalTriangle {
+  public:
+    SphericalTriangle(const Vec3& a, const Vec3& b, const Vec3& c);
+
+    [[nodiscard]] double solid_angle() const { return solid_angle_; }
+    /// A unit direction for `u` in the unit square; the solid angle is above 0.
+    [[nodiscard]] Vec3 direction(const Vec2& u) const;
+
+  private:
+    std::array<Vec3, 3> corners_;  ///< unit
+    double solid_angle_ = 0;
+};
+
+class SphericalRectangle {
+  public:
+    /// The edges are perpendicular.
+    SphericalRectangle(const Vec3& corner, const Vec3& edge_u, const Vec3& edge_v);
+
+    [[nodiscard]] double solid_angle() const { return solid_angle_; }
+    /// The point for `u` in the unit square, relative to the point that sees it.
+    [[nodiscard]] Vec3 point(const Vec2& u) const;
+
+  private:
+    Vec3 x_, y_, z_;                  ///< unit; the rectangle is in the plane z = z0 < 0
+    double x0_, x1_, y0_, y1_, z0_;   ///< of the rectangle
+    double b0_ = 0, b1_ = 0, k_ = 0;  ///< as in the paper
+    double solid_angle_ = 0;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,57 @@
+#pragma once
+/// A picture of all directions, latitude by longitude, and directions chosen in proportion to its
+/// brightness.
+///
+/// Source: Blinn and Newell, "Texture and Reflection in Computer Generated Images", CACM 19(10),
+/// 1976; Pharr, Jakob and Humphreys, "Physically Based Rendering", 4th ed., section 12.5.
+/// Differs: within a texel directions are uniform by solid angle, so that the density has no
+/// singular poles; the weight of a texel is the mean of the interpolated picture over it, so that
+/// what is not black has a density.
+/// Conventions: in the frame of the picture x points to its right, y to its front, which is the
+/// centre of the picture, z up. The top row is at the zenith. Texels are interpolated in both
+/// directions, around the picture and not over its poles. Texels that are negative, infinite, no
+/// number or above kLargestRadiance are black, and counted.
+/// Complexity: O(texels) to make, O(log texels) for a direction. Threads: const functions may be
+/// called from many.
+
+#include <cstddef>
+#include <vector>
+
+#include "alhazen/imaging/image/image.h"
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+inline constexpr double kLargestRadiance = 1e15;
+
+class DirectionPicture {
+  public:
+    /// Has a texel. Not linear: decoded from sRGB.
+    explicit DirectionPicture(Image picture);
+
+    [[nodiscard]] Rgb radiance(const Vec3& direction) const;
+    /// Unit; `u` in [0, 1)^2. Precondition: not black.
+    [[nodiscard]] Vec3 sample(const Vec2& u) const;
+    /// By solid angle.
+    [[nodiscard]] double density(const Vec3& direction) const;
+
+    /// Over all directions.
+    [[nodiscard]] const Rgb& mean() const { return mean_; }
+    [[nodiscard]] bool is_black() const { return !(rows_.back() > 0.0); }
+    [[nodiscard]] std::size_t bad_texels() const { return bad_texels_; }
+
+  private:
+    void blacken_bad_texels();
+    void make_distribution();
+    [[nodiscard]] Rgb texel(int x, int y) const;
+    /// Between the heights (cosines to the zenith) of its borders.
+    [[nodiscard]] double height(int border) const;
+
+    Image picture_;
+    std::vector<double> rows_;   ///< [row + 1] weight of all rows above
+    std::vector<float> columns_;  ///< [row][column + 1] share of the row's texels up to it
+    Rgb mean_;
+    std::size_t bad_texels_ = 0;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,59 @@
+#pragma once
+/// What surrounds a scene, ready to be seen and sampled: one colour, or a picture of all directions
+/// with, for a clear sky, the disc of the sun before it.
+///
+/// Conventions: directions are in world space, unit, and run away from the scene. With `up` the
+/// vertical, the front of a picture (its centre) is along -z where up is y, along +y where up is z;
+/// in general up x (the x axis made perpendicular to it).
+/// Threads: const functions may be called from many.
+
+#include <memory>
+#include <optional>
+
+#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/math/affine.h"
+#include "alhazen/shading/lights/direction_picture.h"
+#include "alhazen/shading/lights/environment_settings.h"
+
+namespace alhazen {
+
+/// A disc in the sky of equal radiance.
+struct SunDisc {
+    Vec3 direction;             ///< unit, towards it
+    double cosine = 1;          ///< of its radius
+    Rgb radiance;
+};
+
+class Environment {
+  public:
+    /// `up`: where the settings have none. Of kind Picture: the picture is read and has a texel.
+    Environment(const EnvironmentSettings& settings, const Vec3& up);
+
+    [[nodiscard]] Rgb radiance(const Vec3& direction) const;
+    /// A direction for `u` in [0, 1)^2, as seen from a surface with `normal` towards the viewer;
+    /// `both_sides`: light from behind counts, too. Precondition: `shines`.
+    [[nodiscard]] Vec3 sample(const Vec3& normal, bool both_sides, const Vec2& u) const;
+    /// By solid angle.
+    [[nodiscard]] double density(const Vec3& normal, bool both_sides, const Vec3& direction) const;
+    /// The same, of light as it is sent out, wherever the surface.
+    [[nodiscard]] Vec3 sample(const Vec2& u) const;
+    [[nodiscard]] double density(const Vec3& direction) const;
+
+    /// Over all directions.
+    [[nodiscard]] Rgb mean() const;
+    [[nodiscard]] bool shines() const { return mean().max() > 0.0; }
+    /// Texels of the picture that were no radiances, and are black.
+    [[nodiscard]] std::size_t bad_texels() const { return picture_ ? picture_->bad_texels() : 0; }
+    [[nodiscard]] const std::optional<SunDisc>& sun() const { return sun_; }
+
+  private:
+    [[nodiscard]] double sun_solid_angle() const;
+
+    Mat3 world_from_picture_;
+    Rgb factor_;
+    std::optional<DirectionPicture> picture_;  ///< none: `factor_` from everywhere
+    std::optional<SunDisc> sun_;
+    double sun_share_ = 0;  ///< of the directions
+};
+
+}  // namespace alhazen

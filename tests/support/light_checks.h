@@ -1,0 +1,168 @@
+#pragma once
+/// Checks of sampled lights against rays: what `draw` gives, chance hits find, with the same
+/// density.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/sampling/random.h"
+
+namespace alhazen::testing {
+
+/// Probability of a chi-square sum of `freedom` degrees above `sum`: the upper incomplete gamma
+/// function by its series or continued fraction.
+inline double chi_square_tail(double sum, double freedom) {
+    const double a = 0.5 * freedom, x = 0.5 * sum;
+    const double scale = std::exp(-x + a * std::log(x) - std::lgamma(a));
+    if (x < a + 1.0) {
+        double term = 1.0 / a, series = term;
+        for (int n = 1; n < 10000 && term > 1e-16 * series; ++n) series += term *= x / (a + n);
+        return 1.0 - scale * series;
+    }
+    double b = x + 1.0 - a, c = 1e300, d = 1.0 / b, fraction = d;
+    for (int i = 1; i < 10000; ++i) {
+        const double an = -i * (i - a);
+        b += 2.0;
+        d = 1.0 / (an * d + b);
+        c = b + an / c;
+        fraction *= d * c;
+        if (std::abs(d * c - 1.0) < 1e-15) break;
+    }
+    return scale * fraction;
+}
+
+/// Density with which `draw` gives a direction: by what a ray meets there.
+inline double density_along(const Scene& scene, const Illumination& lights, const LitPoint& at,
+                            const Vec3& direction) {
+    const Ray ray{at.point, direction};
+    Hit hit;
+    if (!scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Reflection)})) {
+        return lights.environment_density(at, direction);
+    }
+    const Surface surface = surface_at(*scene.aggregate, ray, hit);
+    return lights.density(at, ray, hit, surface, hit.t);
+}
+
+/// Directions of `draw` have the density that a ray along them finds, and reach what it hits.
+inline void expect_equal_densities(const Scene& scene, const Illumination& lights,
+                                   const LitPoint& at, double tolerance = 1e-7, int count = 2000) {
+    RandomStream random(7);
+    int drawn = 0, missed = 0;
+    for (int i = 0; i < count; ++i) {
+        const double choice = random.uniform();
+        const Vec2 u{random.uniform(), random.uniform()};
+        const LightDraw draw = lights.draw(at, choice, u);
+        if (!(draw.density > 0.0)) continue;
+        ASSERT_FALSE(draw.singular);
+        ASSERT_NEAR(length(draw.to_light), 1.0, 1e-9);
+        ++drawn;
+        const double found = density_along(scene, lights, at, draw.to_light);
+        // At its very edge a ray may miss it.
+        if (found == 0.0) {
+            ++missed;
+            continue;
+        }
+        EXPECT_NEAR(found / draw.density, 1.0, tolerance) << i << " " << u.x << " " << u.y;
+        if (::testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(drawn, count / 8);
+    EXPECT_LE(missed, drawn / 200);
+}
+
+/// Part of the directions: those around `axis` up to the angle with that cosine.
+struct DirectionCone {
+    Vec3 axis{0, 0, 1};
+    double cosine = -1;
+};
+
+/// The chi-square test of `draw` in bins of equal solid angle: the probability of a sum as large by
+/// chance. Draws out of the cone, or none, are a bin too.
+inline double draw_p_value(const Scene& scene, const Illumination& lights, const LitPoint& at,
+                           const DirectionCone& cone, std::uint64_t seed, int draws = 40000,
+                           int rays = 24) {
+    constexpr int kBins = 12;
+    const Vec3 x = perpendicular(cone.axis), y = cross(cone.axis, x);
+    const auto direction = [&](double u, double v) {
+        const double z = 1.0 - u * (1.0 - cone.cosine), angle = 2.0 * kPi * v;
+        const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+        return normalize(z * cone.axis + (r * std::cos(angle)) * x + (r * std::sin(angle)) * y);
+    };
+    std::vector<double> expected(kBins * kBins + 1, 0.0), found(kBins * kBins + 1, 0.0);
+    const double solid = 2.0 * kPi * (1.0 - cone.cosine) / (kBins * kBins * rays * rays);
+    double rest = 1.0;
+    for (int i = 0; i < kBins * rays; ++i) {
+        for (int j = 0; j < kBins * rays; ++j) {
+            const Vec3 d = direction((i + 0.5) / (kBins * rays), (j + 0.5) / (kBins * rays));
+            const double share = solid * density_along(scene, lights, at, d);
+            expected[std::size_t(i / rays * kBins + j / rays)] += draws * share;
+            rest -= share;
+        }
+    }
+    expected.back() = draws * std::max(0.0, rest);
+    RandomStream random(seed);
+    for (int i = 0; i < draws; ++i) {
+        const double choice = random.uniform();
+        const Vec2 u{random.uniform(), random.uniform()};
+        const LightDraw draw = lights.draw(at, choice, u);
+        std::size_t bin = kBins * kBins;
+        const double z = dot(draw.to_light, cone.axis);
+        if (draw.density > 0.0 && z > cone.cosine) {
+            const double a = std::atan2(dot(draw.to_light, y), dot(draw.to_light, x)) / (2.0 * kPi);
+            const int row = std::min(int((1.0 - z) / (1.0 - cone.cosine) * kBins), kBins - 1);
+            const int column = std::min(int((a < 0.0 ? a + 1.0 : a) * kBins), kBins - 1);
+            bin = std::size_t(row * kBins + column);
+        }
+        found[bin] += 1.0;
+    }
+    // Bins that expect few are put together.
+    double sum = 0.0, few_expected = 0.0, few_found = 0.0;
+    int freedom = -1;
+    const auto add = [&](double e, double f) {
+        sum += (f - e) * (f - e) / e;
+        ++freedom;
+    };
+    for (std::size_t b = 0; b < expected.size(); ++b) {
+        if (expected[b] >= 10.0) {
+            add(expected[b], found[b]);
+        } else {
+            few_expected += expected[b];
+            few_found += found[b];
+        }
+    }
+    if (few_expected >= 5.0) {
+        add(few_expected, few_found);
+    } else if (few_found > 5.0 + 10.0 * few_expected) {
+        return 0.0;
+    }
+    return freedom > 0 ? chi_square_tail(sum, freedom) : 1.0;
+}
+
+/// Level of each of `tests` that together fail by chance once in a thousand (Sidak).
+inline double sidak_level(int tests) {
+    return 1.0 - std::pow(1.0 - 1e-3, 1.0 / tests);
+}
+
+/// Mean of radiance * cosine / density over draws that nothing blocks: the irradiance.
+inline Rgb mean_irradiance(const Scene& scene, const Illumination& lights, const LitPoint& at,
+                           int draws, std::uint64_t seed = 3) {
+    RandomStream random(seed);
+    Rgb sum;
+    for (int i = 0; i < draws; ++i) {
+        const double choice = (i + random.uniform()) / draws;
+        const Vec2 u{random.uniform(), random.uniform()};
+        const LightDraw draw = lights.draw(at, choice, u);
+        const double cosine = dot(at.normal, draw.to_light);
+        if (!(draw.density > 0.0) || !(cosine > 0.0)) continue;
+        const Ray ray{at.point, draw.to_light, 1e-9,
+                      std::isfinite(draw.distance) ? draw.distance * (1.0 - 1e-9) : kInfinity};
+        if (scene.aggregate->occluded(ray, {nullptr, draw.passes})) continue;
+        sum += (cosine / draw.density) * draw.radiance;
+    }
+    return (1.0 / draws) * sum;
+}
+
+}  // namespace alhazen::testing

@@ -1,0 +1,256 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/illumination/illumination.h"
+#include "support/light_checks.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+Material shining(const Rgb& radiance, bool two_sided = true) {
+    Material m;
+    m.emission.color = radiance;
+    m.double_sided = two_sided;
+    return m;
+}
+
+/// One emitting thing at about (0, 0, 3), lit points below.
+struct Lamp {
+    const char* name;
+    SceneMaker maker;
+};
+
+template <class Shape>
+Scene lamp_of(Shape shape, const Affine& placement = {}, bool two_sided = true) {
+    SceneMaker maker;
+    maker.add(shape, maker.material(shining({2, 3, 4}, two_sided)), placement);
+    return maker.compile();
+}
+
+Scene mesh_lamp(const Affine& placement, bool two_sided) {
+    SceneMaker maker;
+    TriangleMesh mesh;
+    mesh.positions = {{-1, -1, 3}, {1, -1, 3.5}, {0.2, 1.5, 2.5}, {2, 1, 4}};
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}};
+    const MaterialId m = maker.material(shining({2, 3, 4}, two_sided));
+    maker.add(maker.mesh(mesh), m, placement);
+    return maker.compile();
+}
+
+const Affine kSkew{{{1.2, 0.1, 0}, {-0.3, 0.7, 0.2}, {0.1, 0, 1.1}}, {0.2, -0.1, 0.3}};
+const Affine kMirror{{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}};
+
+Rectangle rectangle_lamp() {
+    Rectangle r;
+    r.corner = {-1, -0.5, 3};
+    r.edge_u = {0, 1.5, 0};
+    r.edge_v = {2, 0, 0};
+    return r;
+}
+Cylinder cylinder_lamp(bool capped) {
+    Cylinder c;
+    c.base = {-1, 0, 3};
+    c.top = {1, 0.4, 3.2};
+    c.radius = 0.3;
+    c.capped = capped;
+    return c;
+}
+Polygon polygon_lamp() {
+    Polygon p;
+    p.vertices = {{-1, -1, 3}, {-1, 1, 3}, {0, 0.2, 3}, {1, 1, 3}, {1, -1, 3}};
+    return p;
+}
+BezierPatch patch_lamp() {
+    BezierPatch p;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            p.points.push_back({-1 + 0.6 * i, -1 + 0.7 * j, 3 + 0.4 * std::sin(1.0 * i + 2 * j)});
+        }
+    }
+    return p;
+}
+
+/// All kinds, with the lit point below them.
+std::vector<Scene> lamps() {
+    std::vector<Scene> all;
+    for (const Affine& placement : {Affine{}, kSkew, kMirror}) {
+        all.push_back(lamp_of(Sphere{{0.3, 0, 3}, 0.8}, placement));
+        all.push_back(lamp_of(rectangle_lamp(), placement));
+        all.push_back(lamp_of(rectangle_lamp(), placement, false));
+        all.push_back(lamp_of(Disc{{0, 0.2, 3}, {0.2, 0.1, -1}, 1.1, 0.4}, placement));
+        all.push_back(lamp_of(cylinder_lamp(false), placement));
+        all.push_back(lamp_of(cylinder_lamp(true), placement, false));
+        all.push_back(lamp_of(polygon_lamp(), placement));
+        all.push_back(lamp_of(BoxShape{{-0.7, -0.5, 2.5}, {0.8, 0.5, 3}}, placement));
+        all.push_back(lamp_of(patch_lamp(), placement));
+        all.push_back(mesh_lamp(placement, true));
+    }
+    all.push_back(mesh_lamp({}, false));
+    return all;
+}
+
+const LitPoint kAt{{0.1, 0.2, 0}, {0, 0, 1}, false};
+
+TEST(Emitters, ARayAlongADrawFindsItsDensity) {
+    int index = 0;
+    for (const Scene& scene : lamps()) {
+        SCOPED_TRACE(index++);
+        const Illumination lights(scene);
+        ASSERT_TRUE(lights.shines());
+        expect_equal_densities(scene, lights, kAt, 1e-6);
+    }
+}
+
+TEST(Emitters, DrawsAreDistributedByTheirDensity) {
+    const std::vector<Scene> all = lamps();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Illumination lights(all[i]);
+        const double p = draw_p_value(all[i], lights, kAt, {{0, 0, 1}, 0.6}, 11 + i);
+        EXPECT_GT(p, sidak_level(static_cast<int>(all.size()))) << i;
+    }
+}
+
+TEST(Emitters, ASphereLightsAPlaneByTheClosedForm) {
+    const Scene scene = lamp_of(Sphere{{0, 0, 3}, 1});
+    const Illumination lights(scene);
+    // A sphere wholly above the horizon: pi L (r / d)^2 cos.
+    for (const double x : {0.0, 1.0, 4.0}) {
+        const double d2 = 9.0 + x * x;
+        const Rgb found = mean_irradiance(scene, lights, {{x, 0, 0}, {0, 0, 1}}, 20000);
+        const double truth = kPi * 2.0 / d2 * (3.0 / std::sqrt(d2));
+        EXPECT_NEAR(found.r / truth, 1.0, 2e-3) << x;
+        EXPECT_NEAR(found.g / found.r, 1.5, 1e-9);
+    }
+}
+
+TEST(Emitters, ARectangleLightsAPlaneByTheClosedForm) {
+    Rectangle r;
+    r.corner = {0, 0, 1.5};
+    r.edge_u = {0, 2, 0};
+    r.edge_v = {1, 0, 0};
+    const Scene scene = lamp_of(r, {}, false);
+    const Illumination lights(scene);
+    // Siegel and Howell, configuration factor of a parallel rectangle with a corner above the point.
+    const double a = 1.0 / 1.5, b = 2.0 / 1.5;
+    const double sa = std::sqrt(1 + a * a), sb = std::sqrt(1 + b * b);
+    const double factor =
+        (a / sa * std::atan(b / sa) + b / sb * std::atan(a / sb)) / (2.0 * kPi);
+    const Rgb found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 40000);
+    EXPECT_NEAR(found.r / (kPi * 2.0 * factor), 1.0, 2e-3);
+}
+
+TEST(Emitters, AnEmittingSphereLightsItsOwnInsideEvenly) {
+    const Scene scene = lamp_of(Sphere{{0, 0, 0}, 2});
+    const Illumination lights(scene);
+    for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{0, 0, -1.9}, Vec3{0, 0, -2}}) {
+        const Rgb found = mean_irradiance(scene, lights, {p, {0, 0, 1}}, 20000);
+        EXPECT_NEAR(found.r / (kPi * 2.0), 1.0, 0.02) << p.z;
+    }
+}
+
+TEST(Emitters, InstancesAreLightsOfTheirOwn) {
+    SceneMaker maker;
+    const MaterialId m = maker.material(shining({1, 1, 1}));
+    const ObjectIndex inner = maker.object("inner"), outer = maker.object("outer");
+    maker.add(Sphere{{0, 0, 0}, 0.2}, m, {}, inner);
+    maker.add(cylinder_lamp(true), m, Affine::scale({0.3, 0.3, 0.3}), inner);
+    maker.add(inner, {}, Affine::translate({1, 0, 3}), outer);
+    maker.add(inner, {}, Affine::translate({-1, 0, 3}) * Affine::rotate({1, 2, 3}, 1), outer);
+    maker.add(outer);
+    maker.add(outer, {}, Affine::translate({0, 2, 1}));
+    const Scene scene = maker.compile();
+    const Illumination lights(scene, {.choice = LightChoice::Uniform});
+    EXPECT_GT(draw_p_value(scene, lights, kAt, {{0, 0, 1}, 0.3}, 5), 1e-3);
+}
+
+TEST(Emitters, WhatDoesNotFaceThePointGivesNothing) {
+    Rectangle up = rectangle_lamp();
+    std::swap(up.edge_u, up.edge_v);
+    const Scene scene = lamp_of(up, {}, false);
+    const Illumination lights(scene);
+    EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}).density, 0.0);
+}
+
+TEST(Emitters, HiddenAreaLightsGiveTheIrradianceOfTheirDirection) {
+    SceneMaker maker;
+    AreaLight lamp;
+    lamp.extent = SphereExtent{{0, 0, 3}, 1};
+    lamp.seen = false;
+    lamp.radiance = {2, 2, 2};
+    maker.light(lamp);
+    const Scene scene = maker.compile();
+    const Illumination lights(scene);
+    RandomStream random(1);
+    double sum = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const double u = random.uniform(), v = random.uniform();
+        const LightDraw draw = lights.draw(kAt, 0.5, {u, v});
+        ASSERT_TRUE(draw.singular);
+        sum += draw.radiance.r / draw.density;
+    }
+    const double sine2 = 1.0 / (0.1 * 0.1 + 0.2 * 0.2 + 9.0);
+    EXPECT_NEAR(sum / 1000 / (2.0 * 2.0 * kPi * (1.0 - std::sqrt(1.0 - sine2))), 1.0, 1e-9);
+}
+
+TEST(Emitters, PunctualLightsAreTimesPi) {
+    SceneMaker maker;
+    maker.light(PointLight{.position = {0, 0, 2}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile();
+    const Illumination lights(scene);
+    const LightDraw draw = lights.draw({{0, 0, 0}, {0, 0, 1}}, 0.3, {0.5, 0.5});
+    EXPECT_TRUE(draw.singular);
+    EXPECT_DOUBLE_EQ(draw.radiance.r / draw.density, kPi / 4);
+    EXPECT_EQ(draw.distance, 2.0);
+}
+
+TEST(Emitters, TheBackgroundLightsEvenly) {
+    SceneMaker maker;
+    maker.description().picture.background = Rgb{0.5, 0.25, 1};
+    maker.add(Sphere{{0, 0, -9}, 0.1});
+    const Scene scene = maker.compile();
+    const Illumination lights(scene);
+    const Rgb found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 100);
+    EXPECT_NEAR(found.r, 0.5 * kPi, 1e-9);
+    EXPECT_NEAR(lights.environment({1, 0, 0}).b, 1.0, 1e-12);
+}
+
+TEST(Emitters, EmittedPowerIsAreaTimesPiTimesRadiance) {
+    int index = 0;
+    for (const Scene& scene : lamps()) {
+        SCOPED_TRACE(index++);
+        const Illumination lights(scene);
+        RandomStream random(5);
+        double power = 0.0;
+        constexpr int kRays = 20000;
+        for (int i = 0; i < kRays; ++i) {
+            const double choice = (i + 0.5) / kRays;
+            const Vec2 place{random.uniform(), random.uniform()};
+            const Vec2 direction{random.uniform(), random.uniform()};
+            const LightRay out = lights.emit(choice, place, direction);
+            const double cosine = dot(out.normal, out.ray.direction);
+            power += out.radiance.r * cosine / (out.place_density * out.direction_density) / kRays;
+            if (i % 100 != 0) continue;
+            // A ray back to the start finds the same densities.
+            const Ray back{out.ray.origin + 1e-3 * out.normal, -out.normal};
+            Hit hit;
+            ASSERT_TRUE(scene.aggregate->closest(back, hit, {nullptr}));
+            const Surface surface = surface_at(*scene.aggregate, back, hit);
+            const auto found = lights.emit_density(hit, surface, out.ray.direction);
+            EXPECT_NEAR(found.place / out.place_density, 1.0, 1e-5);
+            EXPECT_NEAR(found.direction / out.direction_density, 1.0, 1e-5);
+        }
+        EXPECT_GT(power, 0.0);
+    }
+    const Scene ball = lamp_of(Sphere{{0, 0, 3}, 0.5}, {}, false);
+    const LightRay out = Illumination(ball).emit(0.5, {0.3, 0.2}, {0.1, 0.7});
+    EXPECT_NEAR(out.radiance.r * dot(out.normal, out.ray.direction) /
+                    (out.place_density * out.direction_density),
+                kPi * 2.0 * kPi, 1e-9);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
