@@ -7,6 +7,7 @@
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/core/visible_batch.h"
+#include "alhazen/renderers/core/wavefront.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/shading_frame.h"

@@ -19,7 +19,7 @@ constexpr std::size_t kShadedPieces = 4, kShadedPiecesOnward = 1;
 constexpr int kMostPieces = 192;
 constexpr int kMostNarrowings = 16;  ///< then the nearest pieces are all
 /// Less of a pixel than this sends no cones onward.
-constexpr double kLeastContribution = 1.0 / 256;
+constexpr double kLeastConeShare = 1.0 / 256;
 
 /// Half as wide.
 ConeRay narrowed(const ConeRay& cone) {
@@ -354,7 +354,7 @@ Rgb ConeTracer::transmittance_of(const ConePiece& piece, const ConeRay& cone,
 }
 
 double ConeTracer::least_contribution() const {
-    return std::max(conventions_.min_contribution, kLeastContribution);
+    return std::max(conventions_.min_contribution, kLeastConeShare);
 }
 
 ConePath ConeTracer::onward(const Seen& seen, const ShadingPoint& point,

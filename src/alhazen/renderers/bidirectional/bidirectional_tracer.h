@@ -1,0 +1,82 @@
+#pragma once
+/// The pairs of subpaths of samples.
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/bidirectional/path_weight.h"
+#include "alhazen/renderers/light_transport/camera_lens.h"
+#include "alhazen/renderers/light_transport/camera_rays.h"
+#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/random_walk.h"
+#include "alhazen/renderers/light_transport/splat_film.h"
+#include "alhazen/renderers/path_tracing/path_settings.h"
+
+namespace alhazen {
+
+/// What reaches the lens from light paths, of all tiles.
+struct LensLight {
+    SplatFilm splats;
+    std::atomic<std::uint64_t> paths{0};
+};
+
+class BidirectionalTracer {
+  public:
+    BidirectionalTracer(const RenderJob& job, std::size_t, RayCounters& counters,
+                        const Illumination& lights, const PathSettings& settings,
+                        LensLight* const& lens_light);
+
+    /// `rays`: those through the centre of the lens.
+    void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
+                       std::span<Rgb> radiance);
+
+  private:
+    /// The light where the light path began, or that was drawn.
+    struct LightEnd {
+        LightPoint place;
+        Illumination::EmitDensity emit;
+    };
+
+    void trace(const SampleId& id, const Ray& ray, Rgb& sum);
+    /// What the last eye vertex emits, or the environment behind it.
+    void hit_light(std::size_t b, Rgb& sum);
+    void hit_environment(Rgb& sum);
+    /// Eye vertex b - 1 and a light that is drawn for it.
+    void join_light(const SampleId& id, std::size_t b, float time, Rgb& sum);
+    /// Light vertex a - 1 and eye vertex b - 1.
+    void join(std::size_t a, std::size_t b, float time, Rgb& sum);
+    /// Light vertex a - 1 and the lens.
+    void join_lens(const SampleId& id, std::size_t a, float time);
+
+    /// Sets the densities of the eye vertices 0 .. b - 3, seen from the light side too, as the last
+    /// of `path_`, and those of the light vertices 0 .. a - 3 as the first.
+    void begin_path(std::size_t a, std::size_t b);
+    [[nodiscard]] WholePath::Vertex& of_light(std::size_t i) { return path_.vertices[i + 1]; }
+    [[nodiscard]] WholePath::Vertex& of_eye(std::size_t i) {
+        return path_.vertices[path_.vertices.size() - 1 - i];
+    }
+    /// Sets vertex 0, and what a light path finds at vertex 1, which `to_light` leaves.
+    void set_light(const LightEnd& end, const LitPoint& at, const Vec3& to_light, double distance,
+                   double eye_density, const Vec3& geometric);
+
+    const Scene& scene_;
+    const Illumination& lights_;
+    PathSettings settings_;
+    RayCounters& counters_;
+    TraversalStats* stats_;
+    PathChance chance_;
+    CameraRays camera_;
+    CameraLens lens_;
+    RandomWalk walk_;
+    LightBatch joins_;
+    LensLight& lens_light_;
+    std::vector<PathVertex> eye_, light_;
+    RandomWalk::Escape escape_;
+    LightEnd begin_;  ///< of `light_`
+    WholePath path_;
+};
+
+}  // namespace alhazen
