@@ -121,6 +121,7 @@ INSIDE = {
         "ambient_occlusion": ["light_transport"],
         "path_tracing": ["light_transport"],
         "light_tracing": ["path_tracing"],
+        "bidirectional": ["path_tracing"],
         "ray_casting": ["antialias"],
         "whitted": ["antialias"],
         "distributed": ["whitted"],

@@ -180,21 +180,27 @@ LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u) c
         const ChosenLight chosen = d.far.choose(rest);
         const double probability = (1.0 - d.near_share) * chosen.probability;
         if (!(probability > 0.0)) return {};
-        if (d.is_environment(chosen.light)) {
-            return draw_environment(*d.environment, at, probability, u);
-        }
-        return draw_singular(*d.scene, d.scene->lights[d.parallel[chosen.light]], at, probability);
+        LightDraw draw =
+            d.is_environment(chosen.light)
+                ? draw_environment(*d.environment, at, probability, u)
+                : draw_singular(*d.scene, d.scene->lights[d.parallel[chosen.light]], at,
+                                probability);
+        draw.place.source = d.near_count() + chosen.light;
+        return draw;
     }
     const ChosenLight chosen = d.choose_near(at, choice / d.near_share);
     const double probability = d.near_share * chosen.probability;
     if (!(probability > 0.0)) return {};
     if (const Light* light = d.point_light(chosen.light)) {
-        return draw_singular(*d.scene, *light, at, probability);
+        LightDraw draw = draw_singular(*d.scene, *light, at, probability);
+        draw.place.source = chosen.light;
+        return draw;
     }
     const Emitter& emitter = d.emitter(chosen.light);
     const EmitterSample s = sample(emitter, at.point, u);
     if (!(s.density > 0.0) || !std::isfinite(s.density)) return {};
     LightDraw draw;
+    draw.place = {chosen.light, s.parameters};
     draw.to_light = s.to_light;
     draw.distance = s.distance;
     draw.density = probability * s.density;

@@ -12,6 +12,7 @@
 /// Left to chance hits (density 0): emitting surfaces that cannot be sampled (emitter_list.h).
 /// Threads: const functions may be called from many.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -20,6 +21,12 @@
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
+
+/// Where in a light it begins: for `Illumination::point_of_light`.
+struct LightPlace {
+    std::size_t source = 0;  ///< number of the light
+    Vec2 parameters;
+};
 
 /// A direction from which light comes.
 struct LightDraw {
@@ -31,6 +38,7 @@ struct LightDraw {
                             ///< 0: no light from there
     bool singular = false;  ///< no other strategy finds this light
     RayMask passes = kAllRays;  ///< mask for the shadow ray
+    LightPlace place;
 };
 
 /// A ray of light as it leaves its source. Its power is radiance * cosine / (both densities).
@@ -44,6 +52,7 @@ struct LightRay {
     bool singular_direction = false;  ///< parallel light
     bool infinite = false;            ///< of the environment or parallel: it starts outside the
                                       ///< scene, and its place lies on a disc across its direction
+    LightPlace place;
 };
 
 /// How one of many lights is chosen.
@@ -92,6 +101,22 @@ class Illumination {
                                            const Vec3& direction) const;
     /// The same for light of the environment that travels along `direction`.
     [[nodiscard]] EmitDensity environment_emit_density(const Vec3& direction) const;
+
+    /// A point of a light that was drawn or that emitted, for the densities of other strategies.
+    struct LightPoint {
+        std::size_t source = 0;
+        Vec2 parameters;
+        Vec3 normal;            ///< unit, of a surface; zero where there is none
+        bool infinite = false;  ///< without a place
+        bool is_hit = false;    ///< rays can hit it
+    };
+    [[nodiscard]] LightPoint point_of_light(const LightPlace& place, const Vec3& point) const;
+    /// With which `emit` gives a ray from there along `direction`.
+    [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction) const;
+    /// With which `draw(at)` gives it; as LightDraw::density, but for a light that no ray hits by
+    /// solid angle where it has an extent.
+    [[nodiscard]] double density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,
+                                 double distance) const;
 
   private:
     struct Data;

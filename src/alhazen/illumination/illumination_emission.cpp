@@ -115,6 +115,7 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
     const ChosenLight chosen = d.sources.choose(choice);
     LightRay out;
     if (!(chosen.probability > 0.0)) return out;
+    out.place.source = chosen.light;
     if (chosen.light >= d.near_count()) {
         const std::size_t far_light = chosen.light - d.near_count();
         out.infinite = true;
@@ -135,11 +136,14 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
         return out;
     }
     if (const Light* light = d.point_light(chosen.light)) {
-        return emit_from_point(*light, chosen.probability, direction);
+        out = emit_from_point(*light, chosen.probability, direction);
+        out.place.source = chosen.light;
+        return out;
     }
     const Emitter& e = d.emitter(chosen.light);
     const EmitterPoint p = point_of(e, place);
     if (!(p.density > 0.0)) return out;
+    out.place.parameters = p.parameters;
     Vec2 u = direction;
     const bool behind = e.two_sided && u.x < 0.5;
     if (e.two_sided) u.x = behind ? 2.0 * u.x : 2.0 * u.x - 1.0;
@@ -178,6 +182,26 @@ Illumination::EmitDensity Illumination::environment_emit_density(const Vec3& dir
         data_->sources.probability(data_->near_count() + data_->parallel.size());
     return {probability / (kPi * data_->radius * data_->radius),
             data_->environment->density(-direction)};
+}
+
+Illumination::EmitDensity Illumination::emit_density(const LightPoint& from,
+                                                     const Vec3& direction) const {
+    const Data& d = *data_;
+    const double probability = d.sources.probability(from.source);
+    if (from.source >= d.near_count()) {
+        if (d.is_environment(from.source - d.near_count())) {
+            return environment_emit_density(direction);
+        }
+        return {probability / (kPi * d.radius * d.radius), 1.0};
+    }
+    if (const Light* light = d.point_light(from.source)) {
+        return {probability, 1.0 / (2.0 * kPi * (1.0 - cosine_of_cone(*light)))};
+    }
+    const Emitter& e = d.emitter(from.source);
+    const double cosine = dot(from.normal, direction);
+    if (!e.two_sided && !(cosine > 0.0)) return {};
+    return {probability * area_density(e, from.normal, from.parameters),
+            std::abs(cosine) / (e.two_sided ? 2.0 * kPi : kPi)};
 }
 
 }  // namespace alhazen

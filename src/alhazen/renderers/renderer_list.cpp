@@ -5,6 +5,7 @@
 #include "alhazen/base/error.h"
 #include "alhazen/renderers/ambient_occlusion/ambient_occlusion.h"
 #include "alhazen/renderers/beam_tracing/beam_tracing.h"
+#include "alhazen/renderers/bidirectional/bidirectional.h"
 #include "alhazen/renderers/cone_tracing/cone_tracing.h"
 #include "alhazen/renderers/distributed/distributed.h"
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
@@ -71,7 +72,7 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 10> table{{
+    static constexpr std::array<RendererEntry, 11> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"distributed",
@@ -104,6 +105,13 @@ std::span<const RendererEntry> renderers() {
          "(Heckbert and Hanrahan 1984); sort=tree|list, hulls=on|off, contribution=SHARE, "
          "area=SHARE",
          [](RendererSettings& settings) { return make_beam_tracing(settings); }},
+        {"bidirectional",
+         "all light by random paths from the eye and from the lights, each vertex of one joined "
+         "to each of the other (Veach 1997); depth=N, roulette=N",
+         [](RendererSettings& settings) {
+             return std::unique_ptr<Renderer>(
+                 std::make_unique<Bidirectional>(path_settings(settings)));
+         }},
         {"cone_tracing",
          "a cone a pixel: covered areas in closed form, reflected, refracted and shadow cones "
          "(Amanatides 1984); coverage=formulas|tables",

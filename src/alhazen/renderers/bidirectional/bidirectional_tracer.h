@@ -27,7 +27,7 @@ class BidirectionalTracer {
   public:
     BidirectionalTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                         const Illumination& lights, const PathSettings& settings,
-                        LensLight* const& lens_light);
+                        LensLight* lens_light);
 
     /// `rays`: those through the centre of the lens.
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
@@ -36,7 +36,7 @@ class BidirectionalTracer {
   private:
     /// The light where the light path began, or that was drawn.
     struct LightEnd {
-        LightPoint place;
+        Illumination::LightPoint place;
         Illumination::EmitDensity emit;
     };
 

@@ -65,6 +65,13 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
             v.emission = point_.material->emission;
             if (!v.emission.is_black()) {
                 v.emit = lights_.emit_density(hit_, point_.surface, -ray.direction);
+                if (vertices.size() >= 2) {
+                    const PathVertex& before = vertices[vertices.size() - 2];
+                    const LitPoint at{before.surface.point, before.scatter.normal(),
+                                      before.scatter.transmits()};
+                    v.joined = cosine / (travelled_ * travelled_) *
+                               lights_.density(at, ray, hit_, point_.surface, travelled_);
+                }
             }
         }
         v.scatter.set(scene_, point_, media, true);
@@ -89,11 +96,11 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         eta_scale *= drawn->transmitted && from_eye ? drawn->eta * drawn->eta : 1.0;
         v.singular = drawn->singular;
         density = drawn->singular ? 0.0 : drawn->density;
-        if (vertices.size() >= 2 && !drawn->singular) {
+        if (!drawn->singular) v.back = v.scatter.reverse_density(drawn->direction);
+        if (vertices.size() >= 2) {
             PathVertex& before = vertices[vertices.size() - 2];
-            const double back = v.scatter.reverse_density(drawn->direction);
             const double facing = std::abs(dot(v.scatter.view(), before.scatter.geometric()));
-            before.reverse = back * facing / (v.distance * v.distance);
+            before.reverse = v.back * facing / (v.distance * v.distance);
         }
         if (!throughput.is_finite()) return;
         if (static_cast<int>(vertices.size()) >= luck.roulette) {

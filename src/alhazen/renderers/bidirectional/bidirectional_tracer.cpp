@@ -1,0 +1,256 @@
+#include "alhazen/renderers/bidirectional/bidirectional_tracer.h"
+
+#include <cmath>
+
+#include "alhazen/renderers/light_transport/light_start.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Pairs of dimensions besides those of the eye's walk: of the light, of its walk, of the place on
+/// the lens for each of its vertices, of the lights drawn for the eye's.
+constexpr std::uint32_t kLightPairs = 1u << 12, kLightWalk = 2u << 12, kLensPairs = 3u << 12,
+                        kDrawPairs = 4u << 12;
+/// The light itself does not block a ray to it.
+constexpr double kBeforeLight = 1.0 - 1e-7;
+
+/// A density by solid angle, of a direction that arrives at a point, as one by area there.
+double by_area(double density, const Vec3& direction, const Vec3& normal, double distance) {
+    return density * std::abs(dot(direction, normal)) / (distance * distance);
+}
+
+/// By area at the vertex before `v`, of a path that would go on from `v` to it, by `back`.
+double at_vertex_before(double back, const PathVertex& v, const PathVertex& before) {
+    return by_area(back, v.scatter.view(), before.scatter.geometric(), v.distance);
+}
+
+LitPoint lit(const PathVertex& v) {
+    return {v.surface.point, v.scatter.normal(), v.scatter.transmits()};
+}
+
+}  // namespace
+
+BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t,
+                                         RayCounters& counters, const Illumination& lights,
+                                         const PathSettings& settings,
+                                         LensLight* lens_light)
+    : scene_(job.scene),
+      lights_(lights),
+      settings_(settings),
+      counters_(counters),
+      stats_(job.count_tests ? &counters.tests : nullptr),
+      chance_(job),
+      camera_(job),
+      lens_(job),
+      walk_(job.scene, lights, counters, stats_),
+      joins_(job.scene, counters, stats_),
+      lens_light_(*lens_light) {}
+
+void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
+                                        std::span<Rgb> radiance) {
+    for (std::size_t i = 0; i < rays.size(); ++i) trace(ids[i], rays[i], radiance[i]);
+    lens_light_.paths.fetch_add(rays.size(), std::memory_order_relaxed);
+}
+
+void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum) {
+    const float time = camera_.time(chance_, id);
+    const Ray ray = camera_.through_lens(chance_, id, central, time);
+    WalkStart start{.ray = ray, .time = time};
+    start.parallel = lens_.is_parallel();
+    start.density =
+        start.parallel ? lens_.parallel_density() : lens_.direction_density(ray.direction, time);
+    // One vertex more than scatterings: the last may be a light.
+    walk_.walk(Transport::Radiance, start,
+               {chance_, id, PathChance::kFirstBounce, settings_.depth + 1, settings_.roulette},
+               eye_);
+    escape_ = walk_.escape();
+
+    light_.clear();
+    const LightRay light = lights_.emit(chance_.draw(id, kLightPairs).x,
+                                        chance_.draw(id, kLightPairs + 1),
+                                        chance_.draw(id, kLightPairs + 2));
+    const WalkStart from_light = start_of(light, time);
+    if (!from_light.throughput.is_black() && from_light.throughput.is_finite()) {
+        begin_.place = lights_.point_of_light(light.place, light.ray.origin);
+        begin_.emit = {light.place_density, light.direction_density};
+        walk_.walk(Transport::Importance, from_light,
+                   {chance_, id, kLightWalk, settings_.depth, settings_.roulette}, light_);
+    }
+
+    for (std::size_t b = 1; b <= eye_.size(); ++b) {
+        hit_light(b, sum);
+        if (static_cast<int>(b) <= settings_.depth) join_light(id, b, time, sum);
+    }
+    hit_environment(sum);
+    for (std::size_t a = 1; a <= light_.size(); ++a) {
+        join_lens(id, a, time);
+        for (std::size_t b = 1; b <= eye_.size(); ++b) {
+            if (static_cast<int>(a + b) <= settings_.depth) join(a, b, time, sum);
+        }
+    }
+}
+
+void BidirectionalTracer::begin_path(std::size_t a, std::size_t b) {
+    path_.vertices.assign(1 + a + b, {});
+    path_.joined = 0.0;
+    path_.emitted = path_.hit = true;
+    for (std::size_t i = 0; i < a; ++i) {
+        const PathVertex& v = light_[i];
+        const bool is_last = i + 1 == a;
+        of_light(i) = {v.density, i + 2 < a ? v.reverse : 0.0, !is_last && v.singular};
+    }
+    for (std::size_t i = 0; i < b; ++i) {
+        const PathVertex& v = eye_[i];
+        const bool is_last = i + 1 == b;
+        of_eye(i) = {i + 2 < b ? v.reverse : 0.0, v.density, !is_last && v.singular};
+    }
+}
+
+void BidirectionalTracer::set_light(const LightEnd& end, const LitPoint& at, const Vec3& to_light,
+                                    double distance, double eye_density, const Vec3& geometric) {
+    WholePath::Vertex& zero = path_.vertices[0];
+    const Illumination::LightPoint& place = end.place;
+    const double drawn = lights_.density(at, place, to_light, distance);
+    path_.hit = place.is_hit;
+    path_.emitted = end.emit.place > 0.0 && end.emit.direction > 0.0;
+    const bool has_area = place.normal != Vec3{};
+    if (place.infinite) {
+        zero.from_light = end.emit.direction;
+        path_.vertices[1].from_light = end.emit.place * std::abs(dot(to_light, geometric));
+    } else {
+        zero.from_light = end.emit.place;
+        path_.vertices[1].from_light = by_area(end.emit.direction, to_light, geometric, distance);
+    }
+    const auto there = [&](double density) {
+        return has_area ? by_area(density, to_light, place.normal, distance) : density;
+    };
+    zero.from_eye = there(eye_density);
+    path_.joined = there(drawn);
+}
+
+void BidirectionalTracer::hit_light(std::size_t b, Rgb& sum) {
+    const PathVertex& last = eye_[b - 1];
+    if (last.emission.is_black()) return;
+    const Rgb light = last.throughput * last.emission;
+    if (b == 1) {
+        sum += light;
+        return;
+    }
+    // Vertex 0 is the last eye vertex: the path has b - 1 surfaces.
+    const PathVertex& lit_vertex = eye_[b - 2];
+    begin_path(0, b - 1);
+    path_.vertices[1].singular = lit_vertex.singular;
+    path_.vertices[0] = {last.emit.place, last.density, false};
+    path_.emitted = last.emit.place > 0.0 && last.emit.direction > 0.0;
+    of_eye(b - 2).from_light = by_area(last.emit.direction, last.scatter.view(),
+                                       lit_vertex.scatter.geometric(), last.distance);
+    if (b >= 3) of_eye(b - 3).from_light = eye_[b - 3].reverse;
+    path_.joined = last.joined;
+    sum += path_weight(path_, 0) * light;
+}
+
+void BidirectionalTracer::hit_environment(Rgb& sum) {
+    if (!escape_.is) return;
+    const Rgb light = escape_.throughput * lights_.environment(escape_.direction);
+    if (light.is_black()) return;
+    const std::size_t b = eye_.size();
+    if (b == 0) {
+        sum += light;
+        return;
+    }
+    const PathVertex& last = eye_[b - 1];
+    begin_path(0, b);
+    path_.vertices[1].singular = last.singular;
+    const Illumination::EmitDensity emit = lights_.environment_emit_density(-escape_.direction);
+    path_.vertices[0] = {emit.direction, escape_.density, false};
+    path_.emitted = emit.place > 0.0 && emit.direction > 0.0;
+    of_eye(b - 1).from_light =
+        emit.place * std::abs(dot(escape_.direction, last.scatter.geometric()));
+    if (b >= 2) of_eye(b - 2).from_light = eye_[b - 2].reverse;
+    path_.joined = lights_.environment_density(lit(last), escape_.direction);
+    sum += path_weight(path_, 0) * light;
+}
+
+void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float time, Rgb& sum) {
+    const PathVertex& v = eye_[b - 1];
+    if (!v.connects()) return;
+    const auto pair = kDrawPairs + 2 * static_cast<std::uint32_t>(b);
+    const LitPoint at = lit(v);
+    const LightDraw drawn = lights_.draw(at, chance_.draw(id, pair).x, chance_.draw(id, pair + 1));
+    if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
+    Rgb light = v.scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    if (light.is_black()) return;
+    LightEnd end;
+    end.place =
+        lights_.point_of_light(drawn.place, v.surface.point + drawn.distance * drawn.to_light);
+    end.emit = lights_.emit_density(end.place, -drawn.to_light);
+    begin_path(0, b);
+    set_light(end, at, drawn.to_light, drawn.distance, v.scatter.density(drawn.to_light),
+              v.scatter.geometric());
+    if (b >= 2) {
+        of_eye(b - 2).from_light =
+            at_vertex_before(v.scatter.reverse_density(drawn.to_light), v, eye_[b - 2]);
+    }
+    light = (path_weight(path_, 1) / drawn.density) * (v.throughput * light);
+    const Ray ray = leaving_ray(v.surface, drawn.to_light, kBeforeLight * drawn.distance);
+    sum += joins_.passing(ray, time, absorption_towards(v, drawn.to_light)) * light;
+}
+
+void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Rgb& sum) {
+    const PathVertex &y = light_[a - 1], &z = eye_[b - 1];
+    if (!y.connects() || !z.connects()) return;
+    const Vec3 offset = y.surface.point - z.surface.point;
+    const double squared = length_squared(offset), distance = std::sqrt(squared);
+    if (!(distance > 0.0)) return;
+    const Vec3 to_y = offset / distance, to_z = -to_y;
+    const Rgb at_z = z.scatter.value(to_y, Transport::Radiance);
+    if (at_z.is_black()) return;
+    const Rgb at_y = y.scatter.value(to_z, Transport::Importance);
+    if (at_y.is_black()) return;
+    Rgb light = (y.scatter.importance_correction(to_z) / squared) *
+                (y.throughput * at_y * z.throughput * at_z);
+    begin_path(a, b);
+    of_light(a - 1).from_eye =
+        by_area(z.scatter.density(to_y), to_y, y.scatter.geometric(), distance);
+    of_eye(b - 1).from_light =
+        by_area(y.scatter.density(to_z), to_z, z.scatter.geometric(), distance);
+    const double back = y.scatter.reverse_density(to_z);
+    if (a >= 2) of_light(a - 2).from_eye = at_vertex_before(back, y, light_[a - 2]);
+    if (b >= 2) {
+        of_eye(b - 2).from_light =
+            at_vertex_before(z.scatter.reverse_density(to_y), z, eye_[b - 2]);
+    }
+    const PathVertex& first = light_[0];
+    set_light(begin_, lit(first), first.scatter.view(), first.distance,
+              a == 1 ? back : first.back, first.scatter.geometric());
+    light = path_weight(path_, static_cast<int>(a) + 1) * light;
+    if (light.is_black()) return;
+    const Ray ray = leaving_ray(z.surface, to_y, kBeforeLight * distance);
+    sum += joins_.passing(ray, time, absorption_towards(z, to_y)) * light;
+}
+
+void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float time) {
+    const PathVertex& y = light_[a - 1];
+    if (!y.connects()) return;
+    const auto joined = lens_.connect(
+        y.surface.point, chance_.draw(id, kLensPairs + static_cast<std::uint32_t>(a)), time);
+    if (!joined) return;
+    const Rgb value = y.scatter.value(joined->to_lens, Transport::Importance);
+    if (value.is_black()) return;
+    begin_path(a, 0);
+    of_light(a - 1).from_eye =
+        joined->density * std::abs(dot(joined->to_lens, y.scatter.geometric()));
+    const double back = y.scatter.reverse_density(joined->to_lens);
+    if (a >= 2) of_light(a - 2).from_eye = at_vertex_before(back, y, light_[a - 2]);
+    const PathVertex& first = light_[0];
+    set_light(begin_, lit(first), first.scatter.view(), first.distance,
+              a == 1 ? back : first.back, first.scatter.geometric());
+    Rgb light = path_weight(path_, static_cast<int>(a) + 1) * joined->density *
+                y.scatter.importance_correction(joined->to_lens) * (y.throughput * value);
+    const Ray ray = leaving_ray(y.surface, joined->to_lens, joined->distance);
+    light = light * joins_.passing(ray, time, absorption_towards(y, joined->to_lens));
+    if (!light.is_black() && !lens_light_.splats.add(joined->film, light)) ++counters_.non_finite;
+}
+
+}  // namespace alhazen
