@@ -12,6 +12,7 @@
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/session/aov_pictures.h"
+#include "alhazen/session/environment_option.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"
 #include "alhazen/session/render.h"
@@ -39,6 +40,7 @@ struct RenderArguments {
     SamplingTexts sampling;
     std::optional<int> spp;
     RenderOptions render;
+    std::string environment;
 };
 
 Encoding parse_encoding(const std::string& name) {
@@ -133,6 +135,7 @@ void complete(const RenderArguments& args, const RenderOptions& options, LoadedS
     if (!args.view.empty()) framing.view = parse_view(args.view);
     framing.camera = options.camera;
     framing.aspect = free_aspect(loaded.description.picture, options);
+    framing.follows_light = follows_light(options.renderer);
     for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {
         if (!args.quiet) tell("{}\n", note);
     }
@@ -223,6 +226,10 @@ int run(const RenderArguments& args) {
     if (!args.quiet) print_warnings(loaded.diagnostics);
     // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
+    for (const std::string& note : set_environment(loaded, args.environment, options.renderer,
+                                                   load_options.import.image_limits)) {
+        if (!args.quiet) tell("{}\n", note);
+    }
     complete(args, options, loaded);
 
     for (const std::string& note : simplified(loaded.scene, options, *renderer)) {
@@ -324,6 +331,12 @@ void add_render(CLI::App& app, int& exit_status) {
         ->add_option("--depth", args->depth,
                      "Recursion depth, 0 = eye rays only; default: the format's")
         ->check(CLI::Range(0, 1000));
+    command
+        ->add_option("--environment", args->environment,
+                     "What surrounds the scene, for renderers that follow light physically: a "
+                     "picture of all directions (.hdr .exr and others), a clear sky with its sun, a "
+                     "neutral studio; default: the scene's, or the studio where it has no light")
+        ->type_name("FILE|sky|studio|none");
     command->add_option("--camera", args->render.camera, "Camera by name or position")
         ->type_name("NAME|INDEX");
     command

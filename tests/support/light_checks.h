@@ -35,16 +35,21 @@ inline double chi_square_tail(double sum, double freedom) {
     return scale * fraction;
 }
 
-/// Density with which `draw` gives a direction: by what a ray meets there.
+/// Density with which `draw` gives a direction: the sum over all that a ray meets there, or only
+/// what it meets at `distance`.
 inline double density_along(const Scene& scene, const Illumination& lights, const LitPoint& at,
-                            const Vec3& direction) {
+                            const Vec3& direction, double distance = -1.0) {
     const Ray ray{at.point, direction};
-    Hit hit;
-    if (!scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Reflection)})) {
-        return lights.environment_density(at, direction);
+    std::vector<Hit> hits;
+    scene.aggregate->all_hits(ray, hits, {nullptr, mask_of(RayKind::Reflection)});
+    double sum = 0.0;
+    for (const Hit& hit : hits) {
+        if (distance >= 0.0 && !(std::abs(hit.t - distance) < 1e-6 * distance)) continue;
+        const Surface surface = surface_at(*scene.aggregate, ray, hit);
+        sum += lights.density(at, ray, hit, surface, hit.t);
     }
-    const Surface surface = surface_at(*scene.aggregate, ray, hit);
-    return lights.density(at, ray, hit, surface, hit.t);
+    if (distance < 0.0 || std::isinf(distance)) sum += lights.environment_density(at, direction);
+    return sum;
 }
 
 /// Directions of `draw` have the density that a ray along them finds, and reach what it hits.
@@ -60,7 +65,7 @@ inline void expect_equal_densities(const Scene& scene, const Illumination& light
         ASSERT_FALSE(draw.singular);
         ASSERT_NEAR(length(draw.to_light), 1.0, 1e-9);
         ++drawn;
-        const double found = density_along(scene, lights, at, draw.to_light);
+        const double found = density_along(scene, lights, at, draw.to_light, draw.distance);
         // At its very edge a ray may miss it.
         if (found == 0.0) {
             ++missed;
@@ -82,8 +87,8 @@ struct DirectionCone {
 /// The chi-square test of `draw` in bins of equal solid angle: the probability of a sum as large by
 /// chance. Draws out of the cone, or none, are a bin too.
 inline double draw_p_value(const Scene& scene, const Illumination& lights, const LitPoint& at,
-                           const DirectionCone& cone, std::uint64_t seed, int draws = 40000,
-                           int rays = 24) {
+                           const DirectionCone& cone, std::uint64_t seed, int draws = 10000,
+                           int rays = 12) {
     constexpr int kBins = 12;
     const Vec3 x = perpendicular(cone.axis), y = cross(cone.axis, x);
     const auto direction = [&](double u, double v) {
@@ -92,14 +97,39 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
         return normalize(z * cone.axis + (r * std::cos(angle)) * x + (r * std::sin(angle)) * y);
     };
     std::vector<double> expected(kBins * kBins + 1, 0.0), found(kBins * kBins + 1, 0.0);
-    const double solid = 2.0 * kPi * (1.0 - cone.cosine) / (kBins * kBins * rays * rays);
+    // By the middle of cells; where neighbours differ much, of smaller ones.
+    const int side = kBins * rays;
+    std::vector<double> coarse(std::size_t(side * side));
+    const auto at_cell = [&](double i, double j) {
+        return density_along(scene, lights, at, direction(i / side, j / side));
+    };
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) coarse[std::size_t(i * side + j)] = at_cell(i + 0.5, j + 0.5);
+    }
+    const auto differs = [&](int i, int j) {
+        const double here = coarse[std::size_t(i * side + j)];
+        for (int n = 0; n < 9; ++n) {
+            const int k = std::clamp(i + n / 3 - 1, 0, side - 1), m = (j + n % 3 - 1 + side) % side;
+            const double there = coarse[std::size_t(k * side + m)];
+            if (std::abs(there - here) > 0.1 * (there + here)) return true;
+        }
+        return false;
+    };
+    const double solid = 2.0 * kPi * (1.0 - cone.cosine) / (side * side);
     double rest = 1.0;
-    for (int i = 0; i < kBins * rays; ++i) {
-        for (int j = 0; j < kBins * rays; ++j) {
-            const Vec3 d = direction((i + 0.5) / (kBins * rays), (j + 0.5) / (kBins * rays));
-            const double share = solid * density_along(scene, lights, at, d);
-            expected[std::size_t(i / rays * kBins + j / rays)] += draws * share;
-            rest -= share;
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+            double mean = coarse[std::size_t(i * side + j)];
+            if (i < 4 || differs(i, j)) {  // cells at the axis are long
+                constexpr int kFine = 8;
+                mean = 0.0;
+                for (int n = 0; n < kFine * kFine; ++n) {
+                    mean += at_cell(i + (n / kFine + 0.5) / kFine, j + (n % kFine + 0.5) / kFine) /
+                            (kFine * kFine);
+                }
+            }
+            expected[std::size_t(i / rays * kBins + j / rays)] += draws * solid * mean;
+            rest -= solid * mean;
         }
     }
     expected.back() = draws * std::max(0.0, rest);
@@ -163,6 +193,54 @@ inline Rgb mean_irradiance(const Scene& scene, const Illumination& lights, const
         sum += (cosine / draw.density) * draw.radiance;
     }
     return (1.0 / draws) * sum;
+}
+
+/// How far the irradiance by draws is from that of directions by the cosine, which find lights by
+/// chance: in standard deviations of both together.
+inline double irradiance_z(const Scene& scene, const Illumination& lights, const LitPoint& at,
+                           int count, std::uint64_t seed) {
+    RandomStream random(seed);
+    double sums[2] = {}, squares[2] = {};
+    const Vec3 x = perpendicular(at.normal), y = cross(at.normal, x);
+    for (int i = 0; i < count; ++i) {
+        const Vec2 u{random.uniform(), random.uniform()};
+        const LightDraw draw = lights.draw(at, random.uniform(), u);
+        const double cosine = dot(at.normal, draw.to_light);
+        double drawn = 0.0;
+        if (draw.density > 0.0 && cosine > 0.0) {
+            const Ray shadow{at.point, draw.to_light, 1e-9,
+                             std::isfinite(draw.distance) ? draw.distance * (1.0 - 1e-7)
+                                                          : kInfinity};
+            if (!scene.aggregate->occluded(shadow, {nullptr, draw.passes})) {
+                drawn = cosine / draw.density * draw.radiance.g;
+            }
+        }
+        const double r = std::sqrt(random.uniform()), angle = 2.0 * kPi * random.uniform();
+        const Vec3 d = normalize((r * std::cos(angle)) * x + (r * std::sin(angle)) * y +
+                                 std::sqrt(1.0 - r * r) * at.normal);
+        const Ray ray{at.point, d};
+        Hit hit;
+        double met = 0.0;
+        if (scene.aggregate->closest(ray, hit, {nullptr, mask_of(RayKind::Reflection)})) {
+            const Surface surface = surface_at(*scene.aggregate, ray, hit);
+            const Material& m = scene.materials[std::size_t(surface.materials[0])];
+            const bool seen = m.double_sided || dot(surface.normal, d) < 0.0;
+            const SurfaceLookup lookup{{surface.uv, surface.uv2}, {}, surface.color, {}};
+            if (seen) met = kPi * evaluate(m, scene.textures, lookup).emission.g;
+        } else {
+            met = kPi * lights.environment(d).g;
+        }
+        sums[0] += drawn;
+        sums[1] += met;
+        squares[0] += drawn * drawn;
+        squares[1] += met * met;
+    }
+    double variance = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        const double mean = sums[k] / count;
+        variance += (squares[k] / count - mean * mean) / count;
+    }
+    return (sums[0] - sums[1]) / count / std::sqrt(variance);
 }
 
 }  // namespace alhazen::testing

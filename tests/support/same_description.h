@@ -415,6 +415,27 @@ bool all_same(const A& a, const B& b, const Rest&... rest) {
 }
 
 /// Fails the test if the lists differ, with the index of the first difference.
+inline bool same(const EnvironmentSettings& a, const EnvironmentSettings& b) {
+    const auto& [kind_a, color_a, file_a, picture_a, scale_a, rotation_a, up_a, turbidity_a, to_sun_a,
+                 ground_a] = a;
+    const auto& [kind_b, color_b, file_b, picture_b, scale_b, rotation_b, up_b, turbidity_b, to_sun_b,
+                 ground_b] = b;
+    (void)file_a, (void)file_b;
+    const auto same_direction = [](const std::optional<Vec3>& x, const std::optional<Vec3>& y) {
+        return x.has_value() == y.has_value() && (!x || same(*x, *y));
+    };
+    const bool same_picture =
+        (picture_a == nullptr) == (picture_b == nullptr) &&
+        (!picture_a || (picture_a->width == picture_b->width &&
+                        picture_a->channels == picture_b->channels &&
+                        picture_a->linear == picture_b->linear &&
+                        picture_a->samples == picture_b->samples));
+    return kind_a == kind_b && same(color_a, color_b) && same_picture && same(scale_a, scale_b) &&
+           same(rotation_a, rotation_b) && same_direction(up_a, up_b) &&
+           same(turbidity_a, turbidity_b) && same_direction(to_sun_a, to_sun_b) &&
+           same(ground_a, ground_b);
+}
+
 template <class T>
 void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const char* what) {
     EXPECT_EQ(a.size(), b.size()) << what;
@@ -427,9 +448,11 @@ void expect_same_list(const std::vector<T>& a, const std::vector<T>& b, const ch
 
 inline void expect_same(const SceneDescription& a, const SceneDescription& b) {
     const auto& [format_a, path_a, files_a, cameras_a, lights_a, materials_a, textures_a, meshes_a,
-                 objects_a, root_a, animations_a, picture_a, shutter_a, up_a, conventions_a] = a;
+                 objects_a, root_a, animations_a, picture_a, shutter_a, up_a, conventions_a,
+                 environment_a] = a;
     const auto& [format_b, path_b, files_b, cameras_b, lights_b, materials_b, textures_b, meshes_b,
-                 objects_b, root_b, animations_b, picture_b, shutter_b, up_b, conventions_b] = b;
+                 objects_b, root_b, animations_b, picture_b, shutter_b, up_b, conventions_b,
+                 environment_b] = b;
     (void)format_a, (void)format_b, (void)path_a, (void)path_b;
     EXPECT_TRUE(same(shutter_a.open, shutter_b.open) && same(shutter_a.close, shutter_b.close));
     (void)files_a, (void)files_b, (void)animations_a, (void)animations_b;
@@ -443,6 +466,10 @@ inline void expect_same(const SceneDescription& a, const SceneDescription& b) {
     EXPECT_TRUE(same(picture_a, picture_b)) << "picture";
     EXPECT_EQ(up_a, up_b);
     EXPECT_TRUE(same(conventions_a, conventions_b)) << "conventions";
+    ASSERT_EQ(environment_a.has_value(), environment_b.has_value());
+    if (environment_a) {
+        EXPECT_TRUE(same(environment_a->settings, environment_b->settings)) << "environment";
+    }
 }
 
 }  // namespace alhazen::testing

@@ -96,19 +96,40 @@ void Illumination::Data::sort_lights() {
     }
 }
 
+TreeLight Illumination::Data::tree_light(std::size_t near_light) const {
+    const Light* light = point_light(near_light);
+    if (light == nullptr) {
+        const Emitter& e = emitter(near_light);
+        if (!(e.area > 0.0)) return {};
+        return {bounds_of(e), e.two_sided, intensity_of(e), 0.0};
+    }
+    TreeLight result;
+    result.intensity = kPi * mean_channel(color_of(*light)) / attenuation_of(*light).quadratic;
+    if (const auto* spot = std::get_if<SpotLight>(light)) {
+        result.bounds.box.include(spot->position);
+        result.bounds.axis = spot->direction;
+        result.cosine_reach = std::cos(spot->outer_angle);
+    } else {
+        result.bounds.box.include(std::get<PointLight>(*light).position);
+        result.bounds.cosine_spread = -1.0;
+        result.cosine_reach = -1.0;
+    }
+    return result;
+}
+
 void Illumination::Data::set_choices() {
     std::vector<double> near_weights, far_weights;
+    std::vector<TreeLight> tree_lights;
     double intensity = 0.0;
     for (std::size_t i = 0; i < near_count(); ++i) {
-        const Light* light = point_light(i);
-        const double own = light != nullptr ? kPi * mean_channel(color_of(*light)) /
-                                                  attenuation_of(*light).quadratic
-                           : emitter(i).area > 0.0 ? intensity_of(emitter(i))
-                                                   : 0.0;
-        intensity += own;
-        near_weights.push_back(options.choice == LightChoice::Uniform ? (own > 0.0 ? 1.0 : 0.0)
-                                                                      : own);
+        const TreeLight light = tree_light(i);
+        intensity += light.intensity;
+        near_weights.push_back(options.choice != LightChoice::Uniform ? light.intensity
+                               : light.intensity > 0.0                ? 1.0
+                                                                      : 0.0);
+        if (options.choice == LightChoice::Tree) tree_lights.push_back(light);
     }
+    tree = LightTree(tree_lights);
     for (const std::size_t i : parallel) {
         far_weights.push_back(kPi * mean_channel(color_of(scene->lights[i])));
     }
@@ -122,14 +143,6 @@ void Illumination::Data::set_choices() {
     } else {
         near_share = near.total() > 0.0 ? 1.0 : 0.0;
     }
-}
-
-ChosenLight Illumination::Data::choose_near(const LitPoint&, double choice) const {
-    return near.choose(choice);
-}
-
-double Illumination::Data::probability_of_near(const LitPoint&, std::size_t light) const {
-    return near.probability(light);
 }
 
 Illumination::Illumination(const Scene& scene, const IlluminationOptions& options)

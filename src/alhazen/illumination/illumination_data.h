@@ -12,6 +12,7 @@
 #include "alhazen/illumination/emitter_list.h"
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/illumination/light_chooser.h"
+#include "alhazen/illumination/light_tree.h"
 #include "alhazen/shading/lights/environment.h"
 
 namespace alhazen {
@@ -30,6 +31,7 @@ struct Illumination::Data {
     double radius = 1;
 
     LightChooser near;      ///< for choices Uniform and Power
+    LightTree tree;         ///< for choice Tree
     LightChooser far;       ///< [of parallel, then environment]
     double near_share = 0;  ///< probability that a near light is chosen
     LightChooser sources;   ///< for `emit`, by power
@@ -50,14 +52,20 @@ struct Illumination::Data {
         const std::size_t surfaces = emitters.size() + hidden.size();
         return near_light < surfaces ? nullptr : &scene->lights[points[near_light - surfaces]];
     }
-    [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const;
-    [[nodiscard]] double probability_of_near(const LitPoint& at, std::size_t light) const;
+    [[nodiscard]] ChosenLight choose_near(const LitPoint& at, double choice) const {
+        return options.choice == LightChoice::Tree ? tree.choose(at, choice) : near.choose(choice);
+    }
+    [[nodiscard]] double probability_of_near(const LitPoint& at, std::size_t light) const {
+        return options.choice == LightChoice::Tree ? tree.probability(at, light)
+                                                   : near.probability(light);
+    }
     [[nodiscard]] double probability_of_environment() const {
         return (1.0 - near_share) * far.probability(parallel.size());
     }
 
   private:
     void sort_lights();
+    [[nodiscard]] TreeLight tree_light(std::size_t near_light) const;
     void set_choices();
     void set_sources();
 };

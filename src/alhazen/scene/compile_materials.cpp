@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "alhazen/shading/lights/environment.h"
+
 namespace alhazen {
 
 namespace {
@@ -59,6 +61,11 @@ void compile_materials(const SceneDescription& description, Scene& scene) {
     const Conventions& conventions = description.conventions;
     scene.conventions = {conventions.shading, conventions.sampling, conventions.film};
     scene.background = description.picture.background.value_or(Rgb{});
+    if (description.environment) {
+        const Vec3 up = description.up_axis == UpAxis::Z ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+        scene.environment =
+            std::make_shared<const Environment>(description.environment->settings, up);
+    }
 }
 
 std::uint64_t texture_bytes(const std::vector<Texture>& textures) {

@@ -6,6 +6,7 @@
 #include "alhazen/accel/accelerator_names.h"
 #include "alhazen/base/error.h"
 #include "alhazen/base/overloaded.h"
+#include "alhazen/imaging/image/image.h"
 #include "alhazen/scene_model/scene_description.h"
 #include "alhazen/scene_model/validate_materials.h"
 #include "alhazen/scene_model/validate_solids.h"
@@ -29,6 +30,7 @@ class Validator {
     void run() {
         check_cameras();
         check_lights();
+        check_environment();
         validate_materials(d_, out_);
         for (const MeshDescription& mesh : d_.meshes) check_mesh(mesh);
         for (const ObjectDescription& object : d_.objects) {
@@ -134,6 +136,32 @@ class Validator {
                     }},
                 light.light);
         }
+    }
+
+    void check_environment() {
+        if (!d_.environment) return;
+        const EnvironmentSettings& e = d_.environment->settings;
+        const auto need = [&](bool ok, const char* message) {
+            if (!ok) error(d_.environment->location, message);
+        };
+        const auto bright = [](const Rgb& c) {
+            return c.is_finite() && c.r >= 0 && c.g >= 0 && c.b >= 0;
+        };
+        const auto direction = [](const std::optional<Vec3>& v) {
+            return !v || (is_finite(*v) && *v != Vec3{});
+        };
+        need(bright(e.color) && std::isfinite(e.scale) && e.scale >= 0,
+             "the environment's color and scale must be finite and not negative");
+        need(std::isfinite(e.rotation), "the environment's rotation must be finite");
+        need(direction(e.up) && direction(e.to_sun),
+             "the environment's 'up' and 'to_sun' must be finite and not zero");
+        need(e.turbidity >= kLeastTurbidity && e.turbidity <= kLargestTurbidity,
+             "the environment's turbidity must be from 1 (pure air) to 10 (haze)");
+        need(bright(e.ground) && e.ground.max() <= 1,
+             "the environment's ground is an albedo: from 0 to 1");
+        need(e.kind != EnvironmentKind::Picture ||
+                 (e.picture && e.picture->width > 0 && e.picture->height > 0),
+             "an environment of kind picture needs a picture");
     }
 
     void check_mesh(const MeshDescription& description) {

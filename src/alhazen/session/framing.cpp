@@ -287,6 +287,11 @@ PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngl
                           });
 }
 
+bool lacks_light(const SceneDescription& description, const Scene& scene) {
+    return scene.lights.empty() && description.conventions.importing.headlight &&
+           !shows_without_light(scene);
+}
+
 std::vector<std::string> complete_view(SceneDescription& description, Scene& scene,
                                        const FramingOptions& options) {
     std::vector<std::string> notes;
@@ -302,8 +307,8 @@ std::vector<std::string> complete_view(SceneDescription& description, Scene& sce
                             view.azimuth_deg, view.elevation_deg));
         }
     }
-    if (scene.lights.empty() && description.conventions.importing.headlight &&
-        !shows_without_light(scene)) {
+    if (options.follows_light && scene.environment) return notes;
+    if (lacks_light(description, scene)) {
         const Light light = headlight(find_camera(scene, options.camera).camera);
         description.lights.push_back({"headlight", light, {}});
         scene.lights.push_back(light);

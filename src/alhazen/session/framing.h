@@ -44,7 +44,11 @@ struct FramingOptions {
     std::optional<ViewAngles> view;  ///< if given: a framing camera is put before those of the file
     std::string camera;              ///< the selected camera; empty: the first
     double aspect = 4.0 / 3.0;       ///< width / height of the picture
+    bool follows_light = false;      ///< of the renderer: an environment lights the scene
 };
+
+/// True where `complete_view` adds a light, unless an environment is enough.
+[[nodiscard]] bool lacks_light(const SceneDescription& description, const Scene& scene);
 
 /// Adds a camera and a light to both, where they have none, and a grey background where a light was
 /// added and the file has none. Formats whose scenes are meant as they are get no light

@@ -2,6 +2,7 @@
 
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
+#include "alhazen/session/environment_option.h"
 #include "alhazen/session/seen_lights.h"
 #include "alhazen/session/shutter.h"
 #include "alhazen/session/statistics.h"
@@ -57,6 +58,7 @@ LoadedScene load(const std::filesystem::path& path, const LoadOptions& options) 
     report_phase(options, "load", 1);
     run_build_phase(loaded, options, [&] {
         loaded.scene = compile_without_geometry(loaded.description);
+        warn_of_bad_texels(loaded);
         if (options.with_aggregate) add_aggregate(loaded, options);
     });
     return loaded;

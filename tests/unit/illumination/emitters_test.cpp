@@ -19,11 +19,6 @@ Material shining(const Rgb& radiance, bool two_sided = true) {
 }
 
 /// One emitting thing at about (0, 0, 3), lit points below.
-struct Lamp {
-    const char* name;
-    SceneMaker maker;
-};
-
 template <class Shape>
 Scene lamp_of(Shape shape, const Affine& placement = {}, bool two_sided = true) {
     SceneMaker maker;
@@ -101,16 +96,28 @@ TEST(Emitters, ARayAlongADrawFindsItsDensity) {
         SCOPED_TRACE(index++);
         const Illumination lights(scene);
         ASSERT_TRUE(lights.shines());
-        expect_equal_densities(scene, lights, kAt, 1e-6);
+        expect_equal_densities(scene, lights, kAt, 1e-5);
     }
 }
 
 TEST(Emitters, DrawsAreDistributedByTheirDensity) {
     const std::vector<Scene> all = lamps();
     for (std::size_t i = 0; i < all.size(); ++i) {
+        // Where a tube or a face is seen edge on, the density has no bound: bins cannot count it.
+        if (i % 10 == 4 || i % 10 == 5 || i % 10 == 7) continue;
         const Illumination lights(all[i]);
         const double p = draw_p_value(all[i], lights, kAt, {{0, 0, 1}, 0.6}, 11 + i);
         EXPECT_GT(p, sidak_level(static_cast<int>(all.size()))) << i;
+    }
+}
+
+TEST(Emitters, DrawsGiveTheLightThatRaysFindByChance) {
+    const std::vector<Scene> all = lamps();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Illumination lights(all[i]);
+        const LitPoint beside{{0.9, -0.7, 1}, normalize(Vec3{-0.4, 0.3, 1}), false};
+        EXPECT_LT(std::abs(irradiance_z(all[i], lights, kAt, 20000, i)), 4.5) << i;
+        EXPECT_LT(std::abs(irradiance_z(all[i], lights, beside, 20000, 99 + i)), 4.5) << i;
     }
 }
 
@@ -164,7 +171,8 @@ TEST(Emitters, InstancesAreLightsOfTheirOwn) {
     maker.add(outer, {}, Affine::translate({0, 2, 1}));
     const Scene scene = maker.compile();
     const Illumination lights(scene, {.choice = LightChoice::Uniform});
-    EXPECT_GT(draw_p_value(scene, lights, kAt, {{0, 0, 1}, 0.3}, 5), 1e-3);
+    expect_equal_densities(scene, lights, kAt, 1e-5);
+    EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 5)), 3.5);
 }
 
 TEST(Emitters, WhatDoesNotFaceThePointGivesNothing) {
@@ -235,7 +243,7 @@ TEST(Emitters, EmittedPowerIsAreaTimesPiTimesRadiance) {
             power += out.radiance.r * cosine / (out.place_density * out.direction_density) / kRays;
             if (i % 100 != 0) continue;
             // A ray back to the start finds the same densities.
-            const Ray back{out.ray.origin + 1e-3 * out.normal, -out.normal};
+            const Ray back{out.ray.origin + 1e-7 * out.normal, -out.normal};
             Hit hit;
             ASSERT_TRUE(scene.aggregate->closest(back, hit, {nullptr}));
             const Surface surface = surface_at(*scene.aggregate, back, hit);

@@ -11,6 +11,15 @@ template <class Enum>
 [[nodiscard]] const Vocabulary<Enum>& native_words();
 
 template <>
+inline const Vocabulary<EnvironmentKind>& native_words() {
+    using E = EnvironmentKind;
+    static const Vocabulary<E> kWords{{"constant", E::Constant},
+                                      {"picture", E::Picture},
+                                      {"sky", E::Sky},
+                                      {"studio", E::Studio}};
+    return kWords;
+}
+template <>
 inline const Vocabulary<SolidTexture::Kind>& native_words() {
     using E = SolidTexture::Kind;
     static const Vocabulary<E> kWords{{"checks", E::Checks},

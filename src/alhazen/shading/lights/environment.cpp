@@ -2,31 +2,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "alhazen/math/constants.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/shading/lights/clear_sky.h"
 #include "alhazen/shading/lights/light_extent.h"
+#include "alhazen/shading/lights/studio.h"
 
 namespace alhazen {
 
 namespace {
 
-Mat3 picture_frame(const EnvironmentSettings& settings, const Vec3& scene_up) {
-    const Vec3 up = unit_or(settings.up.value_or(scene_up), {0, 1, 0});
+Vec3 up_of(const EnvironmentSettings& settings, const Vec3& scene_up) {
+    return unit_or(settings.up.value_or(scene_up), {0, 1, 0});
+}
+
+/// Before the rotation.
+Mat3 picture_frame(const Vec3& up) {
     const Vec3 right = unit_or(Vec3{1, 0, 0} - up.x * up, perpendicular(up));
-    const Mat3 still{right, cross(up, right), up};
-    return Affine::rotate(up, settings.rotation).linear * still;
+    return {right, cross(up, right), up};
+}
+
+/// Over the right shoulder of who looks to the front.
+Vec3 usual_sun(const Mat3& frame) {
+    const double high = 40 * kRadiansPerDegree, aside = 40 * kRadiansPerDegree;
+    return frame * Vec3{std::cos(high) * std::sin(aside), -std::cos(high) * std::cos(aside),
+                        std::sin(high)};
+}
+
+double mean_of_sky(const Rgb& c) {
+    return (c.r + c.g + c.b) / 3.0;
 }
 
 }  // namespace
 
-Environment::Environment(const EnvironmentSettings& settings, const Vec3& up)
-    : world_from_picture_(picture_frame(settings, up)),
-      factor_(settings.scale * settings.color) {
-    if (settings.kind == EnvironmentKind::Picture) picture_.emplace(*settings.picture);
+Environment::Environment(const EnvironmentSettings& settings, const Vec3& scene_up)
+    : factor_(settings.scale * settings.color) {
+    const Vec3 up = up_of(settings, scene_up);
+    const Mat3 still = picture_frame(up);
+    const Mat3 turn = Affine::rotate(up, settings.rotation).linear;
+    world_from_picture_ = turn * still;
+    switch (settings.kind) {
+        case EnvironmentKind::Constant:
+            break;
+        case EnvironmentKind::Picture:
+            picture_.emplace(*settings.picture);
+            break;
+        case EnvironmentKind::Studio:
+            picture_.emplace(studio_picture());
+            break;
+        case EnvironmentKind::Sky: {
+            const Vec3 usual = usual_sun(still);
+            const Vec3 to_sun = unit_or(settings.to_sun.value_or(usual), usual);
+            ClearSky sky = clear_sky(transpose_times(still, to_sun), settings.turbidity,
+                                     settings.ground);
+            picture_.emplace(std::move(sky.picture));
+            if (sky.sun_radiance.max() > 0.0) {
+                sun_ = SunDisc{turn * to_sun, std::cos(kSunRadius), sky.sun_radiance};
+                const double of_sun = sun_solid_angle() * mean_of_sky(sun_->radiance);
+                const double of_sky = 4.0 * kPi * mean_of_sky(picture_->mean());
+                sun_share_ = std::clamp(of_sun / (of_sun + of_sky), 0.1, 0.9);
+            }
+            break;
+        }
+    }
     if (picture_ && picture_->is_black()) {
+        bad_texels_ = picture_->bad_texels();
         picture_.reset();
+        sun_.reset();
         factor_ = {};
+    } else if (picture_) {
+        bad_texels_ = picture_->bad_texels();
     }
 }
 

@@ -43,7 +43,7 @@ class Environment {
     [[nodiscard]] Rgb mean() const;
     [[nodiscard]] bool shines() const { return mean().max() > 0.0; }
     /// Texels of the picture that were no radiances, and are black.
-    [[nodiscard]] std::size_t bad_texels() const { return picture_ ? picture_->bad_texels() : 0; }
+    [[nodiscard]] std::size_t bad_texels() const { return bad_texels_; }
     [[nodiscard]] const std::optional<SunDisc>& sun() const { return sun_; }
 
   private:
@@ -54,6 +54,7 @@ class Environment {
     std::optional<DirectionPicture> picture_;  ///< none: `factor_` from everywhere
     std::optional<SunDisc> sun_;
     double sun_share_ = 0;  ///< of the directions
+    std::size_t bad_texels_ = 0;
 };
 
 }  // namespace alhazen

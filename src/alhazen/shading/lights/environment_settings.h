@@ -39,7 +39,8 @@ struct EnvironmentSettings {
     double rotation = 0;      ///< radians
     std::optional<Vec3> up;   ///< default: the up axis of the scene
     double turbidity = 3;     ///< of a sky: kLeastTurbidity (pure air) to kLargestTurbidity (haze)
-    /// Of a sky; default: 40 degrees high, 30 degrees to the right of the front of the studio.
+    /// Of a sky, before `rotation`; default: 40 degrees high, over the right shoulder of who looks
+    /// to the front.
     std::optional<Vec3> to_sun;
     Rgb ground{0.2, 0.2, 0.2};  ///< of a sky: albedo, 0..1
 };

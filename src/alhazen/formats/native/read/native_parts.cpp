@@ -80,6 +80,7 @@ void read_defaults(const NativeBlock& block, NativeContext& context, NativeScope
 /// Blocks of the top level besides cameras and lights.
 constexpr NativeTopBlock kSettingsBlocks[] = {
     {"picture", read_picture},
+    {"environment", read_environment},
     {"conventions", read_conventions},
 };
 
@@ -113,6 +114,7 @@ bool read_top_level_block(const NativeBlock& block, NativeContext& context,
         for (const auto& [name, read] : blocks) {
             if (name != block.type) continue;
             if (scope.top_level()) {
+                context.folder = scope.folder;
                 read(block, context);
             } else {
                 context.diagnostics.error(block.location,

@@ -1,7 +1,14 @@
 #include "alhazen/formats/native/read/native_settings.h"
 
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "alhazen/base/file.h"
 #include "alhazen/formats/native/native_words.h"
 #include "alhazen/formats/native/read/native_materials.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
@@ -35,6 +42,62 @@ void read_picture(const NativeBlock& block, NativeContext& context) {
     if (reader.read("shutter", shutter)) context.scene.shutter = {shutter.x, shutter.y};
     reader.read_word("up_axis", native_words<UpAxis>(), context.scene.up_axis);
     reader.finish();
+}
+
+namespace {
+
+void read_environment_picture(BlockReader& reader, NativeContext& context,
+                              EnvironmentSettings& settings) {
+    if (!reader.read("file", settings.file)) return;
+    try {
+        const auto path = resolve_inside(context.roots, context.folder, settings.file);
+        context.diagnostics.note_file(path);
+        settings.picture =
+            std::make_shared<const Image>(read_image(path, context.options.image_limits));
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::Resource) throw;
+        reader.error(*reader.find("file"), error.what());
+        settings.picture = std::make_shared<const Image>(1, 1, 3);  // one finding is enough
+    }
+}
+
+/// A vector that `out` has only where it is given.
+void read_given(BlockReader& reader, std::string_view key, std::optional<Vec3>& out) {
+    Vec3 v;
+    if (reader.read(key, v)) out = v;
+}
+
+}  // namespace
+
+void read_environment(const NativeBlock& block, NativeContext& context) {
+    if (!block.block) return;
+    BlockReader reader = context.reader(*block.block, block.type);
+    if (context.scene.environment) {
+        reader.error(reader.block(), "a scene has one environment");
+        return;
+    }
+    EnvironmentSettings settings;
+    reader.require("kind");
+    reader.read_word("kind", native_words<EnvironmentKind>(), settings.kind);
+    if (settings.kind == EnvironmentKind::Picture) {
+        reader.require("file");
+        read_environment_picture(reader, context, settings);
+    }
+    for (const auto& [key, out] :
+         {std::pair{"color", &settings.color}, std::pair{"ground", &settings.ground}}) {
+        if (const auto value = reader.find(key)) {
+            read_native_color(*value, key, reader.values(), *out);
+        }
+    }
+    reader.read("scale", settings.scale);
+    double degrees = 0;
+    if (reader.read("rotation_deg", degrees)) settings.rotation = degrees * kRadiansPerDegree;
+    reader.read("rotation_rad", settings.rotation);
+    reader.read("turbidity", settings.turbidity);
+    read_given(reader, "up", settings.up);
+    read_given(reader, "to_sun", settings.to_sun);
+    reader.finish();
+    context.scene.environment = EnvironmentDescription{std::move(settings), block.location};
 }
 
 void read_conventions(const NativeBlock& block, NativeContext& context) {

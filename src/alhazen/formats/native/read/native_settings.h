@@ -6,6 +6,7 @@
 namespace alhazen {
 
 void read_picture(const NativeBlock& block, NativeContext& context);
+void read_environment(const NativeBlock& block, NativeContext& context);
 void read_conventions(const NativeBlock& block, NativeContext& context);
 
 }  // namespace alhazen

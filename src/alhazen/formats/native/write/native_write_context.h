@@ -36,6 +36,7 @@ inline void add_name(NativeBlockText& block, const std::string& label, const std
 }
 
 void write_native_picture(NativeWriteContext& context);
+void write_native_environment(NativeWriteContext& context);
 void write_native_conventions(NativeWriteContext& context);
 void write_native_cameras(NativeWriteContext& context);
 void write_native_lights(NativeWriteContext& context);

@@ -4,6 +4,7 @@
 #include "alhazen/formats/native/native_words.h"
 #include "alhazen/formats/native/read/native_settings.h"
 #include "alhazen/formats/native/write/native_write_context.h"
+#include "alhazen/formats/pictures/picture_export.h"
 #include "alhazen/math/constants.h"
 
 namespace alhazen {
@@ -164,6 +165,27 @@ void write_native_picture(NativeWriteContext& context) {
     }
     if (context.scene.up_axis == UpAxis::Z) block.add("up_axis", "z");
     if (!block.empty()) context.append(block);
+}
+
+void write_native_environment(NativeWriteContext& context) {
+    if (!context.scene.environment) return;
+    const EnvironmentSettings& e = context.scene.environment->settings;
+    const EnvironmentSettings usual;
+    NativeBlockText block("environment");
+    block.add("kind", std::string(native_word(e.kind)));
+    if (e.picture) {
+        const PictureFile file = picture_file(stored(*e.picture));
+        block.add("file",
+                  native_string(context.write_file("environment." + file.suffix, file.bytes)));
+    }
+    block.add_unless("color", e.color, usual.color);
+    block.add_unless("scale", e.scale, usual.scale);
+    if (e.rotation != 0.0) add_angle(block, "rotation", e.rotation);
+    if (e.up) block.add("up", native_value(*e.up));
+    block.add_unless("turbidity", e.turbidity, usual.turbidity);
+    if (e.to_sun) block.add("to_sun", native_value(*e.to_sun));
+    block.add_unless("ground", e.ground, usual.ground);
+    context.append(block);
 }
 
 void write_native_conventions(NativeWriteContext& context) {

@@ -29,6 +29,7 @@ std::string native_scene_text(const SceneDescription& description, const std::st
     context.object_labels = labels_of(description.objects, "object", own_name);
     context.text = "alhazen 1\n\n";
     write_native_picture(context);
+    write_native_environment(context);
     write_native_conventions(context);
     write_native_cameras(context);
     write_native_lights(context);

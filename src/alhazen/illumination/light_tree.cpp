@@ -1,0 +1,346 @@
+#include "alhazen/illumination/light_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "alhazen/math/constants.h"
+#include "alhazen/math/unit_vector.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr int kBins = 12;
+/// Nodes of fewer or more lights are split along their longest axis without trying the others.
+constexpr std::size_t kTriesAllAxesFrom = 12, kTriesAllAxesTo = 2048;
+
+/// What bounds some lights.
+struct Cluster {
+    Box3 box;
+    Vec3 axis{0, 0, 1};
+    double cosine_spread = 1, cosine_reach = 1;
+    double intensity = 0;
+    bool two_sided = false;
+    std::size_t count = 0;
+};
+
+double sine_of(double cosine) {
+    return std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+}
+
+/// The smallest cone around two: section 4.1, algorithm 1.
+void unite_cones(Cluster& a, Cluster b) {
+    if (a.two_sided && b.two_sided && dot(a.axis, b.axis) < 0.0) b.axis = -b.axis;
+    if (b.cosine_spread < a.cosine_spread) {
+        std::swap(a.axis, b.axis);
+        std::swap(a.cosine_spread, b.cosine_spread);
+    }
+    if (a.cosine_spread <= -1.0) return;
+    const double between = std::atan2(length(cross(a.axis, b.axis)), dot(a.axis, b.axis));
+    const double wide = std::acos(a.cosine_spread), narrow = std::acos(std::min(1.0, b.cosine_spread));
+    if (between + narrow <= wide) return;
+    const double spread = 0.5 * (wide + between + narrow);
+    const Vec3 across = b.axis - dot(a.axis, b.axis) * a.axis;
+    if (spread >= kPi || !(length_squared(across) > 1e-20)) {
+        a.cosine_spread = spread >= kPi || between > 1.0 ? -1.0 : std::cos(spread);
+        return;
+    }
+    const double turn = spread - wide;
+    a.axis = normalize(std::cos(turn) * a.axis + std::sin(turn) * normalize(across));
+    a.cosine_spread = std::cos(spread);
+}
+
+void unite(Cluster& a, const Cluster& b) {
+    if (b.count == 0) return;
+    if (a.count == 0) {
+        a = b;
+        return;
+    }
+    unite_cones(a, b);
+    a.box.include(b.box);
+    a.cosine_reach = std::min(a.cosine_reach, b.cosine_reach);
+    a.intensity += b.intensity;
+    a.two_sided = a.two_sided || b.two_sided;
+    a.count += b.count;
+}
+
+/// The measure of directions of section 4.4 (M_Omega), times that of the box and the intensity.
+double cost_of(const Cluster& c) {
+    if (c.count == 0) return 0.0;
+    const double spread = std::acos(std::clamp(c.cosine_spread, -1.0, 1.0));
+    const double reach = std::acos(std::clamp(c.cosine_reach, -1.0, 1.0));
+    const double to = std::min(spread + reach, kPi), sine = std::sin(spread);
+    double directions = 2.0 * kPi * (1.0 - c.cosine_spread) +
+                        kPi / 2.0 * (2.0 * to * sine - std::cos(spread - 2.0 * to) -
+                                     2.0 * spread * sine + std::cos(spread));
+    if (c.two_sided) directions *= 2.0;
+    // Lights in a point or on a line have an area, too: that of a thin box.
+    const Vec3 size = c.box.size();
+    const double thin = 1e-3 * max_component(size);
+    const double area = c.box.half_area() + thin * thin;
+    return c.intensity * directions * area;
+}
+
+class TreeBuilder {
+  public:
+    explicit TreeBuilder(const std::vector<TreeLight>& lights) : lights_(lights) {
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            if (lights[i].intensity > 0.0 && std::isfinite(lights[i].intensity)) {
+                order_.push_back(static_cast<std::uint32_t>(i));
+            }
+        }
+    }
+
+    void build(std::vector<LightTree::Node>& nodes) {
+        if (order_.empty()) return;
+        nodes.reserve(2 * order_.size());
+        nodes.emplace_back().parent = LightTree::kNone;
+        // Depth first by hand: a tree of equal lights is deep.
+        std::vector<Task> waiting{{0, 0, order_.size()}};
+        while (!waiting.empty()) {
+            const Task task = waiting.back();
+            waiting.pop_back();
+            set_node(nodes[task.node], bound(task));
+            if (task.end - task.begin == 1) {
+                nodes[task.node].leaf = true;
+                nodes[task.node].content = order_[task.begin];
+                continue;
+            }
+            const std::size_t middle = divide(task);
+            const auto children = static_cast<std::uint32_t>(nodes.size());
+            nodes[task.node].leaf = false;
+            nodes[task.node].content = children;
+            nodes.resize(nodes.size() + 2);
+            nodes[children].parent = nodes[children + 1].parent = task.node;
+            waiting.push_back({children + 1, middle, task.end});
+            waiting.push_back({children, task.begin, middle});
+        }
+    }
+
+  private:
+    struct Task {
+        std::uint32_t node;
+        std::size_t begin, end;
+    };
+    struct Bin {
+        Cluster cluster;
+        Vec3 axes;
+    };
+
+    [[nodiscard]] const TreeLight& light(std::size_t i) const { return lights_[order_[i]]; }
+
+    /// Box, intensity and the sum of the axes of one more light; the cone comes later.
+    static void add_to(Bin& bin, const TreeLight& l) {
+        Cluster& c = bin.cluster;
+        c.box.include(l.bounds.box);
+        c.intensity += l.intensity;
+        c.cosine_reach = std::min(c.cosine_reach, l.cosine_reach);
+        c.two_sided = c.two_sided || l.two_sided;
+        const bool turned = l.two_sided && dot(bin.axes, l.bounds.axis) < 0.0;
+        bin.axes += turned ? -l.bounds.axis : l.bounds.axis;
+        ++c.count;
+    }
+    /// After all are added: around their mean axis.
+    static void begin_cone(Bin& bin) {
+        bin.cluster.axis = unit_or(bin.axes, {0, 0, 1});
+        bin.cluster.cosine_spread = 1.0;
+    }
+    static void widen_cone(Bin& bin, const TreeLight& l) {
+        Cluster& c = bin.cluster;
+        double cosine = std::min(1.0, dot(c.axis, l.bounds.axis));
+        // Beside one-sided lights a two-sided one has both its normals.
+        if (l.two_sided) cosine = std::abs(cosine);
+        const double own = l.bounds.cosine_spread;
+        if (own <= -1.0) {
+            cosine = -1.0;
+        } else if (own < 1.0) {
+            const double angle = std::acos(std::max(-1.0, cosine)) + std::acos(own);
+            cosine = angle >= kPi ? -1.0 : std::cos(angle);
+        }
+        c.cosine_spread = std::min(c.cosine_spread, cosine);
+    }
+
+    [[nodiscard]] Cluster bound(const Task& task) const {
+        Bin all;
+        for (std::size_t i = task.begin; i < task.end; ++i) add_to(all, light(i));
+        begin_cone(all);
+        for (std::size_t i = task.begin; i < task.end; ++i) widen_cone(all, light(i));
+        return all.cluster;
+    }
+
+    static void set_node(LightTree::Node& node, const Cluster& c) {
+        constexpr float kInf = std::numeric_limits<float>::infinity();
+        for (int k = 0; k < 3; ++k) {
+            node.lo[k] = std::nextafter(static_cast<float>(c.box.lo[k]), -kInf);
+            node.hi[k] = std::nextafter(static_cast<float>(c.box.hi[k]), kInf);
+            node.axis[k] = static_cast<float>(c.axis[k]);
+        }
+        // Wider than the rounding of the axis.
+        const double spread = std::acos(std::clamp(c.cosine_spread, -1.0, 1.0)) + 1e-3;
+        node.cosine_spread = spread >= kPi ? -1.0f : static_cast<float>(std::cos(spread));
+        node.cosine_reach = static_cast<float>(c.cosine_reach);
+        node.intensity = static_cast<float>(std::clamp(c.intensity, 1e-37, 1e37));
+        node.two_sided = c.two_sided;
+    }
+
+    /// Orders the lights of the task so that those of one side come first; the end of these.
+    std::size_t divide(const Task& task) {
+        const std::size_t count = task.end - task.begin;
+        const std::size_t half = task.begin + count / 2;
+        if (count == 2) return half;
+        Box3 centers;
+        for (std::size_t i = task.begin; i < task.end; ++i) {
+            centers.include(light(i).bounds.box.center());
+        }
+        const Vec3 size = centers.size();
+        const int longest = dominant_axis(size);
+        const bool tries_all = count >= kTriesAllAxesFrom && count <= kTriesAllAxesTo;
+        double best_cost = kInfinity, best_plane = 0.0;
+        int best_axis = -1;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(size[axis] > 0.0) || (!tries_all && axis != longest)) continue;
+            const auto [cost, plane] = best_split(task, axis, centers, size[longest]);
+            if (cost < best_cost) {
+                best_cost = cost;
+                best_plane = plane;
+                best_axis = axis;
+            }
+        }
+        if (best_axis < 0) return half;
+        const auto first = order_.begin() + std::ptrdiff_t(task.begin);
+        const auto middle = std::stable_partition(
+            first, order_.begin() + std::ptrdiff_t(task.end), [&](std::uint32_t i) {
+                return lights_[i].bounds.box.center()[best_axis] < best_plane;
+            });
+        const std::size_t split = std::size_t(middle - order_.begin());
+        return split == task.begin || split == task.end ? half : split;
+    }
+
+    /// The cheapest of the planes between bins.
+    [[nodiscard]] std::pair<double, double> best_split(const Task& task, int axis,
+                                                       const Box3& centers, double longest) const {
+        const int used = static_cast<int>(std::min<std::size_t>(kBins, task.end - task.begin));
+        const double from = centers.lo[axis], size = centers.hi[axis] - from;
+        std::array<Bin, kBins> bins;
+        const auto bin_of = [&](const TreeLight& l) -> Bin& {
+            const double share = (l.bounds.box.center()[axis] - from) / size;
+            return bins[std::size_t(std::clamp(static_cast<int>(share * used), 0, used - 1))];
+        };
+        for (std::size_t i = task.begin; i < task.end; ++i) add_to(bin_of(light(i)), light(i));
+        for (Bin& bin : bins) begin_cone(bin);
+        for (std::size_t i = task.begin; i < task.end; ++i) widen_cone(bin_of(light(i)), light(i));
+        std::array<double, kBins> above{};
+        Cluster sum;
+        for (int i = used - 1; i > 0; --i) {
+            unite(sum, bins[std::size_t(i)].cluster);
+            above[std::size_t(i)] = sum.count > 0 ? cost_of(sum) : kInfinity;
+        }
+        sum = {};
+        double best = kInfinity, plane = 0.0;
+        for (int i = 1; i < used; ++i) {
+            unite(sum, bins[std::size_t(i - 1)].cluster);
+            if (sum.count == 0) continue;
+            const double cost = (cost_of(sum) + above[std::size_t(i)]) * (longest / size);
+            if (cost < best) {
+                best = cost;
+                plane = from + size * i / used;
+            }
+        }
+        return {best, plane};
+    }
+
+    const std::vector<TreeLight>& lights_;
+    std::vector<std::uint32_t> order_;
+};
+
+/// Cosine of the larger of 0 and the angle a - b, by their cosines and sines.
+double cosine_of_difference(double cosine_a, double sine_a, double cosine_b, double sine_b) {
+    return cosine_a > cosine_b ? 1.0 : cosine_a * cosine_b + sine_a * sine_b;
+}
+/// The sine of the same.
+double sine_of_difference(double cosine_a, double sine_a, double cosine_b, double sine_b) {
+    return cosine_a > cosine_b ? 0.0 : sine_a * cosine_b - cosine_a * sine_b;
+}
+
+/// What the lights of a node may send to a point, about.
+double importance(const LightTree::Node& n, const LitPoint& at) {
+    const Vec3 lo{n.lo[0], n.lo[1], n.lo[2]}, hi{n.hi[0], n.hi[1], n.hi[2]};
+    const Vec3 offset = 0.5 * (lo + hi) - at.point;
+    const double radius2 = 0.25 * length_squared(hi - lo), squared = length_squared(offset);
+    // Within the sphere around the node all directions are possible.
+    if (!(squared > radius2)) return n.intensity / std::max(radius2, 1e-300);
+    const double distance = std::sqrt(squared);
+    const Vec3 to_light = offset / distance;
+    const double sine_b = std::min(1.0, std::sqrt(radius2) / distance);
+    const double cosine_b = std::sqrt(1.0 - sine_b * sine_b);
+
+    double cosine_w = -(n.axis[0] * to_light.x + n.axis[1] * to_light.y + n.axis[2] * to_light.z);
+    if (n.two_sided) cosine_w = std::abs(cosine_w);
+    cosine_w = std::clamp(cosine_w, -1.0, 1.0);
+    const double sine_w = sine_of(cosine_w);
+    const double cosine_o = n.cosine_spread, sine_o = sine_of(cosine_o);
+    const double cosine_x = cosine_of_difference(cosine_w, sine_w, cosine_o, sine_o);
+    const double sine_x = sine_of_difference(cosine_w, sine_w, cosine_o, sine_o);
+    const double cosine_out = cosine_of_difference(cosine_x, sine_x, cosine_b, sine_b);
+    if (cosine_out <= n.cosine_reach) return 0.0;
+    // The cosine of a lamp that is no surface does not count.
+    const double sent = n.cosine_reach < 0.0 ? 1.0 : cosine_out;
+
+    double cosine_i = dot(at.normal, to_light);
+    if (at.both_sides) cosine_i = std::abs(cosine_i);
+    cosine_i = std::clamp(cosine_i, -1.0, 1.0);
+    const double received = cosine_of_difference(cosine_i, sine_of(cosine_i), cosine_b, sine_b);
+    if (!(received > 0.0)) return 0.0;
+    return n.intensity * sent * received / squared;
+}
+
+}  // namespace
+
+LightTree::LightTree(const std::vector<TreeLight>& lights) {
+    TreeBuilder(lights).build(nodes_);
+    leaves_.assign(lights.size(), kNone);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (nodes_[i].leaf) leaves_[nodes_[i].content] = static_cast<std::uint32_t>(i);
+    }
+}
+
+ChosenLight LightTree::choose(const LitPoint& at, double choice) const {
+    if (nodes_.empty()) return {};
+    double probability = 1.0;
+    const Node* node = nodes_.data();
+    while (!node->leaf) {
+        const Node* children = nodes_.data() + node->content;
+        const double first = importance(children[0], at), second = importance(children[1], at);
+        const double sum = first + second;
+        if (!(sum > 0.0)) return {};
+        const double share = first / sum;
+        if (choice < share) {
+            choice = std::min(choice / share, 0x1.fffffffffffffp-1);
+            probability *= share;
+            node = children;
+        } else {
+            choice = std::min((choice - share) / (1.0 - share), 0x1.fffffffffffffp-1);
+            probability *= second / sum;
+            node = children + 1;
+        }
+    }
+    return {node->content, probability};
+}
+
+double LightTree::probability(const LitPoint& at, std::size_t light) const {
+    std::uint32_t i = leaves_[light];
+    if (i == kNone) return 0.0;
+    double probability = 1.0;
+    while (nodes_[i].parent != kNone) {
+        const std::uint32_t first = nodes_[nodes_[i].parent].content;
+        const double one = importance(nodes_[first], at), two = importance(nodes_[first + 1], at);
+        if (!(one + two > 0.0)) return 0.0;
+        probability *= (i == first ? one : two) / (one + two);
+        i = nodes_[i].parent;
+    }
+    return probability;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,95 @@
+#include "alhazen/session/environment_option.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/session/framing.h"
+#include "alhazen/shading/lights/environment.h"
+
+namespace alhazen {
+
+namespace {
+
+constexpr const char* kFollowLight[] = {"path_tracing", "light_tracing", "bidirectional"};
+
+EnvironmentSettings settings_of(const std::string& text, const ImageLimits& limits) {
+    EnvironmentSettings settings;
+    if (text == "sky") {
+        settings.kind = EnvironmentKind::Sky;
+    } else if (text == "studio") {
+        settings.kind = EnvironmentKind::Studio;
+    } else {
+        settings.kind = EnvironmentKind::Picture;
+        settings.file = text;
+        if (!std::filesystem::exists(text)) {
+            throw Error(ErrorKind::Usage,
+                        fmt::format("--environment '{}': expected sky, studio, none or the file of "
+                                    "a picture of all directions; there is no such file",
+                                    text));
+        }
+        settings.picture = std::make_shared<const Image>(read_image(text, limits));
+    }
+    return settings;
+}
+
+void set(LoadedScene& loaded, EnvironmentSettings settings) {
+    const Vec3 up = loaded.description.up_axis == UpAxis::Z ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+    loaded.scene.environment = std::make_shared<const Environment>(settings, up);
+    loaded.description.environment = EnvironmentDescription{std::move(settings), {}};
+}
+
+}  // namespace
+
+bool follows_light(const std::string& renderer) {
+    return std::find(std::begin(kFollowLight), std::end(kFollowLight), renderer) !=
+           std::end(kFollowLight);
+}
+
+std::vector<std::string> set_environment(LoadedScene& loaded, const std::string& text,
+                                         const std::string& renderer, const ImageLimits& limits) {
+    if (!text.empty() && !follows_light(renderer)) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--environment is for renderers that follow light physically: {}; "
+                                "renderer '{}' shows the background of the scene",
+                                fmt::join(kFollowLight, ", "), renderer));
+    }
+    if (text == "none") {
+        loaded.description.environment.reset();
+        loaded.scene.environment = nullptr;
+        return {};
+    }
+    if (!text.empty()) {
+        set(loaded, settings_of(text, limits));
+        const std::size_t bad = loaded.scene.environment->bad_texels();
+        if (bad == 0) return {};
+        return {fmt::format("warning: {} texels of the environment are negative, infinite or no "
+                            "numbers, and are taken as black",
+                            bad)};
+    }
+    const Scene& scene = loaded.scene;
+    const bool dark = !scene.environment && scene.background.is_black() &&
+                      lacks_light(loaded.description, scene) &&
+                      std::none_of(scene.materials.begin(), scene.materials.end(),
+                                   [](const Material& m) { return !m.emission.color.is_black(); });
+    if (!dark || !follows_light(renderer)) return {};
+    EnvironmentSettings studio;
+    studio.kind = EnvironmentKind::Studio;
+    set(loaded, std::move(studio));
+    return {"no lights in the file: a studio was put around it (--environment)"};
+}
+
+void warn_of_bad_texels(LoadedScene& loaded) {
+    const auto& environment = loaded.scene.environment;
+    if (!environment || environment->bad_texels() == 0) return;
+    loaded.diagnostics.warning(
+        loaded.description.environment->location,
+        fmt::format("{} texels of the environment are negative, infinite or no numbers, and are "
+                    "taken as black",
+                    environment->bad_texels()));
+}
+
+}  // namespace alhazen

@@ -1,0 +1,24 @@
+#pragma once
+/// The environment that a user chooses for a scene, or that a scene without light gets.
+
+#include <string>
+#include <vector>
+
+#include "alhazen/session/load.h"
+
+namespace alhazen {
+
+/// Whether the renderer follows light physically, so that an environment lights what it renders.
+[[nodiscard]] bool follows_light(const std::string& renderer);
+
+/// Sets the environment that `text` says: "sky", "studio", "none" (that of the file is removed), or
+/// the name of a picture of all directions. Empty: that of the file; where a scene has no light at
+/// all and the renderer follows light, the studio. Returns what was done, a sentence each. Throws
+/// Error: Usage for a renderer that sees no environments, and as `read_image`.
+std::vector<std::string> set_environment(LoadedScene& loaded, const std::string& text,
+                                         const std::string& renderer, const ImageLimits& limits);
+
+/// Texels of the environment that are no radiances, as a warning.
+void warn_of_bad_texels(LoadedScene& loaded);
+
+}  // namespace alhazen

@@ -1,0 +1,233 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/shading/lights/clear_sky.h"
+#include "alhazen/shading/lights/environment.h"
+#include "alhazen/shading/lights/studio.h"
+#include "support/light_checks.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+const Vec3 kUp{0, 1, 0};
+
+/// Mostly dark, with a bright texel, a black part and random ones.
+Image test_picture() {
+    RandomStream random(3);
+    Image picture(16, 8, 3);
+    for (float& sample : picture.samples) sample = static_cast<float>(random.uniform());
+    for (int x = 4; x < 9; ++x) std::fill_n(picture.pixel(x, 3), 3, 0.0f);
+    for (int x = 4; x < 9; ++x) std::fill_n(picture.pixel(x, 4), 3, 0.0f);
+    for (int x = 4; x < 9; ++x) std::fill_n(picture.pixel(x, 5), 3, 0.0f);
+    std::fill_n(picture.pixel(11, 2), 3, 30.0f);
+    return picture;
+}
+
+EnvironmentSettings settings_of(EnvironmentKind kind) {
+    EnvironmentSettings settings;
+    settings.kind = kind;
+    settings.rotation = 0.7;
+    settings.scale = 1.5;
+    if (kind == EnvironmentKind::Picture) {
+        settings.picture = std::make_shared<const Image>(test_picture());
+    }
+    return settings;
+}
+
+/// Directions in bins of equal solid angle, the density there, and draws: chi-square.
+template <class Sample, class Density>
+double p_value_on_sphere(Sample&& sample, Density&& density, std::uint64_t seed) {
+    constexpr int kRows = 10, kColumns = 20, kFine = 40, kDraws = 20000;
+    const auto direction = [](double row, double column) {
+        const double z = 1.0 - 2.0 * row / kRows, a = 2.0 * kPi * column / kColumns - kPi;
+        const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+        return Vec3{r * std::cos(a), r * std::sin(a), z};
+    };
+    std::vector<double> found(kRows * kColumns, 0.0);
+    RandomStream random(seed);
+    for (int i = 0; i < kDraws; ++i) {
+        const double u = random.uniform(), v = random.uniform();
+        const Vec3 d = sample(Vec2{u, v});
+        const int row = std::clamp(int((1.0 - d.z) / 2.0 * kRows), 0, kRows - 1);
+        const double a = std::atan2(d.y, d.x) + kPi;
+        const int column = std::clamp(int(a / (2.0 * kPi) * kColumns), 0, kColumns - 1);
+        found[std::size_t(row * kColumns + column)] += 1.0;
+    }
+    double sum = 0.0;
+    int freedom = -1;
+    for (int b = 0; b < kRows * kColumns; ++b) {
+        double mean = 0.0;
+        for (int n = 0; n < kFine * kFine; ++n) {
+            mean += density(direction(b / kColumns + (n / kFine + 0.5) / kFine,
+                                      b % kColumns + (n % kFine + 0.5) / kFine)) /
+                    (kFine * kFine);
+        }
+        const double expected = kDraws * mean * 4.0 * kPi / (kRows * kColumns);
+        if (expected < 8.0) continue;
+        const double off = found[std::size_t(b)] - expected;
+        sum += off * off / expected;
+        ++freedom;
+    }
+    return chi_square_tail(sum, freedom);
+}
+
+TEST(Environments, DrawsFollowTheirDensity) {
+    const Environment picture(settings_of(EnvironmentKind::Picture), kUp);
+    const Environment studio(settings_of(EnvironmentKind::Studio), kUp);
+    const Environment constant(settings_of(EnvironmentKind::Constant), kUp);
+    for (const Environment* e : {&picture, &studio, &constant}) {
+        EXPECT_GT(p_value_on_sphere([&](const Vec2& u) { return e->sample(u); },
+                                    [&](const Vec3& d) { return e->density(d); }, 4),
+                  sidak_level(5));
+    }
+    const Vec3 n = normalize(Vec3{1, 2, -1});
+    for (const bool both : {false, true}) {
+        EXPECT_GT(
+            p_value_on_sphere([&](const Vec2& u) { return constant.sample(n, both, u); },
+                              [&](const Vec3& d) { return constant.density(n, both, d); }, 5),
+            sidak_level(5));
+    }
+}
+
+TEST(Environments, TheMeanOverDrawsIsThatOfThePicture) {
+    for (const EnvironmentKind kind :
+         {EnvironmentKind::Picture, EnvironmentKind::Studio, EnvironmentKind::Sky}) {
+        const Environment e(settings_of(kind), kUp);
+        RandomStream random(6);
+        double sum = 0.0, squares = 0.0;
+        constexpr int kDraws = 40000;
+        for (int i = 0; i < kDraws; ++i) {
+            const double u = random.uniform(), v = random.uniform();
+            const Vec3 d = e.sample({u, v});
+            const double x = e.radiance(d).g / e.density(d) / (4.0 * kPi);
+            sum += x / kDraws;
+            squares += x * x / kDraws;
+        }
+        const double error = std::sqrt(std::max(0.0, squares - sum * sum) / kDraws);
+        EXPECT_LT(std::abs(sum - e.mean().g), 4.0 * error + 1e-9 * sum) << int(kind);
+        EXPECT_LT(error, 0.01 * sum) << int(kind);
+    }
+}
+
+TEST(Environments, APictureIsSeenTheRightWayRound) {
+    Image image(8, 4, 3);
+    std::fill_n(image.pixel(5, 1), 3, 1.0f);  // right of the front, above the horizon
+    EnvironmentSettings settings;
+    settings.kind = EnvironmentKind::Picture;
+    settings.picture = std::make_shared<const Image>(image);
+    const double a = 2.0 * kPi * (5.5 / 8 - 0.5), p = kPi * 1.5 / 4;
+    const Environment y_up(settings, {0, 1, 0}), z_up(settings, {0, 0, 1});
+    // y up: the front is -z and the right x; z up: the front is y.
+    const Vec3 in_y{std::sin(p) * std::sin(a), std::cos(p), -std::sin(p) * std::cos(a)};
+    const Vec3 in_z{std::sin(p) * std::sin(a), std::sin(p) * std::cos(a), std::cos(p)};
+    EXPECT_NEAR(y_up.radiance(in_y).r, 1.0, 1e-9);
+    EXPECT_NEAR(z_up.radiance(in_z).r, 1.0, 1e-9);
+    settings.rotation = kPi / 2;  // anticlockwise from above: x becomes y where z is up
+    const Environment turned(settings, {0, 0, 1});
+    EXPECT_NEAR(turned.radiance({-in_z.y, in_z.x, in_z.z}).r, 1.0, 1e-9);
+}
+
+TEST(Environments, TexelsThatAreNoRadiancesAreBlackAndCounted) {
+    Image image(8, 4, 3);
+    std::fill(image.samples.begin(), image.samples.end(), 1.0f);
+    image.pixel(1, 1)[0] = std::numeric_limits<float>::infinity();
+    image.pixel(2, 1)[1] = std::numeric_limits<float>::quiet_NaN();
+    image.pixel(3, 1)[2] = -1.0f;
+    image.pixel(4, 1)[2] = 1e30f;
+    const DirectionPicture picture(image);
+    EXPECT_EQ(picture.bad_texels(), 4u);
+    EXPECT_TRUE(picture.mean().is_finite());
+    EXPECT_LT(picture.mean().r, 1.0);
+    std::fill(image.samples.begin(), image.samples.end(), std::numeric_limits<float>::infinity());
+    EnvironmentSettings settings;
+    settings.kind = EnvironmentKind::Picture;
+    settings.picture = std::make_shared<const Image>(image);
+    const Environment black(settings, kUp);
+    EXPECT_EQ(black.bad_texels(), 32u);
+    EXPECT_FALSE(black.shines());
+    EXPECT_TRUE(black.radiance({0, 0, 1}).is_black());
+}
+
+TEST(Environments, AClearSkyIsBlueAndHazeIsGrey) {
+    const Vec3 to_sun = normalize(Vec3{0.3, -0.7, 0.6});
+    const ClearSky clear = clear_sky(to_sun, 2, {0.2, 0.2, 0.2});
+    const ClearSky hazy = clear_sky(to_sun, 8, {0.2, 0.2, 0.2});
+    const Rgb zenith = clear.picture.rgb(10, 2), haze = hazy.picture.rgb(10, 2);
+    EXPECT_GT(zenith.b, 2.0 * zenith.r);
+    EXPECT_LT(haze.b / haze.r, 0.7 * zenith.b / zenith.r);
+    EXPECT_LT(hazy.sun_radiance.b, clear.sun_radiance.b);
+    for (const float sample : clear.picture.samples) EXPECT_TRUE(sample >= 0.0f && sample < 1e4f);
+    // A low sun is red.
+    const ClearSky evening = clear_sky(normalize(Vec3{1, 0, 0.05}), 3, {0.2, 0.2, 0.2});
+    EXPECT_GT(evening.sun_radiance.r, 2.0 * evening.sun_radiance.b);
+    EXPECT_TRUE(clear_sky(normalize(Vec3{1, 0, -0.1}), 3, {}).sun_radiance.is_black());
+}
+
+TEST(Environments, TheSkyGivesAThirdOfTheLightOfTheSunOrLess) {
+    const Environment e(settings_of(EnvironmentKind::Sky), kUp);
+    ASSERT_TRUE(e.sun().has_value());
+    const double sun = 2.0 * kPi * (1.0 - e.sun()->cosine) * e.sun()->radiance.g * 1.5 *
+                       e.sun()->direction.y;
+    double all = 0.0;
+    constexpr int kDraws = 20000;
+    RandomStream random(2);
+    for (int i = 0; i < kDraws; ++i) {
+        const double u = random.uniform(), v = random.uniform();
+        const Vec3 d = e.sample({u, v});
+        all += std::max(0.0, d.y) * e.radiance(d).g / e.density(d) / kDraws;
+    }
+    std::printf("sun %g of %g on the ground\n", sun, all);
+    EXPECT_GT(all - sun, 0.05 * sun);
+    EXPECT_LT(all - sun, 0.5 * sun);
+}
+
+TEST(Environments, TheStudioIsNeutralAndOfUsefulBrightness) {
+    const Environment e(settings_of(EnvironmentKind::Studio), kUp);
+    const Rgb mean = (1.0 / 1.5) * e.mean();
+    EXPECT_EQ(mean.r, mean.b);
+    EXPECT_GT(mean.r, 0.5);
+    EXPECT_LT(mean.r, 1.2);
+}
+
+TEST(Environments, IlluminationDrawsThem) {
+    for (const EnvironmentKind kind : {EnvironmentKind::Constant, EnvironmentKind::Picture,
+                                       EnvironmentKind::Sky, EnvironmentKind::Studio}) {
+        SceneMaker maker;
+        maker.description().environment = EnvironmentDescription{settings_of(kind), {}};
+        maker.add(Sphere{{0, 2, 0}, 0.5});
+        const Scene scene = maker.compile();
+        const Illumination lights(scene);
+        const LitPoint at{{0, 0, 0}, {0, 1, 0}, true};
+        RandomStream random(4);
+        for (int i = 0; i < 500; ++i) {
+            const double c = random.uniform(), u = random.uniform(), v = random.uniform();
+            const LightDraw draw = lights.draw(at, c, {u, v});
+            ASSERT_GT(draw.density, 0.0);
+            EXPECT_TRUE(std::isinf(draw.distance));
+            EXPECT_NEAR(lights.environment_density(at, draw.to_light) / draw.density, 1.0, 2e-2);
+            EXPECT_EQ(lights.environment(draw.to_light), draw.radiance);
+        }
+        // Power of what it sends into the sphere around the scene.
+        double power = 0.0;
+        constexpr int kRays = 20000;
+        for (int i = 0; i < kRays; ++i) {
+            const double u = random.uniform(), v = random.uniform();
+            const LightRay out = lights.emit(0.5, {random.uniform(), random.uniform()}, {u, v});
+            ASSERT_TRUE(out.infinite);
+            power += out.radiance.g / (out.place_density * out.direction_density) / kRays;
+            const auto density = lights.environment_emit_density(out.ray.direction);
+            EXPECT_EQ(density.place, out.place_density);
+        }
+        const double disc = kPi * 0.75 * (1.0 + 2e-9);  // of the box of the ball
+        EXPECT_NEAR(power / (disc * 4.0 * kPi * scene.environment->mean().g), 1.0, 0.03);
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -1,0 +1,219 @@
+#include "alhazen/illumination/light_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ctime>
+
+#include "alhazen/illumination/illumination.h"
+#include "support/light_checks.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+Vec3 random_unit(RandomStream& random) {
+    const double z = random.uniform(-1, 1), a = random.uniform(0, 2 * kPi);
+    const double r = std::sqrt(1 - z * z);
+    return {r * std::cos(a), r * std::sin(a), z};
+}
+
+TreeLight random_light(RandomStream& random) {
+    TreeLight light;
+    const Vec3 at{random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(0, 9)};
+    light.bounds.box.include(at);
+    light.bounds.box.include(at + 0.3 * random_unit(random));
+    light.bounds.axis = random_unit(random);
+    light.bounds.cosine_spread = random.below(3) == 0 ? -1.0 : 1.0;
+    light.two_sided = random.below(2) == 0;
+    light.intensity = random.below(9) == 0 ? 0.0 : std::exp(random.uniform(-3, 3));
+    return light;
+}
+
+LitPoint random_point(RandomStream& random) {
+    return {{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(-2, 2)},
+            random_unit(random),
+            random.below(2) == 0};
+}
+
+TEST(LightTree, ProbabilitiesOfAllLightsSumToOne) {
+    RandomStream random(1);
+    for (const std::size_t count : {1u, 2u, 3u, 17u, 300u}) {
+        std::vector<TreeLight> lights(count), lamps(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            lights[k] = lamps[k] = random_light(random);
+            lamps[k].bounds.cosine_spread = lamps[k].cosine_reach = -1.0;
+        }
+        lights[0].intensity = lamps[0].intensity = 1.0;
+        const LightTree tree(lights), tree_of_lamps(lamps);
+        for (int i = 0; i < 50; ++i) {
+            LitPoint at = random_point(random);
+            double sum = 0.0, sum_of_lamps = 0.0;
+            for (std::size_t k = 0; k < count; ++k) sum += tree.probability(at, k);
+            at.both_sides = true;
+            for (std::size_t k = 0; k < count; ++k) sum_of_lamps += tree_of_lamps.probability(at, k);
+            // What is missing are nodes of which no light reaches the point.
+            EXPECT_LE(sum, 1.0 + 1e-12);
+            EXPECT_NEAR(sum_of_lamps, 1.0, 1e-12);
+        }
+    }
+}
+
+TEST(LightTree, ADrawHasTheProbabilityOfItsLight) {
+    RandomStream random(2);
+    std::vector<TreeLight> lights(500);
+    for (TreeLight& light : lights) light = random_light(random);
+    const LightTree tree(lights);
+    int drawn = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const LitPoint at = random_point(random);
+        const ChosenLight chosen = tree.choose(at, random.uniform());
+        if (!(chosen.probability > 0.0)) continue;
+        ++drawn;
+        EXPECT_NEAR(tree.probability(at, chosen.light) / chosen.probability, 1.0, 1e-12);
+        EXPECT_GT(lights[chosen.light].intensity, 0.0);
+    }
+    EXPECT_GT(drawn, 1500);
+}
+
+TEST(LightTree, DrawsFollowTheProbabilities) {
+    RandomStream random(3);
+    std::vector<TreeLight> lights(40);
+    for (TreeLight& light : lights) light = random_light(random);
+    const LightTree tree(lights);
+    const LitPoint at{{0, 0, 0}, {0, 0, 1}, true};
+    constexpr int kDraws = 100000;
+    std::vector<double> found(41, 0.0);
+    for (int i = 0; i < kDraws; ++i) {
+        const ChosenLight chosen = tree.choose(at, random.uniform());
+        found[chosen.probability > 0.0 ? chosen.light : 40] += 1.0;
+    }
+    double sum = 0.0, rest = 1.0;
+    int freedom = 0;
+    for (std::size_t k = 0; k < 40; ++k) {
+        const double expected = kDraws * tree.probability(at, k);
+        rest -= expected / kDraws;
+        if (expected < 5.0) continue;
+        sum += (found[k] - expected) * (found[k] - expected) / expected;
+        ++freedom;
+    }
+    EXPECT_NEAR(found[40] / kDraws, rest, 0.01);
+    EXPECT_GT(chi_square_tail(sum, freedom), 1e-3);
+}
+
+TEST(LightTree, WhatMayLightAPointIsChosenSometimes) {
+    RandomStream random(4);
+    std::vector<TreeLight> lights(200);
+    for (TreeLight& light : lights) {
+        light = random_light(random);
+        light.bounds.cosine_spread = 1.0;
+        light.intensity = 1.0;
+    }
+    const LightTree tree(lights);
+    for (int i = 0; i < 200; ++i) {
+        const LitPoint at = random_point(random);
+        for (std::size_t k = 0; k < lights.size(); ++k) {
+            const EmitterBounds& b = lights[k].bounds;
+            const Vec3 to_light = b.box.center() - at.point;
+            const double sent = -dot(to_light, b.axis), received = dot(to_light, at.normal);
+            const bool lit = (lights[k].two_sided ? std::abs(sent) : sent) > 0.0 &&
+                             (at.both_sides || received > 0.0);
+            EXPECT_TRUE(!lit || tree.probability(at, k) > 0.0) << i << " " << k;
+        }
+    }
+}
+
+TEST(LightTree, EqualLightsInOnePointAreATree) {
+    std::vector<TreeLight> lights(5000);
+    for (TreeLight& light : lights) {
+        light.bounds.box.include(Vec3{1, 2, 3});
+        light.bounds.cosine_spread = -1.0;
+        light.cosine_reach = -1.0;
+        light.intensity = 1.0;
+    }
+    const LightTree tree(lights);
+    const LitPoint at{{0, 0, 0}, {0, 0, 1}, false};
+    double sum = 0.0;
+    for (std::size_t k = 0; k < lights.size(); ++k) sum += tree.probability(at, k);
+    EXPECT_NEAR(sum, 1.0, 1e-9);
+    EXPECT_NEAR(tree.choose(at, 0.7).probability, 1.0 / 5000, 1e-4);
+}
+
+TEST(LightTree, OfNoLightsChoosesNone) {
+    EXPECT_EQ(LightTree(std::vector<TreeLight>(3)).choose({}, 0.5).probability, 0.0);
+    EXPECT_EQ(LightTree().choose({}, 0.5).probability, 0.0);
+}
+
+/// Small triangles in a layer above a plane, of different sizes and directions.
+Scene many_triangles(std::size_t count) {
+    RandomStream random(9);
+    TriangleMesh mesh;
+    const double size = 20.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 at{random.uniform(-size, size), random.uniform(-size, size),
+                      random.uniform(0.5, 3)};
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (int k = 0; k < 3; ++k) mesh.positions.push_back(at + 0.02 * random_unit(random));
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    SceneMaker maker;
+    Material shining;
+    shining.emission.color = {1, 1, 1};
+    shining.double_sided = false;
+    const MaterialId m = maker.material(shining);
+    maker.add(maker.mesh(std::move(mesh)), m);
+    return maker.compile("wide_bvh");
+}
+
+/// Variance of the unshadowed light of one draw, a mean over points of the plane.
+double variance_at_points(const Scene& scene, LightChoice choice) {
+    const Illumination lights(scene, {.choice = choice});
+    RandomStream random(5);
+    double variance = 0.0;
+    constexpr int kPoints = 24, kDraws = 4000;
+    for (int p = 0; p < kPoints; ++p) {
+        const LitPoint at{{random.uniform(-15, 15), random.uniform(-15, 15), 0}, {0, 0, 1}, false};
+        double sum = 0.0, squares = 0.0;
+        for (int i = 0; i < kDraws; ++i) {
+            const double c = random.uniform(), u = random.uniform(), v = random.uniform();
+            const LightDraw draw = lights.draw(at, c, {u, v});
+            const double cosine = dot(at.normal, draw.to_light);
+            const double x =
+                draw.density > 0.0 && cosine > 0.0 ? cosine / draw.density * draw.radiance.g : 0.0;
+            sum += x;
+            squares += x * x;
+        }
+        variance += squares / kDraws - sum / kDraws * (sum / kDraws);
+    }
+    return variance / kPoints;
+}
+
+TEST(LightTree, IsFiveTimesMoreEfficientThanChoosingEvenly) {
+    const Scene scene = many_triangles(100000);
+    const double uniform = variance_at_points(scene, LightChoice::Uniform);
+    const double power = variance_at_points(scene, LightChoice::Power);
+    const double tree = variance_at_points(scene, LightChoice::Tree);
+    RecordProperty("uniform_over_tree", std::to_string(uniform / tree));
+    std::printf("variance: uniform %g, power %g, tree %g\n", uniform, power, tree);
+    EXPECT_GT(uniform, 5.0 * tree);
+}
+
+TEST(LightTree, TakesAMillionLights) {
+    const Scene scene = many_triangles(1000000);
+    const std::clock_t begin = std::clock();
+    const Illumination lights(scene);
+    const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    std::printf("10^6 emitters: %g s of processor time\n", seconds);
+    int lit = 0;
+    RandomStream random(8);
+    for (int i = 0; i < 1000; ++i) {
+        const double c = random.uniform(), u = random.uniform(), v = random.uniform();
+        if (lights.draw({{0, 0, 0}, {0, 0, 1}, false}, c, {u, v}).density > 0.0) ++lit;
+    }
+    EXPECT_GT(lit, 500);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
