@@ -62,7 +62,7 @@ void Bsdf::add(const Rgb& weight, const Lobe& lobe, CoverSet covers) {
 }
 
 CoverSet Bsdf::add_cover(const Cover& cover) {
-    if (covers_.full() || !(cover.share > 0.0)) return 0;
+    if (covers_.full() || !(cover.share() > 0.0)) return 0;
     covers_.push_back(cover);
     return CoverSet{1} << (covers_.size() - 1);
 }
