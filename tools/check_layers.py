@@ -141,7 +141,8 @@ INSIDE = {
         "optics": [],
         "textures": [],
         "materials": ["optics", "textures"],
-        "bsdf": ["materials"],
+        "microfacets": ["optics"],
+        "bsdf": ["microfacets", "materials"],
     },
     "shapes": {
         "core": [],

@@ -34,7 +34,6 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     view_ = point.view;
     entering_ = point.entering;
     thin_ = material.thin;
-    straight_ = thin_ ? material.transmissive : Rgb{};
     const bool has_tangent = surface.tangent != Vec3{};
     frame_ = ShadingFrame::of(point.normal, has_tangent ? surface.tangent : surface.dpdu);
     local_view_ = frame_.to_local(view_);

@@ -42,7 +42,7 @@ class ScatterPoint {
                                                   Transport transport) const;
 
     /// The share of light that goes straight on through a thin sheet.
-    [[nodiscard]] const Rgb& straight() const { return straight_; }
+    [[nodiscard]] Rgb straight() const { return bsdf_.straight(local_view_); }
     [[nodiscard]] bool has_density() const { return bsdf_.has_density(); }
     [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }
@@ -63,7 +63,6 @@ class ScatterPoint {
     std::optional<Bsdf> from_behind_;  ///< the same surface as seen from its other side
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;
-    Rgb straight_;
     Medium inside_;  ///< of the volume that the surface bounds
     bool entering_ = true, thin_ = false;
     bool media_known_ = false;  ///< a solid tells what is behind

@@ -62,7 +62,7 @@ void Bsdf::add(const Rgb& weight, const Lobe& lobe, CoverSet covers) {
 }
 
 CoverSet Bsdf::add_cover(const Cover& cover) {
-    if (covers_.full() || !(cover.share > 0.0)) return 0;
+    if (covers_.full() || !(cover.share() > 0.0)) return 0;
     covers_.push_back(cover);
     return CoverSet{1} << (covers_.size() - 1);
 }
@@ -182,6 +182,16 @@ Rgb Bsdf::albedo(const Vec3& view) const {
 
 bool Bsdf::has_density() const {
     return std::ranges::any_of(parts_, [](const Part& p) { return !is_singular(p.lobe); });
+}
+
+Rgb Bsdf::straight(const Vec3& view) const {
+    Rgb sum;
+    for (const Part& part : parts_) {
+        const auto* const sheet = std::get_if<ThinSheet>(&part.lobe);
+        if (sheet == nullptr) continue;
+        sum += through(part.covers, view.z) * (part.weight * sheet->albedo(view));
+    }
+    return sum;
 }
 
 bool Bsdf::transmits() const {

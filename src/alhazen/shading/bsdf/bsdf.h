@@ -57,6 +57,8 @@ class Bsdf {
     [[nodiscard]] bool has_density() const;
     /// Whether `value` may be above 0 below the surface.
     [[nodiscard]] bool transmits() const;
+    /// Share that thin sheets let go straight on: what a shadow ray keeps.
+    [[nodiscard]] Rgb straight(const Vec3& view) const;
     [[nodiscard]] std::size_t lobe_count() const { return parts_.size(); }
 
   private:

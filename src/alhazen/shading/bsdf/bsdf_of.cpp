@@ -1,61 +1,83 @@
-/// Materials as lobes; docs/reference/materials.md states what becomes of what.
+#include "alhazen/shading/bsdf/bsdf_of.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "alhazen/shading/bsdf/bsdf.h"
 #include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/shading/optics/fresnel.h"
 
 namespace alhazen {
 
+double eta_at(const BsdfPlace& place, double index) {
+    if (place.eta > 0.0) return place.eta;
+    const double n = index > 0.0 && std::isfinite(index) ? index : 1.0;
+    return place.from_inside ? n : 1.0 / n;
+}
+
+Lobe reflection_lobe(double roughness, const FresnelTerm& fresnel) {
+    const double alpha = roughness * roughness;
+    if (alpha < kSmoothAlpha) return Mirror{fresnel};
+    return RoughReflection({alpha, alpha}, fresnel);
+}
+
+Lobe boundary_lobe(double roughness, double eta, const Rgb& reflection, const Rgb& transmission) {
+    const double alpha = roughness * roughness;
+    if (alpha < kSmoothAlpha || std::abs(eta - 1.0) < 1e-3) {
+        return SmoothDielectric{eta, reflection, transmission};
+    }
+    return RoughDielectric(alpha, eta, reflection, transmission);
+}
+
 namespace {
+
+Rgb not_negative(const Rgb& c) {
+    return {c.r > 0.0 ? c.r : 0.0, c.g > 0.0 ? c.g : 0.0, c.b > 0.0 ? c.b : 0.0};
+}
 
 /// Whitted's coefficients. What they give out together beyond the light that comes in is scaled
 /// down, by one factor for all.
 Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
                           const SurfaceLookup& lookup, const BsdfPlace& place) {
     const auto color = [&](const ColorInput& input) {
-        const Rgb c = color_at(input, textures, lookup);
-        return Rgb{std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)};
+        return not_negative(color_at(input, textures, lookup));
     };
-    const Rgb diffuse = lookup.color.rgb() * color(m.diffuse);
+    const Rgb diffuse = not_negative(lookup.color.rgb()) * color(m.diffuse);
     const Rgb mirror = color(m.reflective);
     const Rgb refracted = color(m.transmissive);
-    const double sum = (diffuse + mirror + refracted).max();
+    const double exponent = value_at(m.shininess, textures, lookup);
+    // So that the middle of the highlight of a point light is as bright as Whitted's.
+    const double wide = 8.0 / (std::max(exponent, 0.0) + 2.0);
+    Rgb highlight = wide * color(m.specular);
+    for (int i = 0; i < 3; ++i) highlight[i] = std::min(highlight[i], 1.0);
+    const double sum = (diffuse + highlight + mirror + refracted).max();
     const double scale = sum > 1.0 ? 1.0 / sum : 1.0;
 
     Bsdf bsdf;
     bsdf.add(scale * diffuse, Lambert{});
-    bsdf.add(scale * mirror, Mirror{});
+    if (!highlight.is_black()) bsdf.add(scale * highlight, BlinnPhong(exponent));
+    const double roughness = std::clamp(value_at(m.roughness, textures, lookup), 0.0, 1.0);
+    if (!mirror.is_black()) bsdf.add(scale * mirror, reflection_lobe(roughness, SchlickTerm{}));
     if (!refracted.is_black()) {
-        const double index = std::max(value_at(m.index, textures, lookup), 1e-3);
-        const double own = place.from_inside ? index : 1.0 / index;
-        const double eta = place.eta > 0.0 ? place.eta : own;
+        const double eta = eta_at(place, value_at(m.index, textures, lookup));
         bsdf.add(scale * refracted, SmoothDielectric{.eta = eta, .fresnel = false});
     }
     return bsdf;
 }
 
-Bsdf bsdf_of_metallic_roughness(const Material& m, const MetallicRoughness& p,
-                                std::span<const Texture> textures, const SurfaceLookup& lookup,
-                                const BsdfPlace& place) {
+Bsdf bsdf_of_conductor(const Material& m, const Conductor& c, std::span<const Texture> textures,
+                       const SurfaceLookup& lookup) {
     Bsdf bsdf;
-    if (p.unlit) return bsdf;
-    const auto unit = [](double x) { return x > 0.0 ? std::min(x, 1.0) : 0.0; };
-    const Rgb base = lookup.color.rgb() * color_at(p.base_color, textures, lookup);
-    const double metallic = unit(value_at(p.metallic, textures, lookup));
-    const double transmission = unit(value_at(p.transmission, textures, lookup));
-    bsdf.add((1.0 - metallic) * (1.0 - transmission) * base, Lambert{});
-    bsdf.add(metallic * base, Mirror{});
-    const double index = m.index.value >= 1.0 ? m.index.value : 1.0;
-    if (p.thickness.value > 0.0) {
-        const double own = place.from_inside ? index : 1.0 / index;
-        const double eta = place.eta > 0.0 ? place.eta : own;
-        bsdf.add(Rgb{1, 1, 1} * ((1.0 - metallic) * transmission),
-                 SmoothDielectric{.eta = eta, .transmission_tint = base});
-    } else {
-        bsdf.add((1.0 - metallic) * transmission * base, ThinSheet{});
-    }
+    const double roughness = std::clamp(value_at(m.roughness, textures, lookup), 0.0, 1.0);
+    bsdf.add({1, 1, 1}, reflection_lobe(roughness, ConductorTerm{c.index, c.extinction}));
+    return bsdf;
+}
+
+Bsdf bsdf_of_dielectric(const Material& m, std::span<const Texture> textures,
+                        const SurfaceLookup& lookup, const BsdfPlace& place) {
+    Bsdf bsdf;
+    const double roughness = std::clamp(value_at(m.roughness, textures, lookup), 0.0, 1.0);
+    const double eta = eta_at(place, value_at(m.index, textures, lookup));
+    bsdf.add({1, 1, 1}, boundary_lobe(roughness, eta, {1, 1, 1}, {1, 1, 1}));
     return bsdf;
 }
 
@@ -67,6 +89,10 @@ Bsdf bsdf_of(const Material& material, std::span<const Texture> textures,
         return bsdf_of_metallic_roughness(material, *material.metallic_roughness, textures, lookup,
                                           place);
     }
+    if (material.conductor) {
+        return bsdf_of_conductor(material, *material.conductor, textures, lookup);
+    }
+    if (material.dielectric) return bsdf_of_dielectric(material, textures, lookup, place);
     return bsdf_of_coefficients(material, textures, lookup, place);
 }
 

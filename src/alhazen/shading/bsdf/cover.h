@@ -2,23 +2,33 @@
 /// A layer that reflects a part of the light and leaves the rest to what lies below: a clear coat,
 /// sheen, the face of a sheet. Its own reflection is a lobe; this is what it takes from others.
 ///
-/// Source: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017, section 4 (albedo
-/// scaling).
-/// Differs: only the side of the eye is scaled: see bsdf.h.
+/// Source: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", Imageworks 2017, section
+/// 4 (albedo scaling).
 
 #include "alhazen/shading/bsdf/fresnel_term.h"
 
 namespace alhazen {
 
-struct Cover {
-    enum class Kind { Ggx, Sheen };
-    Kind kind = Kind::Ggx;
-    double share = 1;  ///< how much of the surface it covers, or its largest colour (sheen)
-    double alpha = 0;  ///< roughness; below kSmoothAlpha: smooth
-    double f0 = 0.04, f90 = 1;  ///< of Schlick's formula (Ggx)
+class Cover {
+  public:
+    Cover() = default;
+    /// A face of this roughness alpha; of the colours of Schlick's formula the largest channels
+    /// count. `share`: how much of the surface it covers.
+    [[nodiscard]] static Cover face(double alpha, const SchlickTerm& fresnel, double share = 1);
+    /// Fibres; `color`: their largest channel.
+    [[nodiscard]] static Cover sheen(double roughness, double color);
 
     /// What it leaves of light at this cosine to the normal, 0..1.
     [[nodiscard]] double transmittance(double cosine) const;
+    /// The mean over the hemisphere, weighted by the cosine; of a face.
+    [[nodiscard]] double mean_transmittance() const;
+    [[nodiscard]] double share() const { return share_; }
+
+  private:
+    bool sheen_ = false;
+    double share_ = 0, roughness_ = 0;  ///< roughness: alpha of a face; below kSmoothAlpha: smooth
+    double f0_ = 0, f90_ = 1;           ///< of a face
+    double several_ = 0;                ///< reflected share of light that meets several facets
 };
 
 }  // namespace alhazen

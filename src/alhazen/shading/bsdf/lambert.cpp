@@ -1,6 +1,6 @@
 #include "alhazen/shading/bsdf/lambert.h"
 
-#include "alhazen/shading/bsdf/local_directions.h"
+#include "alhazen/shading/microfacets/local_directions.h"
 
 namespace alhazen {
 

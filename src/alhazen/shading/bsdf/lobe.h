@@ -11,12 +11,20 @@
 
 #include <variant>
 
+#include "alhazen/shading/bsdf/covered_matt.h"
 #include "alhazen/shading/bsdf/lambert.h"
 #include "alhazen/shading/bsdf/mirror.h"
+#include "alhazen/shading/bsdf/oren_nayar.h"
+#include "alhazen/shading/bsdf/phong.h"
+#include "alhazen/shading/bsdf/rough_dielectric.h"
+#include "alhazen/shading/bsdf/rough_reflection.h"
+#include "alhazen/shading/bsdf/sheen.h"
 #include "alhazen/shading/bsdf/smooth_dielectric.h"
 
 namespace alhazen {
 
-using Lobe = std::variant<Lambert, LambertTransmission, Mirror, SmoothDielectric, ThinSheet>;
+using Lobe =
+    std::variant<Lambert, LambertTransmission, OrenNayar, CoveredMatt, Mirror, SmoothDielectric,
+                 ThinSheet, RoughReflection, RoughSheet, RoughDielectric, Phong, BlinnPhong, Sheen>;
 
 }  // namespace alhazen

@@ -1,6 +1,6 @@
 #include "alhazen/shading/bsdf/smooth_dielectric.h"
 
-#include "alhazen/shading/bsdf/local_directions.h"
+#include "alhazen/shading/microfacets/local_directions.h"
 #include "alhazen/shading/optics/fresnel.h"
 
 namespace alhazen {

@@ -1,0 +1,183 @@
+/// The metallic-roughness model of glTF as lobes.
+///
+/// Source: Khronos, "glTF 2.0 Specification", 2021, appendix B, and the KHR_materials extensions.
+/// Differs: docs/reference/materials.md.
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/shading/bsdf/bsdf_of.h"
+#include "alhazen/shading/materials/texture_inputs.h"
+#include "alhazen/shading/optics/fresnel.h"
+
+namespace alhazen {
+
+namespace {
+
+/// NaN counts as 0.
+double clipped(double x) {
+    return x > 0.0 ? std::min(x, 1.0) : 0.0;
+}
+Rgb clipped(const Rgb& c) {
+    return {clipped(c.r), clipped(c.g), clipped(c.b)};
+}
+
+/// Lobes of one surface, made from the lowest to the highest layer; added under what covers them.
+class LayerMaker {
+  public:
+    LayerMaker(const Material& m, const MetallicRoughness& p, std::span<const Texture> textures,
+               const SurfaceLookup& lookup, const BsdfPlace& place)
+        : m_(m), p_(p), textures_(textures), lookup_(lookup), place_(place) {}
+
+    [[nodiscard]] Bsdf make() {
+        metallic_ = scalar(p_.metallic);
+        transmission_ = scalar(p_.transmission);
+        roughness_ = scalar(p_.roughness);
+        base_ = clipped(lookup_.color.rgb() * color_at(p_.base_color, textures_, lookup_));
+        add_coat();
+        add_sheen();
+        read_grooves();
+        read_film();
+        if (metallic_ > 0.0) {
+            bsdf_.add(grey(metallic_), face_lobe({base_, {1, 1, 1}}), covers_);
+        }
+        if (metallic_ < 1.0) add_dielectric();
+        return bsdf_;
+    }
+
+  private:
+    [[nodiscard]] double scalar(const ScalarInput& input) const {
+        return clipped(value_at(input, textures_, lookup_));
+    }
+    [[nodiscard]] static Rgb grey(double x) { return {x, x, x}; }
+
+    void add_coat() {
+        const double strength = scalar(p_.coat.strength);
+        if (!(strength > 0.0)) return;
+        const double roughness = scalar(p_.coat.roughness);
+        const SchlickTerm fresnel{grey(0.04), grey(1)};
+        bsdf_.add(grey(strength), reflection_lobe(roughness, fresnel));
+        covers_ |= bsdf_.add_cover(Cover::face(roughness * roughness, fresnel, strength));
+    }
+
+    void add_sheen() {
+        const Rgb color = clipped(color_at(p_.sheen.color, textures_, lookup_));
+        if (color.is_black()) return;
+        const double roughness = scalar(p_.sheen.roughness);
+        bsdf_.add({1, 1, 1}, Sheen{color, roughness}, covers_);
+        covers_ |= bsdf_.add_cover(Cover::sheen(roughness, color.max()));
+    }
+
+    void read_grooves() {
+        double strength = p_.anisotropy.strength, angle = p_.anisotropy.rotation;
+        if (p_.anisotropy.texture != kNoTexture) {
+            const Rgb texel = texel_at(p_.anisotropy.texture, textures_, lookup_).rgb();
+            strength *= texel.b;
+            const double x = 2.0 * texel.r - 1.0, y = 2.0 * texel.g - 1.0;
+            if (x != 0.0 || y != 0.0) angle += std::atan2(y, x);
+        }
+        strength = clipped(strength);
+        const double alpha = roughness_ * roughness_;
+        ggx_ = {alpha + (1.0 - alpha) * strength * strength, alpha};
+        if (strength > 0.0) axis_ = {std::cos(angle), std::sin(angle)};
+    }
+
+    void read_film() {
+        film_share_ = scalar(p_.film.strength);
+        if (!(film_share_ > 0.0)) return;
+        double share = 1.0;
+        if (p_.film.thickness_texture != kNoTexture) {
+            share = texel_at(p_.film.thickness_texture, textures_, lookup_).g;
+        }
+        film_nm_ = p_.film.thinnest_nm + share * (p_.film.thickest_nm - p_.film.thinnest_nm);
+        if (!(film_nm_ > 0.0)) film_share_ = 0.0;
+    }
+
+    [[nodiscard]] FresnelTerm term(const SchlickTerm& base) const {
+        if (!(film_share_ > 0.0)) return base;
+        return FilmTerm{base, film_share_, p_.film.index, film_nm_};
+    }
+    [[nodiscard]] Lobe face_lobe(const SchlickTerm& base) const {
+        if (ggx_.x < kSmoothAlpha) return Mirror{term(base)};
+        return RoughReflection(ggx_, term(base), axis_);
+    }
+    /// What the face leaves to the body. A film's colours change with the angle: the brightest
+    /// counts, so that energy is lost rather than made.
+    [[nodiscard]] Cover face_cover(const SchlickTerm& base) const {
+        SchlickTerm most = base;
+        if (film_share_ > 0.0) {
+            for (const double cosine : {1.0, 0.8, 0.6, 0.4, 0.2}) {
+                const SchlickTerm fit = schlick_fit(term(base), cosine);
+                most.f0 = grey(std::max(most.f0.max(), fit.f0.max()));
+            }
+            most.f90 = grey(1);
+        }
+        return Cover::face(std::sqrt(ggx_.x * ggx_.y), most);
+    }
+
+    void add_dielectric() {
+        const double strength = scalar(p_.specular);
+        const Rgb tint = not_negative_color(p_.specular_color);
+        // KHR_materials_ior: 0 stands for an index so high that all light is reflected.
+        const double index = m_.index.value;
+        const bool reflects_all = index == 0.0;
+        const double at_normal = reflects_all ? 1.0 : normal_reflectance_of(index);
+        const SchlickTerm fresnel{strength * clipped(at_normal * tint), grey(strength)};
+        const double share = 1.0 - metallic_;
+        const bool thin = !(p_.thickness.value > 0.0) || reflects_all;
+        const double matt = share * (1.0 - transmission_), clear = share * transmission_;
+
+        // From inside a film is left out: light beyond the critical angle must come back.
+        const bool filmed = film_share_ > 0.0 && !place_.from_inside;
+        const double faces = thin || filmed ? share : matt;
+        if (faces > 0.0) bsdf_.add(grey(faces), face_lobe(fresnel), covers_);
+        const Cover cover = face_cover(fresnel);
+        bsdf_.add(grey(matt), CoveredMatt(base_, cover), covers_);
+        if (!(clear > 0.0)) return;
+        if (thin || filmed) {
+            // What goes through is covered by the face, as the matt body is.
+            const CoverSet below = covers_ | bsdf_.add_cover(cover);
+            if (!thin) {
+                bsdf_.add(grey(clear), boundary_lobe(roughness_, eta_at(place_, index), {}, base_),
+                          below);
+            } else if (ggx_.x < kSmoothAlpha) {
+                bsdf_.add(grey(clear), ThinSheet{base_}, below);
+            } else {
+                bsdf_.add(clear * base_, RoughSheet(ggx_), below);
+            }
+            return;
+        }
+        bsdf_.add(grey(clear),
+                  boundary_lobe(roughness_, eta_at(place_, index), strength * clipped(tint), base_),
+                  covers_);
+    }
+
+    [[nodiscard]] Rgb not_negative_color(const ColorInput& input) const {
+        const Rgb c = color_at(input, textures_, lookup_);
+        return {c.r > 0.0 ? c.r : 0.0, c.g > 0.0 ? c.g : 0.0, c.b > 0.0 ? c.b : 0.0};
+    }
+
+    const Material& m_;
+    const MetallicRoughness& p_;
+    std::span<const Texture> textures_;
+    const SurfaceLookup& lookup_;
+    const BsdfPlace& place_;
+    Bsdf bsdf_;
+    CoverSet covers_ = 0;  ///< of the layers above
+    double metallic_ = 0, transmission_ = 0, roughness_ = 1;
+    Rgb base_;
+    Ggx ggx_;
+    Vec2 axis_{1, 0};
+    double film_share_ = 0, film_nm_ = 0;
+};
+
+}  // namespace
+
+Bsdf bsdf_of_metallic_roughness(const Material& material, const MetallicRoughness& parameters,
+                                std::span<const Texture> textures, const SurfaceLookup& lookup,
+                                const BsdfPlace& place) {
+    if (parameters.unlit) return {};
+    return LayerMaker(material, parameters, textures, lookup, place).make();
+}
+
+}  // namespace alhazen

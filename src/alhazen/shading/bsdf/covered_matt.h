@@ -1,0 +1,37 @@
+#pragma once
+/// A matt body below a reflecting face: what the face reflects it does not get, and the face takes
+/// its part again on the way out.
+///
+/// Source: Kelemen and Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
+/// Importance Sampling", Eurographics 2001.
+/// Differs: light that the face sends back down is taken as lost by the same factors: the body's
+/// colour does not grow deeper.
+/// Conventions: with a white body, body and face together reflect all light.
+
+#include <optional>
+
+#include "alhazen/shading/bsdf/cover.h"
+#include "alhazen/shading/bsdf/transport.h"
+
+namespace alhazen {
+
+class CoveredMatt {
+  public:
+    static constexpr bool kSingular = false, kTransmits = false;
+
+    CoveredMatt() : CoveredMatt({1, 1, 1}, {}) {}
+    CoveredMatt(const Rgb& color, const Cover& cover);
+
+    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
+    [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
+                                                   Transport transport) const;
+    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+
+  private:
+    Rgb color_;
+    Cover cover_;
+    double mean_ = 1;  ///< transmittance of the cover
+};
+
+}  // namespace alhazen

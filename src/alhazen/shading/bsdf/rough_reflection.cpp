@@ -1,0 +1,78 @@
+#include "alhazen/shading/bsdf/rough_reflection.h"
+
+#include "alhazen/shading/microfacets/albedo_table.h"
+#include "alhazen/shading/microfacets/ggx_albedo.h"
+#include "alhazen/shading/microfacets/local_directions.h"
+
+namespace alhazen {
+
+RoughReflection::RoughReflection(const Ggx& ggx, const FresnelTerm& fresnel, const Vec2& axis)
+    : ggx_{std::clamp(ggx.x, kSmoothAlpha, 1.0), std::clamp(ggx.y, kSmoothAlpha, 1.0)},
+      fresnel_(fresnel),
+      axis_(axis),
+      mean_alpha_(std::sqrt(ggx_.x * ggx_.y)),
+      mean_single_(ggx_mean_albedo(mean_alpha_).sum()) {
+    const Rgb mean = mean_reflectance(fresnel);
+    for (int i = 0; i < 3; ++i) {
+        several_[i] = mean[i] * mean[i] * mean_single_ / (1.0 - mean[i] * (1.0 - mean_single_));
+    }
+}
+
+double RoughReflection::single(double mu) const {
+    return ggx_albedo(mu, mean_alpha_).sum();
+}
+
+Rgb RoughReflection::value(const Vec3& view, const Vec3& direction, Transport) const {
+    if (!(direction.z > 0.0)) return {};
+    const Vec3 v = turned(view), l = turned(direction);
+    const Vec3 m = normalize(v + l);
+    // D G / (4 cos cos), with the cosines of G taken out of the fraction.
+    const double one =
+        0.5 * ggx_.normals(m) / (v.z * ggx_.stretched_length(l) + l.z * ggx_.stretched_length(v));
+    const double lost = 1.0 - mean_single_;
+    const double more = lost > 0.0 ? (1.0 - single(v.z)) * (1.0 - single(l.z)) / (kPi * lost) : 0.0;
+    return one * reflectance(fresnel_, dot(v, m)) + more * several_;
+}
+
+double RoughReflection::density(const Vec3& view, const Vec3& direction) const {
+    if (!(direction.z > 0.0)) return 0.0;
+    const Vec3 v = turned(view), l = turned(direction);
+    const double one = 0.5 * ggx_.normals(normalize(v + l)) / (v.z + ggx_.stretched_length(v));
+    const double share = single(v.z);
+    return share * one + (1.0 - share) * cosine_density(l);
+}
+
+std::optional<BsdfSample> RoughReflection::sample(const Vec3& view, double choice, const Vec2& u,
+                                                  Transport transport) const {
+    const Vec3 v = turned(view);
+    const Vec3 l =
+        choice < single(v.z) ? mirrored(v, ggx_.sample_visible(v, u)) : cosine_direction(u);
+    if (!(l.z > 0.0)) return std::nullopt;
+    const Vec3 direction = turned_back(l);
+    const double p = density(view, direction);
+    return BsdfSample{direction, (direction.z / p) * value(view, direction, transport), p};
+}
+
+Rgb RoughReflection::albedo(const Vec3& view) const {
+    const SplitAlbedo one = ggx_albedo(view.z, mean_alpha_);
+    const SchlickTerm fit = schlick_fit(fresnel_, view.z);
+    return one.at_f0 * fit.f0 + one.at_f90 * fit.f90 + (1.0 - one.sum()) * several_;
+}
+
+Rgb RoughSheet::value(const Vec3& view, const Vec3& direction, Transport transport) const {
+    return reflection_.value(view, flipped(direction), transport);
+}
+double RoughSheet::density(const Vec3& view, const Vec3& direction) const {
+    return reflection_.density(view, flipped(direction));
+}
+std::optional<BsdfSample> RoughSheet::sample(const Vec3& view, double choice, const Vec2& u,
+                                             Transport transport) const {
+    auto sample = reflection_.sample(view, choice, u, transport);
+    if (sample) sample->direction = flipped(sample->direction);
+    return sample;
+}
+Rgb RoughSheet::albedo(const Vec3& view) const {
+    return reflection_.albedo(view);
+}
+
+}  // namespace alhazen

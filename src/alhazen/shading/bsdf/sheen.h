@@ -1,0 +1,27 @@
+#pragma once
+/// Sheen: light that fibres standing off a surface scatter, most where it is seen at a grazing
+/// angle.
+///
+/// Source: Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", Imageworks 2017 (the
+/// distribution and the fit of its shadows), as KHR_materials_sheen takes it: alpha is the
+/// roughness squared, without the softened terminator.
+
+#include <optional>
+
+#include "alhazen/shading/bsdf/transport.h"
+
+namespace alhazen {
+
+struct Sheen {
+    static constexpr bool kSingular = false, kTransmits = false;
+    Rgb color{1, 1, 1};
+    double roughness = 0.5;  ///< 0..1
+
+    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
+    [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
+                                                   Transport transport) const;
+    [[nodiscard]] Rgb albedo(const Vec3& view) const;
+};
+
+}  // namespace alhazen

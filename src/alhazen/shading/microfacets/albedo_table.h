@@ -1,0 +1,56 @@
+#pragma once
+/// How much of the light a lobe gives back, by the cosine of the view and its roughness, and the
+/// means over the hemisphere: what is missing to 1 can be given back by a matt lobe.
+///
+/// Source: Kelemen and Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
+/// Importance Sampling", Eurographics 2001 (the matt lobe); Kulla and Conty, "Revisiting Physically
+/// Based Shading at Imageworks", SIGGRAPH 2017 course (tables of what is missing).
+/// Differs: an axis follows the shadow that a grazing view casts, mu / (mu + alpha), so that few
+/// values are exact.
+/// Conventions: mu is the cosine of the view, 0..1; alpha the roughness, 0..1. Both are clamped.
+/// Complexity and threads: const functions may be called from many threads.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "alhazen/shading/microfacets/cubic_table.h"
+
+namespace alhazen {
+
+class AlbedoTable {
+  public:
+    using Function = std::function<double(double mu, double alpha)>;
+
+    explicit AlbedoTable(const Function& albedo);
+
+    [[nodiscard]] double at(double mu, double alpha) const;
+    /// The mean of `at` over the hemisphere, weighted by mu.
+    [[nodiscard]] double mean(double alpha) const;
+
+  private:
+    CubicTable<2> table_;
+    CubicTable<1> mean_;
+};
+
+/// The axes of such a table: 0..1 each.
+struct AlbedoAxes {
+    static constexpr double kBend = 0.7, kLeastAlpha = 1e-6, kLeastMu = 1e-7;
+
+    [[nodiscard]] static double x_of(double mu, double alpha) {
+        return std::pow(mu * (1.0 + alpha) / (mu + alpha), kBend);
+    }
+    [[nodiscard]] static double mu_of(double x, double alpha) {
+        const double y = std::pow(x, 1.0 / kBend);
+        return std::clamp(alpha * y / (1.0 + alpha - y), kLeastMu, 1.0);
+    }
+    [[nodiscard]] static double y_of(double alpha) { return std::sqrt(alpha); }
+    [[nodiscard]] static double alpha_of(double y) { return std::max(y * y, kLeastAlpha); }
+};
+
+/// A matt lobe that gives back what is missing at both ends: reciprocal, and what it reflects of a
+/// view is `missing(mu_view)`, exactly. `mean_missing`: over the hemisphere. Without cosine.
+[[nodiscard]] double matt_rest(double missing_at_view, double missing_at_light,
+                               double mean_missing);
+
+}  // namespace alhazen

@@ -1,0 +1,73 @@
+#pragma once
+/// A table of a smooth function of D numbers in [0, 1], at even steps, read by cubic interpolation.
+///
+/// Source: Catmull and Rom, "A Class of Local Interpolating Splines", 1974.
+/// Differs: beyond the ends the table goes on as the parabola through its last three values.
+/// Complexity and threads: 4^D values a lookup; const functions may be called from many threads.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace alhazen {
+
+template <std::size_t D>
+class CubicTable {
+  public:
+    using Point = std::array<double, D>;
+
+    CubicTable() = default;
+    /// `sizes`: number of values along each axis, at least 3. `function` of a Point.
+    template <class F>
+    CubicTable(const std::array<int, D>& sizes, const F& function) : sizes_(sizes) {
+        std::size_t count = 1;
+        for (const int size : sizes) count *= static_cast<std::size_t>(size);
+        values_.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            Point p;
+            std::size_t rest = i;
+            for (std::size_t axis = D; axis-- > 0;) {
+                const auto size = static_cast<std::size_t>(sizes[axis]);
+                p[axis] = static_cast<double>(rest % size) / static_cast<double>(size - 1);
+                rest /= size;
+            }
+            values_.push_back(function(p));
+        }
+    }
+
+    [[nodiscard]] double at(const Point& p) const { return along<0>(p, 0); }
+
+  private:
+    /// Value of the cubic through four neighbours, at t in [0, 1] between the middle ones.
+    static double cubic(double a, double b, double c, double d, double t) {
+        return b +
+               0.5 * t *
+                   (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
+    }
+
+    template <std::size_t Axis>
+    [[nodiscard]] double along(const Point& p, std::size_t start) const {
+        const int size = sizes_[Axis];
+        const double x = std::clamp(p[Axis], 0.0, 1.0) * (size - 1);
+        const int cell = std::min(static_cast<int>(x), size - 2);
+        const auto value = [&](int i) {
+            const std::size_t index =
+                start * static_cast<std::size_t>(size) + static_cast<std::size_t>(i);
+            if constexpr (Axis + 1 == D) {
+                return values_[index];
+            } else {
+                return along<Axis + 1>(p, index);
+            }
+        };
+        const double b = value(cell), c = value(cell + 1);
+        const double a = cell > 0 ? value(cell - 1) : 3.0 * b - 3.0 * c + value(cell + 2);
+        const double d = cell + 2 < size ? value(cell + 2) : 3.0 * c - 3.0 * b + a;
+        return cubic(a, b, c, d, x - cell);
+    }
+
+    std::array<int, D> sizes_{};
+    std::vector<double> values_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,29 @@
+#pragma once
+/// How much of the light rough surfaces give back after one reflection at their microfacets. What
+/// is missing to 1 met further facets.
+///
+/// Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
+/// course (what is missing, from a table); Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013
+/// course (the table in two parts for Schlick's formula).
+/// Differs: tables are computed when they are first used, by quadrature, not read; error below 5e-4
+/// for alpha >= 0.0025 and mu >= 0.01 (tests/unit/shading/bsdf/albedo_tables_test.cpp).
+/// Conventions: mu is the cosine of the view, 0..1; alpha the roughness of Ggx, 0..1.
+/// Complexity and threads: the first call takes some tenths of a second; any thread may make it.
+
+namespace alhazen {
+
+/// The light reflected with a Fresnel term of Schlick is f0 * at_f0 + f90 * at_f90.
+struct SplitAlbedo {
+    double at_f0 = 1, at_f90 = 0;
+
+    [[nodiscard]] double sum() const { return at_f0 + at_f90; }
+};
+
+[[nodiscard]] SplitAlbedo ggx_albedo(double mu, double alpha);
+/// The mean over the hemisphere, weighted by mu.
+[[nodiscard]] SplitAlbedo ggx_mean_albedo(double alpha);
+
+/// The same integral without a table.
+[[nodiscard]] SplitAlbedo integrate_ggx_albedo(double mu, double alpha);
+
+}  // namespace alhazen

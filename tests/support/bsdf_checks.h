@@ -1,0 +1,98 @@
+#pragma once
+/// What every BSDF must keep, and samples of each lobe.
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "alhazen/sampling/random.h"
+#include "alhazen/shading/bsdf/bsdf.h"
+#include "support/chi_square.h"
+
+namespace alhazen::testing {
+
+/// A view at this cosine to the normal.
+inline Vec3 view_at(double cosine, double turn = 0.4) {
+    const double s = std::sqrt(1.0 - cosine * cosine);
+    return {s * std::cos(turn), s * std::sin(turn), cosine};
+}
+
+/// Light from a white surrounding that goes to `view`, by `samples` points of a Kronecker lattice.
+inline Rgb furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 16) {
+    // Powers of the root of x^4 = x + 1 (Roberts 2018).
+    constexpr double kA = 0.8191725133961645, kB = 0.6710436067037893, kC = 0.5497004779019703;
+    const auto part = [](double x) { return x - std::floor(x); };
+    Rgb sum;
+    for (int i = 0; i < samples; ++i) {
+        const auto sample =
+            bsdf.sample(view, part(0.5 + kA * i), {part(0.5 + kB * i), part(0.5 + kC * i)},
+                        Transport::Importance);
+        if (sample) sum += sample->weight;
+    }
+    return (1.0 / samples) * sum;
+}
+
+/// A direction anywhere on the sphere.
+inline Vec3 any_direction(RandomStream& random) {
+    const double z = random.uniform(-1, 1), turn = random.uniform(0, 2.0 * kPi);
+    const double s = std::sqrt(1.0 - z * z);
+    return {s * std::cos(turn), s * std::sin(turn), z};
+}
+
+/// Chi-square probability of the directions that `bsdf` samples with a density.
+inline double sample_probability(const Bsdf& bsdf, const Vec3& view, std::uint64_t seed,
+                                 std::size_t samples = 200000) {
+    RandomStream random(seed);
+    std::vector<std::size_t> counts(SphereCells::kCount);
+    std::size_t singular = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        const double choice = random.uniform();
+        const Vec2 u{random.uniform(), random.uniform()};
+        const auto sample = bsdf.sample(view, choice, u, Transport::Radiance);
+        if (!sample) continue;
+        if (sample->singular) {
+            ++singular;
+        } else {
+            ++counts[static_cast<std::size_t>(SphereCells::cell_of(sample->direction))];
+        }
+    }
+    auto shares = integrate_cells([&](const Vec3& d) { return bsdf.density(view, d); });
+    (void)singular;
+    return chi_square_probability(shares, counts, samples);
+}
+
+struct NamedBsdf {
+    std::string name;
+    Bsdf bsdf;
+};
+
+inline Bsdf bsdf_of_lobe(const Lobe& lobe, const Rgb& weight = {1, 1, 1}) {
+    Bsdf bsdf;
+    bsdf.add(weight, lobe);
+    return bsdf;
+}
+
+/// Every lobe that has a density, at several roughnesses; all of albedo 1 but sheen.
+inline std::vector<NamedBsdf> lobes_with_density(const std::vector<double>& roughnesses) {
+    std::vector<NamedBsdf> list;
+    const auto add = [&](std::string name, const Lobe& lobe) {
+        list.push_back({std::move(name), bsdf_of_lobe(lobe)});
+    };
+    add("Lambert", Lambert{});
+    add("Lambert, transmitted", LambertTransmission{});
+    for (const double r : roughnesses) {
+        const std::string at = ", roughness " + std::to_string(r);
+        const double alpha = r * r, exponent = 2.0 / (alpha * alpha) - 2.0;
+        add("Oren-Nayar" + at, OrenNayar{{1, 1, 1}, r});
+        add("rough mirror" + at, RoughReflection({alpha, alpha}, SchlickTerm{}));
+        add("rough sheet" + at, RoughSheet({alpha, alpha}));
+        add("rough glass" + at, RoughDielectric(alpha, 1.0 / 1.5, {1, 1, 1}, {1, 1, 1}));
+        add("rough glass from inside" + at, RoughDielectric(alpha, 1.5, {1, 1, 1}, {1, 1, 1}));
+        add("Phong" + at, Phong(exponent));
+        add("Blinn-Phong" + at, BlinnPhong(exponent));
+    }
+    return list;
+}
+
+}  // namespace alhazen::testing

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "alhazen/shading/microfacets/dielectric_albedo.h"
+#include "alhazen/shading/microfacets/gauss_legendre.h"
+#include "alhazen/shading/microfacets/ggx_albedo.h"
+#include "alhazen/shading/microfacets/lobe_albedo.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+constexpr double kRoughnesses[] = {0.05, 0.13, 0.21, 0.34, 0.47, 0.55, 0.68, 0.79, 0.91, 1.0};
+constexpr double kCosines[] = {0.01, 0.03, 0.07, 0.15, 0.33, 0.52, 0.71, 0.88, 1.0};
+
+TEST(AlbedoTables, GgxIsItsIntegral) {
+    for (const double r : kRoughnesses) {
+        for (const double mu : kCosines) {
+            const SplitAlbedo table = ggx_albedo(mu, r * r),
+                              exact = integrate_ggx_albedo(mu, r * r);
+            EXPECT_NEAR(table.at_f0, exact.at_f0, 5e-4) << r << " " << mu;
+            EXPECT_NEAR(table.at_f90, exact.at_f90, 5e-4) << r << " " << mu;
+        }
+    }
+}
+
+TEST(AlbedoTables, DielectricsAreTheirIntegrals) {
+    for (const double r : {0.05, 0.21, 0.47, 0.79, 1.0}) {
+        for (const double mu : {0.05, 0.15, 0.52, 0.88}) {
+            for (const double eta : {0.45, 0.667, 0.9, 1.1, 1.33, 1.5, 2.4}) {
+                EXPECT_NEAR(dielectric_albedo(mu, r * r, eta).sum,
+                            integrate_dielectric_albedo(mu, r * r, eta).sum, 2e-3)
+                    << r << " " << mu << " " << eta;
+            }
+        }
+    }
+}
+
+TEST(AlbedoTables, SmoothSurfacesLoseNothing) {
+    EXPECT_NEAR(ggx_albedo(0.5, 1e-5).sum(), 1.0, 1e-4);
+    EXPECT_NEAR(ggx_mean_albedo(1e-5).sum(), 1.0, 1e-3);
+    EXPECT_NEAR(dielectric_albedo(0.5, 1e-5, 0.667).sum, 1.0, 1e-3);
+    EXPECT_NEAR(phong_albedo(0.5, 0.002), 1.0, 1e-3);
+    EXPECT_NEAR(blinn_albedo(0.5, 0.002), 1.0, 1e-3);
+}
+
+TEST(AlbedoTables, NormalIncidenceOnTheRoughestSurfaceHasAClosedForm) {
+    // alpha 1: microfacets are a hemisphere, G2 / G1 = 2 l / (1 + l), of l even in 0..1.
+    EXPECT_NEAR(integrate_ggx_albedo(1.0, 1.0).sum(), 1.0 - std::log(2.0), 1e-6);
+}
+
+TEST(AlbedoTables, GaussAndLegendreIntegratePolynomials) {
+    const GaussLegendre<6> rule;
+    double sum = 0;
+    for (std::size_t i = 0; i < 6; ++i) sum += rule.weights[i] * std::pow(rule.points[i], 11);
+    EXPECT_NEAR(sum, 1.0 / 12, 1e-15);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE

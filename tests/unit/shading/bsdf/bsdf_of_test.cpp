@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include "alhazen/shading/bsdf/bsdf_of.h"
+#include "alhazen/shading/optics/fresnel.h"
+#include "support/bsdf_checks.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+Bsdf of(const Material& m, const BsdfPlace& place = {}) {
+    return bsdf_of(m, {}, {}, place);
+}
+Material glass(double index, double thickness) {
+    Material m;
+    m.index.value = index;
+    MetallicRoughness p;
+    p.metallic.value = p.roughness.value = 0;
+    p.transmission.value = 1;
+    p.thickness.value = thickness;
+    m.metallic_roughness = p;
+    return m;
+}
+
+TEST(BsdfOf, AMattMaterialOfWhittedIsLambert) {
+    Material m;
+    m.diffuse.color = {0.6, 0.4, 0.2};
+    const Bsdf bsdf = of(m);
+    EXPECT_NEAR(bsdf.value(view_at(0.5), view_at(0.2), Transport::Radiance).r, 0.6 / kPi, 1e-15);
+    EXPECT_EQ(bsdf.albedo(view_at(0.5)), (Rgb{0.6, 0.4, 0.2}));
+    EXPECT_TRUE(bsdf.has_density());
+    EXPECT_FALSE(bsdf.transmits());
+}
+
+TEST(BsdfOf, TheMiddleOfAHighlightIsAsBrightAsWhitteds) {
+    Material m;
+    m.specular.color = {0.4, 0.4, 0.4};
+    m.shininess.value = 50;
+    // A light of intensity 1 gives the irradiance pi, and Whitted's equation ks (N.H)^ns = ks.
+    EXPECT_NEAR(kPi * of(m).value({0, 0, 1}, {0, 0, 1}, Transport::Radiance).r, 0.4, 0.004);
+}
+
+TEST(BsdfOf, CoefficientsAboveOneTogetherAreScaledDown) {
+    Material m;
+    m.diffuse.color = {0.9, 0.1, 0.1};
+    m.reflective.color = {0.9, 0.9, 0.9};
+    m.transmissive.color = {0.2, 0.2, 0.2};
+    m.index.value = 1.0;
+    const Rgb sum = furnace(of(m), view_at(0.6));
+    EXPECT_NEAR(sum.r, 1.0, 1e-3);
+    EXPECT_NEAR(sum.g, 1.2 / 2.0, 1e-3);
+}
+
+TEST(BsdfOf, GlassReflectsFourPercentAndBendsTheRest) {
+    const auto s = of(glass(1.5, 1)).sample({0, 0, 1}, 0.01, {}, Transport::Radiance);
+    ASSERT_TRUE(s && s->direction.z > 0.0);
+    EXPECT_NEAR(s->density, 0.04, 1e-12);
+    const auto t = of(glass(1.5, 1)).sample(view_at(0.6), 0.99, {}, Transport::Radiance);
+    EXPECT_NEAR(t->eta, 1.5, 1e-12);
+    const auto inside = of(glass(1.5, 1), {.from_inside = true})
+                            .sample(view_at(0.9), 0.99, {}, Transport::Radiance);
+    EXPECT_NEAR(inside->eta, 1 / 1.5, 1e-12);
+}
+
+TEST(BsdfOf, TheIndexOfAWallIsThatOfItsPlace) {
+    const auto s =
+        of(glass(1.5, 1), {.eta = 1.33 / 1.5}).sample(view_at(0.6), 0.999, {}, Transport::Radiance);
+    EXPECT_NEAR(s->eta, 1.5 / 1.33, 1e-12);
+}
+
+TEST(BsdfOf, AThinSheetOfGlassDoesNotBend) {
+    const Vec3 view = view_at(0.6);
+    const auto s = of(glass(1.5, 0)).sample(view, 0.99, {}, Transport::Radiance);
+    ASSERT_TRUE(s && s->singular);
+    EXPECT_EQ(s->direction, -view);
+}
+
+TEST(BsdfOf, AnIndexOfZeroReflectsAll) {
+    Material m = glass(0, 1);
+    const Bsdf bsdf = of(m);
+    for (const double choice : {0.0, 0.5, 0.99}) {
+        const auto s = bsdf.sample(view_at(0.6), choice, {}, Transport::Radiance);
+        ASSERT_TRUE(s);
+        EXPECT_GT(s->direction.z, 0.0);
+    }
+}
+
+TEST(BsdfOf, SpecularTintsAndWeakensTheFace) {
+    Material m = glass(1.5, 0);
+    m.metallic_roughness->transmission.value = 0;
+    m.metallic_roughness->base_color.color = {0, 0, 0};
+    m.metallic_roughness->specular.value = 0.5;
+    m.metallic_roughness->specular_color.color = {1, 0.5, 0};
+    const auto s = of(m).sample({0, 0, 1}, 0.5, {}, Transport::Radiance);
+    ASSERT_TRUE(s);
+    EXPECT_NEAR(s->weight.r, 0.02, 1e-12);
+    EXPECT_NEAR(s->weight.g, 0.01, 1e-12);
+    EXPECT_EQ(s->weight.b, 0.0);
+}
+
+TEST(BsdfOf, ACoatAddsAHighlightAndDarkensWhatLiesBelow) {
+    Material m;
+    MetallicRoughness p;
+    p.metallic.value = 0;
+    p.roughness.value = 1;
+    p.specular.value = 0;
+    p.base_color.color = {0.5, 0.5, 0.5};
+    m.metallic_roughness = p;
+    m.index.value = 1.5;
+    const Bsdf bare = of(m);
+    m.metallic_roughness->coat.strength.value = 1;
+    const Bsdf coated = of(m);
+    const Vec3 v = view_at(0.5), l = view_at(0.9);
+    const double left = 1.0 - (0.04 + 0.96 * schlick_weight(0.5));
+    EXPECT_NEAR(coated.value(v, l, Transport::Radiance).r,
+                left * bare.value(v, l, Transport::Radiance).r, 1e-12);
+    EXPECT_NEAR(furnace(coated, v).r, 1.0 - left + left * 0.5, 1e-3);
+}
+
+TEST(BsdfOf, GroovesStretchTheHighlightAcrossThem) {
+    Material m;
+    MetallicRoughness p;
+    p.roughness.value = 0.3;
+    p.anisotropy.strength = 0.9;
+    m.metallic_roughness = p;
+    const Vec3 v{0, 0, 1}, along = normalize(Vec3{0.4, 0, 1}), across = normalize(Vec3{0, 0.4, 1});
+    const auto value = [&](const Vec3& l) { return of(m).value(v, l, Transport::Radiance).r; };
+    EXPECT_GT(value(along), 3.0 * value(across));
+    m.metallic_roughness->anisotropy.rotation = kPi / 2;
+    EXPECT_GT(value(across), 3.0 * value(along));
+}
+
+TEST(BsdfOf, UnlitScattersNothing) {
+    Material m;
+    m.metallic_roughness = MetallicRoughness{};
+    m.metallic_roughness->unlit = true;
+    EXPECT_EQ(of(m).lobe_count(), 0u);
+    EXPECT_FALSE(of(m).sample(view_at(0.5), 0.5, {0.5, 0.5}, Transport::Radiance));
+}
+
+TEST(BsdfOf, ARoughConductorHasTheColourOfItsMetal) {
+    Material m;
+    m.conductor = Conductor{{0.222, 0.428, 1.334}, {3.208, 2.461, 1.872}, "gold"};
+    m.roughness.value = 0.3;
+    const Rgb c = furnace(of(m), view_at(0.9));
+    EXPECT_NEAR(c.r, 0.92, 0.02);
+    EXPECT_NEAR(c.b, 0.40, 0.02);
+}
+
+TEST(BsdfOf, AClearBodyGivesBackAllLightHoweverRough) {
+    Material m;
+    m.dielectric = Dielectric{};
+    m.index.value = 1.5;
+    for (const double r : {0.0, 0.4, 1.0}) {
+        m.roughness.value = r;
+        EXPECT_NEAR(furnace(of(m), view_at(0.4)).r, 1.0, 1e-3);
+        EXPECT_NEAR(furnace(of(m, {.from_inside = true}), view_at(0.4)).r, 1.0, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE

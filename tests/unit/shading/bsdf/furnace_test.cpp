@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include "alhazen/shading/bsdf/bsdf_of.h"
+#include "support/bsdf_checks.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+const std::vector<double> kRoughnesses = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1, 0.05};
+
+void expect_furnace(const NamedBsdf& b, double expected) {
+    for (const double cosine : kViews) {
+        const Rgb sum = furnace(b.bsdf, view_at(cosine));
+        EXPECT_NEAR(sum.r, expected, 1e-3 * expected) << b.name << ", view " << cosine;
+    }
+}
+
+TEST(Furnace, EveryWhiteLobeGivesBackAllLight) {
+    for (const NamedBsdf& b : lobes_with_density(kRoughnesses)) expect_furnace(b, 1.0);
+}
+
+TEST(Furnace, EveryLobeOfWeightOneHalfGivesBackHalf) {
+    for (const NamedBsdf& b : lobes_with_density({0.05, 0.3, 0.6, 1.0})) {
+        Bsdf half;
+        half.add(b.bsdf, 0.5);
+        expect_furnace({b.name, half}, 0.5);
+    }
+}
+
+TEST(Furnace, AlbedoIsWhatTheFurnaceShows) {
+    const Rgb grey{0.5, 0.5, 0.5};
+    for (const double r : {0.05, 0.2, 0.5, 0.8, 1.0}) {
+        const double alpha = r * r;
+        const std::vector<NamedBsdf> list = {
+            {"Oren-Nayar", bsdf_of_lobe(OrenNayar{grey, r})},
+            {"rough mirror of 0.5",
+             bsdf_of_lobe(RoughReflection({alpha, alpha}, SchlickTerm{grey, grey}))},
+            {"rough plastic face",
+             bsdf_of_lobe(
+                 RoughReflection({alpha, alpha}, SchlickTerm{{0.04, 0.04, 0.04}, {1, 1, 1}}))},
+            {"rough tinted glass", bsdf_of_lobe(RoughDielectric(alpha, 1 / 1.5, grey, grey))},
+        };
+        for (const NamedBsdf& b : list) {
+            for (const double cosine : kViews) {
+                const Vec3 view = view_at(cosine);
+                EXPECT_NEAR(furnace(b.bsdf, view).r, b.bsdf.albedo(view).r, 1e-3)
+                    << b.name << ", roughness " << r << ", view " << cosine;
+            }
+        }
+    }
+}
+
+Bsdf bsdf_of_parameters(const MetallicRoughness& p, double index = 1.5, bool inside = false) {
+    Material m;
+    m.index.value = index;
+    m.metallic_roughness = p;
+    return bsdf_of(m, {}, {}, {.from_inside = inside});
+}
+
+/// White materials of the glTF model, whose layers lose nothing.
+std::vector<NamedBsdf> white_materials(double roughness) {
+    std::vector<NamedBsdf> list;
+    const auto add = [&](std::string name, const auto& change, bool inside = false) {
+        MetallicRoughness p;
+        p.roughness.value = roughness;
+        p.metallic.value = 0;
+        change(p);
+        list.push_back({name + ", roughness " + std::to_string(roughness),
+                        bsdf_of_parameters(p, 1.5, inside)});
+    };
+    add("metal", [](auto& p) { p.metallic.value = 1; });
+    add("plastic", [](auto&) {});
+    add("half metal", [](auto& p) { p.metallic.value = 0.5; });
+    add("thin glass", [](auto& p) { p.transmission.value = 1; });
+    add("frosted volume", [](auto& p) { p.transmission.value = 1, p.thickness.value = 1; });
+    add(
+        "frosted volume from inside",
+        [](auto& p) { p.transmission.value = 1, p.thickness.value = 1; }, true);
+    add("coated plastic", [](auto& p) { p.coat.strength.value = 1; });
+    add("rough coat over metal", [](auto& p) {
+        p.metallic.value = 1, p.coat.strength.value = 0.7, p.coat.roughness.value = 0.4;
+    });
+    add("velvet", [](auto& p) {
+        p.sheen.color.color = {0.6, 0.6, 0.6}, p.sheen.roughness.value = 0.5;
+    });
+    add("coated velvet metal", [](auto& p) {
+        p.metallic.value = 1, p.coat.strength.value = 0.5, p.sheen.color.color = {1, 1, 1};
+        p.sheen.roughness.value = 0.3;
+    });
+    return list;
+}
+
+TEST(Furnace, WhiteMaterialsOfManyLayersGiveBackAllLight) {
+    for (const double r : {0.0, 0.05, 0.3, 0.6, 1.0}) {
+        for (const NamedBsdf& b : white_materials(r)) expect_furnace(b, 1.0);
+    }
+}
+
+TEST(Furnace, NoMaterialGivesBackMoreThanItGets) {
+    for (const double r : {0.0, 0.2, 0.5, 1.0}) {
+        MetallicRoughness p;
+        p.roughness.value = r;
+        p.film.strength.value = 1;
+        std::vector<NamedBsdf> list;
+        for (const double metallic : {0.0, 1.0}) {
+            p.metallic.value = metallic;
+            for (const double nm : {100.0, 280.0, 400.0, 550.0}) {
+                p.film.thickest_nm = nm;
+                list.push_back({"film " + std::to_string(nm), bsdf_of_parameters(p)});
+            }
+        }
+        p.film.strength.value = 0;
+        p.anisotropy.strength = 1;
+        list.push_back({"grooves", bsdf_of_parameters(p)});
+        list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1}, r})});
+        for (const NamedBsdf& b : list) {
+            for (const double cosine : kViews) {
+                EXPECT_LE(furnace(b.bsdf, view_at(cosine), 1 << 14).max(), 1.002)
+                    << b.name << ", roughness " << r << ", view " << cosine;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
