@@ -23,7 +23,7 @@
 namespace alhazen {
 
 /// Where in a light it begins: for `Illumination::point_of_light`.
-struct LightPlace {
+struct PlaceInLight {
     std::size_t source = 0;  ///< number of the light
     Vec2 parameters;
 };
@@ -38,7 +38,7 @@ struct LightDraw {
                             ///< 0: no light from there
     bool singular = false;  ///< no other strategy finds this light
     RayMask passes = kAllRays;  ///< mask for the shadow ray
-    LightPlace place;
+    PlaceInLight place;
 };
 
 /// A ray of light as it leaves its source. Its power is radiance * cosine / (both densities).
@@ -52,7 +52,7 @@ struct LightRay {
     bool singular_direction = false;  ///< parallel light
     bool infinite = false;            ///< of the environment or parallel: it starts outside the
                                       ///< scene, and its place lies on a disc across its direction
-    LightPlace place;
+    PlaceInLight place;
 };
 
 /// How one of many lights is chosen.
@@ -110,7 +110,7 @@ class Illumination {
         bool infinite = false;  ///< without a place
         bool is_hit = false;    ///< rays can hit it
     };
-    [[nodiscard]] LightPoint point_of_light(const LightPlace& place, const Vec3& point) const;
+    [[nodiscard]] LightPoint point_of_light(const PlaceInLight& place, const Vec3& point) const;
     /// With which `emit` gives a ray from there along `direction`.
     [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction) const;
     /// With which `draw(at)` gives it; as LightDraw::density, but for a light that no ray hits by

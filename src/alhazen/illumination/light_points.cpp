@@ -25,7 +25,7 @@ Vec3 normal_at(const Emitter& e, const Vec3& point, const Vec2& parameters) {
 
 }  // namespace
 
-Illumination::LightPoint Illumination::point_of_light(const LightPlace& place,
+Illumination::LightPoint Illumination::point_of_light(const PlaceInLight& place,
                                                       const Vec3& point) const {
     const Data& d = *data_;
     LightPoint at{.source = place.source, .parameters = place.parameters};
