@@ -7,8 +7,8 @@
 /// its faces or patches. Left out, so that only rays that happen to hit them find their light: what
 /// moves, surfaces of constructive solids, what reflected rays do not see, unlit materials, forms
 /// without a case in `emitters_of_shape`, and all beyond kMostEmitters.
-/// Complexity: O(primitives); a lookup O(depth log emitters). Threads: const functions may be called
-/// from many.
+/// Complexity: O(primitives); a lookup O(depth log emitters). Threads: const functions may be
+/// called from many.
 
 #include <cstddef>
 #include <map>

@@ -66,9 +66,10 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
         set(loaded, settings_of(text, limits));
         const std::size_t bad = loaded.scene.environment->bad_texels();
         if (bad == 0) return {};
-        return {fmt::format("warning: {} texels of the environment are negative, infinite or no "
-                            "numbers, and are taken as black",
-                            bad)};
+        return {
+            fmt::format("warning: {} texels of the environment are negative, infinite or no "
+                        "numbers, and are taken as black",
+                        bad)};
     }
     const Scene& scene = loaded.scene;
     const bool dark = !scene.environment && scene.background.is_black() &&

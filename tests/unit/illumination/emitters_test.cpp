@@ -141,11 +141,11 @@ TEST(Emitters, ARectangleLightsAPlaneByTheClosedForm) {
     r.edge_v = {1, 0, 0};
     const Scene scene = lamp_of(r, {}, false);
     const Illumination lights(scene);
-    // Siegel and Howell, configuration factor of a parallel rectangle with a corner above the point.
+    // Siegel and Howell, configuration factor of a parallel rectangle with a corner above the
+    // point.
     const double a = 1.0 / 1.5, b = 2.0 / 1.5;
     const double sa = std::sqrt(1 + a * a), sb = std::sqrt(1 + b * b);
-    const double factor =
-        (a / sa * std::atan(b / sa) + b / sb * std::atan(a / sb)) / (2.0 * kPi);
+    const double factor = (a / sa * std::atan(b / sa) + b / sb * std::atan(a / sb)) / (2.0 * kPi);
     const Rgb found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 40000);
     EXPECT_NEAR(found.r / (kPi * 2.0 * factor), 1.0, 2e-3);
 }

@@ -82,8 +82,7 @@ class Atmosphere {
             const double sun = dot(at, to_sun) / length(at);
             const Rgb lit = transmittance(length(at), sun) *
                             (rayleigh * m.rayleigh + (mie * m.mie) * Rgb{1, 1, 1});
-            const Rgb more = multiple(length(at), sun) *
-                             (m.rayleigh + m.mie * Rgb{1, 1, 1});
+            const Rgb more = multiple(length(at), sun) * (m.rayleigh + m.mie * Rgb{1, 1, 1});
             const Rgb passes = exp_of(-step * m.extinction);
             sum += through * quotient((lit + more) * (Rgb{1, 1, 1} - passes), m.extinction);
             through = through * passes;
@@ -182,7 +181,8 @@ class Atmosphere {
                 const Rgb scatters = m.rayleigh + m.mie * Rgb{1, 1, 1};
                 const Rgb here =
                     through * quotient(scatters * (Rgb{1, 1, 1} - passes), m.extinction);
-                second += 1.0 / (4.0 * kPi) * here * transmittance(radius, dot(at, to_sun) / radius);
+                second +=
+                    1.0 / (4.0 * kPi) * here * transmittance(radius, dot(at, to_sun) / radius);
                 share += here;
                 through = through * passes;
             }
@@ -190,8 +190,7 @@ class Atmosphere {
             const Vec3 at = Vec3{0, 0, r} + way.length * d;
             const double cosine = dot(at, to_sun) / length(at);
             if (cosine > 0.0) {
-                second += cosine / kPi * through * ground_ *
-                          transmittance(kGround + 1e-3, cosine);
+                second += cosine / kPi * through * ground_ * transmittance(kGround + 1e-3, cosine);
             }
         }
         const double mean = 1.0 / (kGrid * kGrid);

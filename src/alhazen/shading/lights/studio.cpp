@@ -18,11 +18,10 @@ struct SoftBox {
 };
 
 constexpr SoftBox kSoftBoxes[] = {
-    {-140, 42, 46, 46, 9.0},  // main, over the left shoulder
-    {120, 18, 30, 60, 3.2},   // fill, to the right
-    {55, 25, 12, 70, 6.0},    // rims, from behind what is seen
-    {-50, 22, 9, 64, 5.0},
-    {0, 88, 60, 40, 3.0},     // above
+    {-140, 42, 46, 46, 9.0},                        // main, over the left shoulder
+    {120, 18, 30, 60, 3.2},                         // fill, to the right
+    {55, 25, 12, 70, 6.0},                          // rims, from behind what is seen
+    {-50, 22, 9, 64, 5.0},   {0, 88, 60, 40, 3.0},  // above
 };
 constexpr double kSoftEdge = 0.12;  ///< of half the size
 
