@@ -211,6 +211,7 @@ int run(const RenderArguments& args) {
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
         throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
     }
+    check_environment(args.environment, options.renderer);
     check_accelerator(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);

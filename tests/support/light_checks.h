@@ -88,7 +88,7 @@ struct DirectionCone {
 /// chance. Draws out of the cone, or none, are a bin too.
 inline double draw_p_value(const Scene& scene, const Illumination& lights, const LitPoint& at,
                            const DirectionCone& cone, std::uint64_t seed, int draws = 10000,
-                           int rays = 12) {
+                           int rays = 10) {
     constexpr int kBins = 12;
     const Vec3 x = perpendicular(cone.axis), y = cross(cone.axis, x);
     const auto direction = [&](double u, double v) {

@@ -175,6 +175,82 @@ TEST(Emitters, InstancesAreLightsOfTheirOwn) {
     EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 5)), 3.5);
 }
 
+/// A material whose emission is a picture.
+Material pictured(SceneMaker& maker) {
+    Image image(4, 4, 3);
+    for (std::size_t i = 0; i < image.samples.size(); ++i) {
+        image.samples[i] = static_cast<float>(i * 7 % 11);
+    }
+    Texture texture;
+    texture.image = std::make_shared<const StoredImage>(stored(image));
+    maker.description().textures.push_back({"picture", texture, {}});
+    Material m = shining({1, 1, 1});
+    m.emission.texture = TextureId{0};
+    return m;
+}
+
+TEST(Emitters, APictureOfEmissionIsDrawnAsItIsSeen) {
+    for (const int kind : {0, 1, 2, 3}) {
+        SceneMaker maker;
+        const MaterialId m = maker.material(pictured(maker));
+        const ObjectIndex inner = maker.object("inner");
+        if (kind == 0) maker.add(rectangle_lamp(), m, {}, inner);
+        if (kind == 1) maker.add(Sphere{{0, 0, 3}, 0.8}, m, {}, inner);
+        if (kind == 2) maker.add(cylinder_lamp(true), m, {}, inner);
+        if (kind == 3) {
+            TriangleMesh mesh;
+            mesh.positions = {{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}};
+            mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+            mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+            maker.add(maker.mesh(mesh), m, {}, inner);
+        }
+        maker.add(inner, {}, kSkew);
+        maker.add(inner, {}, Affine::translate({3, 0, 0}));
+        const Scene scene = maker.compile();
+        const Illumination lights(scene);
+        expect_equal_densities(scene, lights, kAt, 1e-5);
+        EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 17)), 4.0) << kind;
+    }
+}
+
+TEST(Emitters, OfNoAreaAreNeverDrawn) {
+    SceneMaker maker;
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 3}, {1, 0, 3}, {2, 0, 3}, {0, 0, 3}, {0, 1, 3}, {1e-200, 0, 3}};
+    mesh.triangles = {{0, 1, 2}, {0, 0, 0}, {0, 3, 4}, {0, 5, 4}};
+    const MaterialId m = maker.material(shining({1, 1, 1}));
+    maker.add(maker.mesh(mesh), m);
+    const Scene scene = maker.compile();
+    for (const LightChoice choice : {LightChoice::Uniform, LightChoice::Power, LightChoice::Tree}) {
+        const Illumination lights(scene, {.choice = choice});
+        for (int i = 0; i < 100; ++i) {
+            const LightDraw draw = lights.draw(kAt, i / 100.0, {0.3, i / 100.0});
+            EXPECT_TRUE(std::isfinite(draw.density) && draw.radiance.is_finite());
+            EXPECT_FALSE(std::isnan(draw.to_light.x));
+        }
+        (void)lights.emit(0.5, {0.5, 0.5}, {0.5, 0.5});
+    }
+}
+
+TEST(Emitters, AreFoundByEachWayOfChoosing) {
+    SceneMaker maker;
+    const MaterialId m = maker.material(shining({1, 2, 3}, false));
+    RandomStream random(12);
+    for (int i = 0; i < 12; ++i) {
+        Rectangle r = rectangle_lamp();
+        r.corner = {random.uniform(-4, 3), random.uniform(-4, 3), random.uniform(2, 5)};
+        maker.add(r, m);
+        maker.add(Sphere{{random.uniform(-4, 4), random.uniform(-4, 4), 6}, 0.3}, m);
+    }
+    maker.description().picture.background = Rgb{0.05, 0.05, 0.05};
+    const Scene scene = maker.compile();
+    for (const LightChoice choice : {LightChoice::Uniform, LightChoice::Power, LightChoice::Tree}) {
+        const Illumination lights(scene, {.choice = choice});
+        expect_equal_densities(scene, lights, kAt, 1e-5);
+        EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 21)), 4.0) << int(choice);
+    }
+}
+
 TEST(Emitters, WhatDoesNotFaceThePointGivesNothing) {
     Rectangle up = rectangle_lamp();
     std::swap(up.edge_u, up.edge_v);

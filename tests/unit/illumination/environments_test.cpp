@@ -43,7 +43,7 @@ EnvironmentSettings settings_of(EnvironmentKind kind) {
 /// Directions in bins of equal solid angle, the density there, and draws: chi-square.
 template <class Sample, class Density>
 double p_value_on_sphere(Sample&& sample, Density&& density, std::uint64_t seed) {
-    constexpr int kRows = 10, kColumns = 20, kFine = 40, kDraws = 20000;
+    constexpr int kRows = 10, kColumns = 20, kFine = 24, kDraws = 20000;
     const auto direction = [](double row, double column) {
         const double z = 1.0 - 2.0 * row / kRows, a = 2.0 * kPi * column / kColumns - kPi;
         const double r = std::sqrt(std::max(0.0, 1.0 - z * z));

@@ -65,7 +65,7 @@ class Atmosphere {
 
     /// Light from `view` (zenith at z) at a radius, for a sun of irradiance 1.
     [[nodiscard]] Rgb radiance(const Vec3& view, const Vec3& to_sun) const {
-        constexpr int kSteps = 48;
+        constexpr int kSteps = 32;
         const double r = kGround + kEye, mu = view.z;
         const Way way = way_of(r, mu);
         const double cosine = dot(view, to_sun);
@@ -91,7 +91,7 @@ class Atmosphere {
     }
 
   private:
-    static constexpr int kHeights = 64, kCosines = 512, kFewHeights = 24, kFewCosines = 48;
+    static constexpr int kHeights = 48, kCosines = 384, kFewHeights = 16, kFewCosines = 32;
 
     struct Medium {
         Rgb rayleigh;  ///< scattering
@@ -128,7 +128,7 @@ class Atmosphere {
     }
 
     void make_transmittance() {
-        constexpr int kSteps = 64;
+        constexpr int kSteps = 40;
         for (int j = 0; j < kHeights; ++j) {
             const double r = radius_of(double(j) / (kHeights - 1));
             for (int i = 0; i < kCosines; ++i) {
@@ -162,7 +162,7 @@ class Atmosphere {
     }
 
     [[nodiscard]] Rgb multiple_at(double r, double sun) const {
-        constexpr int kGrid = 8, kSteps = 20;
+        constexpr int kGrid = 8, kSteps = 16;
         const Vec3 to_sun{std::sqrt(std::max(0.0, 1.0 - sun * sun)), 0, sun};
         Rgb second, share;  // scattered twice; what scatters once more of one
         for (int n = 0; n < kGrid * kGrid; ++n) {
@@ -215,7 +215,7 @@ void set_texel(Image& image, int x, int y, const Rgb& c) {
 }  // namespace
 
 ClearSky clear_sky(const Vec3& to_sun, double turbidity, const Rgb& ground) {
-    constexpr int kWidth = 512, kHeight = 256;
+    constexpr int kWidth = 256, kHeight = 256;  // the horizon needs rows
     const Atmosphere air(turbidity, ground);
     ClearSky sky{Image(kWidth, kHeight, 3), {}};
     const double r = kGround + kEye;
