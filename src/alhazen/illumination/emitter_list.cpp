@@ -29,9 +29,9 @@ Rgb emission_at(const Scene& scene, const Surface& surface) {
 
 EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
     if (!scene.aggregate) return;
-    const bool any = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                 [&](const Material& m) { return emits(m); });
-    if (!any) return;
+    may_shine_ = std::any_of(scene.materials.begin(), scene.materials.end(),
+                             [&](const Material& m) { return emits(m); });
+    if (!may_shine_) return;
     emitters_.reserve(count(*scene.aggregate).count());
     expand(*scene.aggregate, {});
     for (std::size_t i = 0; i < emitters_.size(); ++i) {

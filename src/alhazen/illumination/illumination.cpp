@@ -157,7 +157,7 @@ Illumination::Illumination(Illumination&&) noexcept = default;
 Illumination& Illumination::operator=(Illumination&&) noexcept = default;
 
 bool Illumination::shines() const {
-    return data_->near.total() > 0.0 || data_->far.total() > 0.0;
+    return data_->near.total() > 0.0 || data_->far.total() > 0.0 || data_->emitters.may_shine();
 }
 
 namespace {

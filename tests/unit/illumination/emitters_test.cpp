@@ -213,6 +213,43 @@ TEST(Emitters, APictureOfEmissionIsDrawnAsItIsSeen) {
     }
 }
 
+TEST(Emitters, WhatMovesIsLeftToChanceAndWhatRestsBesideItIsNot) {
+    SceneMaker maker;
+    const MaterialId m = maker.material(shining({1, 1, 1}));
+    maker.add(Sphere{{-1, 0, 3}, 0.4}, m);
+    maker.add(Sphere{{1, 0, 3}, 0.4}, m);
+    maker.add(rectangle_lamp(), m, Affine::translate({0, 0, 2}));
+    maker.description().objects[0].parts[1].motion = std::make_shared<const PartMotion>(
+        PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({1, 0, 0})}}, {}});
+    const Scene scene = maker.compile();
+    ASSERT_TRUE(scene.has_motion);
+    const Illumination lights(scene);
+    const auto density = [&](const Vec3& to) {
+        return density_along(scene, lights, kAt, normalize(to - kAt.point));
+    };
+    EXPECT_GT(density({-1, 0, 3}), 0.0);
+    for (int i = 0; i < 50; ++i) {
+        const LightDraw draw = lights.draw(kAt, i / 50.0, {0.4, 0.6});
+        EXPECT_FALSE(draw.density > 0.0 && draw.distance < 4.0 && draw.to_light.x > 0.2);
+    }
+    expect_equal_densities(scene, lights, kAt, 1e-5);
+}
+
+TEST(Emitters, SolidsOfConstructiveGeometryAreLeftToChance) {
+    SceneMaker maker;
+    const MaterialId m = maker.material(shining({1, 1, 1}));
+    const ObjectIndex cut = maker.object("cut");
+    maker.description().objects[1].combine = Combine::Difference;
+    maker.add(Sphere{{0, 0, 3}, 1}, m, {}, cut);
+    maker.add(Sphere{{0, 0, 2.5}, 0.8}, m, {}, cut);
+    maker.add(cut);
+    const Scene scene = maker.compile();
+    const Illumination lights(scene);
+    EXPECT_TRUE(lights.shines());
+    EXPECT_EQ(density_along(scene, lights, kAt, {0, 0, 1}), 0.0);
+    EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}).density, 0.0);
+}
+
 TEST(Emitters, OfNoAreaAreNeverDrawn) {
     SceneMaker maker;
     TriangleMesh mesh;
