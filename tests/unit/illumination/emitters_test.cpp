@@ -175,6 +175,42 @@ TEST(Emitters, InstancesAreLightsOfTheirOwn) {
     EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 5)), 3.5);
 }
 
+PatchMesh patch_mesh_lamp() {
+    PatchMesh mesh;
+    mesh.degree_u = mesh.degree_v = 1;
+    mesh.points = {{-1, -1, 3}, {-1, 1, 3.2}, {0, -1, 3.4}, {0, 1, 3}, {1, -1, 2.8}, {1, 1, 3.3}};
+    mesh.patches = {0, 1, 2, 3, 2, 3, 4, 5};
+    return mesh;
+}
+
+TEST(Emitters, OneSidedOnesShineToTheirOuterSideAlone) {
+    const LitPoint above{{0.2, 0.1, 7}, {0, 0, -1}, false};
+    for (const Affine& placement : {Affine{}, kSkew, kMirror, kMirror * kSkew}) {
+        std::vector<Scene> all;
+        all.push_back(lamp_of(rectangle_lamp(), placement, false));
+        all.push_back(lamp_of(Disc{{0, 0, 3}, {0.2, 0.1, -1}, 1}, placement, false));
+        all.push_back(lamp_of(Disc{{0, 0, 3}, {0.2, 0.1, 1}, 1}, placement, false));
+        all.push_back(lamp_of(polygon_lamp(), placement, false));
+        all.push_back(lamp_of(patch_lamp(), placement, false));
+        all.push_back(lamp_of(patch_mesh_lamp(), placement, false));
+        all.push_back(lamp_of(cylinder_lamp(true), placement, false));
+        all.push_back(lamp_of(BoxShape{{-0.7, -0.5, 2.5}, {0.8, 0.5, 3}}, placement, false));
+        all.push_back(lamp_of(Sphere{{0.3, 0, 3}, 0.8}, placement, false));
+        all.push_back(mesh_lamp(placement, false));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const Illumination lights(all[i]);
+            int lit = 0;
+            for (const LitPoint& at : {kAt, above}) {
+                const double z = irradiance_z(all[i], lights, at, 8000, 31 + i);
+                // No variance: it is dark there.
+                if (!std::isnan(z)) ++lit;
+                EXPECT_FALSE(std::abs(z) > 4.5) << i << " " << z;
+            }
+            EXPECT_GE(lit, 1) << i;
+        }
+    }
+}
+
 /// A material whose emission is a picture.
 Material pictured(SceneMaker& maker) {
     Image image(4, 4, 3);
