@@ -211,6 +211,7 @@ int run(const RenderArguments& args) {
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
         throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
     }
+    check_environment(args.environment, options.renderer);
     check_accelerator(args.scene.accelerator);
     if (!args.view.empty()) (void)parse_view(args.view);
     const std::vector<std::filesystem::path> outputs = checked_outputs(args, options);
@@ -332,10 +333,11 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Recursion depth, 0 = eye rays only; default: the format's")
         ->check(CLI::Range(0, 1000));
     command
-        ->add_option("--environment", args->environment,
-                     "What surrounds the scene, for renderers that follow light physically: a "
-                     "picture of all directions (.hdr .exr and others), a clear sky with its sun, a "
-                     "neutral studio; default: the scene's, or the studio where it has no light")
+        ->add_option(
+            "--environment", args->environment,
+            "What surrounds the scene, for renderers that follow light physically: a "
+            "picture of all directions (.hdr .exr and others), a clear sky with its sun, a "
+            "neutral studio; default: the scene's, or the studio where it has no light")
         ->type_name("FILE|sky|studio|none");
     command->add_option("--camera", args->render.camera, "Camera by name or position")
         ->type_name("NAME|INDEX");

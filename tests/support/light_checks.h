@@ -88,7 +88,7 @@ struct DirectionCone {
 /// chance. Draws out of the cone, or none, are a bin too.
 inline double draw_p_value(const Scene& scene, const Illumination& lights, const LitPoint& at,
                            const DirectionCone& cone, std::uint64_t seed, int draws = 10000,
-                           int rays = 12) {
+                           int rays = 10) {
     constexpr int kBins = 12;
     const Vec3 x = perpendicular(cone.axis), y = cross(cone.axis, x);
     const auto direction = [&](double u, double v) {
@@ -104,7 +104,8 @@ inline double draw_p_value(const Scene& scene, const Illumination& lights, const
         return density_along(scene, lights, at, direction(i / side, j / side));
     };
     for (int i = 0; i < side; ++i) {
-        for (int j = 0; j < side; ++j) coarse[std::size_t(i * side + j)] = at_cell(i + 0.5, j + 0.5);
+        for (int j = 0; j < side; ++j)
+            coarse[std::size_t(i * side + j)] = at_cell(i + 0.5, j + 0.5);
     }
     const auto differs = [&](int i, int j) {
         const double here = coarse[std::size_t(i * side + j)];
@@ -208,9 +209,9 @@ inline double irradiance_z(const Scene& scene, const Illumination& lights, const
         const double cosine = dot(at.normal, draw.to_light);
         double drawn = 0.0;
         if (draw.density > 0.0 && cosine > 0.0) {
-            const Ray shadow{at.point, draw.to_light, 1e-9,
-                             std::isfinite(draw.distance) ? draw.distance * (1.0 - 1e-7)
-                                                          : kInfinity};
+            const Ray shadow{
+                at.point, draw.to_light, 1e-9,
+                std::isfinite(draw.distance) ? draw.distance * (1.0 - 1e-7) : kInfinity};
             if (!scene.aggregate->occluded(shadow, {nullptr, draw.passes})) {
                 drawn = cosine / draw.density * draw.radiance.g;
             }

@@ -14,6 +14,7 @@
 
 #include "alhazen/imaging/codecs/stored_image.h"
 #include "alhazen/scene_model/scene_description.h"
+#include "alhazen/shading/lights/ies_profile.h"
 
 namespace alhazen::testing {
 
@@ -228,15 +229,24 @@ inline bool same(const DirectionalLight& a, const DirectionalLight& b) {
     const auto& [b1, b2, b3, b4] = b;
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
 }
+inline bool same(const LightProfile& a, const LightProfile& b) {
+    const auto& [file_a, profile_a, down_a, front_a] = a;
+    const auto& [file_b, profile_b, down_b, front_b] = b;
+    (void)file_a, (void)file_b;
+    const bool same_text = (profile_a == nullptr) == (profile_b == nullptr) &&
+                           (!profile_a || profile_a->text() == profile_b->text());
+    return same_text && (!profile_a || (same(down_a, down_b) && same(front_a, front_b)));
+}
 inline bool same(const PointLight& a, const PointLight& b) {
-    const auto& [a1, a2, a3, a4, a5, a6] = a;
-    const auto& [b1, b2, b3, b4, b5, b6] = b;
-    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6);
+    const auto& [a1, a2, a3, a4, a5, a6, profile_a] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, profile_b] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6) && same(profile_a, profile_b);
 }
 inline bool same(const SpotLight& a, const SpotLight& b) {
-    const auto& [a1, a2, a3, a4, a5, a6, a7, a8] = a;
-    const auto& [b1, b2, b3, b4, b5, b6, b7, b8] = b;
-    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8);
+    const auto& [a1, a2, a3, a4, a5, a6, a7, a8, profile_a] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7, b8, profile_b] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7, a8, b8) &&
+           same(profile_a, profile_b);
 }
 inline bool same(const RectangleExtent& a, const RectangleExtent& b) {
     const auto& [a1, a2, a3] = a;
@@ -416,20 +426,19 @@ bool all_same(const A& a, const B& b, const Rest&... rest) {
 
 /// Fails the test if the lists differ, with the index of the first difference.
 inline bool same(const EnvironmentSettings& a, const EnvironmentSettings& b) {
-    const auto& [kind_a, color_a, file_a, picture_a, scale_a, rotation_a, up_a, turbidity_a, to_sun_a,
-                 ground_a] = a;
-    const auto& [kind_b, color_b, file_b, picture_b, scale_b, rotation_b, up_b, turbidity_b, to_sun_b,
-                 ground_b] = b;
+    const auto& [kind_a, color_a, file_a, picture_a, scale_a, rotation_a, up_a, turbidity_a,
+                 to_sun_a, ground_a] = a;
+    const auto& [kind_b, color_b, file_b, picture_b, scale_b, rotation_b, up_b, turbidity_b,
+                 to_sun_b, ground_b] = b;
     (void)file_a, (void)file_b;
     const auto same_direction = [](const std::optional<Vec3>& x, const std::optional<Vec3>& y) {
         return x.has_value() == y.has_value() && (!x || same(*x, *y));
     };
     const bool same_picture =
         (picture_a == nullptr) == (picture_b == nullptr) &&
-        (!picture_a || (picture_a->width == picture_b->width &&
-                        picture_a->channels == picture_b->channels &&
-                        picture_a->linear == picture_b->linear &&
-                        picture_a->samples == picture_b->samples));
+        (!picture_a ||
+         (picture_a->width == picture_b->width && picture_a->channels == picture_b->channels &&
+          picture_a->linear == picture_b->linear && picture_a->samples == picture_b->samples));
     return kind_a == kind_b && same(color_a, color_b) && same_picture && same(scale_a, scale_b) &&
            same(rotation_a, rotation_b) && same_direction(up_a, up_b) &&
            same(turbidity_a, turbidity_b) && same_direction(to_sun_a, to_sun_b) &&

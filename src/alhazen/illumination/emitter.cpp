@@ -113,13 +113,14 @@ EmitterPoint point_of_parts(const Emitter& e, const Vec2& u) {
     const EmitterParts& parts = *e.parts;
     const double wanted = u.x * parts.areas.back();
     const auto found = std::upper_bound(parts.areas.begin(), parts.areas.end(), wanted);
-    const std::size_t i = std::min<std::size_t>(std::size_t(found - parts.areas.begin()),
-                                                parts.areas.size() - 1);
+    const std::size_t i =
+        std::min<std::size_t>(std::size_t(found - parts.areas.begin()), parts.areas.size() - 1);
     const double before = i == 0 ? 0.0 : parts.areas[i - 1];
     const double x = std::clamp((wanted - before) / (parts.areas[i] - before), 0.0, 1.0);
     const double root = std::sqrt(x);
     const Vec3* c = parts.corners.data() + 3 * i;
-    return {(1.0 - root) * c[0] + (root * (1.0 - u.y)) * c[1] + (root * u.y) * c[2], axis_z(e),
+    return {(1.0 - root) * c[0] + (root * (1.0 - u.y)) * c[1] + (root * u.y) * c[2],
+            axis_z(e),
             1.0 / e.area,
             {}};
 }
@@ -219,7 +220,8 @@ double stretch_of_tube(const Emitter& e, const Vec3& n) {
 EmitterPoint point_of_tube(const Emitter& e, const SeenTube& seen, const Vec2& u) {
     const double angle = seen.half * (2.0 * u.x - 1.0);
     const Vec3 n = std::cos(angle) * seen.x + std::sin(angle) * seen.y;
-    return {e.world_from_own.point(n + Vec3{0, 0, u.y}), outer_normal(e, n),
+    return {e.world_from_own.point(n + Vec3{0, 0, u.y}),
+            outer_normal(e, n),
             1.0 / (2.0 * seen.half * stretch_of_tube(e, n)),
             {}};
 }
@@ -352,7 +354,8 @@ EmitterPoint point_of(const Emitter& e, const Vec2& u) {
             return point_of_parts(e, u);
         case EmitterForm::Sphere: {
             const Vec3 n = on_own_sphere(u);
-            return {world.point(n), outer_normal(e, n),
+            return {world.point(n),
+                    outer_normal(e, n),
                     1.0 / (4.0 * kPi * length(transformed_area(world.linear, n))),
                     {}};
         }

@@ -95,7 +95,7 @@ struct EmitterPoint {
 /// Bounds for the choice among many (light_tree.h).
 struct EmitterBounds {
     Box3 box;
-    Vec3 axis{0, 0, 1};       ///< of the cone of its normals, unit
+    Vec3 axis{0, 0, 1};        ///< of the cone of its normals, unit
     double cosine_spread = 1;  ///< of half the angle of that cone; -1: all directions
 };
 [[nodiscard]] EmitterBounds bounds_of(const Emitter& emitter);

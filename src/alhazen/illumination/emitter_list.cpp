@@ -29,9 +29,9 @@ Rgb emission_at(const Scene& scene, const Surface& surface) {
 
 EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
     if (!scene.aggregate) return;
-    const bool any = std::any_of(scene.materials.begin(), scene.materials.end(),
-                                 [&](const Material& m) { return emits(m); });
-    if (!any) return;
+    may_shine_ = std::any_of(scene.materials.begin(), scene.materials.end(),
+                             [&](const Material& m) { return emits(m); });
+    if (!may_shine_) return;
     emitters_.reserve(count(*scene.aggregate).count());
     expand(*scene.aggregate, {});
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
@@ -120,8 +120,8 @@ void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,
         material = placed.material;
         of_vertices = !placed.mesh->vertex_materials.empty();
         if (of_vertices) {
-            material =
-                MaterialId{placed.mesh->vertex_materials[(*table.triangle_corners(table.index(id)))[0]]};
+            material = MaterialId{
+                placed.mesh->vertex_materials[(*table.triangle_corners(table.index(id)))[0]]};
         }
     } else {
         material = table.shape_material(id);
@@ -214,8 +214,8 @@ Rgb EmitterList::mean_radiance(std::size_t emitter) const {
     constexpr int kGrid = 4;
     Rgb sum;
     for (int i = 0; i < kGrid * kGrid; ++i) {
-        const EmitterPoint p = point_of(
-            emitters_[emitter], {(i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid});
+        const EmitterPoint p =
+            point_of(emitters_[emitter], {(i % kGrid + 0.5) / kGrid, (i / kGrid + 0.5) / kGrid});
         if (!(p.density > 0.0)) continue;
         const double away = std::sqrt(1.0 / p.density);
         sum += radiance(emitter, p.point + away * p.normal, -p.normal, away, p.parameters);

@@ -7,8 +7,8 @@
 /// its faces or patches. Left out, so that only rays that happen to hit them find their light: what
 /// moves, surfaces of constructive solids, what reflected rays do not see, unlit materials, forms
 /// without a case in `emitters_of_shape`, and all beyond kMostEmitters.
-/// Complexity: O(primitives); a lookup O(depth log emitters). Threads: const functions may be called
-/// from many.
+/// Complexity: O(primitives); a lookup O(depth log emitters). Threads: const functions may be
+/// called from many.
 
 #include <cstddef>
 #include <map>
@@ -29,6 +29,8 @@ class EmitterList {
     explicit EmitterList(const Scene& scene);
 
     [[nodiscard]] std::size_t size() const { return emitters_.size(); }
+    /// False: no material of the scene emits. True also where none of its surfaces can be sampled.
+    [[nodiscard]] bool may_shine() const { return may_shine_; }
     [[nodiscard]] const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
     /// The emitter of a hit; none where it cannot be sampled.
     [[nodiscard]] std::optional<std::size_t> find(const Hit& hit) const;
@@ -58,6 +60,7 @@ class EmitterList {
 
     const Scene& scene_;
     std::map<const Aggregate*, Table> tables_;
+    bool may_shine_ = false;
     std::vector<Emitter> emitters_;
     std::vector<bool> varying_;  ///< [emitter] its radiance is not the same everywhere
 };

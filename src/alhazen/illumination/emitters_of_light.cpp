@@ -15,9 +15,9 @@ Affine frame_of(const Vec3& origin, const Vec3& x, const Vec3& y) {
 void append_extent_triangles(const MeshExtent& mesh, std::vector<Emitter>& list) {
     for (const auto& t : mesh.triangles) {
         const Vec3& a = mesh.points[t[0]];
-        list.push_back({.form = EmitterForm::Triangle,
-                        .world_from_own = frame_of(a, mesh.points[t[1]] - a,
-                                                   mesh.points[t[2]] - a)});
+        list.push_back(
+            {.form = EmitterForm::Triangle,
+             .world_from_own = frame_of(a, mesh.points[t[1]] - a, mesh.points[t[2]] - a)});
     }
 }
 
@@ -42,10 +42,10 @@ void append_extent(const LightExtent& extent, std::vector<Emitter>& list) {
             },
             [&](const TubeExtent& t) {
                 const Vec3 n = normalize(t.top - t.base), x = perpendicular(n);
-                list.push_back({.form = EmitterForm::Tube,
-                                .world_from_own = {{t.radius * x, t.radius * cross(n, x),
-                                                    t.top - t.base},
-                                                   t.base}});
+                list.push_back(
+                    {.form = EmitterForm::Tube,
+                     .world_from_own = {{t.radius * x, t.radius * cross(n, x), t.top - t.base},
+                                        t.base}});
             },
             [&](const PolygonExtent& p) {
                 MeshExtent mesh{p.vertices, {}};

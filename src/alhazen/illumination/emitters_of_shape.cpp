@@ -83,13 +83,12 @@ Emitter polygon(const Affine& world, const Polygon& p) {
 using List = std::vector<Emitter>;
 
 void append(const Sphere& s, const Affine& world, List& list) {
-    list.push_back(curved(EmitterForm::Sphere, world,
-                          Affine::translate(s.center) *
-                              Affine::scale({s.radius, s.radius, s.radius})));
+    list.push_back(
+        curved(EmitterForm::Sphere, world,
+               Affine::translate(s.center) * Affine::scale({s.radius, s.radius, s.radius})));
 }
 void append(const Ellipsoid& s, const Affine& world, List& list) {
-    list.push_back(
-        curved(EmitterForm::Sphere, world, {{s.axis_a, s.axis_b, s.axis_c}, s.center}));
+    list.push_back(curved(EmitterForm::Sphere, world, {{s.axis_a, s.axis_b, s.axis_c}, s.center}));
 }
 void append(const Disc& s, const Affine& world, List& list) {
     list.push_back(disc(world, s.center, s.normal, s.radius, s.inner_radius));
@@ -114,9 +113,8 @@ void append(const BoxShape& s, const Affine& world, List& list) {
 /// Its side, and the caps.
 void append(const Cylinder& s, const Affine& world, List& list) {
     const Vec3 n = unit_or(s.top - s.base, {0, 0, 1}), x = perpendicular(n);
-    list.push_back(
-        curved(EmitterForm::Tube, world,
-               {{s.radius * x, s.radius * cross(n, x), s.top - s.base}, s.base}));
+    list.push_back(curved(EmitterForm::Tube, world,
+                          {{s.radius * x, s.radius * cross(n, x), s.top - s.base}, s.base}));
     if (!s.capped) return;
     list.push_back(disc(world, s.base, -n, s.radius, 0.0));
     list.push_back(disc(world, s.top, n, s.radius, 0.0));
@@ -145,7 +143,10 @@ std::uint32_t count_of(const PatchMesh& s) {
 template <class S>
 std::uint32_t count_of(const S& s) {
     List* none = nullptr;
-    return requires { append(s, Affine{}, *none); } ? 1 : 0;
+    return requires {
+        append(s, Affine{}, *none);
+    }
+    ? 1 : 0;
 }
 
 void append_triangle(const PrimitiveTable& table, std::uint32_t triangle, const Affine& world,

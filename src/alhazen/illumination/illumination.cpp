@@ -7,6 +7,8 @@
 #include "alhazen/illumination/emitters_of_light.h"
 #include "alhazen/illumination/illumination_data.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/shading/lights/ies_profile.h"
 
 namespace alhazen {
 
@@ -106,11 +108,14 @@ TreeLight Illumination::Data::tree_light(std::size_t near_light) const {
     TreeLight result;
     result.intensity = kPi * mean_channel(color_of(*light)) / attenuation_of(*light).quadratic;
     if (const auto* spot = std::get_if<SpotLight>(light)) {
+        result.intensity *= largest_factor(spot->profile);
         result.bounds.box.include(spot->position);
         result.bounds.axis = spot->direction;
         result.cosine_reach = std::cos(spot->outer_angle);
     } else {
-        result.bounds.box.include(std::get<PointLight>(*light).position);
+        const auto& point = std::get<PointLight>(*light);
+        result.intensity *= largest_factor(point.profile);
+        result.bounds.box.include(point.position);
         result.bounds.cosine_spread = -1.0;
         result.cosine_reach = -1.0;
     }
@@ -138,8 +143,8 @@ void Illumination::Data::set_choices() {
     far = LightChooser(far_weights);
     if (near.total() > 0.0 && far.total() > 0.0) {
         const double irradiance = intensity / (radius * radius);
-        near_share = std::clamp(irradiance / (irradiance + far.total()), kLeastShare,
-                                1.0 - kLeastShare);
+        near_share =
+            std::clamp(irradiance / (irradiance + far.total()), kLeastShare, 1.0 - kLeastShare);
     } else {
         near_share = near.total() > 0.0 ? 1.0 : 0.0;
     }
@@ -152,7 +157,7 @@ Illumination::Illumination(Illumination&&) noexcept = default;
 Illumination& Illumination::operator=(Illumination&&) noexcept = default;
 
 bool Illumination::shines() const {
-    return data_->near.total() > 0.0 || data_->far.total() > 0.0;
+    return data_->near.total() > 0.0 || data_->far.total() > 0.0 || data_->emitters.may_shine();
 }
 
 namespace {
@@ -178,8 +183,7 @@ LightDraw draw_environment(const Environment& environment, const LitPoint& at, d
     draw.to_light = environment.sample(at.normal, at.both_sides, u);
     draw.distance = kInfinity;
     draw.radiance = environment.radiance(draw.to_light);
-    draw.density =
-        probability * environment.density(at.normal, at.both_sides, draw.to_light);
+    draw.density = probability * environment.density(at.normal, at.both_sides, draw.to_light);
     draw.passes = mask_of(RayKind::Shadow);
     return draw;
 }

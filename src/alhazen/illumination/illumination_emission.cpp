@@ -4,6 +4,7 @@
 #include "alhazen/base/overloaded.h"
 #include "alhazen/illumination/illumination_data.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/ies_profile.h"
 #include "alhazen/shading/lights/light_extent.h"
 
 namespace alhazen {
@@ -85,16 +86,16 @@ void Illumination::Data::set_sources() {
     for (std::size_t i = 0; i < near_count(); ++i) {
         if (const Light* light = point_light(i)) {
             const double solid = 2.0 * kPi * (1.0 - cosine_of_cone(*light));
-            const auto& color = std::visit(
-                Overloaded{[](const PointLight& l) { return l.color; },
-                           [](const SpotLight& l) { return l.color; },
+            const Rgb color = std::visit(
+                Overloaded{[](const PointLight& l) { return mean_factor(l.profile) * l.color; },
+                           [](const SpotLight& l) { return largest_factor(l.profile) * l.color; },
                            [](const auto&) { return Rgb{}; }},
                 *light);
-            const double q = std::visit(
-                Overloaded{[](const PointLight& l) { return l.attenuation.quadratic; },
-                           [](const SpotLight& l) { return l.attenuation.quadratic; },
-                           [](const auto&) { return 1.0; }},
-                *light);
+            const double q =
+                std::visit(Overloaded{[](const PointLight& l) { return l.attenuation.quadratic; },
+                                      [](const SpotLight& l) { return l.attenuation.quadratic; },
+                                      [](const auto&) { return 1.0; }},
+                           *light);
             powers.push_back(kPi * solid * mean_power(color) / q);
         } else {
             const Emitter& e = emitter(i);

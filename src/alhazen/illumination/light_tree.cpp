@@ -39,7 +39,8 @@ void unite_cones(Cluster& a, Cluster b) {
     }
     if (a.cosine_spread <= -1.0) return;
     const double between = std::atan2(length(cross(a.axis, b.axis)), dot(a.axis, b.axis));
-    const double wide = std::acos(a.cosine_spread), narrow = std::acos(std::min(1.0, b.cosine_spread));
+    const double wide = std::acos(a.cosine_spread),
+                 narrow = std::acos(std::min(1.0, b.cosine_spread));
     if (between + narrow <= wide) return;
     const double spread = 0.5 * (wide + between + narrow);
     const Vec3 across = b.axis - dot(a.axis, b.axis) * a.axis;
@@ -72,9 +73,10 @@ double cost_of(const Cluster& c) {
     const double spread = std::acos(std::clamp(c.cosine_spread, -1.0, 1.0));
     const double reach = std::acos(std::clamp(c.cosine_reach, -1.0, 1.0));
     const double to = std::min(spread + reach, kPi), sine = std::sin(spread);
-    double directions = 2.0 * kPi * (1.0 - c.cosine_spread) +
-                        kPi / 2.0 * (2.0 * to * sine - std::cos(spread - 2.0 * to) -
-                                     2.0 * spread * sine + std::cos(spread));
+    double directions =
+        2.0 * kPi * (1.0 - c.cosine_spread) + kPi / 2.0 *
+                                                  (2.0 * to * sine - std::cos(spread - 2.0 * to) -
+                                                   2.0 * spread * sine + std::cos(spread));
     if (c.two_sided) directions *= 2.0;
     // Lights in a point or on a line have an area, too: that of a thin box.
     const Vec3 size = c.box.size();

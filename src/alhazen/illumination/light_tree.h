@@ -40,7 +40,7 @@ class LightTree {
     [[nodiscard]] double probability(const LitPoint& at, std::size_t light) const;
 
     struct Node {
-        float lo[3], hi[3];   ///< rounded outward
+        float lo[3], hi[3];  ///< rounded outward
         float axis[3];
         float cosine_spread;  ///< of the cone of normals; -1: all directions
         float cosine_reach;

@@ -25,12 +25,6 @@ EnvironmentSettings settings_of(const std::string& text, const ImageLimits& limi
     } else {
         settings.kind = EnvironmentKind::Picture;
         settings.file = text;
-        if (!std::filesystem::exists(text)) {
-            throw Error(ErrorKind::Usage,
-                        fmt::format("--environment '{}': expected sky, studio, none or the file of "
-                                    "a picture of all directions; there is no such file",
-                                    text));
-        }
         settings.picture = std::make_shared<const Image>(read_image(text, limits));
     }
     return settings;
@@ -49,14 +43,26 @@ bool follows_light(const std::string& renderer) {
            std::end(kFollowLight);
 }
 
-std::vector<std::string> set_environment(LoadedScene& loaded, const std::string& text,
-                                         const std::string& renderer, const ImageLimits& limits) {
-    if (!text.empty() && !follows_light(renderer)) {
+void check_environment(const std::string& text, const std::string& renderer) {
+    if (text.empty()) return;
+    if (!follows_light(renderer)) {
         throw Error(ErrorKind::Usage,
                     fmt::format("--environment is for renderers that follow light physically: {}; "
                                 "renderer '{}' shows the background of the scene",
                                 fmt::join(kFollowLight, ", "), renderer));
     }
+    if (text == "sky" || text == "studio" || text == "none") return;
+    if (!std::filesystem::exists(text)) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--environment '{}': expected sky, studio, none or the file of a "
+                                "picture of all directions; there is no such file",
+                                text));
+    }
+}
+
+std::vector<std::string> set_environment(LoadedScene& loaded, const std::string& text,
+                                         const std::string& renderer, const ImageLimits& limits) {
+    check_environment(text, renderer);
     if (text == "none") {
         loaded.description.environment.reset();
         loaded.scene.environment = nullptr;
@@ -66,9 +72,10 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
         set(loaded, settings_of(text, limits));
         const std::size_t bad = loaded.scene.environment->bad_texels();
         if (bad == 0) return {};
-        return {fmt::format("warning: {} texels of the environment are negative, infinite or no "
-                            "numbers, and are taken as black",
-                            bad)};
+        return {
+            fmt::format("warning: {} texels of the environment are negative, infinite or no "
+                        "numbers, and are taken as black",
+                        bad)};
     }
     const Scene& scene = loaded.scene;
     const bool dark = !scene.environment && scene.background.is_black() &&

@@ -11,10 +11,14 @@ namespace alhazen {
 /// Whether the renderer follows light physically, so that an environment lights what it renders.
 [[nodiscard]] bool follows_light(const std::string& renderer);
 
+/// Throws Error (Usage) for a text that is not empty and a renderer that sees no environments, and
+/// for what is neither a known word nor a file.
+void check_environment(const std::string& text, const std::string& renderer);
+
 /// Sets the environment that `text` says: "sky", "studio", "none" (that of the file is removed), or
 /// the name of a picture of all directions. Empty: that of the file; where a scene has no light at
 /// all and the renderer follows light, the studio. Returns what was done, a sentence each. Throws
-/// Error: Usage for a renderer that sees no environments, and as `read_image`.
+/// Error as `check_environment` and `read_image`.
 std::vector<std::string> set_environment(LoadedScene& loaded, const std::string& text,
                                          const std::string& renderer, const ImageLimits& limits);
 

@@ -262,6 +262,10 @@ void add_looks(json& info, const SceneDescription& d) {
     for (const LightDescription& light : d.lights) {
         info["lights"].push_back({{"name", light.name}, {"kind", light_kind(light.light)}});
     }
+    if (d.environment) {
+        const EnvironmentSettings& e = d.environment->settings;
+        info["environment"] = {{"kind", kEnvironmentKindNames[static_cast<std::size_t>(e.kind)]}};
+    }
     info["animations"] = json::array();
     for (const AnimationInfo& animation : d.animations) {
         info["animations"].push_back(

@@ -182,6 +182,9 @@ void add_looks(Report& report, const json& info) {
     });
     report.list("lights", info["lights"],
                 [](const json& l) { return l["kind"].get<std::string>(); });
+    if (info.contains("environment")) {
+        report.line("environment", info["environment"]["kind"].get<std::string>());
+    }
     report.list("animations", info["animations"], [](const json& a) {
         return fmt::format("{:.4g} s to {:.4g} s", a["begin"].get<double>(),
                            a["end"].get<double>());

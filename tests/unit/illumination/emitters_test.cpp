@@ -141,11 +141,11 @@ TEST(Emitters, ARectangleLightsAPlaneByTheClosedForm) {
     r.edge_v = {1, 0, 0};
     const Scene scene = lamp_of(r, {}, false);
     const Illumination lights(scene);
-    // Siegel and Howell, configuration factor of a parallel rectangle with a corner above the point.
+    // Siegel and Howell, configuration factor of a parallel rectangle with a corner above the
+    // point.
     const double a = 1.0 / 1.5, b = 2.0 / 1.5;
     const double sa = std::sqrt(1 + a * a), sb = std::sqrt(1 + b * b);
-    const double factor =
-        (a / sa * std::atan(b / sa) + b / sb * std::atan(a / sb)) / (2.0 * kPi);
+    const double factor = (a / sa * std::atan(b / sa) + b / sb * std::atan(a / sb)) / (2.0 * kPi);
     const Rgb found = mean_irradiance(scene, lights, {{0, 0, 0}, {0, 0, 1}}, 40000);
     EXPECT_NEAR(found.r / (kPi * 2.0 * factor), 1.0, 2e-3);
 }
@@ -173,6 +173,155 @@ TEST(Emitters, InstancesAreLightsOfTheirOwn) {
     const Illumination lights(scene, {.choice = LightChoice::Uniform});
     expect_equal_densities(scene, lights, kAt, 1e-5);
     EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 5)), 3.5);
+}
+
+PatchMesh patch_mesh_lamp() {
+    PatchMesh mesh;
+    mesh.degree_u = mesh.degree_v = 1;
+    mesh.points = {{-1, -1, 3}, {-1, 1, 3.2}, {0, -1, 3.4}, {0, 1, 3}, {1, -1, 2.8}, {1, 1, 3.3}};
+    mesh.patches = {0, 1, 2, 3, 2, 3, 4, 5};
+    return mesh;
+}
+
+TEST(Emitters, OneSidedOnesShineToTheirOuterSideAlone) {
+    const LitPoint above{{0.2, 0.1, 7}, {0, 0, -1}, false};
+    for (const Affine& placement : {Affine{}, kSkew, kMirror, kMirror * kSkew}) {
+        std::vector<Scene> all;
+        all.push_back(lamp_of(rectangle_lamp(), placement, false));
+        all.push_back(lamp_of(Disc{{0, 0, 3}, {0.2, 0.1, -1}, 1}, placement, false));
+        all.push_back(lamp_of(Disc{{0, 0, 3}, {0.2, 0.1, 1}, 1}, placement, false));
+        all.push_back(lamp_of(polygon_lamp(), placement, false));
+        all.push_back(lamp_of(patch_lamp(), placement, false));
+        all.push_back(lamp_of(patch_mesh_lamp(), placement, false));
+        all.push_back(lamp_of(cylinder_lamp(true), placement, false));
+        all.push_back(lamp_of(BoxShape{{-0.7, -0.5, 2.5}, {0.8, 0.5, 3}}, placement, false));
+        all.push_back(lamp_of(Sphere{{0.3, 0, 3}, 0.8}, placement, false));
+        all.push_back(mesh_lamp(placement, false));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const Illumination lights(all[i]);
+            int lit = 0;
+            for (const LitPoint& at : {kAt, above}) {
+                const double z = irradiance_z(all[i], lights, at, 8000, 31 + i);
+                // No variance: it is dark there.
+                if (!std::isnan(z)) ++lit;
+                EXPECT_FALSE(std::abs(z) > 4.5) << i << " " << z;
+            }
+            EXPECT_GE(lit, 1) << i;
+        }
+    }
+}
+
+/// A material whose emission is a picture.
+Material pictured(SceneMaker& maker) {
+    Image image(4, 4, 3);
+    for (std::size_t i = 0; i < image.samples.size(); ++i) {
+        image.samples[i] = static_cast<float>(i * 7 % 11);
+    }
+    Texture texture;
+    texture.image = std::make_shared<const StoredImage>(stored(image));
+    maker.description().textures.push_back({"picture", texture, {}});
+    Material m = shining({1, 1, 1});
+    m.emission.texture = TextureId{0};
+    return m;
+}
+
+TEST(Emitters, APictureOfEmissionIsDrawnAsItIsSeen) {
+    for (const int kind : {0, 1, 2, 3}) {
+        SceneMaker maker;
+        const MaterialId m = maker.material(pictured(maker));
+        const ObjectIndex inner = maker.object("inner");
+        if (kind == 0) maker.add(rectangle_lamp(), m, {}, inner);
+        if (kind == 1) maker.add(Sphere{{0, 0, 3}, 0.8}, m, {}, inner);
+        if (kind == 2) maker.add(cylinder_lamp(true), m, {}, inner);
+        if (kind == 3) {
+            TriangleMesh mesh;
+            mesh.positions = {{-1, -1, 3}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 3}};
+            mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+            mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+            maker.add(maker.mesh(mesh), m, {}, inner);
+        }
+        maker.add(inner, {}, kSkew);
+        maker.add(inner, {}, Affine::translate({3, 0, 0}));
+        const Scene scene = maker.compile();
+        const Illumination lights(scene);
+        expect_equal_densities(scene, lights, kAt, 1e-5);
+        EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 17)), 4.0) << kind;
+    }
+}
+
+TEST(Emitters, WhatMovesIsLeftToChanceAndWhatRestsBesideItIsNot) {
+    SceneMaker maker;
+    const MaterialId m = maker.material(shining({1, 1, 1}));
+    maker.add(Sphere{{-1, 0, 3}, 0.4}, m);
+    maker.add(Sphere{{1, 0, 3}, 0.4}, m);
+    maker.add(rectangle_lamp(), m, Affine::translate({0, 0, 2}));
+    maker.description().objects[0].parts[1].motion = std::make_shared<const PartMotion>(
+        PartMotion{{}, {{0, Affine{}}, {1, Affine::translate({1, 0, 0})}}, {}});
+    const Scene scene = maker.compile();
+    ASSERT_TRUE(scene.has_motion);
+    const Illumination lights(scene);
+    const auto density = [&](const Vec3& to) {
+        return density_along(scene, lights, kAt, normalize(to - kAt.point));
+    };
+    EXPECT_GT(density({-1, 0, 3}), 0.0);
+    for (int i = 0; i < 50; ++i) {
+        const LightDraw draw = lights.draw(kAt, i / 50.0, {0.4, 0.6});
+        EXPECT_FALSE(draw.density > 0.0 && draw.distance < 4.0 && draw.to_light.x > 0.2);
+    }
+    expect_equal_densities(scene, lights, kAt, 1e-5);
+}
+
+TEST(Emitters, SolidsOfConstructiveGeometryAreLeftToChance) {
+    SceneMaker maker;
+    const MaterialId m = maker.material(shining({1, 1, 1}));
+    const ObjectIndex cut = maker.object("cut");
+    maker.description().objects[1].combine = Combine::Difference;
+    maker.add(Sphere{{0, 0, 3}, 1}, m, {}, cut);
+    maker.add(Sphere{{0, 0, 2.5}, 0.8}, m, {}, cut);
+    maker.add(cut);
+    const Scene scene = maker.compile();
+    const Illumination lights(scene);
+    EXPECT_TRUE(lights.shines());
+    EXPECT_EQ(density_along(scene, lights, kAt, {0, 0, 1}), 0.0);
+    EXPECT_EQ(lights.draw(kAt, 0.5, {0.5, 0.5}).density, 0.0);
+}
+
+TEST(Emitters, OfNoAreaAreNeverDrawn) {
+    SceneMaker maker;
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 3}, {1, 0, 3}, {2, 0, 3}, {0, 0, 3}, {0, 1, 3}, {1e-200, 0, 3}};
+    mesh.triangles = {{0, 1, 2}, {0, 0, 0}, {0, 3, 4}, {0, 5, 4}};
+    const MaterialId m = maker.material(shining({1, 1, 1}));
+    maker.add(maker.mesh(mesh), m);
+    const Scene scene = maker.compile();
+    for (const LightChoice choice : {LightChoice::Uniform, LightChoice::Power, LightChoice::Tree}) {
+        const Illumination lights(scene, {.choice = choice});
+        for (int i = 0; i < 100; ++i) {
+            const LightDraw draw = lights.draw(kAt, i / 100.0, {0.3, i / 100.0});
+            EXPECT_TRUE(std::isfinite(draw.density) && draw.radiance.is_finite());
+            EXPECT_FALSE(std::isnan(draw.to_light.x));
+        }
+        (void)lights.emit(0.5, {0.5, 0.5}, {0.5, 0.5});
+    }
+}
+
+TEST(Emitters, AreFoundByEachWayOfChoosing) {
+    SceneMaker maker;
+    const MaterialId m = maker.material(shining({1, 2, 3}, false));
+    RandomStream random(12);
+    for (int i = 0; i < 12; ++i) {
+        Rectangle r = rectangle_lamp();
+        r.corner = {random.uniform(-4, 3), random.uniform(-4, 3), random.uniform(2, 5)};
+        maker.add(r, m);
+        maker.add(Sphere{{random.uniform(-4, 4), random.uniform(-4, 4), 6}, 0.3}, m);
+    }
+    maker.description().picture.background = Rgb{0.05, 0.05, 0.05};
+    const Scene scene = maker.compile();
+    for (const LightChoice choice : {LightChoice::Uniform, LightChoice::Power, LightChoice::Tree}) {
+        const Illumination lights(scene, {.choice = choice});
+        expect_equal_densities(scene, lights, kAt, 1e-5);
+        EXPECT_LT(std::abs(irradiance_z(scene, lights, kAt, 40000, 21)), 4.0) << int(choice);
+    }
 }
 
 TEST(Emitters, WhatDoesNotFaceThePointGivesNothing) {

@@ -43,7 +43,7 @@ EnvironmentSettings settings_of(EnvironmentKind kind) {
 /// Directions in bins of equal solid angle, the density there, and draws: chi-square.
 template <class Sample, class Density>
 double p_value_on_sphere(Sample&& sample, Density&& density, std::uint64_t seed) {
-    constexpr int kRows = 10, kColumns = 20, kFine = 40, kDraws = 20000;
+    constexpr int kRows = 10, kColumns = 20, kFine = 24, kDraws = 20000;
     const auto direction = [](double row, double column) {
         const double z = 1.0 - 2.0 * row / kRows, a = 2.0 * kPi * column / kColumns - kPi;
         const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
@@ -88,10 +88,9 @@ TEST(Environments, DrawsFollowTheirDensity) {
     }
     const Vec3 n = normalize(Vec3{1, 2, -1});
     for (const bool both : {false, true}) {
-        EXPECT_GT(
-            p_value_on_sphere([&](const Vec2& u) { return constant.sample(n, both, u); },
-                              [&](const Vec3& d) { return constant.density(n, both, d); }, 5),
-            sidak_level(5));
+        EXPECT_GT(p_value_on_sphere([&](const Vec2& u) { return constant.sample(n, both, u); },
+                                    [&](const Vec3& d) { return constant.density(n, both, d); }, 5),
+                  sidak_level(5));
     }
 }
 
@@ -172,8 +171,8 @@ TEST(Environments, AClearSkyIsBlueAndHazeIsGrey) {
 TEST(Environments, TheSkyGivesAThirdOfTheLightOfTheSunOrLess) {
     const Environment e(settings_of(EnvironmentKind::Sky), kUp);
     ASSERT_TRUE(e.sun().has_value());
-    const double sun = 2.0 * kPi * (1.0 - e.sun()->cosine) * e.sun()->radiance.g * 1.5 *
-                       e.sun()->direction.y;
+    const double sun =
+        2.0 * kPi * (1.0 - e.sun()->cosine) * e.sun()->radiance.g * 1.5 * e.sun()->direction.y;
     double all = 0.0;
     constexpr int kDraws = 20000;
     RandomStream random(2);
@@ -205,14 +204,16 @@ TEST(Environments, IlluminationDrawsThem) {
         const Illumination lights(scene);
         const LitPoint at{{0, 0, 0}, {0, 1, 0}, true};
         RandomStream random(4);
+        int other_texel = 0;  // rounding at the edge of one
         for (int i = 0; i < 500; ++i) {
             const double c = random.uniform(), u = random.uniform(), v = random.uniform();
             const LightDraw draw = lights.draw(at, c, {u, v});
             ASSERT_GT(draw.density, 0.0);
             EXPECT_TRUE(std::isinf(draw.distance));
-            EXPECT_NEAR(lights.environment_density(at, draw.to_light) / draw.density, 1.0, 2e-2);
+            if (lights.environment_density(at, draw.to_light) != draw.density) ++other_texel;
             EXPECT_EQ(lights.environment(draw.to_light), draw.radiance);
         }
+        EXPECT_EQ(other_texel, 0);
         // Power of what it sends into the sphere around the scene.
         double power = 0.0;
         constexpr int kRays = 20000;

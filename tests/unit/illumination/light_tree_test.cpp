@@ -53,7 +53,8 @@ TEST(LightTree, ProbabilitiesOfAllLightsSumToOne) {
             double sum = 0.0, sum_of_lamps = 0.0;
             for (std::size_t k = 0; k < count; ++k) sum += tree.probability(at, k);
             at.both_sides = true;
-            for (std::size_t k = 0; k < count; ++k) sum_of_lamps += tree_of_lamps.probability(at, k);
+            for (std::size_t k = 0; k < count; ++k)
+                sum_of_lamps += tree_of_lamps.probability(at, k);
             // What is missing are nodes of which no light reaches the point.
             EXPECT_LE(sum, 1.0 + 1e-12);
             EXPECT_NEAR(sum_of_lamps, 1.0, 1e-12);

@@ -13,10 +13,8 @@ template <class Enum>
 template <>
 inline const Vocabulary<EnvironmentKind>& native_words() {
     using E = EnvironmentKind;
-    static const Vocabulary<E> kWords{{"constant", E::Constant},
-                                      {"picture", E::Picture},
-                                      {"sky", E::Sky},
-                                      {"studio", E::Studio}};
+    static const Vocabulary<E> kWords{
+        {"constant", E::Constant}, {"picture", E::Picture}, {"sky", E::Sky}, {"studio", E::Studio}};
     return kWords;
 }
 template <>

@@ -65,7 +65,7 @@ class Atmosphere {
 
     /// Light from `view` (zenith at z) at a radius, for a sun of irradiance 1.
     [[nodiscard]] Rgb radiance(const Vec3& view, const Vec3& to_sun) const {
-        constexpr int kSteps = 48;
+        constexpr int kSteps = 32;
         const double r = kGround + kEye, mu = view.z;
         const Way way = way_of(r, mu);
         const double cosine = dot(view, to_sun);
@@ -82,8 +82,7 @@ class Atmosphere {
             const double sun = dot(at, to_sun) / length(at);
             const Rgb lit = transmittance(length(at), sun) *
                             (rayleigh * m.rayleigh + (mie * m.mie) * Rgb{1, 1, 1});
-            const Rgb more = multiple(length(at), sun) *
-                             (m.rayleigh + m.mie * Rgb{1, 1, 1});
+            const Rgb more = multiple(length(at), sun) * (m.rayleigh + m.mie * Rgb{1, 1, 1});
             const Rgb passes = exp_of(-step * m.extinction);
             sum += through * quotient((lit + more) * (Rgb{1, 1, 1} - passes), m.extinction);
             through = through * passes;
@@ -92,7 +91,7 @@ class Atmosphere {
     }
 
   private:
-    static constexpr int kHeights = 64, kCosines = 512, kFewHeights = 24, kFewCosines = 48;
+    static constexpr int kHeights = 48, kCosines = 384, kFewHeights = 16, kFewCosines = 32;
 
     struct Medium {
         Rgb rayleigh;  ///< scattering
@@ -129,7 +128,7 @@ class Atmosphere {
     }
 
     void make_transmittance() {
-        constexpr int kSteps = 64;
+        constexpr int kSteps = 40;
         for (int j = 0; j < kHeights; ++j) {
             const double r = radius_of(double(j) / (kHeights - 1));
             for (int i = 0; i < kCosines; ++i) {
@@ -163,7 +162,7 @@ class Atmosphere {
     }
 
     [[nodiscard]] Rgb multiple_at(double r, double sun) const {
-        constexpr int kGrid = 8, kSteps = 20;
+        constexpr int kGrid = 8, kSteps = 16;
         const Vec3 to_sun{std::sqrt(std::max(0.0, 1.0 - sun * sun)), 0, sun};
         Rgb second, share;  // scattered twice; what scatters once more of one
         for (int n = 0; n < kGrid * kGrid; ++n) {
@@ -182,7 +181,8 @@ class Atmosphere {
                 const Rgb scatters = m.rayleigh + m.mie * Rgb{1, 1, 1};
                 const Rgb here =
                     through * quotient(scatters * (Rgb{1, 1, 1} - passes), m.extinction);
-                second += 1.0 / (4.0 * kPi) * here * transmittance(radius, dot(at, to_sun) / radius);
+                second +=
+                    1.0 / (4.0 * kPi) * here * transmittance(radius, dot(at, to_sun) / radius);
                 share += here;
                 through = through * passes;
             }
@@ -190,8 +190,7 @@ class Atmosphere {
             const Vec3 at = Vec3{0, 0, r} + way.length * d;
             const double cosine = dot(at, to_sun) / length(at);
             if (cosine > 0.0) {
-                second += cosine / kPi * through * ground_ *
-                          transmittance(kGround + 1e-3, cosine);
+                second += cosine / kPi * through * ground_ * transmittance(kGround + 1e-3, cosine);
             }
         }
         const double mean = 1.0 / (kGrid * kGrid);
@@ -216,7 +215,7 @@ void set_texel(Image& image, int x, int y, const Rgb& c) {
 }  // namespace
 
 ClearSky clear_sky(const Vec3& to_sun, double turbidity, const Rgb& ground) {
-    constexpr int kWidth = 512, kHeight = 256;
+    constexpr int kWidth = 256, kHeight = 256;  // the horizon needs rows
     const Atmosphere air(turbidity, ground);
     ClearSky sky{Image(kWidth, kHeight, 3), {}};
     const double r = kGround + kEye;

@@ -113,7 +113,8 @@ Vec3 DirectionPicture::sample(const Vec2& u) const {
     const auto first = columns_.begin() + std::ptrdiff_t(y * (w + 1));
     const float wanted = static_cast<float>(u.x);
     const std::size_t x = std::size_t(pick(first, first + std::ptrdiff_t(w + 1), wanted));
-    const double share_y = std::clamp((wanted_row - rows_[y]) / (rows_[y + 1] - rows_[y]), 0.0, 1.0);
+    const double share_y =
+        std::clamp((wanted_row - rows_[y]) / (rows_[y + 1] - rows_[y]), 0.0, 1.0);
     const double from = first[std::ptrdiff_t(x)], to = first[std::ptrdiff_t(x + 1)];
     const double share_x = std::clamp((u.x - from) / (to - from), 0.0, 1.0);
     const double top = height(static_cast<int>(y)), bottom = height(static_cast<int>(y) + 1);

@@ -48,7 +48,7 @@ class DirectionPicture {
     [[nodiscard]] double height(int border) const;
 
     Image picture_;
-    std::vector<double> rows_;   ///< [row + 1] weight of all rows above
+    std::vector<double> rows_;    ///< [row + 1] weight of all rows above
     std::vector<float> columns_;  ///< [row][column + 1] share of the row's texels up to it
     Rgb mean_;
     std::size_t bad_texels_ = 0;

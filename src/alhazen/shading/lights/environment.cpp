@@ -55,8 +55,8 @@ Environment::Environment(const EnvironmentSettings& settings, const Vec3& scene_
         case EnvironmentKind::Sky: {
             const Vec3 usual = usual_sun(still);
             const Vec3 to_sun = unit_or(settings.to_sun.value_or(usual), usual);
-            ClearSky sky = clear_sky(transpose_times(still, to_sun), settings.turbidity,
-                                     settings.ground);
+            ClearSky sky =
+                clear_sky(transpose_times(still, to_sun), settings.turbidity, settings.ground);
             picture_.emplace(std::move(sky.picture));
             if (sky.sun_radiance.max() > 0.0) {
                 sun_ = SunDisc{turn * to_sun, std::cos(kSunRadius), sky.sun_radiance};

@@ -19,8 +19,8 @@ namespace alhazen {
 
 /// A disc in the sky of equal radiance.
 struct SunDisc {
-    Vec3 direction;             ///< unit, towards it
-    double cosine = 1;          ///< of its radius
+    Vec3 direction;     ///< unit, towards it
+    double cosine = 1;  ///< of its radius
     Rgb radiance;
 };
 

@@ -35,10 +35,10 @@ struct EnvironmentSettings {
     std::string file;    ///< of a picture, as named
     /// Already read. Not linear: it is decoded from sRGB.
     std::shared_ptr<const Image> picture;
-    double scale = 1;         ///< a further factor, at least 0
-    double rotation = 0;      ///< radians
-    std::optional<Vec3> up;   ///< default: the up axis of the scene
-    double turbidity = 3;     ///< of a sky: kLeastTurbidity (pure air) to kLargestTurbidity (haze)
+    double scale = 1;        ///< a further factor, at least 0
+    double rotation = 0;     ///< radians
+    std::optional<Vec3> up;  ///< default: the up axis of the scene
+    double turbidity = 3;    ///< of a sky: kLeastTurbidity (pure air) to kLargestTurbidity (haze)
     /// Of a sky, before `rotation`; default: 40 degrees high, over the right shoulder of who looks
     /// to the front.
     std::optional<Vec3> to_sun;

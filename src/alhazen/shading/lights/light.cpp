@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "alhazen/base/overloaded.h"
+#include "alhazen/shading/lights/ies_profile.h"
 
 namespace alhazen {
 
@@ -78,12 +79,14 @@ LightSample sample(const Light& light, const Vec3& point, bool clamp_attenuation
             },
             [&](const PointLight& l) {
                 const Approach a = approach(l, point, clamp_attenuation);
-                return LightSample{a.to_light, a.distance, a.attenuation * l.color, l.glints};
+                const double sent = a.attenuation * profile_factor(l.profile, -a.to_light);
+                return LightSample{a.to_light, a.distance, sent * l.color, l.glints};
             },
             [&](const SpotLight& l) {
                 const Approach a = approach(l, point, clamp_attenuation);
-                return LightSample{a.to_light, a.distance,
-                                   a.attenuation * spot_falloff(l, a.to_light) * l.color};
+                const double sent = a.attenuation * spot_falloff(l, a.to_light) *
+                                    profile_factor(l.profile, -a.to_light);
+                return LightSample{a.to_light, a.distance, sent * l.color};
             },
             [&](const AreaLight& l) {
                 const Vec3 offset = l.surface->center() - point;

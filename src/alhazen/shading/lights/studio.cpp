@@ -18,11 +18,10 @@ struct SoftBox {
 };
 
 constexpr SoftBox kSoftBoxes[] = {
-    {-140, 42, 46, 46, 9.0},  // main, over the left shoulder
-    {120, 18, 30, 60, 3.2},   // fill, to the right
-    {55, 25, 12, 70, 6.0},    // rims, from behind what is seen
-    {-50, 22, 9, 64, 5.0},
-    {0, 88, 60, 40, 3.0},     // above
+    {-140, 42, 46, 46, 6.4},                        // main, over the left shoulder
+    {120, 18, 30, 60, 2.3},                         // fill, to the right
+    {55, 25, 12, 70, 4.4},                          // rims, from behind what is seen
+    {-50, 22, 9, 64, 3.6},   {0, 88, 52, 34, 1.5},  // above
 };
 constexpr double kSoftEdge = 0.12;  ///< of half the size
 
@@ -46,8 +45,8 @@ double brightness_of(const SoftBox& box, const Vec3& d) {
 
 double studio_brightness(const Vec3& d) {
     // Walls are lighter towards the horizon; the floor is darker, with a soft turn between them.
-    const double wall = 0.30 + 0.28 * (1.0 - smooth(std::abs(d.z) / 0.9));
-    const double floor = 0.16 + 0.22 * (1.0 - smooth(-d.z / 0.7));
+    const double wall = 0.22 + 0.22 * (1.0 - smooth(std::abs(d.z) / 0.9));
+    const double floor = 0.12 + 0.17 * (1.0 - smooth(-d.z / 0.7));
     const double turn = smooth((d.z + 0.12) / 0.24);
     double sum = turn * wall + (1.0 - turn) * floor;
     for (const SoftBox& box : kSoftBoxes) sum += brightness_of(box, d);

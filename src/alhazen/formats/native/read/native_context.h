@@ -34,7 +34,7 @@ struct NativeContext {
 
     std::vector<std::size_t> cameras_without_aspect;  ///< they take the aspect of the image
     std::vector<std::filesystem::path>
-        open_files;  ///< the file being read and those that include it
+        open_files;                ///< the file being read and those that include it
     std::filesystem::path folder;  ///< of the file whose top level is being read
     std::uint64_t included_bytes = 0;
     std::uint64_t included_files = 0;

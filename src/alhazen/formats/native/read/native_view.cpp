@@ -6,10 +6,12 @@
 #include <variant>
 #include <vector>
 
+#include "alhazen/base/file.h"
 #include "alhazen/formats/mesh/mesh_lists.h"
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/formats/native/read/native_transform.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/ies_profile.h"
 
 namespace alhazen {
 
@@ -153,6 +155,39 @@ void read_lens(BlockReader& reader, PerspectiveCamera& camera) {
     }
 }
 
+/// The axes of an IES profile, and the file.
+void read_profile(BlockReader& reader, NativeContext& context, LightProfile& profile) {
+    for (const auto& [key, out] :
+         {std::pair{"profile_down", &profile.down}, std::pair{"profile_front", &profile.front}}) {
+        if (reader.read(key, *out) && !(length_squared(*out) > 0)) {
+            reader.error(reader.block(), "'" + std::string(key) + "' must not be zero");
+        }
+    }
+    if (!reader.read("profile", profile.file)) return;
+    try {
+        const auto path = resolve_inside(context.roots, context.folder, profile.file);
+        context.diagnostics.note_file(path);
+        profile.profile = std::make_shared<const IesProfile>(
+            read_file(path, IesProfile::kMostBytes), profile.file);
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::Resource) throw;
+        reader.error(*reader.find("profile"), error.what());
+    }
+}
+
+/// Watts or lumens of a light that sends `per_unit` of them where its colour is 1; nothing where
+/// neither is given.
+std::optional<double> read_power(BlockReader& reader, double per_unit) {
+    double power = 0;
+    if (reader.has("power_watts") && reader.has("lumens")) {
+        reader.error(reader.block(),
+                     "'power_watts' and 'lumens' say the same; expected one of them");
+    }
+    if (read_positive(reader, "power_watts", power)) return power / per_unit;
+    if (read_positive(reader, "lumens", power)) return power / kLumensPerWatt / per_unit;
+    return std::nullopt;
+}
+
 void add_light(const NativeBlock& block, NativeContext& context, Light light) {
     context.scene.lights.push_back({block.name, std::move(light), block.location});
 }
@@ -264,6 +299,13 @@ void read_point_light(const NativeBlock& block, NativeContext& context) {
     read_attenuation(reader, light.attenuation);
     read_positive(reader, "range", light.range);
     reader.read("glints", light.glints);
+    read_profile(reader, context, light.profile);
+    // Intensity is pi times the colour (illumination.h).
+    const double of_color_one = 4 * kPi * kPi * mean_factor(light.profile);
+    if (const auto times = read_power(reader, of_color_one)) {
+        light.color = *times * light.color;
+        if (!reader.has("attenuation")) light.attenuation = {0, 0, 1};
+    }
     reader.finish();
     add_light(block, context, light);
 }
@@ -281,6 +323,8 @@ void read_spot_light(const NativeBlock& block, NativeContext& context) {
     read_emission(reader, light.color, light.ambient);
     read_attenuation(reader, light.attenuation);
     read_positive(reader, "range", light.range);
+    if (reader.has("profile")) light.profile.down = light.direction;
+    read_profile(reader, context, light.profile);
     reader.finish();
     add_light(block, context, light);
 }
@@ -334,7 +378,7 @@ void read_area_light(const NativeBlock& block, NativeContext& context) {
     Extent extent;
     AreaLight light;
     read_fields(reader, extent);
-    reader.require("radiance");
+    if (!reader.has("power_watts") && !reader.has("lumens")) reader.require("radiance");
     if (const auto value = reader.find("radiance")) {
         read_native_color(*value, "radiance", reader.values(), light.radiance);
     }
@@ -343,6 +387,11 @@ void read_area_light(const NativeBlock& block, NativeContext& context) {
     }
     reader.read("two_sided", light.two_sided);
     reader.read("seen", light.seen);
+    // The radiance is then a tint.
+    const double area = fault_of(extent) == nullptr ? LightSurface(extent, false).area() : 1;
+    if (const auto times = read_power(reader, kPi * area * (light.two_sided ? 2 : 1))) {
+        light.radiance = *times * light.radiance;
+    }
     reader.finish();
     light.extent = std::move(extent);
     add_light(block, context, light);

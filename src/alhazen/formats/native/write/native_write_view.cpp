@@ -1,3 +1,4 @@
+#include <span>
 #include <string_view>
 
 #include "alhazen/formats/core/default_conventions.h"
@@ -6,6 +7,7 @@
 #include "alhazen/formats/native/write/native_write_context.h"
 #include "alhazen/formats/pictures/picture_export.h"
 #include "alhazen/math/constants.h"
+#include "alhazen/shading/lights/ies_profile.h"
 
 namespace alhazen {
 
@@ -32,6 +34,17 @@ void add_angle(NativeBlockText& block, const std::string& key, double radians) {
     } else {
         block.add(key + "_rad", native_value(radians));
     }
+}
+
+/// The file is written beside the scene.
+void add_profile(NativeWriteContext& context, NativeBlockText& block, const LightProfile& p,
+                 std::size_t number, const Vec3& usual_down) {
+    if (!p.profile) return;
+    block.add_unless("profile_down", p.down, usual_down);
+    block.add_unless("profile_front", p.front, LightProfile{}.front);
+    const std::span<const char> text(p.profile->text());
+    block.add("profile", native_string(context.write_file(
+                             "light_" + std::to_string(number) + ".ies", std::as_bytes(text))));
 }
 
 NativeBlockText block_of(const std::string& name, const AmbientLight& light) {
@@ -239,9 +252,16 @@ void write_native_cameras(NativeWriteContext& context) {
 }
 
 void write_native_lights(NativeWriteContext& context) {
-    for (const LightDescription& light : context.scene.lights) {
-        context.append(
-            std::visit([&](const auto& l) { return block_of(light.name, l); }, light.light));
+    for (std::size_t i = 0; i < context.scene.lights.size(); ++i) {
+        const LightDescription& light = context.scene.lights[i];
+        NativeBlockText block =
+            std::visit([&](const auto& l) { return block_of(light.name, l); }, light.light);
+        if (const auto* point = std::get_if<PointLight>(&light.light)) {
+            add_profile(context, block, point->profile, i, LightProfile{}.down);
+        } else if (const auto* spot = std::get_if<SpotLight>(&light.light)) {
+            add_profile(context, block, spot->profile, i, spot->direction);
+        }
+        context.append(block);
     }
 }
 

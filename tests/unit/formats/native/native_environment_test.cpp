@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include "alhazen/imaging/image/image.h"
+#include "alhazen/shading/lights/ies_profile.h"
+#include "unit/formats/native/native_round_trip.h"
+#include "unit/formats/native/native_scene.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+TEST(NativeEnvironment, IsReadWithItsDefaults) {
+    const Imported sky = import_native(
+        "environment { kind = sky; turbidity = 5; to_sun = (1, 2, 3); rotation_deg = 90 }\n"
+        "sphere { center = (0, 0, 0); radius = 1 }\n");
+    EXPECT_EQ(sky.messages(), "");
+    ASSERT_TRUE(sky.scene.environment.has_value());
+    const EnvironmentSettings& e = sky.scene.environment->settings;
+    EXPECT_EQ(e.kind, EnvironmentKind::Sky);
+    EXPECT_EQ(e.turbidity, 5.0);
+    EXPECT_EQ(*e.to_sun, (Vec3{1, 2, 3}));
+    EXPECT_NEAR(e.rotation, 1.5707963267948966, 1e-15);
+    EXPECT_FALSE(e.up.has_value());
+    EXPECT_EQ(e.scale, 1.0);
+}
+
+TEST(NativeEnvironment, WhatIsWrongIsSaid) {
+    const auto messages = [](const std::string& block) {
+        Imported read = import_native(block + "\nsphere { center = (0, 0, 0); radius = 1 }\n");
+        validate(read.scene, read.diagnostics);
+        return read.messages();
+    };
+    const auto says = [&](const std::string& block, const std::string& word) {
+        const std::string text = messages(block);
+        EXPECT_NE(text.find(word), std::string::npos) << block << "\n" << text;
+    };
+    says("environment { turbidity = 3 }", "kind");
+    says("environment { kind = sunny }", "studio");
+    says("environment { kind = picture }", "file");
+    says("environment { kind = picture; file = \"none.hdr\" }", "none.hdr");
+    says("environment { kind = sky; turbidity = 30 }", "turbidity");
+    says("environment { kind = sky; to_sun = (0, 0, 0) }", "to_sun");
+    says("environment { kind = constant; color = (-1, 0, 0) }", "color");
+    says("environment { kind = constant; scale = -1 }", "scale");
+    says("environment { kind = sky; ground = 2 }", "ground");
+    says("environment { kind = studio }\nenvironment { kind = sky }", "one environment");
+    says("environment { kind = studio; sun = 3 }", "sun");
+}
+
+TEST(NativeEnvironment, RoundTripKeepsEveryBit) {
+    Numbers n(5);
+    for (const EnvironmentKind kind : {EnvironmentKind::Constant, EnvironmentKind::Picture,
+                                       EnvironmentKind::Sky, EnvironmentKind::Studio}) {
+        SceneDescription scene = empty_scene();
+        EnvironmentSettings settings;
+        settings.kind = kind;
+        settings.color = n.color();
+        settings.scale = n.positive();
+        settings.rotation = n.any();
+        settings.up = n.point();
+        settings.to_sun = n.point();
+        settings.turbidity = 1.0 + 0.5 * n.positive();
+        settings.ground = 0.05 * n.color();
+        if (kind == EnvironmentKind::Picture) {
+            Image image(3, 2, 3);
+            for (float& sample : image.samples) sample = static_cast<float>(n.positive());
+            settings.picture = std::make_shared<const Image>(image);
+        }
+        scene.environment = EnvironmentDescription{settings, {}};
+        expect_round_trip(scene);
+    }
+}
+
+const char* const kProfile =
+    "IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 100\n0 45 90\n0\n100 50 0\n";
+
+TEST(NativeEnvironment, ProfilesOfLightsKeepEveryBit) {
+    Numbers n(6);
+    SceneDescription scene = empty_scene();
+    PointLight point{.position = n.point(), .color = n.color()};
+    point.profile = {"lamp.ies", std::make_shared<const IesProfile>(kProfile, "lamp.ies"),
+                     n.point(), n.point()};
+    scene.lights.push_back({"", point, {}});
+    SpotLight spot{.position = n.point(), .direction = n.point()};
+    spot.profile = {"lamp.ies", point.profile.profile, spot.direction, n.point()};
+    scene.lights.push_back({"", spot, {}});
+    expect_round_trip(scene);
+}
+
+TEST(NativeEnvironment, PowersOfLightsAreRadiances) {
+    const Imported read = import_native(
+        "rectangle_light { corner = (0, 0, 0); edge_u = (2, 0, 0); edge_v = (0, 3, 0);"
+        " power_watts = 12 }\n"
+        "point_light { position = (0, 0, 0); lumens = 683; color = (1, 0.5, 0) }\n"
+        "sphere { center = (0, 0, 0); radius = 1 }\n");
+    EXPECT_EQ(read.messages(), "");
+    constexpr double pi = 3.14159265358979323846;
+    const auto& area = std::get<AreaLight>(read.scene.lights[0].light);
+    EXPECT_NEAR(area.radiance.r, 12 / (pi * 6), 1e-12);
+    const auto& point = std::get<PointLight>(read.scene.lights[1].light);
+    EXPECT_NEAR(point.color.r * pi * 4 * pi, 1.0, 1e-12);
+    EXPECT_EQ(point.attenuation.quadratic, 1.0);
+    EXPECT_EQ(point.attenuation.constant, 0.0);
+    EXPECT_NE(import_native("point_light { position = (0, 0, 0); lumens = 1; power_watts = 1 }\n"
+                            "sphere { center = (0, 0, 0); radius = 1 }\n")
+                  .messages()
+                  .find("say the same"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE

@@ -1,0 +1,87 @@
+#include "alhazen/illumination/spherical_polygons.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "alhazen/illumination/emitter.h"
+#include "alhazen/math/constants.h"
+#include "support/random.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+TEST(SphericalPolygons, AnOctantAndACubeHaveTheirSolidAngles) {
+    EXPECT_NEAR(SphericalTriangle({2, 0, 0}, {0, 3, 0}, {0, 0, 0.1}).solid_angle(), kPi / 2, 1e-14);
+    EXPECT_NEAR(SphericalRectangle({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}).solid_angle(), 4 * kPi / 6,
+                1e-14);
+    EXPECT_EQ(SphericalTriangle({1, 0, 0}, {2, 0, 0}, {3, 0, 0}).solid_angle(), 0.0);
+    EXPECT_EQ(SphericalRectangle({1, 0, 0}, {1, 0, 0}, {0, 1, 0}).solid_angle(), 0.0);
+}
+
+TEST(SphericalPolygons, ARectangleIsTwoTriangles) {
+    Random random(1);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 x = random.unit_vector();
+        const Vec3 y = perpendicular(x),
+                   corner = random.log_uniform(0.05, 5) * random.unit_vector();
+        const Vec3 u = random.log_uniform(0.1, 3) * x, v = random.log_uniform(0.1, 3) * y;
+        const double two = SphericalTriangle(corner, corner + u, corner + u + v).solid_angle() +
+                           SphericalTriangle(corner, corner + u + v, corner + v).solid_angle();
+        const double one = SphericalRectangle(corner, u, v).solid_angle();
+        // Of one seen nearly edge on the angles cancel: to 10^-7 sr.
+        EXPECT_NEAR(one, two, 1e-7) << i;
+    }
+}
+
+/// Draws from points near and far, flat and edge on: on the emitter, where they say.
+void expect_on_emitter(EmitterForm form, std::uint64_t seed) {
+    Random random(seed);
+    int drawn = 0;
+    for (int i = 0; i < 20000; ++i) {
+        Emitter e;
+        e.form = form;
+        e.two_sided = true;
+        const double size = random.log_uniform(1e-3, 1e3);
+        const Vec3 x = random.unit_vector();
+        const Vec3 y = form == EmitterForm::Rectangle ? perpendicular(x) : random.unit_vector();
+        e.world_from_own.translation = size * random.unit_vector();
+        e.world_from_own.linear = {size * x, size * random.log_uniform(0.01, 1) * y,
+                                   normalize(cross(x, y))};
+        if (!make_ready(e)) continue;
+        const Vec3 on = e.world_from_own.point({random.log_uniform(0.01, 2), 0.3, 0});
+        const Vec3 from = on + size * random.log_uniform(1e-6, 100) * random.unit_vector();
+        const auto unit = [&] { return random.log_uniform(1e-4, 1) * 0.999999; };
+        const EmitterSample s = sample(e, from, {unit(), unit()});
+        if (!(s.density > 0.0)) continue;
+        ++drawn;
+        ASSERT_TRUE(std::isfinite(s.density) && std::isfinite(s.distance)) << i;
+        ASSERT_NEAR(length(s.to_light), 1.0, 1e-12);
+        const Vec3 own = inverse(e.world_from_own.linear) *
+                         (from + s.distance * s.to_light - e.world_from_own.translation);
+        const double slack = 1e-5;
+        EXPECT_NEAR(own.z, 0.0, slack * (size + s.distance)) << i;
+        EXPECT_GT(own.x, -slack) << i;
+        EXPECT_GT(own.y, -slack) << i;
+        EXPECT_LT(form == EmitterForm::Triangle ? own.x + own.y : std::max(own.x, own.y),
+                  1.0 + slack)
+            << i;
+        const EmitterHit hit{s.to_light, s.distance, e.world_from_own.linear.z_axis, s.parameters};
+        EXPECT_NEAR(density(e, from, hit) / s.density, 1.0, 1e-9) << i;
+        if (::testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(drawn, 19000);
+}
+
+TEST(SphericalPolygons, DrawsFromAnywhereLieOnTheTriangle) {
+    expect_on_emitter(EmitterForm::Triangle, 2);
+}
+
+TEST(SphericalPolygons, DrawsFromAnywhereLieOnTheRectangle) {
+    expect_on_emitter(EmitterForm::Rectangle, 3);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE

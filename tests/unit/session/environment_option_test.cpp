@@ -1,0 +1,88 @@
+#include "alhazen/session/environment_option.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "alhazen/base/error.h"
+#include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/session/framing.h"
+#include "alhazen/shading/lights/environment.h"
+#include "support/scene_maker.h"
+#include "support/scratch_folder.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using namespace alhazen::testing;
+
+LoadedScene loaded_ball() {
+    SceneMaker maker;
+    maker.add(Sphere{});
+    LoadedScene loaded;
+    loaded.scene = maker.compile();
+    loaded.description = maker.description();
+    loaded.description.conventions.importing.headlight = true;
+    return loaded;
+}
+
+TEST(EnvironmentOption, ASceneWithoutLightGetsTheStudioWhereLightIsFollowed) {
+    LoadedScene loaded = loaded_ball();
+    EXPECT_TRUE(set_environment(loaded, "", "whitted", {}).empty());
+    EXPECT_EQ(loaded.scene.environment, nullptr);
+    EXPECT_EQ(set_environment(loaded, "", "path_tracing", {}).size(), 1u);
+    ASSERT_NE(loaded.scene.environment, nullptr);
+    EXPECT_EQ(loaded.description.environment->settings.kind, EnvironmentKind::Studio);
+    EXPECT_TRUE(complete_view(loaded.description, loaded.scene, {.follows_light = true}).empty());
+    EXPECT_TRUE(loaded.scene.lights.empty());
+    // The others still get a headlight.
+    EXPECT_EQ(complete_view(loaded.description, loaded.scene, {}).size(), 1u);
+}
+
+TEST(EnvironmentOption, ASceneWithALightKeepsItsOwn) {
+    SceneMaker maker;
+    maker.add(Sphere{});
+    maker.light(PointLight{});
+    LoadedScene loaded;
+    loaded.scene = maker.compile();
+    loaded.description = maker.description();
+    EXPECT_TRUE(set_environment(loaded, "", "path_tracing", {}).empty());
+    EXPECT_EQ(loaded.scene.environment, nullptr);
+    (void)set_environment(loaded, "sky", "path_tracing", {});
+    EXPECT_TRUE(loaded.scene.environment->sun().has_value());
+    (void)set_environment(loaded, "none", "path_tracing", {});
+    EXPECT_EQ(loaded.scene.environment, nullptr);
+    EXPECT_FALSE(loaded.description.environment.has_value());
+}
+
+TEST(EnvironmentOption, APictureIsReadAndBadTexelsAreTold) {
+    ScratchFolder folder;
+    Image image(4, 2, 3);
+    std::fill(image.samples.begin(), image.samples.end(), 0.5f);
+    image.pixel(1, 0)[0] = std::numeric_limits<float>::infinity();
+    const auto path = folder.path() / "sky.pfm";
+    write_image(path, image);
+    LoadedScene loaded = loaded_ball();
+    const auto notes = set_environment(loaded, path.string(), "path_tracing", {});
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_NE(notes[0].find("1 texels"), std::string::npos);
+    EXPECT_NEAR(loaded.scene.environment->radiance({0, -1, 0}).r, 0.5, 1e-6);
+}
+
+TEST(EnvironmentOption, WhatCannotBeIsSaid) {
+    const auto message = [](const std::string& text, const std::string& renderer) {
+        try {
+            check_environment(text, renderer);
+            return std::string();
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_NE(message("sky", "whitted").find("path_tracing"), std::string::npos);
+    EXPECT_NE(message("cloudy", "path_tracing").find("studio"), std::string::npos);
+    EXPECT_EQ(message("sky", "path_tracing"), "");
+    EXPECT_EQ(message("", "whitted"), "");
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
