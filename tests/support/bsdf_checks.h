@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "alhazen/sampling/random.h"
+#include "alhazen/sampling/sobol.h"
 #include "alhazen/shading/bsdf/bsdf.h"
 #include "support/chi_square.h"
 
@@ -18,17 +19,17 @@ inline Vec3 view_at(double cosine, double turn = 0.4) {
     return {s * std::cos(turn), s * std::sin(turn), cosine};
 }
 
-/// Light from a white surrounding that goes to `view`, by `samples` points of a Kronecker lattice.
-inline Rgb furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 16) {
-    // Powers of the root of x^4 = x + 1 (Roberts 2018).
-    constexpr double kA = 0.8191725133961645, kB = 0.6710436067037893, kC = 0.5497004779019703;
-    const auto part = [](double x) { return x - std::floor(x); };
+/// Light from white surroundings (of radiance 1 times the square of their index) to `view`, by
+/// `samples` points of a Kronecker lattice.
+inline Rgb furnace(const Bsdf& bsdf, const Vec3& view, int samples = 1 << 15) {
     Rgb sum;
     for (int i = 0; i < samples; ++i) {
-        const auto sample =
-            bsdf.sample(view, part(0.5 + kA * i), {part(0.5 + kB * i), part(0.5 + kC * i)},
-                        Transport::Importance);
-        if (sample) sum += sample->weight;
+        const auto u = [&](int dimension) {
+            return scrambled_sobol(7, static_cast<std::uint32_t>(i), dimension);
+        };
+        const auto sample = bsdf.sample(view, u(0), {u(1), u(2)}, Transport::Radiance);
+        // Behind a boundary the radiance of the same light is the square of the index as much.
+        if (sample) sum += sample->eta * sample->eta * sample->weight;
     }
     return (1.0 / samples) * sum;
 }
@@ -65,6 +66,7 @@ inline double sample_probability(const Bsdf& bsdf, const Vec3& view, std::uint64
 struct NamedBsdf {
     std::string name;
     Bsdf bsdf;
+    double error = 1e-3;  ///< of its energy, relative: that of the tables
 };
 
 inline Bsdf bsdf_of_lobe(const Lobe& lobe, const Rgb& weight = {1, 1, 1}) {
@@ -76,8 +78,8 @@ inline Bsdf bsdf_of_lobe(const Lobe& lobe, const Rgb& weight = {1, 1, 1}) {
 /// Every lobe that has a density, at several roughnesses; all of albedo 1 but sheen.
 inline std::vector<NamedBsdf> lobes_with_density(const std::vector<double>& roughnesses) {
     std::vector<NamedBsdf> list;
-    const auto add = [&](std::string name, const Lobe& lobe) {
-        list.push_back({std::move(name), bsdf_of_lobe(lobe)});
+    const auto add = [&](std::string name, const Lobe& lobe, double error = 1e-3) {
+        list.push_back({std::move(name), bsdf_of_lobe(lobe), error});
     };
     add("Lambert", Lambert{});
     add("Lambert, transmitted", LambertTransmission{});
@@ -88,8 +90,9 @@ inline std::vector<NamedBsdf> lobes_with_density(const std::vector<double>& roug
         add("rough mirror" + at, RoughReflection({alpha, alpha}, SchlickTerm{}));
         add("rough sheet" + at, RoughSheet({alpha, alpha}));
         add("rough glass" + at, RoughDielectric(alpha, 1.0 / 1.5, {1, 1, 1}, {1, 1, 1}));
-        add("rough glass from inside" + at, RoughDielectric(alpha, 1.5, {1, 1, 1}, {1, 1, 1}));
-        add("Phong" + at, Phong(exponent));
+        add("rough glass from inside" + at, RoughDielectric(alpha, 1.5, {1, 1, 1}, {1, 1, 1}),
+            5e-3);
+        add("Phong" + at, Phong(exponent), 5e-3);
         add("Blinn-Phong" + at, BlinnPhong(exponent));
     }
     return list;

@@ -81,7 +81,7 @@ double integrate_rectangle(const F& f, double z0, double z1, double t0, double t
     const double z = 0.5 * (z0 + z1), t = 0.5 * (t0 + t1);
     const double a = rectangle_sum(f, z0, z, t0, t), b = rectangle_sum(f, z0, z, t, t1);
     const double c = rectangle_sum(f, z, z1, t0, t), d = rectangle_sum(f, z, z1, t, t1);
-    if (depth == 0 || std::abs(a + b + c + d - whole) < 1e-6) return a + b + c + d;
+    if (depth == 0 || std::abs(a + b + c + d - whole) < 1e-5) return a + b + c + d;
     return integrate_rectangle(f, z0, z, t0, t, a, depth - 1) +
            integrate_rectangle(f, z0, z, t, t1, b, depth - 1) +
            integrate_rectangle(f, z, z1, t0, t, c, depth - 1) +
@@ -90,7 +90,7 @@ double integrate_rectangle(const F& f, double z0, double z1, double t0, double t
 
 }  // namespace detail
 
-/// Integrals of a function of directions over the cells, adaptively; error about 1e-6 each.
+/// Integrals of a function of directions over the cells, adaptively; error about 1e-5 each.
 template <class F>
 std::vector<double> integrate_cells(const F& f) {
     std::vector<double> result;
@@ -101,7 +101,7 @@ std::vector<double> integrate_cells(const F& f) {
             const double t0 = 2.0 * kPi * j / SphereCells::kTurns;
             const double t1 = 2.0 * kPi * (j + 1) / SphereCells::kTurns;
             const double whole = detail::rectangle_sum(f, z0, z1, t0, t1);
-            result.push_back(detail::integrate_rectangle(f, z0, z1, t0, t1, whole, 7));
+            result.push_back(detail::integrate_rectangle(f, z0, z1, t0, t1, whole, 6));
         }
     }
     return result;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace alhazen {
@@ -41,9 +42,52 @@ class Checker {
             error(fmt::format("scale of the normal map of material '{}' must be finite", name_));
         }
         if (m.metallic_roughness) parameters(*m.metallic_roughness);
+        if (m.conductor) {
+            numbers(m.conductor->index, "index of the conductor");
+            numbers(m.conductor->extinction, "extinction of the conductor");
+        }
+        if (m.dielectric) numbers(m.dielectric->absorption, "absorption");
+        if (int(m.metallic_roughness.has_value()) + int(m.conductor.has_value()) +
+                int(m.dielectric.has_value()) >
+            1) {
+            error(
+                fmt::format("material '{}' may be only one of metallic-roughness, conductor and "
+                            "dielectric",
+                            name_));
+        }
+        more_light_than_comes(m);
     }
 
   private:
+    /// What is clamped when light is traced is said.
+    void more_light_than_comes(const Material& m) {
+        const auto warn = [&](const ColorInput& input, const char* what) {
+            const Rgb& c = input.color;
+            if (std::min({c.r, c.g, c.b}) < 0.0) {
+                out_.warning(where_, fmt::format("{} of material '{}' is negative; path tracing "
+                                                 "takes 0",
+                                                 what, name_));
+            }
+            if (c.max() > 1.0) {
+                out_.warning(where_, fmt::format("{} of material '{}' is above 1; path tracing "
+                                                 "scales it down",
+                                                 what, name_));
+            }
+        };
+        if (m.metallic_roughness) {
+            warn(m.metallic_roughness->base_color, "base colour");
+            warn(m.metallic_roughness->sheen.color, "sheen colour");
+        } else if (!m.conductor && !m.dielectric) {
+            warn(m.diffuse, "diffuse");
+            warn(m.reflective, "reflective");
+            warn(m.transmissive, "transmissive");
+        }
+    }
+
+    void numbers(const Rgb& c, const char* what) {
+        for (int i = 0; i < 3; ++i) not_negative(c[i], what);
+    }
+
     void parameters(const MetallicRoughness& p) {
         color(p.base_color, "base colour");
         color(p.specular_color, "specular colour");
@@ -54,6 +98,22 @@ class Checker {
         scalar(p.specular, "specular");
         scalar(p.transmission, "transmission");
         scalar(p.thickness, "thickness");
+        scalar(p.coat.strength, "strength of the coat");
+        scalar(p.coat.roughness, "roughness of the coat");
+        texture_id(p.coat.normal_map.texture, "normal map of the coat");
+        color(p.sheen.color, "sheen colour");
+        scalar(p.sheen.roughness, "sheen roughness");
+        scalar(p.film.strength, "strength of the film");
+        not_negative(p.film.index, "index of the film");
+        not_negative(p.film.thinnest_nm, "thickness of the film");
+        not_negative(p.film.thickest_nm, "thickness of the film");
+        texture_id(p.film.thickness_texture, "thickness of the film");
+        not_negative(p.anisotropy.strength, "strength of the anisotropy");
+        texture_id(p.anisotropy.texture, "anisotropy");
+        if (!std::isfinite(p.anisotropy.rotation)) {
+            error(fmt::format("rotation of the anisotropy of material '{}' must be finite", name_));
+        }
+        not_negative(p.dispersion, "dispersion");
         if (!(p.attenuation_distance > 0.0)) {
             error(fmt::format("attenuation distance of material '{}' must be positive, found {}",
                               name_, p.attenuation_distance));

@@ -34,6 +34,12 @@ Rgb not_negative(const Rgb& c) {
     return {c.r > 0.0 ? c.r : 0.0, c.g > 0.0 ? c.g : 0.0, c.b > 0.0 ? c.b : 0.0};
 }
 
+double roughness_of(const Material& m, std::span<const Texture> textures,
+                    const SurfaceLookup& lookup) {
+    const double roughness = value_at(m.roughness, textures, lookup);
+    return roughness > 0.0 ? std::min(roughness, 1.0) : 0.0;
+}
+
 /// Whitted's coefficients. What they give out together beyond the light that comes in is scaled
 /// down, by one factor for all.
 Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
@@ -46,7 +52,7 @@ Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
     const Rgb refracted = color(m.transmissive);
     const double exponent = value_at(m.shininess, textures, lookup);
     // So that the middle of the highlight of a point light is as bright as Whitted's.
-    const double wide = 8.0 / (std::max(exponent, 0.0) + 2.0);
+    const double wide = 8.0 / ((exponent > 0.0 ? exponent : 0.0) + 2.0);
     Rgb highlight = wide * color(m.specular);
     for (int i = 0; i < 3; ++i) highlight[i] = std::min(highlight[i], 1.0);
     const double sum = (diffuse + highlight + mirror + refracted).max();
@@ -55,7 +61,7 @@ Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
     Bsdf bsdf;
     bsdf.add(scale * diffuse, Lambert{});
     if (!highlight.is_black()) bsdf.add(scale * highlight, BlinnPhong(exponent));
-    const double roughness = std::clamp(value_at(m.roughness, textures, lookup), 0.0, 1.0);
+    const double roughness = roughness_of(m, textures, lookup);
     if (!mirror.is_black()) bsdf.add(scale * mirror, reflection_lobe(roughness, SchlickTerm{}));
     if (!refracted.is_black()) {
         const double eta = eta_at(place, value_at(m.index, textures, lookup));
@@ -67,7 +73,7 @@ Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
 Bsdf bsdf_of_conductor(const Material& m, const Conductor& c, std::span<const Texture> textures,
                        const SurfaceLookup& lookup) {
     Bsdf bsdf;
-    const double roughness = std::clamp(value_at(m.roughness, textures, lookup), 0.0, 1.0);
+    const double roughness = roughness_of(m, textures, lookup);
     bsdf.add({1, 1, 1}, reflection_lobe(roughness, ConductorTerm{c.index, c.extinction}));
     return bsdf;
 }
@@ -75,7 +81,7 @@ Bsdf bsdf_of_conductor(const Material& m, const Conductor& c, std::span<const Te
 Bsdf bsdf_of_dielectric(const Material& m, std::span<const Texture> textures,
                         const SurfaceLookup& lookup, const BsdfPlace& place) {
     Bsdf bsdf;
-    const double roughness = std::clamp(value_at(m.roughness, textures, lookup), 0.0, 1.0);
+    const double roughness = roughness_of(m, textures, lookup);
     const double eta = eta_at(place, value_at(m.index, textures, lookup));
     bsdf.add({1, 1, 1}, boundary_lobe(roughness, eta, {1, 1, 1}, {1, 1, 1}));
     return bsdf;

@@ -131,6 +131,7 @@ class LayerMaker {
         const bool filmed = film_share_ > 0.0 && !place_.from_inside;
         const double faces = thin || filmed ? share : matt;
         if (faces > 0.0) bsdf_.add(grey(faces), face_lobe(fresnel), covers_);
+        if (fresnel.f0.max() >= 1.0) return;  // nothing gets past the face
         const Cover cover = face_cover(fresnel);
         bsdf_.add(grey(matt), CoveredMatt(base_, cover), covers_);
         if (!(clear > 0.0)) return;

@@ -23,7 +23,7 @@ Rgb grey(double x) {
 }  // namespace
 
 Phong::Phong(double exponent)
-    : exponent_(std::clamp(exponent, 0.0, kLargestExponent)),
+    : exponent_(exponent > 0.0 ? std::min(exponent, kLargestExponent) : 0.0),
       alpha_(alpha_of_exponent(exponent_)),
       mean_missing_(1.0 - mean_phong_albedo(alpha_)) {}
 
@@ -63,7 +63,7 @@ Rgb Phong::albedo(const Vec3&) const {
 }
 
 BlinnPhong::BlinnPhong(double exponent)
-    : exponent_(std::clamp(exponent, 0.0, kLargestExponent)),
+    : exponent_(exponent > 0.0 ? std::min(exponent, kLargestExponent) : 0.0),
       alpha_(alpha_of_exponent(exponent_)),
       mean_missing_(1.0 - mean_blinn_albedo(alpha_)) {}
 

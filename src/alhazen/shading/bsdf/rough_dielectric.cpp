@@ -41,7 +41,7 @@ RoughDielectric::RoughDielectric(double alpha, double eta, const Rgb& reflection
     if (!(mean_missing_ > 0.0) || !(mean_missing_behind_ > 0.0)) return;
     // through_ here and there differ by this ratio, as f / index^2 is the same both ways.
     const double ratio = eta * eta * mean_missing_ / mean_missing_behind_;
-    const double clear = 1.0 - mean_dielectric_reflectance(std::min(eta, 1.0 / eta));
+    const double clear = 1.0 - normal_reflectance_of(eta);
     through_ = clear * std::min(1.0, 1.0 / ratio);
 }
 

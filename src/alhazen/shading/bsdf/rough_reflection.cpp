@@ -19,7 +19,7 @@ RoughReflection::RoughReflection(const Ggx& ggx, const FresnelTerm& fresnel, con
 }
 
 double RoughReflection::single(double mu) const {
-    return ggx_albedo(mu, mean_alpha_).sum();
+    return ggx_albedo_sum(mu, mean_alpha_);
 }
 
 Rgb RoughReflection::value(const Vec3& view, const Vec3& direction, Transport) const {

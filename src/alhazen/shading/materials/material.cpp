@@ -101,9 +101,14 @@ MaterialSample evaluate_whitted(const Material& m, std::span<const Texture> text
 
 MaterialSample evaluate(const Material& material, std::span<const Texture> textures,
                         const SurfaceLookup& lookup) {
-    if (!material.metallic_roughness) return evaluate_whitted(material, textures, lookup);
+    const bool constants = material.conductor || material.dielectric;
+    if (!material.metallic_roughness && !constants) {
+        return evaluate_whitted(material, textures, lookup);
+    }
     MaterialSample sample =
-        evaluate_metallic_roughness(material, *material.metallic_roughness, textures, lookup);
+        material.metallic_roughness
+            ? evaluate_metallic_roughness(material, *material.metallic_roughness, textures, lookup)
+            : evaluate_physical_constants(material, textures, lookup);
     sample.coverage = coverage_of(material, textures, lookup);
     sample.single_sided = !material.double_sided;
     return sample;

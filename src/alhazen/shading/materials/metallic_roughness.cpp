@@ -10,6 +10,7 @@
 
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/materials/turn_to_view.h"
+#include "alhazen/shading/optics/fresnel.h"
 
 namespace alhazen {
 
@@ -108,6 +109,25 @@ MaterialSample evaluate_metallic_roughness(const Material& material, const Metal
     s.thin = !(p.thickness.value > 0.0) || s.index == 0.0;
     if (!s.thin) s.absorption = absorption_of(p.attenuation_color, p.attenuation_distance);
     return s;
+}
+
+MaterialSample evaluate_physical_constants(const Material& material,
+                                           std::span<const Texture> textures,
+                                           const SurfaceLookup& lookup) {
+    MetallicRoughness p;
+    p.roughness = material.roughness;
+    if (material.conductor) {
+        const Conductor& c = *material.conductor;
+        for (int i = 0; i < 3; ++i) {
+            p.base_color.color[i] = conductor_reflectance(1.0, c.index[i], c.extinction[i]);
+        }
+        return evaluate_metallic_roughness(material, p, textures, lookup);
+    }
+    p.metallic.value = 0;
+    p.transmission.value = p.thickness.value = 1;
+    MaterialSample sample = evaluate_metallic_roughness(material, p, textures, lookup);
+    sample.absorption = material.dielectric->absorption;
+    return sample;
 }
 
 void turn_to_view(MaterialSample& sample, double cosine, bool from_inside) {

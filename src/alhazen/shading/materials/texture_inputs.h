@@ -23,4 +23,10 @@ namespace alhazen {
                                                          std::span<const Texture> textures,
                                                          const SurfaceLookup& lookup);
 
+/// A conductor or dielectric as terms of Whitted's equation: as a metal of its colour at normal
+/// incidence, or as a clear volume.
+[[nodiscard]] MaterialSample evaluate_physical_constants(const Material& material,
+                                                         std::span<const Texture> textures,
+                                                         const SurfaceLookup& lookup);
+
 }  // namespace alhazen

@@ -15,6 +15,7 @@
 #include <functional>
 
 #include "alhazen/shading/microfacets/cubic_table.h"
+#include "alhazen/shading/microfacets/gauss_legendre.h"
 
 namespace alhazen {
 
@@ -22,13 +23,17 @@ class AlbedoTable {
   public:
     using Function = std::function<double(double mu, double alpha)>;
 
-    explicit AlbedoTable(const Function& albedo);
+    /// `Shadow`: for what is smooth in mu / (mu + alpha); `Angle`: in the root of mu.
+    enum class Axis { Shadow, Angle };
+
+    explicit AlbedoTable(const Function& albedo, Axis axis = Axis::Shadow);
 
     [[nodiscard]] double at(double mu, double alpha) const;
     /// The mean of `at` over the hemisphere, weighted by mu.
     [[nodiscard]] double mean(double alpha) const;
 
   private:
+    Axis axis_;
     CubicTable<2> table_;
     CubicTable<1> mean_;
 };
@@ -47,6 +52,18 @@ struct AlbedoAxes {
     [[nodiscard]] static double y_of(double alpha) { return std::sqrt(alpha); }
     [[nodiscard]] static double alpha_of(double y) { return std::max(y * y, kLeastAlpha); }
 };
+
+/// Mean of f(mu) over the hemisphere, weighted by mu. By the root of mu: finer where it is small.
+template <class F>
+[[nodiscard]] double hemispherical_mean(const F& f) {
+    static const GaussLegendre<64> rule;
+    double sum = 0;
+    for (std::size_t i = 0; i < rule.points.size(); ++i) {
+        const double t = rule.points[i];
+        sum += rule.weights[i] * 4.0 * t * t * t * f(t * t);
+    }
+    return sum;
+}
 
 /// A matt lobe that gives back what is missing at both ends: reciprocal, and what it reflects of a
 /// view is `missing(mu_view)`, exactly. `mean_missing`: over the hemisphere. Without cosine.

@@ -49,7 +49,8 @@ class CubicTable {
     template <std::size_t Axis>
     [[nodiscard]] double along(const Point& p, std::size_t start) const {
         const int size = sizes_[Axis];
-        const double x = std::clamp(p[Axis], 0.0, 1.0) * (size - 1);
+        // NaN reads the first value.
+        const double x = (p[Axis] > 0.0 ? std::min(p[Axis], 1.0) : 0.0) * (size - 1);
         const int cell = std::min(static_cast<int>(x), size - 2);
         const auto value = [&](int i) {
             const std::size_t index =

@@ -19,7 +19,8 @@ Vec3 view_at(double mu) {
 /// density of the cosines: by u = cosine^power, and half the turn, which is as the other.
 template <class F>
 double mean_around_pole(double power, const F& f) {
-    static const GaussLegendre<32> cosines, turns;
+    static const GaussLegendre<48> cosines;
+    static const GaussLegendre<96> turns;
     double sum = 0;
     for (std::size_t i = 0; i < cosines.points.size(); ++i) {
         // Finer where the cosine is small: u = t^2.

@@ -47,11 +47,4 @@ double schlick_weight(double cosine) {
     return x * x * x * x * x;
 }
 
-double mean_dielectric_reflectance(double eta) {
-    const double n = 1.0 / eta;
-    if (n >= 1.0) return std::clamp((n - 1.0) / (4.08567 + 1.00071 * n), 0.0, 1.0);
-    const double mean = 0.997118 + 0.1014 * n - 0.965241 * n * n - 0.130607 * n * n * n;
-    return std::clamp(mean, 0.0, 1.0);
-}
-
 }  // namespace alhazen

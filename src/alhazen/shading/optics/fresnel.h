@@ -26,9 +26,4 @@ namespace alhazen {
 /// (1 - cosine)^5.
 [[nodiscard]] double schlick_weight(double cosine);
 
-/// Mean over the hemisphere of a dielectric's reflectance, weighted by the cosine; `eta` as above.
-/// Source: Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", SIGGRAPH 2017
-/// course, slide on dielectrics (fits; error below 0.5 % for indices up to 3).
-[[nodiscard]] double mean_dielectric_reflectance(double eta);
-
 }  // namespace alhazen

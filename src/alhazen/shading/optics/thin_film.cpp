@@ -49,8 +49,7 @@ Rgb thin_film_reflectance(double cosine, double film_index, double thickness_nm,
     const double inside = std::sqrt(squared);
 
     // Upper side: reflectance, transmittance, phase shifts (0 or pi) from above and below.
-    const double r12 =
-        normal_reflectance_of(index) + (1.0 - normal_reflectance_of(index)) * schlick_weight(c);
+    const double r12 = dielectric_reflectance(c, 1.0 / index);
     const double t121 = 1.0 - r12;
     const double phase21 = index < 1.0 ? 0.0 : kPi;
     // Lower side, by the index that the base would have as a dielectric.

@@ -4,7 +4,8 @@
 /// Source: Belcour and Barla, "A Practical Extension to Microfacet Theory for the Modeling of
 /// Varying Iridescence", SIGGRAPH 2017, equations 3 to 13 and the fit of the sensitivities of its
 /// supplemental material; Khronos, KHR_materials_iridescence (the base by its reflectance).
-/// Differs: terms of the Airy series up to the second, as there; negative results are cut off.
+/// Differs: the lower side by Schlick's formula, and polarisations are not kept apart; terms of the
+/// Airy series up to the second, as there; negative results are cut off.
 
 #include "alhazen/imaging/image/rgb.h"
 

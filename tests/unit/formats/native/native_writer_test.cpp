@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include "alhazen/shading/optics/metals.h"
 
 #include "alhazen/base/error.h"
 #include "alhazen/formats/native/read/native_text.h"
@@ -256,10 +257,28 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
             p.thickness = scalar(Channel::Green);
             if (i % 5 != 2) p.attenuation_distance = n.positive();
             p.attenuation_color = n.color();
+            p.coat.strength = scalar(Channel::Red);
+            p.coat.roughness = scalar(Channel::Green);
+            p.sheen.color = color();
+            p.sheen.roughness = scalar(Channel::Alpha);
+            p.film.strength = scalar(Channel::Red);
+            p.film.index = n.positive();
+            p.film.thinnest_nm = n.positive();
+            p.film.thickest_nm = n.positive();
+            p.anisotropy.strength = n.positive();
+            p.anisotropy.rotation = n.positive();
+            p.dispersion = n.positive();
             p.unlit = i % 5 == 3;
         }
         scene.materials.push_back({m, {}});
     }
+    Material gold, metal, water;
+    const Metal& measured = *find_metal("gold");
+    gold.conductor = Conductor{measured.index, measured.extinction, "gold"};
+    metal.conductor = Conductor{n.color(), n.color(), ""};
+    water.dielectric = Dielectric{n.color()};
+    water.index.value = 1.33;
+    for (const Material& m : {gold, metal, water}) scene.materials.push_back({m, {}});
     expect_round_trip(scene);
 }
 

@@ -155,7 +155,7 @@ TEST(BsdfOf, AClearBodyGivesBackAllLightHoweverRough) {
     for (const double r : {0.0, 0.4, 1.0}) {
         m.roughness.value = r;
         EXPECT_NEAR(furnace(of(m), view_at(0.4)).r, 1.0, 1e-3);
-        EXPECT_NEAR(furnace(of(m, {.from_inside = true}), view_at(0.4)).r, 1.0, 1e-3);
+        EXPECT_NEAR(furnace(of(m, {.from_inside = true}), view_at(0.4)).r, 1.0, 5e-3);
     }
 }
 

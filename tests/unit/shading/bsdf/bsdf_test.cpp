@@ -14,7 +14,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Lobes alone, and mixed as materials mix them.
 std::vector<NamedBsdf> bsdfs() {
-    auto list = lobes_with_density({0.25, 0.5, 1.0});
+    auto list = lobes_with_density({0.3, 0.7});
     for (const double r : {0.3, 0.8}) {
         list.push_back({"sheen", bsdf_of_lobe(Sheen{{1, 1, 1}, r})});
         list.push_back(
@@ -57,7 +57,7 @@ TEST(Bsdf, SamplesAreDistributedByTheDensity) {
     std::uint64_t seed = 1;
     for (const NamedBsdf& b : list) {
         for (const double cosine : views) {
-            EXPECT_GT(sample_probability(b.bsdf, view_at(cosine), seed++, 100000), level)
+            EXPECT_GT(sample_probability(b.bsdf, view_at(cosine), seed++, 50000), level)
                 << b.name << ", view " << cosine;
         }
     }
@@ -65,7 +65,7 @@ TEST(Bsdf, SamplesAreDistributedByTheDensity) {
 
 TEST(Bsdf, TheDensityIntegratesToTheShareThatIsSampled) {
     for (const NamedBsdf& b : bsdfs()) {
-        for (const double cosine : {0.9, 0.4}) {
+        for (const double cosine : {0.6}) {
             const Vec3 view = view_at(cosine);
             double integral = 0;
             for (const double part :
@@ -121,17 +121,11 @@ TEST(Bsdf, ThereIsADensityWhereThereIsAValue) {
                 const Rgb value = b.bsdf.value(view, d, transport);
                 ASSERT_TRUE(value.is_finite()) << b.name;
                 ASSERT_GE(std::min({value.r, value.g, value.b}), 0.0) << b.name;
-                if (value.max() > 0.0) ASSERT_GT(b.bsdf.density(view, d), 0.0) << b.name;
+                ASSERT_TRUE(value.is_black() || b.bsdf.density(view, d) > 0.0) << b.name;
             }
         }
     }
 }
-
-/// Lobes without covers, with those seen from the other side.
-struct TwoSides {
-    std::string name;
-    Bsdf above, below;
-};
 
 TEST(Bsdf, LobesAreReciprocal) {
     RandomStream random(6);
@@ -246,7 +240,7 @@ TEST(Bsdf, WhatIsNoNumberIsHarmless) {
             const Vec3 view = i % 7 == 0 ? Vec3{1, 0, 0} : view_at(random.uniform(0, 1));
             const auto s =
                 bsdf.sample(view, random.uniform(), {random.uniform(), 0.5}, Transport::Radiance);
-            if (s) EXPECT_TRUE(s->weight.is_finite() && std::isfinite(s->density));
+            EXPECT_TRUE(!s || (s->weight.is_finite() && std::isfinite(s->density)));
             EXPECT_TRUE(bsdf.value(view, any_direction(random), Transport::Radiance).is_finite());
             EXPECT_TRUE(bsdf.albedo(view).is_finite());
         }

@@ -8,13 +8,13 @@ namespace {
 
 using namespace alhazen::testing;
 
-const std::vector<double> kRoughnesses = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
-constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1, 0.05};
+const std::vector<double> kRoughnesses = {0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0};
+constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1};
 
 void expect_furnace(const NamedBsdf& b, double expected) {
     for (const double cosine : kViews) {
         const Rgb sum = furnace(b.bsdf, view_at(cosine));
-        EXPECT_NEAR(sum.r, expected, 1e-3 * expected) << b.name << ", view " << cosine;
+        EXPECT_NEAR(sum.r, expected, b.error * expected) << b.name << ", view " << cosine;
     }
 }
 
@@ -26,7 +26,7 @@ TEST(Furnace, EveryLobeOfWeightOneHalfGivesBackHalf) {
     for (const NamedBsdf& b : lobes_with_density({0.05, 0.3, 0.6, 1.0})) {
         Bsdf half;
         half.add(b.bsdf, 0.5);
-        expect_furnace({b.name, half}, 0.5);
+        expect_furnace({b.name, half, b.error}, 0.5);
     }
 }
 
@@ -69,7 +69,7 @@ std::vector<NamedBsdf> white_materials(double roughness) {
         p.metallic.value = 0;
         change(p);
         list.push_back({name + ", roughness " + std::to_string(roughness),
-                        bsdf_of_parameters(p, 1.5, inside)});
+                        bsdf_of_parameters(p, 1.5, inside), inside ? 5e-3 : 1e-3});
     };
     add("metal", [](auto& p) { p.metallic.value = 1; });
     add("plastic", [](auto&) {});

@@ -54,18 +54,6 @@ TEST(Fresnel, OfAConductorAtNormalIncidenceHasItsClosedForm) {
     EXPECT_NEAR(conductor_reflectance(0.0, n, k), 1.0, 1e-12);
 }
 
-TEST(Fresnel, TheMeanOfADielectricIsItsIntegral) {
-    for (const double eta : {1 / 1.2, 1 / 1.5, 1 / 2.4, 1.2, 1.5, 2.4}) {
-        double sum = 0;
-        constexpr int kSteps = 20000;
-        for (int i = 0; i < kSteps; ++i) {
-            const double c = (i + 0.5) / kSteps;
-            sum += 2.0 * c * dielectric_reflectance(c, eta) / kSteps;
-        }
-        EXPECT_NEAR(mean_dielectric_reflectance(eta), sum, 0.006) << eta;
-    }
-}
-
 TEST(Fresnel, NonsenseStaysBetweenNoneAndAll) {
     for (const double cosine : {-1.0, 0.0, 2.0}) {
         for (const double eta : {1e-6, 1.0, 1e6}) {
@@ -98,7 +86,7 @@ TEST(ThinFilm, OfNoThicknessIsTheBase) {
         const Rgb film = thin_film_reflectance(cosine, 1.3, 0.0, base);
         for (int i = 0; i < 3; ++i) {
             const double schlick = base[i] + (1.0 - base[i]) * schlick_weight(cosine);
-            EXPECT_NEAR(film[i], schlick, 0.03) << cosine;
+            EXPECT_NEAR(film[i], schlick, 1e-9) << cosine;
         }
     }
 }

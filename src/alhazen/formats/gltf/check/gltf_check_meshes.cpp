@@ -141,7 +141,11 @@ class PrimitiveChecker {
              {&material.base_color_texture, &material.metallic_roughness_texture,
               &material.normal_texture, &material.occlusion_texture, &material.emissive_texture,
               &material.transmission_texture, &material.thickness_texture,
-              &material.specular_texture, &material.specular_color_texture}) {
+              &material.specular_texture, &material.specular_color_texture, &material.coat_texture,
+              &material.coat_roughness_texture, &material.coat_normal_texture,
+              &material.sheen_color_texture, &material.sheen_roughness_texture,
+              &material.iridescence_texture, &material.film_thickness_texture,
+              &material.anisotropy_texture}) {
             if (*info && !has_coordinates(**info)) return;
         }
         for (const TextureInfo& info : material.ignored_textures) {

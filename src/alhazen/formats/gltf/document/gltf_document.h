@@ -114,6 +114,17 @@ struct Material {
     double specular = 1;  ///< KHR_materials_specular
     std::array<double, 3> specular_color{1, 1, 1};
     std::optional<TextureInfo> specular_texture, specular_color_texture;
+    double coat = 0, coat_roughness = 0;  ///< KHR_materials_clearcoat
+    std::optional<TextureInfo> coat_texture, coat_roughness_texture, coat_normal_texture;
+    std::array<double, 3> sheen_color{0, 0, 0};  ///< KHR_materials_sheen
+    double sheen_roughness = 0;
+    std::optional<TextureInfo> sheen_color_texture, sheen_roughness_texture;
+    double iridescence = 0, film_ior = 1.3;  ///< KHR_materials_iridescence
+    double film_thinnest = 100, film_thickest = 400;
+    std::optional<TextureInfo> iridescence_texture, film_thickness_texture;
+    double anisotropy = 0, anisotropy_rotation = 0;  ///< KHR_materials_anisotropy, radians
+    std::optional<TextureInfo> anisotropy_texture;
+    double dispersion = 0;                      ///< KHR_materials_dispersion
     std::vector<TextureInfo> ignored_textures;  ///< of extensions that are left out of the look
 };
 

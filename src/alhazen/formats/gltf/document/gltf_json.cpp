@@ -15,10 +15,11 @@ constexpr const char* kCollectionNames[kCollectionCount] = {
     "mesh",     "node",   "sampler",    "scene",  "skin",  "texture", "variant"};
 
 constexpr std::string_view kSupported[] = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_unlit",     "KHR_materials_volume",   "KHR_mesh_quantization",
-    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",        "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat", "KHR_materials_dispersion",   "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_iridescence",  "KHR_materials_sheen",
+    "KHR_materials_specular",  "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_volume",    "KHR_mesh_quantization",      "KHR_texture_transform",
 };
 
 /// Places of the objects that an extension extends; "N" stands for a position.

@@ -56,6 +56,40 @@ void read_dielectric_extensions(const JsonObject& object, Material& material) {
     });
 }
 
+void read_layers(const JsonObject& object, Material& material) {
+    object.with_extension("KHR_materials_clearcoat", [&](const JsonObject& extension) {
+        extension.number_into("clearcoatFactor", material.coat, kUnitRange);
+        extension.number_into("clearcoatRoughnessFactor", material.coat_roughness, kUnitRange);
+        material.coat_texture = read_texture_info(extension, "clearcoatTexture");
+        material.coat_roughness_texture = read_texture_info(extension, "clearcoatRoughnessTexture");
+        material.coat_normal_texture =
+            read_texture_info(extension, "clearcoatNormalTexture", "scale");
+    });
+    object.with_extension("KHR_materials_sheen", [&](const JsonObject& extension) {
+        extension.numbers_into("sheenColorFactor", material.sheen_color, kUnitRange);
+        extension.number_into("sheenRoughnessFactor", material.sheen_roughness, kUnitRange);
+        material.sheen_color_texture = read_texture_info(extension, "sheenColorTexture");
+        material.sheen_roughness_texture = read_texture_info(extension, "sheenRoughnessTexture");
+    });
+    object.with_extension("KHR_materials_iridescence", [&](const JsonObject& extension) {
+        extension.number_into("iridescenceFactor", material.iridescence, kUnitRange);
+        extension.number_into("iridescenceIor", material.film_ior, {.lo = 1});
+        extension.number_into("iridescenceThicknessMinimum", material.film_thinnest, kNotNegative);
+        extension.number_into("iridescenceThicknessMaximum", material.film_thickest, kNotNegative);
+        material.iridescence_texture = read_texture_info(extension, "iridescenceTexture");
+        material.film_thickness_texture =
+            read_texture_info(extension, "iridescenceThicknessTexture");
+    });
+    object.with_extension("KHR_materials_anisotropy", [&](const JsonObject& extension) {
+        extension.number_into("anisotropyStrength", material.anisotropy, kUnitRange);
+        extension.number_into("anisotropyRotation", material.anisotropy_rotation, {});
+        material.anisotropy_texture = read_texture_info(extension, "anisotropyTexture");
+    });
+    object.with_extension("KHR_materials_dispersion", [&](const JsonObject& extension) {
+        extension.number_into("dispersion", material.dispersion, kNotNegative);
+    });
+}
+
 /// Checks the members of ignored extensions; the file is invalid outside their ranges.
 void check_ignored_extensions(const JsonObject& object, Material& material) {
     struct Numbers {
@@ -65,20 +99,9 @@ void check_ignored_extensions(const JsonObject& object, Material& material) {
         Range range;
     };
     constexpr Numbers kNumbers[] = {
-        {"KHR_materials_anisotropy", "anisotropyStrength", 0, kUnitRange},
-        {"KHR_materials_anisotropy", "anisotropyRotation", 0, {}},
-        {"KHR_materials_clearcoat", "clearcoatFactor", 0, kUnitRange},
-        {"KHR_materials_clearcoat", "clearcoatRoughnessFactor", 0, kUnitRange},
-        {"KHR_materials_dispersion", "dispersion", 0, kNotNegative},
-        {"KHR_materials_iridescence", "iridescenceFactor", 0, kUnitRange},
-        {"KHR_materials_iridescence", "iridescenceIor", 0, {.lo = 1}},
-        {"KHR_materials_iridescence", "iridescenceThicknessMinimum", 0, kNotNegative},
-        {"KHR_materials_iridescence", "iridescenceThicknessMaximum", 0, kNotNegative},
         {"KHR_materials_pbrSpecularGlossiness", "diffuseFactor", 4, kUnitRange},
         {"KHR_materials_pbrSpecularGlossiness", "specularFactor", 3, kUnitRange},
         {"KHR_materials_pbrSpecularGlossiness", "glossinessFactor", 0, kUnitRange},
-        {"KHR_materials_sheen", "sheenColorFactor", 3, kUnitRange},
-        {"KHR_materials_sheen", "sheenRoughnessFactor", 0, kUnitRange},
     };
     struct Picture {
         const char* extension;
@@ -86,16 +109,8 @@ void check_ignored_extensions(const JsonObject& object, Material& material) {
         const char* strength;
     };
     constexpr Picture kPictures[] = {
-        {"KHR_materials_anisotropy", "anisotropyTexture", ""},
-        {"KHR_materials_clearcoat", "clearcoatTexture", ""},
-        {"KHR_materials_clearcoat", "clearcoatRoughnessTexture", ""},
-        {"KHR_materials_clearcoat", "clearcoatNormalTexture", "scale"},
-        {"KHR_materials_iridescence", "iridescenceTexture", ""},
-        {"KHR_materials_iridescence", "iridescenceThicknessTexture", ""},
         {"KHR_materials_pbrSpecularGlossiness", "diffuseTexture", ""},
         {"KHR_materials_pbrSpecularGlossiness", "specularGlossinessTexture", ""},
-        {"KHR_materials_sheen", "sheenColorTexture", ""},
-        {"KHR_materials_sheen", "sheenRoughnessTexture", ""},
     };
     for (const Numbers& numbers : kNumbers) {
         object.with_extension(numbers.extension, [&](const JsonObject& extension) {
@@ -129,6 +144,7 @@ Material read_material(const JsonObject& object) {
         extension.number_into("emissiveStrength", material.emissive_strength, kNotNegative);
     });
     read_dielectric_extensions(object, material);
+    read_layers(object, material);
     check_ignored_extensions(object, material);
     return material;
 }

@@ -47,6 +47,22 @@ class MaterialMaker {
         p.thickness = scalar(m.thickness, m.thickness_texture, Channel::Green);
         if (m.attenuation_distance) p.attenuation_distance = *m.attenuation_distance;
         p.attenuation_color = rgb(m.attenuation_color);
+        p.coat.strength = scalar(m.coat, m.coat_texture, Channel::Red);
+        p.coat.roughness = scalar(m.coat_roughness, m.coat_roughness_texture, Channel::Green);
+        if (m.coat_normal_texture) {
+            p.coat.normal_map = {textures_.use(m.coat_normal_texture, ColorSpace::Linear),
+                                 m.coat_normal_texture->strength};
+        }
+        p.sheen.color = color(rgb(m.sheen_color), m.sheen_color_texture);
+        p.sheen.roughness = scalar(m.sheen_roughness, m.sheen_roughness_texture, Channel::Alpha);
+        p.film.strength = scalar(m.iridescence, m.iridescence_texture, Channel::Red);
+        p.film.index = m.film_ior;
+        p.film.thinnest_nm = m.film_thinnest;
+        p.film.thickest_nm = m.film_thickest;
+        p.film.thickness_texture = textures_.use(m.film_thickness_texture, ColorSpace::Linear);
+        p.anisotropy = {m.anisotropy, m.anisotropy_rotation,
+                        textures_.use(m.anisotropy_texture, ColorSpace::Linear)};
+        p.dispersion = m.dispersion;
         p.unlit = m.unlit;
         return p;
     }

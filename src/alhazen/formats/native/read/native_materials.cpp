@@ -1,6 +1,7 @@
 #include "alhazen/formats/native/read/native_materials.h"
 
 #include "alhazen/formats/native/native_words.h"
+#include "alhazen/shading/optics/metals.h"
 
 namespace alhazen {
 
@@ -104,6 +105,56 @@ void read_alpha(BlockReader& reader, NativeContext& context, Material& m) {
     reader.read("double_sided", m.double_sided);
 }
 
+/// The block `key`, if there is one.
+template <class F>
+void read_layer(BlockReader& outer, std::string_view key, NativeContext& context, const F& fields) {
+    const auto value = outer.find(key);
+    if (!value) return;
+    if (!value->is(NodeKind::Block)) {
+        outer.values().fail(*value, key, "a block { }");
+        return;
+    }
+    BlockReader reader = context.reader(*value, std::string(key));
+    fields(reader);
+    reader.finish();
+}
+
+/// texture("NAME") alone.
+void read_plain_texture(BlockReader& reader, std::string_view key, NativeContext& context,
+                        TextureId& out) {
+    const auto value = reader.find(key);
+    if (!value) return;
+    if (!value->is(NodeKind::Entry, "texture")) {
+        reader.values().fail(*value, key, "texture(\"NAME\")");
+        return;
+    }
+    if (const auto call = read_whole_texture_call(*value, key, context)) out = call->texture;
+}
+
+void read_layers(BlockReader& outer, NativeContext& context, MetallicRoughness& p) {
+    read_layer(outer, "coat", context, [&](BlockReader& reader) {
+        read_scalar(reader, "strength", context, p.coat.strength);
+        read_scalar(reader, "roughness", context, p.coat.roughness);
+        read_normal_map(reader, context, p.coat.normal_map);
+    });
+    read_layer(outer, "sheen", context, [&](BlockReader& reader) {
+        read_color(reader, "color", context, p.sheen.color);
+        read_scalar(reader, "roughness", context, p.sheen.roughness);
+    });
+    read_layer(outer, "film", context, [&](BlockReader& reader) {
+        read_scalar(reader, "strength", context, p.film.strength);
+        reader.read("index", p.film.index);
+        reader.read("thinnest_nm", p.film.thinnest_nm);
+        reader.read("thickest_nm", p.film.thickest_nm);
+        read_plain_texture(reader, "thickness", context, p.film.thickness_texture);
+    });
+    read_layer(outer, "anisotropy", context, [&](BlockReader& reader) {
+        reader.read("strength", p.anisotropy.strength);
+        reader.read("rotation", p.anisotropy.rotation);
+        read_plain_texture(reader, "texture", context, p.anisotropy.texture);
+    });
+}
+
 void read_metallic_roughness(BlockReader& outer, NativeContext& context, Material& m) {
     constexpr std::string_view kKey = "metallic_roughness";
     const auto value = outer.find(kKey);
@@ -130,8 +181,53 @@ void read_metallic_roughness(BlockReader& outer, NativeContext& context, Materia
     if (const auto color = reader.find("attenuation_color")) {
         read_native_color(*color, "attenuation_color", reader.values(), p.attenuation_color);
     }
+    read_layers(reader, context, p);
+    reader.read("dispersion", p.dispersion);
     reader.read("unlit", p.unlit);
     reader.finish();
+}
+
+void read_conductor(BlockReader& outer, NativeContext& context, Material& m) {
+    constexpr std::string_view kKey = "conductor";
+    const auto value = outer.find(kKey);
+    if (!value) return;
+    if (value->is(NodeKind::String)) {
+        const Metal* metal = find_metal(value->text());
+        if (metal != nullptr) {
+            m.conductor = Conductor{metal->index, metal->extinction, std::string(metal->name)};
+            return;
+        }
+        std::string names;
+        for (const Metal& known : metals()) {
+            names += (names.empty() ? "" : ", ") + std::string(known.name);
+        }
+        outer.values().fail(*value, kKey, "one of " + names);
+        return;
+    }
+    if (!value->is(NodeKind::Block)) {
+        outer.values().fail(*value, kKey, "the name of a metal or a block { }");
+        return;
+    }
+    BlockReader reader = context.reader(*value, std::string(kKey));
+    Conductor& c = m.conductor.emplace();
+    reader.require("index");
+    reader.require("extinction");
+    if (const auto v = reader.find("index")) {
+        read_native_color(*v, "index", reader.values(), c.index);
+    }
+    if (const auto v = reader.find("extinction")) {
+        read_native_color(*v, "extinction", reader.values(), c.extinction);
+    }
+    reader.finish();
+}
+
+void read_dielectric(BlockReader& outer, NativeContext& context, Material& m) {
+    read_layer(outer, "dielectric", context, [&](BlockReader& reader) {
+        Dielectric& d = m.dielectric.emplace();
+        if (const auto v = reader.find("absorption")) {
+            read_native_color(*v, "absorption", reader.values(), d.absorption);
+        }
+    });
 }
 
 MaterialId add_material(TextNode block, std::string name, NativeContext& context) {
@@ -154,6 +250,8 @@ MaterialId add_material(TextNode block, std::string name, NativeContext& context
     read_alpha(reader, context, m);
     read_normal_map(reader, context, m.normal_map);
     read_metallic_roughness(reader, context, m);
+    read_conductor(reader, context, m);
+    read_dielectric(reader, context, m);
     reader.finish();
     context.scene.materials.push_back({std::move(m), block.location()});
     return static_cast<MaterialId>(context.scene.materials.size() - 1);

@@ -29,6 +29,10 @@ class MaterialText {
         }
     }
 
+    void add(std::string_view key, TextureId texture) {
+        if (texture != kNoTexture) block_.add(key, call(texture, "", ""));
+    }
+
   private:
     [[nodiscard]] std::string call(TextureId texture, const std::string& factor,
                                    const std::string& channel) const {
@@ -56,6 +60,39 @@ class MaterialText {
     NativeBlockText& block_;
 };
 
+/// The layers of `p`, each as a block of its own where it says anything.
+void add_layers(const NativeWriteContext& context, const MetallicRoughness& p,
+                NativeBlockText& block) {
+    const MetallicRoughness usual;
+    const auto layer = [&](std::string_view key, const auto& fields) {
+        NativeBlockText text;
+        MaterialText inputs(context, text);
+        fields(text, inputs);
+        if (!text.empty()) block.add(key, text.value(8));
+    };
+    layer("coat", [&](NativeBlockText&, MaterialText& inputs) {
+        inputs.add("strength", p.coat.strength, usual.coat.strength);
+        inputs.add("roughness", p.coat.roughness, usual.coat.roughness);
+        inputs.add("normal_map", p.coat.normal_map);
+    });
+    layer("sheen", [&](NativeBlockText&, MaterialText& inputs) {
+        inputs.add("color", p.sheen.color, usual.sheen.color);
+        inputs.add("roughness", p.sheen.roughness, usual.sheen.roughness);
+    });
+    layer("film", [&](NativeBlockText& text, MaterialText& inputs) {
+        inputs.add("strength", p.film.strength, usual.film.strength);
+        text.add_unless("index", p.film.index, usual.film.index);
+        text.add_unless("thinnest_nm", p.film.thinnest_nm, usual.film.thinnest_nm);
+        text.add_unless("thickest_nm", p.film.thickest_nm, usual.film.thickest_nm);
+        inputs.add("thickness", p.film.thickness_texture);
+    });
+    layer("anisotropy", [&](NativeBlockText& text, MaterialText& inputs) {
+        text.add_unless("strength", p.anisotropy.strength, usual.anisotropy.strength);
+        text.add_unless("rotation", p.anisotropy.rotation, usual.anisotropy.rotation);
+        inputs.add("texture", p.anisotropy.texture);
+    });
+}
+
 void add_metallic_roughness(const NativeWriteContext& context, const MetallicRoughness& p,
                             NativeBlockText& material) {
     const MetallicRoughness usual;
@@ -73,8 +110,21 @@ void add_metallic_roughness(const NativeWriteContext& context, const MetallicRou
         block.add("attenuation_distance", native_value(p.attenuation_distance));
     }
     block.add_unless("attenuation_color", p.attenuation_color, usual.attenuation_color);
+    add_layers(context, p, block);
+    block.add_unless("dispersion", p.dispersion, usual.dispersion);
     block.add_unless("unlit", p.unlit, usual.unlit);
     material.add("metallic_roughness", block.value(4));
+}
+
+void add_conductor(const Conductor& c, NativeBlockText& material) {
+    if (!c.name.empty()) {
+        material.add("conductor", native_string(c.name));
+        return;
+    }
+    NativeBlockText block;
+    block.add("index", native_value(c.index));
+    block.add("extinction", native_value(c.extinction));
+    material.add("conductor", block.value(4));
 }
 
 // Pictures.
@@ -164,6 +214,12 @@ void write_native_materials(NativeWriteContext& context) {
         block.add_unless("double_sided", m.double_sided, usual.double_sided);
         inputs.add("normal_map", m.normal_map);
         if (m.metallic_roughness) add_metallic_roughness(context, *m.metallic_roughness, block);
+        if (m.conductor) add_conductor(*m.conductor, block);
+        if (m.dielectric) {
+            NativeBlockText body;
+            body.add_unless("absorption", m.dielectric->absorption, Rgb{});
+            block.add("dielectric", body.value(4));
+        }
         context.append(block);
     }
 }
