@@ -89,7 +89,7 @@ void Illumination::Data::sort_lights() {
         if (!illuminates(light) || !(color_of(light).max() > 0.0)) continue;
         if (const auto* area = std::get_if<AreaLight>(&light)) {
             // What is seen is a part of the scene already.
-            if (!area->seen) append_emitters_of_light(*area, hidden);
+            if (!area->is_part) append_emitters_of_light(*area, hidden);
         } else if (place_of(light) == LightPlace::Point && attenuation_of(light).quadratic > 0.0) {
             points.push_back(i);
         } else {

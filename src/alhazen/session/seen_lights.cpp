@@ -84,6 +84,7 @@ void add_seen_lights(SceneDescription& description) {
         auto* const area = std::get_if<AreaLight>(&light.light);
         if (area == nullptr || !area->seen) continue;
         area->seen = false;
+        area->is_part = true;
         Part part = part_of(description, light, area->extent);
         Material material;
         material.name = light.name;

@@ -6,7 +6,7 @@
 namespace alhazen {
 
 /// Adds a part of emission AreaLight::radiance for each light that is seen; it throws no shadow.
-/// The lights are then no longer marked as seen.
+/// The lights are then marked as parts, no longer as seen.
 void add_seen_lights(SceneDescription& description);
 
 }  // namespace alhazen

@@ -92,6 +92,7 @@ struct AreaLight {
     bool seen = true;  ///< as a surface of this emission, by all rays but shadow rays
     /// Of `extent`; made by `ready_to_sample`.
     std::shared_ptr<const LightSurface> surface;
+    bool is_part = false;  ///< its surface is a part of the scene already
 };
 
 using Light = std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, AreaLight>;
