@@ -7,6 +7,7 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/renderers/core/renderer.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/shading/lights/environment.h"
 
@@ -14,7 +15,13 @@ namespace alhazen {
 
 namespace {
 
-constexpr const char* kFollowLight[] = {"path_tracing", "light_tracing", "bidirectional"};
+std::vector<std::string> that_follow_light() {
+    std::vector<std::string> names;
+    for (const RendererEntry& entry : renderers()) {
+        if (follows_light(entry.name)) names.push_back(entry.name);
+    }
+    return names;
+}
 
 EnvironmentSettings settings_of(const std::string& text, const ImageLimits& limits) {
     EnvironmentSettings settings;
@@ -39,8 +46,7 @@ void set(LoadedScene& loaded, EnvironmentSettings settings) {
 }  // namespace
 
 bool follows_light(const std::string& renderer) {
-    return std::find(std::begin(kFollowLight), std::end(kFollowLight), renderer) !=
-           std::end(kFollowLight);
+    return make_renderer(renderer)->follows_light();
 }
 
 void check_environment(const std::string& text, const std::string& renderer) {
@@ -49,7 +55,7 @@ void check_environment(const std::string& text, const std::string& renderer) {
         throw Error(ErrorKind::Usage,
                     fmt::format("--environment is for renderers that follow light physically: {}; "
                                 "renderer '{}' shows the background of the scene",
-                                fmt::join(kFollowLight, ", "), renderer));
+                                fmt::join(that_follow_light(), ", "), renderer));
     }
     if (text == "sky" || text == "studio" || text == "none") return;
     if (!std::filesystem::exists(text)) {

@@ -97,6 +97,8 @@ class Renderer {
     [[nodiscard]] virtual bool distributes() const { return false; }
     /// True: lights with extent throw penumbras.
     [[nodiscard]] virtual bool lights_have_extent() const { return distributes(); }
+    /// True: light is followed from surface to surface, and the environment lights the scene.
+    [[nodiscard]] virtual bool follows_light() const { return false; }
     /// Samples per pixel where nothing is said.
     [[nodiscard]] virtual int usual_samples() const { return 1; }
     /// True: `render` heeds AntialiasSettings::exact.

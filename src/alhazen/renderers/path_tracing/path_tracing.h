@@ -25,6 +25,7 @@ class PathTracing final : public Renderer {
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     [[nodiscard]] bool takes_samplers() const override { return true; }
     [[nodiscard]] bool distributes() const override { return true; }
+    [[nodiscard]] bool follows_light() const override { return true; }
     [[nodiscard]] int usual_samples() const override { return 64; }
 
   private:

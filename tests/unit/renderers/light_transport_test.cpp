@@ -1,0 +1,434 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "alhazen/renderers/bidirectional/path_weight.h"
+#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/light_transport/camera_lens.h"
+#include "alhazen/renderers/light_transport/fixed_sum.h"
+#include "alhazen/renderers/light_transport/medium_stack.h"
+#include "alhazen/sampling/random.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+constexpr double kPi = std::numbers::pi;
+
+Material matt(const Rgb& color) {
+    Material m;
+    m.diffuse.color = color;
+    return m;
+}
+Material glowing(const Rgb& radiance, const Rgb& color = {}) {
+    Material m = matt(color);
+    m.emission.color = radiance;
+    return m;
+}
+
+Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
+    Rectangle r;
+    r.corner = corner;
+    r.edge_u = u;
+    r.edge_v = v;
+    return r;
+}
+
+Film picture_of(const Scene& scene, const std::string& renderer, int side, int samples,
+                std::uint64_t seed = 1, int threads = 1, int tile = 32) {
+    const SamplingPlan plan;
+    Film film(side, side, {0, 0, side, side});
+    const RenderJob job{.scene = scene,
+                        .camera = scene.cameras[0].camera,
+                        .samples_per_pixel = samples,
+                        .seed = seed,
+                        .sampling = &plan,
+                        .control = {.threads = threads, .tile_size = tile}};
+    const RenderReport report = make_renderer(renderer)->render(job, film);
+    EXPECT_TRUE(report.complete());
+    EXPECT_EQ(report.counters.non_finite, 0u);
+    return film;
+}
+
+Rgb mean_of(const Film& film) {
+    Rgb sum;
+    const int n = film.frame_width();
+    for (int i = 0; i < n * n; ++i) sum += film.at(i % n, i / n);
+    return (1.0 / (n * n)) * sum;
+}
+
+const char* const kRenderers[] = {"path_tracing", "light_tracing", "bidirectional"};
+
+/// A white matt floor seen straight from above, in a picture `side` wide.
+SceneMaker floor_from_above(double side, const Rgb& color = {1, 1, 1}) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 0.5}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
+    maker.add(rectangle({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), maker.material(matt(color)));
+    return maker;
+}
+
+TEST(LightTransport, ASphereOfLightOverAFloorGivesItsFormFactor) {
+    for (const char* renderer : kRenderers) {
+        SceneMaker maker = floor_from_above(0.2);
+        Sphere lamp;
+        lamp.center = {0, 0, 2};
+        lamp.radius = 0.5;
+        maker.add(lamp, maker.material(glowing({8, 4, 2})));
+        const Scene scene = maker.compile();
+        const Rgb seen = mean_of(picture_of(scene, renderer, 4, 4096));
+        // E / (pi L) = (r / d)^2, which hardly changes within the picture.
+        EXPECT_NEAR(seen.r, 8 * 0.0625, 8 * 0.0625 * 0.02) << renderer;
+        EXPECT_NEAR(seen.b / seen.r, 0.25, 1e-9) << renderer;
+    }
+}
+
+TEST(LightTransport, PunctualLightsShowWhatWhittedShows) {
+    SceneMaker maker = floor_from_above(0.2, {0.5, 0.6, 0.7});
+    maker.light(PointLight{.position = {1, 0, 2}, .color = {3, 3, 3}, .attenuation = {0, 0, 1}});
+    maker.light(DirectionalLight{.to_light = {0, 0.6, 0.8}, .color = {0.2, 0.3, 0.4}});
+    const Scene scene = maker.compile();
+    const Rgb direct = mean_of(picture_of(scene, "whitted", 4, 64));
+    const Rgb paths = mean_of(picture_of(scene, "path_tracing", 4, 256));
+    EXPECT_NEAR(paths.r, direct.r, 0.01 * direct.r);
+    EXPECT_NEAR(paths.b, direct.b, 0.01 * direct.b);
+}
+
+/// A closed sphere of albedo a that glows with e shows e / (1 - a) everywhere.
+TEST(LightTransport, AnIntegratingSphereShowsTheSumOfTheSeries) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1.0);
+    Sphere around;
+    around.radius = 3;
+    maker.add(around, maker.material(glowing({0.5, 0.5, 0.5}, {0.5, 0.2, 0.8})));
+    const Scene scene = maker.compile();
+    for (const char* renderer : {"path_tracing", "bidirectional"}) {
+        const Rgb seen = mean_of(picture_of(scene, renderer, 8, 256));
+        EXPECT_NEAR(seen.r, 0.5 / (1 - 0.5), 0.01) << renderer;
+        EXPECT_NEAR(seen.g, 0.5 / (1 - 0.2), 0.01) << renderer;
+        EXPECT_NEAR(seen.b, 0.5 / (1 - 0.8), 0.03) << renderer;
+    }
+}
+
+TEST(LightTransport, AnEvenSkyOverAMattFloorShowsItsAlbedo) {
+    SceneMaker maker = floor_from_above(0.2, {0.25, 0.5, 1.0});
+    maker.description().picture.background = Rgb{2, 2, 2};
+    const Scene scene = maker.compile();
+    for (const char* renderer : {"path_tracing", "bidirectional"}) {
+        const Rgb seen = mean_of(picture_of(scene, renderer, 4, 256));
+        EXPECT_NEAR(seen.r, 0.5, 0.01) << renderer;
+        EXPECT_NEAR(seen.b, 2.0, 0.04) << renderer;
+    }
+}
+
+/// The scenes on which all three must agree.
+struct NamedScene {
+    std::string name;
+    Scene scene;
+};
+
+void add_room(SceneMaker& maker, const Rgb& color) {
+    const MaterialId white = maker.material(matt(color));
+    maker.description().cameras[0].camera =
+        look_along({0, -3.8, 1}, {0, 1, 0}, {0, 0, 1}, 0.65, 1.0);
+    maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), white);
+    maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}), white);
+    maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), white);
+    maker.add(rectangle({-1, -1, 0}, {0, 2, 0}, {0, 0, 2}), maker.material(matt({0.6, 0.1, 0.1})));
+    maker.add(rectangle({1, -1, 0}, {0, 0, 2}, {0, 2, 0}), maker.material(matt({0.1, 0.5, 0.1})));
+}
+
+void add_lamp(SceneMaker& maker, double half, const Rgb& radiance) {
+    Material lamp = glowing(radiance);
+    lamp.double_sided = false;
+    maker.add(rectangle({-half, -half, 1.98}, {0, 2 * half, 0}, {2 * half, 0, 0}),
+              maker.material(lamp));
+}
+
+Sphere ball(const Vec3& center, double radius) {
+    Sphere s;
+    s.center = center;
+    s.radius = radius;
+    return s;
+}
+
+std::vector<NamedScene> scenes() {
+    std::vector<NamedScene> all;
+    const auto room = [&](const char* name, auto&& fill) {
+        SceneMaker maker;
+        add_room(maker, {0.7, 0.7, 0.7});
+        fill(maker);
+        all.push_back({name, maker.compile("wide_bvh")});
+    };
+    room("lamp", [](SceneMaker& m) { add_lamp(m, 0.3, {9, 8, 6}); });
+    room("lamp and ball", [](SceneMaker& m) {
+        add_lamp(m, 0.3, {9, 8, 6});
+        m.add(ball({0.3, 0, 0.4}, 0.4), m.material(matt({0.8, 0.8, 0.2})));
+    });
+    room("sphere of light", [](SceneMaker& m) {
+        m.add(ball({0.4, 0.2, 1.2}, 0.2), m.material(glowing({5, 6, 7})));
+    });
+    room("point light", [](SceneMaker& m) {
+        m.light(PointLight{.position = {0.3, -0.2, 1.5}, .color = {1, 1, 2},
+                           .attenuation = {0, 0, 1}});
+    });
+    room("spot light", [](SceneMaker& m) {
+        SpotLight spot;
+        spot.position = {0, -0.5, 1.9};
+        spot.direction = normalize(Vec3{0.2, 0.3, -1});
+        spot.inner_angle = 0.4;
+        spot.outer_angle = 0.7;
+        spot.color = {3, 2, 1};
+        spot.attenuation = {0, 0, 1};
+        m.light(spot);
+    });
+    room("two lamps behind a screen", [](SceneMaker& m) {
+        add_lamp(m, 0.2, {6, 6, 6});
+        m.add(ball({-0.5, -0.2, 0.5}, 0.1), m.material(glowing({20, 5, 1})));
+        m.add(rectangle({-0.4, -0.4, 1.2}, {0.8, 0, 0}, {0, 0.8, 0}),
+              m.material(matt({0.4, 0.4, 0.4})));
+    });
+    room("disc of light", [](SceneMaker& m) {
+        Disc disc;
+        disc.center = {0, 0.9, 1};
+        disc.normal = {0, -1, 0};
+        disc.radius = 0.4;
+        m.add(disc, m.material(glowing({4, 4, 4})));
+    });
+    room("mesh of light", [](SceneMaker& m) {
+        m.add(m.mesh(testing::tetrahedron()), m.material(glowing({9, 9, 3})),
+              Affine::translate({0.2, 0.1, 1.1}) * Affine::scale({0.2, 0.2, 0.2}));
+    });
+    room("glowing wall", [](SceneMaker& m) {
+        m.add(rectangle({-0.9, 0.95, 0.2}, {0.5, 0, 0}, {0, 0, 1.5}),
+              m.material(glowing({2, 3, 4}, {0.5, 0.5, 0.5})));
+    });
+    room("parallel plates", [](SceneMaker& m) {
+        m.add(rectangle({-0.8, -0.8, 1.0}, {1.6, 0, 0}, {0, 1.6, 0}),
+              m.material(matt({0.9, 0.9, 0.9})));
+        m.add(rectangle({-0.5, -0.5, 0.5}, {0, 1, 0}, {1, 0, 0}), m.material(glowing({3, 3, 3})));
+    });
+    room("instances of light", [](SceneMaker& m) {
+        const ObjectIndex lamp = m.object("lamp");
+        m.add(ball({0, 0, 0}, 0.1), m.material(glowing({9, 6, 3})), {}, lamp);
+        m.add(lamp, {}, Affine::translate({-0.5, 0, 1}));
+        m.add(lamp, {}, Affine::translate({0.5, 0.2, 1.5}) * Affine::scale({1.5, 0.7, 1}));
+    });
+    room("sun through the open side", [](SceneMaker& m) {
+        m.light(DirectionalLight{.to_light = normalize(Vec3{0.2, -1, 0.8}), .color = {1, 1, 0.5}});
+    });
+    return all;
+}
+
+/// Means over blocks of independent pictures, and their standard errors.
+struct Blocks {
+    static constexpr int kSide = 2;
+    std::vector<double> mean, error;
+};
+
+Blocks blocks_of(const Scene& scene, const std::string& renderer, int samples) {
+    constexpr int kRuns = 12, kPixels = 8, kBlocks = Blocks::kSide * Blocks::kSide;
+    std::vector<double> sum(kBlocks), squares(kBlocks);
+    for (int run = 0; run < kRuns; ++run) {
+        const Film film = picture_of(scene, renderer, kPixels, samples, std::uint64_t(100 + run));
+        std::vector<double> own(kBlocks);
+        for (int y = 0; y < kPixels; ++y) {
+            for (int x = 0; x < kPixels; ++x) {
+                const Rgb& c = film.at(x, y);
+                own[std::size_t(y * Blocks::kSide / kPixels * Blocks::kSide +
+                                x * Blocks::kSide / kPixels)] += c.r + c.g + c.b;
+            }
+        }
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const double value = own[i] * kBlocks / (3.0 * kPixels * kPixels);
+            sum[i] += value;
+            squares[i] += value * value;
+        }
+    }
+    Blocks blocks;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double mean = sum[i] / kRuns;
+        blocks.mean.push_back(mean);
+        blocks.error.push_back(
+            std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1)));
+    }
+    return blocks;
+}
+
+TEST(LightTransport, TheThreeStrategiesAgreeOnTwelveScenes) {
+    // Three pairs on 12 scenes with 4 blocks, together wrong in one of 1000 runs: each is a t of
+    // 22 degrees of freedom beyond 5.7.
+    constexpr double kMost = 5.7;
+    for (const NamedScene& named : scenes()) {
+        std::vector<Blocks> found;
+        for (const char* renderer : kRenderers) {
+            const std::string text = std::string(renderer) + ":depth=5";
+            found.push_back(blocks_of(named.scene, text, 24));
+        }
+        for (std::size_t a = 0; a < found.size(); ++a) {
+            for (std::size_t b = a + 1; b < found.size(); ++b) {
+                for (std::size_t i = 0; i < found[a].mean.size(); ++i) {
+                    const double error = std::hypot(found[a].error[i], found[b].error[i]);
+                    EXPECT_LE(std::abs(found[a].mean[i] - found[b].mean[i]), kMost * error + 1e-12)
+                        << named.name << ", block " << i << ": " << kRenderers[a] << " "
+                        << found[a].mean[i] << ", " << kRenderers[b] << " " << found[b].mean[i];
+                }
+            }
+        }
+    }
+}
+
+TEST(LightTransport, APlaneMirrorShowsTheLampBehindIt) {
+    for (const char* renderer : {"path_tracing", "bidirectional"}) {
+        SceneMaker maker = floor_from_above(0.02);
+        Material lamp = glowing({10, 10, 10});
+        lamp.double_sided = false;
+        maker.add(rectangle({-0.25, -0.25, 2}, {0, 0.5, 0}, {0.5, 0, 0}), maker.material(lamp));
+        const Rgb without = mean_of(picture_of(maker.compile(), renderer, 2, 4096));
+        Material mirror;
+        mirror.reflective.color = {0.9, 0.9, 0.9};
+        maker.add(rectangle({1, -5, 0}, {0, 10, 0}, {0, 0, 10}), maker.material(mirror));
+        const Rgb with = mean_of(picture_of(maker.compile(), renderer, 2, 16384));
+        // The lamp's image is 2 to the side: L A cos^2 / (pi d^2), over a small lamp.
+        EXPECT_NEAR(without.r, 10 * 0.25 / (4 * kPi), 0.01) << renderer;
+        EXPECT_NEAR(with.r - without.r, 0.9 * 10 * 0.25 * 0.5 / (8 * kPi), 0.003) << renderer;
+    }
+}
+
+TEST(LightTransport, PicturesDependNeitherOnThreadsNorOnTiles) {
+    SceneMaker maker;
+    add_room(maker, {0.7, 0.7, 0.7});
+    add_lamp(maker, 0.3, {9, 8, 6});
+    Material glass;
+    glass.transmissive.color = {0.9, 0.9, 0.9};
+    glass.reflective.color = {0.1, 0.1, 0.1};
+    glass.index.value = 1.5;
+    maker.add(ball({0.3, 0, 0.4}, 0.4), maker.material(glass));
+    const Scene scene = maker.compile("wide_bvh");
+    for (const char* renderer : {"path_tracing", "light_tracing", "bidirectional",
+                                 "ambient_occlusion"}) {
+        const Film a = picture_of(scene, renderer, 16, 4, 7, 1, 32);
+        const Film b = picture_of(scene, renderer, 16, 4, 7, 2, 5);
+        for (int i = 0; i < 256; ++i) {
+            EXPECT_EQ(a.at(i % 16, i / 16), b.at(i % 16, i / 16)) << renderer << " pixel " << i;
+        }
+    }
+}
+
+TEST(LightTransport, AmbientOcclusionOfAFloorBesideAHighWallIsOneHalf) {
+    SceneMaker maker = floor_from_above(0.002);
+    maker.add(rectangle({0.002, -900, 0}, {0, 1800, 0}, {0, 0, 900}));
+    const Scene scene = maker.compile();
+    const Rgb seen =
+        mean_of(picture_of(scene, "ambient_occlusion:distance=10000", 2, 4096));
+    EXPECT_NEAR(seen.r, 0.5, 0.01);
+    EXPECT_EQ(mean_of(picture_of(scene, "ambient_occlusion:distance=0.0001", 2, 16)).g, 1.0);
+}
+
+TEST(PathWeight, TheWeightsOfAllStrategiesSumToOne) {
+    RandomStream random(5);
+    for (int trial = 0; trial < 2000; ++trial) {
+        WholePath path;
+        const std::size_t m = 1 + random.below(6);
+        for (std::size_t i = 0; i <= m; ++i) {
+            path.vertices.push_back({std::exp(random.uniform(-3, 3)),
+                                     std::exp(random.uniform(-3, 3)),
+                                     i > 0 && random.uniform() < 0.2});
+        }
+        path.joined = random.uniform() < 0.1 ? 0.0 : std::exp(random.uniform(-3, 3));
+        path.emitted = random.uniform() < 0.9;
+        path.hit = random.uniform() < 0.9;
+        double sum = 0.0;
+        const auto singular = [&](std::size_t i) { return path.vertices[i].singular; };
+        for (std::size_t s = 0; s <= m + 1; ++s) {
+            const bool possible = s == 0   ? path.hit
+                                  : s == 1 ? path.joined > 0.0 && !singular(1)
+                                           : path.emitted && !singular(s - 1) &&
+                                                 (s == m + 1 || !singular(s));
+            if (possible) sum += path_weight(path, static_cast<int>(s));
+        }
+        if (sum > 0.0) EXPECT_NEAR(sum, 1.0, 1e-9) << trial;
+    }
+}
+
+TEST(FixedSum, IsTheSameInEveryOrder) {
+    RandomStream random(9);
+    std::vector<double> terms;
+    for (int i = 0; i < 1000; ++i) {
+        terms.push_back(std::exp(random.uniform(-30, 20)) * (i % 2 == 0 ? 1.0 : -1.0));
+    }
+    FixedSum forward, backward;
+    for (const double t : terms) EXPECT_TRUE(forward.add(t));
+    std::reverse(terms.begin(), terms.end());
+    for (const double t : terms) EXPECT_TRUE(backward.add(t));
+    EXPECT_EQ(forward.value(), backward.value());
+    EXPECT_FALSE(forward.add(std::nan("")));
+    EXPECT_FALSE(forward.add(1e300));
+    EXPECT_EQ(forward.value(), backward.value());
+}
+
+TEST(FixedSum, CarriesAcrossItsHalves) {
+    FixedSum sum;
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(sum.add(-0x1p-70));
+    EXPECT_EQ(sum.value(), -5 * 0x1p-70);
+    EXPECT_TRUE(sum.add(1.0));
+    EXPECT_TRUE(sum.add(5 * 0x1p-70));
+    EXPECT_EQ(sum.value(), 1.0);
+}
+
+TEST(MediumStack, VolumesAreLeftInAnyOrder) {
+    MediumStack media;
+    EXPECT_EQ(media.here(), nullptr);
+    media.enter({1, 1.5, {}});
+    media.enter({2, 1.3, {}});
+    EXPECT_EQ(media.here()->index, 1.3);
+    EXPECT_EQ(media.without(2)->index, 1.5);
+    EXPECT_EQ(media.without(1)->index, 1.3);
+    media.leave(1);
+    EXPECT_EQ(media.here()->index, 1.3);
+    media.leave(7);
+    media.leave(2);
+    EXPECT_TRUE(media.empty());
+}
+
+TEST(CameraLens, JoinsAPointWhereItsEyeRayStarted) {
+    const SceneMaker maker;
+    PerspectiveCamera camera = look_along({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, 0.8, 1.5);
+    camera.lens = {.radius = 0.2, .focus_distance = 4};
+    const Camera cameras[] = {camera,
+                              OrthographicCamera{{0, 0, 5}, {0.1, 0, -1}, {3, 0, 0}, {0, 2, 0}}};
+    SceneMaker empty;
+    empty.add(Sphere{});
+    const Scene scene = empty.compile();
+    RandomStream random(3);
+    for (const Camera& c : cameras) {
+        const RenderJob job{.scene = scene, .camera = c};
+        const CameraLens lens(job);
+        const LensRays rays(c);
+        for (int i = 0; i < 200; ++i) {
+            const Vec2 film{random.uniform(), random.uniform()}, u{random.uniform(), random.uniform()};
+            const Ray ray = rays.through(eye_ray(c, film.x, film.y), u);
+            const Vec3 point = ray.at(random.uniform(0.5, 9));
+            const auto joined = lens.connect(point, u, 0.0);
+            ASSERT_TRUE(joined);
+            EXPECT_NEAR(joined->film.x, film.x, 1e-9);
+            EXPECT_NEAR(joined->film.y, film.y, 1e-9);
+            EXPECT_NEAR(dot(joined->to_lens, ray.direction), -1.0, 1e-12);
+            if (!lens.is_parallel()) {
+                EXPECT_NEAR(joined->density * joined->distance * joined->distance,
+                            lens.direction_density(ray.direction, 0.0),
+                            1e-9 * lens.direction_density(ray.direction, 0.0));
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
