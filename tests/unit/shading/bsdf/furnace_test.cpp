@@ -13,7 +13,11 @@ constexpr double kViews[] = {1.0, 0.9, 0.6, 0.3, 0.1};
 
 void expect_furnace(const NamedBsdf& b, double expected) {
     for (const double cosine : kViews) {
-        const Rgb sum = furnace(b.bsdf, view_at(cosine));
+        Rgb sum = furnace(b.bsdf, view_at(cosine));
+        // Where these samples are too few to tell, more.
+        if (std::abs(sum.r - expected) > 0.5 * b.error * expected) {
+            sum = furnace(b.bsdf, view_at(cosine), 1 << 19);
+        }
         EXPECT_NEAR(sum.r, expected, b.error * expected) << b.name << ", view " << cosine;
     }
 }
