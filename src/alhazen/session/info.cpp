@@ -124,7 +124,9 @@ json materials_json(const SceneDescription& d) {
     json materials = json::array();
     for (const MaterialDescription& description : d.materials) {
         const Material& m = description.material;
-        const char* kind = !m.metallic_roughness         ? "whitted"
+        const char* kind = m.conductor                   ? "conductor"
+                           : m.dielectric                ? "dielectric"
+                           : !m.metallic_roughness       ? "whitted"
                            : m.metallic_roughness->unlit ? "unlit"
                                                          : "metallic-roughness";
         materials.push_back({{"name", m.name},

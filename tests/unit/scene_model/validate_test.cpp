@@ -130,6 +130,12 @@ TEST(Validate, EveryPartOfAMaterialAndATextureIsLookedAt) {
     EXPECT_EQ(errors_with([&](auto& m, auto&) { m.alpha_cutoff = kNan; }), 1u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.base_color.texture = missing; }), 1u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.roughness.value = -1; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.coat.roughness.value = kNan; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.sheen.color.texture = missing; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.film.thickest_nm = -1; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.anisotropy.rotation = kNan; }), 1u);
+    EXPECT_EQ(errors_with([&](auto&, auto& p) { p.dispersion = -1; }), 1u);
+    EXPECT_EQ(errors_with([&](auto& m, auto&) { m.conductor = Conductor{}; }), 1u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.thickness = {inf, missing, {}}; }), 2u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = 0; }), 1u);
     EXPECT_EQ(errors_with([&](auto&, auto& p) { p.attenuation_distance = inf; }), 0u);

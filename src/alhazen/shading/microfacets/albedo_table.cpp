@@ -5,7 +5,7 @@
 namespace alhazen {
 
 AlbedoTable::AlbedoTable(const Function& albedo, Axis axis) : axis_(axis) {
-    constexpr int kX = 32, kY = 28, kMeans = 257;
+    constexpr int kX = 44, kY = 32, kMeans = 257;
     table_ = CubicTable<2>({kX, kY}, [&](const std::array<double, 2>& p) {
         const double alpha = AlbedoAxes::alpha_of(p[1]);
         return albedo(axis == Axis::Shadow ? AlbedoAxes::mu_of(p[0], alpha)

@@ -137,5 +137,32 @@ TEST(GltfTextures, FiltersFollowTheSampler) {
     EXPECT_EQ(gltf::filter_of({Filter::Linear, Filter::Nearest}), TextureFilter::Bilinear);
 }
 
+TEST(GltfMaterial, LayersOfTheExtensionsAreKept) {
+    const Imported result = import_gltf(with_nodes(R"({"mesh": 0})", "0", R"(,
+        "extensionsUsed": ["KHR_materials_clearcoat", "KHR_materials_sheen",
+          "KHR_materials_iridescence", "KHR_materials_anisotropy", "KHR_materials_dispersion"],
+        "materials": [{"extensions": {
+            "KHR_materials_clearcoat": {"clearcoatFactor": 0.7, "clearcoatRoughnessFactor": 0.2},
+            "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3],
+                                    "sheenRoughnessFactor": 0.4},
+            "KHR_materials_iridescence": {"iridescenceFactor": 0.9, "iridescenceIor": 1.4,
+                "iridescenceThicknessMinimum": 50, "iridescenceThicknessMaximum": 600},
+            "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 0.25},
+            "KHR_materials_dispersion": {"dispersion": 0.1}}}])"));
+    EXPECT_EQ(result.messages().find("left out"), std::string::npos) << result.messages();
+    const MetallicRoughness& p = *result.scene.materials.at(0).material.metallic_roughness;
+    EXPECT_EQ(p.coat.strength.value, 0.7);
+    EXPECT_EQ(p.coat.roughness.value, 0.2);
+    EXPECT_EQ(p.sheen.color.color, (Rgb{0.1, 0.2, 0.3}));
+    EXPECT_EQ(p.sheen.roughness.value, 0.4);
+    EXPECT_EQ(p.film.strength.value, 0.9);
+    EXPECT_EQ(p.film.index, 1.4);
+    EXPECT_EQ(p.film.thinnest_nm, 50);
+    EXPECT_EQ(p.film.thickest_nm, 600);
+    EXPECT_EQ(p.anisotropy.strength, 0.5);
+    EXPECT_EQ(p.anisotropy.rotation, 0.25);
+    EXPECT_EQ(p.dispersion, 0.1);
+}
+
 }  // namespace
 }  // namespace alhazen::testing::ALHAZEN_TEST_FILE
