@@ -128,6 +128,7 @@ INSIDE = {
     "session": {
         "": ["generators"],
         "conversion": [""],
+        "technical": ["conversion"],
         "generators": [],
     },
     "shading": {
