@@ -206,14 +206,17 @@ class CurveGatherer {
             if (shape != nullptr && add_exact(*shape, placer)) continue;
             const auto* mesh = std::get_if<MeshIndex>(&triangles_.objects[index].parts[k].what);
             if (mesh == nullptr) continue;
-            const bool exact = shape == nullptr && !solid;
+            const MeshSource source = solid              ? MeshSource::Solid
+                                      : shape == nullptr ? MeshSource::Itself
+                                                         : MeshSource::Shape;
             add_mesh(*triangles_.meshes[static_cast<std::size_t>(*mesh)].mesh,
-                     exact ? 0.0 : tolerance_, solid, placer);
+                     source == MeshSource::Itself ? 0.0 : tolerance_, source, placer);
         }
     }
 
-    static void add_mesh(const TriangleMesh& mesh, double off, bool solid, CurvePlacer& placer) {
-        for (const MeshEdge& e : mesh_edges(mesh, placer.eye(), solid)) {
+    static void add_mesh(const TriangleMesh& mesh, double off, MeshSource source,
+                         CurvePlacer& placer) {
+        for (const MeshEdge& e : mesh_edges(mesh, placer.eye(), source)) {
             if (e.kind == MeshEdge::Kind::Border) {
                 placer.add_border(e.a, e.b, e.out, off);
             } else if (e.kind == MeshEdge::Kind::Edge) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <span>
 #include <tuple>
@@ -28,8 +29,8 @@ struct Side {
 
 class MeshEdgeFinder {
   public:
-    MeshEdgeFinder(const TriangleMesh& mesh, const BeamApex& eye, bool of_solid)
-        : mesh_(mesh), eye_(eye), of_solid_(of_solid) {}
+    MeshEdgeFinder(const TriangleMesh& mesh, const BeamApex& eye, MeshSource source)
+        : mesh_(mesh), eye_(eye), source_(source) {}
 
     std::vector<MeshEdge> find() {
         const std::vector<Side> sides = sorted_sides();
@@ -42,7 +43,7 @@ class MeshEdgeFinder {
             add_edge({sides.data() + first, end - first});
             first = end;
         }
-        if (!mesh_.normals.empty()) {
+        if (!mesh_.normals.empty() && source_ != MeshSource::Itself) {
             for (const auto& t : mesh_.triangles) add_contour(t);
         }
         return std::move(edges_);
@@ -50,11 +51,16 @@ class MeshEdgeFinder {
 
   private:
     [[nodiscard]] std::vector<Side> sorted_sides() const {
-        std::map<std::array<double, 3>, std::uint32_t> numbers;
+        // Corners that were computed twice differ by rounding.
+        constexpr double kSame = 1e-7;
+        const double step = kSame * std::max(max_component(mesh_.box().size()), 1e-300);
+        const auto on_grid = [&](double x) { return std::llround(x / step); };
+        std::map<std::array<long long, 3>, std::uint32_t> numbers;
         std::vector<std::uint32_t> place;
         for (const Vec3& p : mesh_.positions) {
             const auto next = static_cast<std::uint32_t>(numbers.size());
-            place.push_back(numbers.try_emplace({p.x, p.y, p.z}, next).first->second);
+            place.push_back(numbers.try_emplace({on_grid(p.x), on_grid(p.y), on_grid(p.z)}, next)
+                                .first->second);
         }
         std::vector<Side> sides;
         for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -89,7 +95,9 @@ class MeshEdgeFinder {
             return;
         }
         const Vec3 m = face(sides[1].triangle);
-        bool is_edge = sides.size() > 2 || (of_solid_ && dot(n, m) < kSolidCrease);
+        const bool solid = source_ == MeshSource::Solid, itself = source_ == MeshSource::Itself;
+        bool is_edge = sides.size() > 2 || (solid && dot(n, m) < kSolidCrease) ||
+                       (itself && (facing(n, a) > 0.0) != (facing(m, a) > 0.0));
         if (mesh_.normals.empty()) {
             is_edge =
                 is_edge || dot(n, m) < kCrease || (facing(n, a) > 0.0) != (facing(m, a) > 0.0);
@@ -126,14 +134,14 @@ class MeshEdgeFinder {
 
     const TriangleMesh& mesh_;
     BeamApex eye_;
-    bool of_solid_;
+    MeshSource source_;
     std::vector<MeshEdge> edges_;
 };
 
 }  // namespace
 
-std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh, const BeamApex& eye, bool of_solid) {
-    return MeshEdgeFinder(mesh, eye, of_solid).find();
+std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh, const BeamApex& eye, MeshSource source) {
+    return MeshEdgeFinder(mesh, eye, source).find();
 }
 
 }  // namespace alhazen

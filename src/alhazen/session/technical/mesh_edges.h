@@ -2,10 +2,10 @@
 /// Edges and contours of a triangle mesh as an eye sees them.
 ///
 /// Source and conventions: feature_curves.h. An edge is where the normals of two triangles differ
-/// by more than 25 degrees (those of the corners, where the mesh has any), where more than two
-/// meet, or, without normals, where one triangle faces the eye and the other does not. Of a solid,
-/// whose triangles have one normal in cells with blunt edges, also where the planes of triangles
-/// differ by more than 35 degrees.
+/// by more than 25 degrees (those of the corners, where the mesh has any) or where more than two
+/// meet. Of a solid, whose triangles have one normal in cells with blunt edges, also where the
+/// planes of triangles differ by more than 35 degrees. A mesh that stands for itself ends where a
+/// triangle that faces the eye meets one that does not: rays see its planes, not its normals.
 
 #include <vector>
 
@@ -21,8 +21,14 @@ struct MeshEdge {
     Vec3 out, other_out;  ///< normals of the two surfaces
 };
 
+enum class MeshSource {
+    Itself,  ///< the mesh is the surface
+    Shape,   ///< triangles within a tolerance of an exact shape
+    Solid,   ///< the same of a solid
+};
+
 /// `eye`: in the space of the mesh.
 [[nodiscard]] std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh, const BeamApex& eye,
-                                               bool of_solid);
+                                               MeshSource source);
 
 }  // namespace alhazen
