@@ -134,6 +134,7 @@ INSIDE = {
     "session": {
         "": ["generators"],
         "conversion": [""],
+        "technical": ["conversion"],
         "generators": [],
     },
     "shading": {

@@ -9,9 +9,11 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/renderers/core/antialias_report.h"
+#include "alhazen/renderers/core/beam_report.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/sampling_report.h"
 #include "alhazen/session/aov_pictures.h"
+#include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/session/picture.h"
@@ -236,6 +238,9 @@ int run(const RenderArguments& args) {
     for (const std::string& note : simplified(loaded.scene, options, *renderer)) {
         if (!args.quiet) tell("{}\n", note);
     }
+    if (const double within = renderer->takes_triangles_within(); within > 0) {
+        (void)tessellate(loaded.description, within);
+    }
     options.progress = &progress;
     options.stop = &stop_on_signals();
     const RenderResult result = render(loaded, options);
@@ -259,6 +264,9 @@ int run(const RenderArguments& args) {
     }
     if (result.counters.non_finite > 0 && !args.quiet) {
         tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);
+    }
+    if (result.beams && !args.quiet) {
+        for (const std::string& note : result.beams->notes) tell("warning: {}\n", note);
     }
     if (result.antialias && !args.quiet) tell_unmet(loaded, *result.antialias);
     if (result.sampling && !args.quiet) tell_sampling(options, *result.sampling);

@@ -6,8 +6,11 @@
 #include "alhazen/base/error.h"
 #include "alhazen/base/file.h"
 #include "alhazen/base/lower_case.h"
+#include "alhazen/primitives/aggregate.h"
+#include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/framing.h"
 #include "alhazen/session/scene_files.h"
+#include "alhazen/session/technical/technical_drawing.h"
 #include "alhazen/session/vector_drawing.h"
 #include "commands.h"
 #include "messages.h"
@@ -20,8 +23,9 @@ namespace {
 
 struct VectorArguments {
     SceneArguments scene;
-    std::string output, size, camera, view, style = "shaded";
+    std::string output, size, camera, view, style = "shaded", hidden = "none";
     int depth = -1;
+    double tolerance = 0;
     bool quiet = false;
 };
 
@@ -31,6 +35,26 @@ DrawingLook look_named(const std::string& style) {
     if (style == "technical") return DrawingLook::Technical;
     throw Error(ErrorKind::Usage,
                 fmt::format("--style '{}': expected shaded, lined or technical", style));
+}
+
+bool shows_hidden(const VectorArguments& args) {
+    if (args.hidden == "none") return false;
+    if (args.hidden != "dashed") {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--hidden '{}': expected dashed or none", args.hidden));
+    }
+    if (args.style != "technical") {
+        throw Error(ErrorKind::Usage, "--hidden dashed belongs to --style technical");
+    }
+    return true;
+}
+
+/// That of the command, or a five hundredth of the scene.
+double tolerance_of(const VectorArguments& args, const LoadedScene& loaded) {
+    if (args.tolerance > 0) return args.tolerance;
+    const Box3 box = loaded.scene.aggregate->box();
+    if (!box.empty() && box.bounded()) return 2e-3 * length(box.size());
+    throw Error(ErrorKind::Usage, "the scene is endless: --tolerance has to be given");
 }
 
 /// The writer for the suffix of a file.
@@ -45,6 +69,7 @@ WriteDrawing writer_for(const std::string& output) {
 int run_vector(const VectorArguments& args) {
     const DrawingLook look = look_named(args.style);
     const WriteDrawing write = writer_for(args.output);
+    const bool hidden = shows_hidden(args);
     RenderOptions options;
     if (!args.size.empty()) {
         const Size size = parse_size(args.size);
@@ -67,20 +92,30 @@ int run_vector(const VectorArguments& args) {
     const std::filesystem::path outputs[] = {args.output};
     check_spares_scene(loaded.description, outputs);
     if (!args.quiet) print_warnings(loaded.diagnostics);
+    const bool exact = look == DrawingLook::Technical && (hidden || args.tolerance > 0);
     // Framing reads the tables of the aggregate.
-    if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
+    if (exact || !args.view.empty() || loaded.scene.cameras.empty())
+        build_aggregate(loaded, load_options);
     framing.camera = options.camera;
     framing.aspect = free_aspect(loaded.description.picture, options);
     for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {
         if (!args.quiet) tell("{}\n", note);
     }
-    const Drawing drawing = draw_scene(loaded, options, look);
+    Drawing drawing;
+    if (exact) {
+        drawing = technical_drawing(loaded, options,
+                                    {.tolerance = tolerance_of(args, loaded), .hidden = hidden});
+    } else {
+        if (args.tolerance > 0) (void)tessellate(loaded.description, args.tolerance);
+        drawing = draw_scene(loaded, options, look);
+    }
     if (options.stop->requested()) {
         tell("stopped; nothing was written\n");
         return kStopped;
     }
     write_report(args.output, write(drawing));
     if (!args.quiet) {
+        for (const std::string& note : drawing.notes) tell("warning: {}\n", note);
         std::size_t regions = 0;
         for (const DrawingGroup& group : drawing.groups) regions += group.regions.size();
         tell("{} regions of {} parts, {} lines\n", regions, drawing.groups.size(),
@@ -109,6 +144,17 @@ void add_vector(CLI::App& app, int& exit_status) {
                      "and objects end; technical: these lines on white")
         ->type_name("NAME")
         ->capture_default_str();
+    command
+        ->add_option("--hidden", args->hidden,
+                     "Hidden lines of --style technical: none, or dashed (of any scene, without "
+                     "mirror images)")
+        ->type_name("NAME")
+        ->capture_default_str();
+    command
+        ->add_option("--tolerance", args->tolerance,
+                     "Draw exact shapes by triangles within this distance, scene units; with "
+                     "--style technical spheres, cylinders and cones have their true outlines")
+        ->check(CLI::PositiveNumber);
     command->add_option("--depth", args->depth, "Recursion depth of mirrors and panes")
         ->check(CLI::Range(0, 1000));
     command->add_option("--camera", args->camera, "Camera by name or position")

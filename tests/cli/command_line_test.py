@@ -156,6 +156,33 @@ class CommandLine(CommandLineCase):
         result = run("vector", scene, "-o", self.path("d.svg"))
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("sphere", result.stderr)
+        result = run("vector", scene, "-o", self.path("d.svg"), "--tolerance", "0.1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = run("vector", scene, "-o", self.path("e.svg"), "--style", "technical", "--hidden", "dashed")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("e.svg")) as file:
+            drawn = file.read()
+        self.assertIn('class="hidden"', drawn)
+        self.assertRegex(drawn, 'd="M[^"]*A')
+        for arguments in (["--hidden", "dashed"], ["--style", "technical", "--hidden", "x"], ["--tolerance", "-1"]):
+            self.assertEqual(run("vector", scene, "-o", self.path("f.svg"), *arguments).returncode, 2, arguments)
+        result = run("render", scene, "-o", self.path("g.png"), "--size", "32x24", "--renderer",
+                     "beam_tracing:tolerance=0.1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_vector_says_what_it_mends(self):
+        scene = self.path("bow_tie.alhazen")
+        corners = "(-1, -1, 0), (1, 1, 0), (1, -0.8, 0), (-1, 1, 0)"
+        with open(scene, "w") as file:
+            file.write('alhazen 1\npolygon "bow tie" { loops = [[%s]] }\n' % corners)
+        result = run("vector", scene, "-o", self.path("a.svg"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stderr, "alhazen:2:1: polygon 'bow tie': 1 crossing")
+        with open(scene, "w") as file:
+            file.write("alhazen 1\npolygon { loops = [[%s]] }\n" % corners.replace("1, 1, 0", "1, 1, 0.9"))
+        result = run("vector", scene, "-o", self.path("a.svg"))
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertRegex(result.stderr, "off its plane.*line 2")
 
     def test_samples_draws_every_sampler(self):
         names = [line.split()[0] for line in run("list", "samplers").stdout.splitlines() if line.startswith("  ")]

@@ -66,7 +66,7 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
     options.cast.hulls = settings.choice("hulls", 1, kHulls) == 1;
     options.least_contribution = settings.number("contribution", 0.0, 0.0, 1.0);
     options.least_area = settings.number("area", 0.0, 0.0, 1.0);
-    return std::make_unique<BeamTracing>(options);
+    return std::make_unique<BeamTracing>(options, settings.number("tolerance", 0.0, 0.0, 1e30));
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ std::span<const RendererEntry> renderers() {
         {"beam_tracing",
          "what is seen, mirrored and in shadow as exact polygons, found once for all resolutions "
          "(Heckbert and Hanrahan 1984); sort=tree|list, hulls=on|off, contribution=SHARE, "
-         "area=SHARE",
+         "area=SHARE, tolerance=DISTANCE (triangles in place of exact shapes)",
          [](RendererSettings& settings) { return make_beam_tracing(settings); }},
         {"bidirectional",
          "all light by random paths from the eye and from the lights, each vertex of one joined "

@@ -180,6 +180,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
         case AovKind::BoxTests:
         case AovKind::PrimitiveTests:
         case AovKind::Unmet:
+        case AovKind::RefractionError:
             break;
     }
     return heat_picture(crop, *c[0], 1.0);

@@ -48,7 +48,8 @@ nlohmann::ordered_json beams_json(const RenderResult& result) {
             {"cuts", r.cuts},
             {"seen_area", r.seen_area},
             {"gather_seconds", r.gather_seconds},
-            {"beam_seconds", r.beam_seconds}};
+            {"beam_seconds", r.beam_seconds},
+            {"mended", r.notes}};
 }
 
 /// null: without adaptive supersampling.

@@ -31,6 +31,7 @@ Drawing draw_scene(const LoadedScene& loaded, const RenderOptions& options, Draw
         const BeamScene facets = beam_scene(loaded.description, scene);
         const BeamTree tree = beam_tree(job, facets, window, {});
         result = beam_drawing(job, facets, tree, drawing);
+        result.notes = facets.notes;
     });
     const bool linear = scene.conventions.film.linear_output;
     for (int k = 0; k < 3; ++k) {

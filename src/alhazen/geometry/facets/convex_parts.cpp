@@ -31,15 +31,6 @@ class LoopParter {
         return result;
     }
 
-  private:
-    [[nodiscard]] int turn_at(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        return orientation(flat_[a], flat_[b], flat_[c]);
-    }
-    [[nodiscard]] std::vector<Vec3> points(const CornerLoop& loop) const {
-        std::vector<Vec3> result;
-        for (const std::uint32_t k : loop) result.push_back(corners_[k]);
-        return result;
-    }
     [[nodiscard]] bool is_convex(const CornerLoop& loop) const {
         const std::size_t n = loop.size();
         int turns_back = 0;
@@ -51,6 +42,16 @@ class LoopParter {
             turns_back += right != next;
         }
         return turns_back <= 2;
+    }
+
+  private:
+    [[nodiscard]] int turn_at(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        return orientation(flat_[a], flat_[b], flat_[c]);
+    }
+    [[nodiscard]] std::vector<Vec3> points(const CornerLoop& loop) const {
+        std::vector<Vec3> result;
+        for (const std::uint32_t k : loop) result.push_back(corners_[k]);
+        return result;
     }
     [[nodiscard]] double area(const CornerLoop& loop) const {
         double sum = 0.0;
@@ -176,11 +177,9 @@ class LoopParter {
     std::vector<Vec2> flat_;
 };
 
-}  // namespace
-
-std::vector<std::vector<Vec3>> convex_parts(std::span<const Vec3> corners,
-                                            std::span<const std::uint32_t> loop_ends,
-                                            const Vec3& normal) {
+/// Without repeated corners.
+std::vector<CornerLoop> corner_loops(std::span<const Vec3> corners,
+                                     std::span<const std::uint32_t> loop_ends) {
     std::vector<CornerLoop> loops;
     std::uint32_t first = 0;
     const std::uint32_t all = static_cast<std::uint32_t>(corners.size());
@@ -194,8 +193,22 @@ std::vector<std::vector<Vec3>> convex_parts(std::span<const Vec3> corners,
         if (loop.size() >= 3) loops.push_back(std::move(loop));
         first = end;
     }
+    return loops;
+}
+
+}  // namespace
+
+std::vector<std::vector<Vec3>> convex_parts(std::span<const Vec3> corners,
+                                            std::span<const std::uint32_t> loop_ends,
+                                            const Vec3& normal) {
+    std::vector<CornerLoop> loops = corner_loops(corners, loop_ends);
     if (loops.empty()) return {};
     return LoopParter(corners, normal).parts(std::move(loops));
+}
+
+bool is_convex_loop(std::span<const Vec3> corners, const Vec3& normal) {
+    const std::vector<CornerLoop> loops = corner_loops(corners, {});
+    return !loops.empty() && LoopParter(corners, normal).is_convex(loops[0]);
 }
 
 }  // namespace alhazen

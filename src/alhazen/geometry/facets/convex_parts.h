@@ -21,4 +21,7 @@ namespace alhazen {
                                                           std::span<const std::uint32_t> loop_ends,
                                                           const Vec3& normal);
 
+/// Whether one loop is its own convex piece.
+[[nodiscard]] bool is_convex_loop(std::span<const Vec3> corners, const Vec3& normal);
+
 }  // namespace alhazen

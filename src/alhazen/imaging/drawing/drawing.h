@@ -5,6 +5,7 @@
 /// takes them (encoded), 0 to 1. Regions do not overlap; they are filled by the odd-even rule.
 /// Lines are drawn over all regions, in order.
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,10 +39,19 @@ enum class LineStyle {
     Silhouette,  ///< thick: an object ends
 };
 
+/// Part of an ellipse: center + cos(t) u + sin(t) v; u and v are conjugate half diameters.
+struct DrawingArc {
+    Vec2 center, u, v;
+    double from = 0, to = 0;  ///< to - from: at most 2 pi in either direction
+
+    [[nodiscard]] Vec2 at(double t) const { return center + std::cos(t) * u + std::sin(t) * v; }
+};
+
 struct DrawingLine {
     LineStyle style = LineStyle::Crease;
     std::vector<Vec2> points;
     bool closed = false;
+    std::optional<DrawingArc> arc;  ///< instead of `points`
 };
 
 struct Drawing {
@@ -49,6 +59,7 @@ struct Drawing {
     Rgb background{1, 1, 1};
     std::vector<DrawingGroup> groups;
     std::vector<DrawingLine> lines;
+    std::vector<std::string> notes;  ///< for the user: what was mended on the way
 };
 
 /// As SVG 1.1. Regions are drawn without smoothing of their edges, so that abutting ones leave no

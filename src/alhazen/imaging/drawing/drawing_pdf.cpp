@@ -33,6 +33,21 @@ void trace(cairo_t* page, const std::vector<Vec2>& points, bool closed) {
     if (closed) cairo_close_path(page);
 }
 
+/// As the unit circle seen through the half diameters; the line itself keeps its width.
+void trace(cairo_t* page, const DrawingArc& arc) {
+    cairo_matrix_t shown, ellipse;
+    cairo_get_matrix(page, &shown);
+    cairo_matrix_init(&ellipse, arc.u.x, arc.u.y, arc.v.x, arc.v.y, arc.center.x, arc.center.y);
+    cairo_transform(page, &ellipse);
+    cairo_new_sub_path(page);
+    if (arc.to > arc.from) {
+        cairo_arc(page, 0, 0, 1, arc.from, arc.to);
+    } else {
+        cairo_arc_negative(page, 0, 0, 1, arc.from, arc.to);
+    }
+    cairo_set_matrix(page, &shown);
+}
+
 void set_color(cairo_t* page, const Rgb& c) {
     cairo_set_source_rgb(page, c.r, c.g, c.b);
 }
@@ -61,7 +76,11 @@ void draw(cairo_t* page, const DrawingLine& line) {
     cairo_set_line_width(page, look.width);
     cairo_set_dash(page, look.dash.data(), look.dash[0] > 0 ? 2 : 0, 0);
     set_color(page, {0, 0, 0});
-    trace(page, line.points, line.closed);
+    if (line.arc) {
+        trace(page, *line.arc);
+    } else {
+        trace(page, line.points, line.closed);
+    }
     cairo_stroke(page);
 }
 
@@ -74,6 +93,7 @@ std::string drawing_pdf(const Drawing& drawing) {
     const Owned<cairo_t> page(cairo_create(surface.get()));
     cairo_set_fill_rule(page.get(), CAIRO_FILL_RULE_EVEN_ODD);
     cairo_set_line_join(page.get(), CAIRO_LINE_JOIN_ROUND);
+    cairo_set_tolerance(page.get(), 0.01);  // of curves in place of arcs
     set_color(page.get(), drawing.background);
     cairo_paint(page.get());
     // Readers smooth the edges of regions, so that what lies below shines through between two that

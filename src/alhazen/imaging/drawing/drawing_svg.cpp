@@ -5,6 +5,7 @@
 
 #include "alhazen/imaging/drawing/drawing_style.h"
 #include "alhazen/imaging/svg/svg_writer.h"
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
@@ -34,6 +35,33 @@ void append_path(std::string& out, const std::vector<Vec2>& points, bool closed)
         append_number(out, points[i].y);
     }
     if (closed) out += 'Z';
+}
+
+/// By the principal half axes of the ellipse; in two arcs, so that neither is more than a half.
+void append_arc(std::string& out, const DrawingArc& arc) {
+    const Vec2 &u = arc.u, &v = arc.v;
+    const double t = 0.5 * std::atan2(2.0 * (u.x * v.x + u.y * v.y),
+                                      u.x * u.x + u.y * u.y - v.x * v.x - v.y * v.y);
+    const Vec2 long_axis = arc.at(t) - arc.center, short_axis = arc.at(t + kPi / 2) - arc.center;
+    const bool clockwise = (u.x * v.y - u.y * v.x) * (arc.to - arc.from) > 0.0;
+    const auto number = [&](double x) {
+        append_number(out, x);
+        out += ' ';
+    };
+    const auto point = [&](double at) {
+        number(arc.at(at).x);
+        append_number(out, arc.at(at).y);
+    };
+    out += 'M';
+    point(arc.from);
+    for (const double end : {0.5 * (arc.from + arc.to), arc.to}) {
+        out += 'A';
+        number(std::hypot(long_axis.x, long_axis.y));
+        number(std::hypot(short_axis.x, short_axis.y));
+        number(std::atan2(long_axis.y, long_axis.x) * 180.0 / kPi);
+        out += clockwise ? "0 1 " : "0 0 ";
+        point(end);
+    }
 }
 
 std::string path_of(const DrawingRegion& region) {
@@ -104,7 +132,11 @@ std::string drawing_svg(const Drawing& drawing) {
     }
     for (const DrawingLine& line : drawing.lines) {
         std::string path;
-        append_path(path, line.points, line.closed);
+        if (line.arc) {
+            append_arc(path, *line.arc);
+        } else {
+            append_path(path, line.points, line.closed);
+        }
         out.leaf("path", {{"class", look_of(line.style).name}, {"d", path}});
     }
     return out.finish();

@@ -117,6 +117,8 @@ void claim_c3(ClaimRun& run);
 void claim_c4(ClaimRun& run);
 void claim_e1(ClaimRun& run);
 void claim_e2(ClaimRun& run);
+void claim_e3(ClaimRun& run);
+void claim_e4(ClaimRun& run);
 void claim_f1(ClaimRun& run);
 void claim_f2(ClaimRun& run);
 void claim_f3(ClaimRun& run);

@@ -19,20 +19,30 @@ std::int32_t on_lattice_line(double x) {
     return static_cast<std::int32_t>(std::lround(std::clamp(x, -limit, limit)));
 }
 
-/// Removes repeated points and those on straight lines. False where it does not turn left
-/// everywhere.
-bool make_canonical(std::vector<LatticePoint>& loop) {
-    loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
-    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-    for (std::size_t k = 0; k < loop.size() && loop.size() >= 3;) {
-        const std::size_t n = loop.size();
-        if (turn(loop[(k + n - 1) % n], loop[k], loop[(k + 1) % n]) == 0) {
-            loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
-            k = k == 0 ? 0 : k - 1;
+/// Removes repeated points and those on straight lines.
+void straighten(std::vector<LatticePoint>& loop) {
+    std::size_t begin = 0, end = 0;
+    for (const LatticePoint p : loop) {
+        while (end >= 2 && turn(loop[end - 2], loop[end - 1], p) == 0) --end;
+        if (end == 1 && loop[0] == p) continue;
+        loop[end++] = p;
+    }
+    while (end - begin >= 3) {
+        if (turn(loop[end - 2], loop[end - 1], loop[begin]) == 0) {
+            --end;
+        } else if (turn(loop[end - 1], loop[begin], loop[begin + 1]) == 0) {
+            ++begin;
         } else {
-            ++k;
+            break;
         }
     }
+    loop.resize(end);
+    loop.erase(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
+/// Straightens. False where it does not turn left everywhere then.
+bool make_canonical(std::vector<LatticePoint>& loop) {
+    straighten(loop);
     if (loop.size() < 3) {
         loop.clear();
         return true;

@@ -26,6 +26,20 @@ void add_points(const PolygonSet& region, int j, double y, int first, std::span<
     }
 }
 
+namespace {
+
+/// Coordinates of the lattice then take 52 bits, and doubles hold them.
+constexpr int kHeightBits = 28;
+
+}  // namespace
+
+void RowAreas::Heights::add(double lo, double hi, double sign) {
+    const Int128 a = std::llround(std::ldexp(lo, kHeightBits));
+    const Int128 b = std::llround(std::ldexp(hi, kHeightBits));
+    height += static_cast<std::int64_t>(sign > 0.0 ? b - a : a - b);
+    square += sign > 0.0 ? b * b - a * a : a * a - b * b;
+}
+
 void RowAreas::begin(double lo, double hi, std::span<const double> edges) {
     lo_ = lo;
     hi_ = hi;
@@ -81,7 +95,7 @@ void RowAreas::add_edge(double x0, double y0, double x1, double y1) {
         const double a = std::min(y, y_end), b = std::max(y, y_end);
         const double xa = slope >= 0.0 ? x : end, xb = slope >= 0.0 ? end : x;
         if (c < 0) {
-            full_[0] = full_[0] + sign * Vec2{b - a, 0.5 * (b * b - a * a)};
+            full_[0].add(a, b, sign);
         } else if (static_cast<std::size_t>(c) < columns) {
             add_within(static_cast<std::size_t>(c), xa, a, xb, b, sign);
         }
@@ -102,19 +116,22 @@ void RowAreas::add_within(std::size_t column, double x0, double y0, double x1, d
     const auto half_square = [&](double x) { return 0.5 * (right * right - x * x); };
     m.x += sign * h / 6.0 * (half_square(x0) + 4.0 * half_square(xm) + half_square(x1));
     m.y += sign * h / 6.0 * (y0 * w0 + 4.0 * ym * wm + y1 * w1);
-    full_[column + 1] = full_[column + 1] + sign * Vec2{h, 0.5 * (y1 * y1 - y0 * y0)};
+    full_[column + 1].add(y0, y1, sign);
 }
 
 void RowAreas::take(int j, int first, std::vector<BeamSample>& samples) {
-    Vec2 full;
+    Heights sum;
     for (std::size_t c = 0; c < own_.size(); ++c) {
-        full = full + full_[c];
+        sum.height += full_[c].height;
+        sum.square += full_[c].square;
+        const double height = std::ldexp(static_cast<double>(sum.height), -kHeightBits);
+        const double of_y = std::ldexp(static_cast<double>(sum.square), -2 * kHeightBits - 1);
         const double left = edges_[c], right = edges_[c + 1], wide = right - left;
         const double pixel = wide * (hi_ - lo_);
         Moments m = own_[c];
-        m.area += full.x * wide;
-        m.x += full.x * 0.5 * (right * right - left * left);
-        m.y += full.y * wide;
+        m.area += height * wide;
+        m.x += height * 0.5 * (right * right - left * left);
+        m.y += of_y * wide;
         if (!(m.area > 1e-12 * pixel)) continue;
         const Vec2 middle{std::clamp(m.x / m.area, left, right),
                           std::clamp(m.y / m.area, lo_, hi_)};

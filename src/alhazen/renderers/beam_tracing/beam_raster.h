@@ -45,8 +45,16 @@ class RowAreas {
 
     double lo_ = 0, hi_ = 0;
     std::span<const double> edges_;
-    std::vector<Moments> own_;  ///< [column] to the right of edges in it
-    std::vector<Vec2> full_;    ///< [column] height, and integral of y, of the columns on
+    /// Sums of differences of heights and of their squares, in whole 2^-28 of a lattice unit: they
+    /// are the same however an edge is divided, so that a pixel does not depend on its tile.
+    struct Heights {
+        std::int64_t height = 0;
+        Int128 square = 0;
+
+        void add(double lo, double hi, double sign);
+    };
+    std::vector<Moments> own_;   ///< [column] to the right of edges in it
+    std::vector<Heights> full_;  ///< [column] of edges that end left of it
 };
 
 }  // namespace alhazen

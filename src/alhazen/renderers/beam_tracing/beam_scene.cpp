@@ -6,9 +6,9 @@
 #include <string>
 
 #include "alhazen/base/error.h"
-#include "alhazen/geometry/facets/convex_parts.h"
 #include "alhazen/geometry/polygon/convex_corners.h"
 #include "alhazen/math/unit_vector.h"
+#include "alhazen/renderers/beam_tracing/mended_polygon.h"
 
 namespace alhazen {
 
@@ -59,6 +59,17 @@ class BeamGatherer {
     }
 
   private:
+    void note(const std::string& mended) {
+        if (++mendings_ > kMostNamed) {
+            if (mendings_ == kMostNamed + 1) result_.notes.push_back("and others");
+            return;
+        }
+        const std::string name = part_->name.empty() ? "" : " '" + part_->name + "'";
+        const std::string where = to_string(part_->location);
+        result_.notes.push_back((where.empty() ? "" : where + ": ") + "polygon" + name + ": " +
+                                mended);
+    }
+
     void refuse(const std::string& what, const std::string& name, const FileLocation& where) {
         if (++refusals_ > kMostNamed) {
             if (refusals_ == kMostNamed + 1) refused_ += "; and others";
@@ -96,6 +107,7 @@ class BeamGatherer {
             add_object(index, world_from_part, mask, around);
             return;
         }
+        part_ = &part;
         BeamSource source;
         source.placement = {world_from_part, inverse(world_from_part)};
         source.placed = world_from_part != Affine{};
@@ -241,9 +253,16 @@ class BeamGatherer {
         const auto number = static_cast<std::uint32_t>(result_.facets.size());
         pool_.planes.push_back({normal, offset / static_cast<double>(corners.size())});
         result_.facets.push_back(facet);
-        for (const std::vector<Vec3>& part : convex_parts(corners, ends, normal)) {
+        if (corners.size() == 3) {
+            pieces_.push_back(pool_.add(number, corners));
+            return;
+        }
+        const MendedPolygon polygon = mended_polygon(corners, ends, pool_.planes.back());
+        for (const std::vector<Vec3>& part : polygon.parts) {
             pieces_.push_back(pool_.add(number, part));
         }
+        if (!polygon.mended.empty()) note(polygon.mended);
+        if (!polygon.refused.empty()) refuse(polygon.refused, part_->name, part_->location);
     }
 
     static constexpr int kMostNamed = 20;
@@ -254,8 +273,9 @@ class BeamGatherer {
     FacetPool pool_;
     std::vector<FacetPiece> pieces_;
     Affine world_;
-    bool mirrored_ = false;  ///< the placement turns corners round
-    int refusals_ = 0;
+    bool mirrored_ = false;       ///< the placement turns corners round
+    const Part* part_ = nullptr;  ///< of the facets
+    int refusals_ = 0, mendings_ = 0;
     std::string refused_;
 };
 

@@ -3,10 +3,12 @@
 ///
 /// Source: Heckbert and Hanrahan, "Beam Tracing Polygonal Objects", SIGGRAPH 1984.
 /// Conventions: polygons with holes, rectangles, boxes, polyhedra and triangle meshes, placed by
-/// any number of instances. All else is refused by name, all at once. Numbers of parts and
+/// any number of instances. All else is refused by name, all at once. Polygons with corners off
+/// their plane or with edges that cross are mended (mended_polygon.h). Numbers of parts and
 /// instances are those of Surface. Facets count corners counter-clockwise from outside.
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "alhazen/geometry/facets/facet_tree.h"
@@ -38,6 +40,7 @@ struct BeamScene {
     std::vector<BeamSource> sources;
     std::vector<BeamFacet> facets;
     FacetTree tree;
+    std::vector<std::string> notes;  ///< what was mended, a polygon a line
 
     [[nodiscard]] const FacetPlane& plane(std::uint32_t facet) const {
         return tree.pool().planes[facet];

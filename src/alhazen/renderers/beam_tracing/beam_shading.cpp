@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/primitives/placed_surface.h"
 #include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/refraction.h"
 
 namespace alhazen {
 
@@ -33,7 +35,8 @@ BeamShading::BeamShading(const RenderJob& job, const BeamScene& scene, const Bea
       eye_(job.camera),
       ambient_(ambient_terms(job.scene.lights)),
       constant_(job.scene),
-      depth_(job.camera) {}
+      depth_(job.camera),
+      follows_(job.aovs != nullptr && job.aovs->wanted().has(AovKind::RefractionError)) {}
 
 void BeamShading::set_surface_of(std::uint32_t facet, const Ray& ray, double t, Surface& surface) {
     const BeamFacet& f = geometry_.facets[facet];
@@ -93,6 +96,27 @@ void BeamShading::pass(RayKind kind, double distance, Way& way) const {
     way.absorption = point_.entering ? material.absorption : Rgb{};
 }
 
+void BeamShading::follow(std::uint32_t facet, RayKind kind) {
+    const FacetPlane& outer = geometry_.plane(facet);
+    true_.at -= (outer.at(true_.at) / dot(outer.normal, true_.direction)) * true_.direction;
+    const bool outside = dot(outer.normal, true_.direction) < 0.0;
+    const Vec3 normal = outside ? outer.normal : -outer.normal;
+    if (kind == RayKind::Reflection) {
+        true_.direction = mirror(true_.direction, normal);
+        return;
+    }
+    const MaterialSample& material = *point_.material;
+    if (material.thin) return;
+    true_.refracted = true;
+    const double eta =
+        outside ? conventions_.air_index / material.index : material.index / conventions_.air_index;
+    if (!refract(true_.direction, normal, eta, true_.direction)) true_.lost = true;
+}
+
+double BeamShading::refraction_error() const {
+    return off_;
+}
+
 void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
     const Ray eye = window_ray(eye_, at);
     chain_.clear();
@@ -103,12 +127,15 @@ void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
     way_ = {};
     filter_ = {1, 1, 1};
     Vec3 from = eye.origin;
+    true_ = {eye.origin, eye.direction};
+    off_ = 0.0;
     for (std::size_t k = chain_.size(); k-- > 0;) {
         const BeamPiece& met = tree_.pieces[chain_[k]];
         const Ray ray = space_ray(tree_.beams[met.beam].back, eye);
         const double distance = meet(met.seen.facet, ray, from, way_);
         attenuate(distance, way_);
         const std::uint32_t next = k == 0 ? piece.beam : tree_.pieces[chain_[k - 1]].beam;
+        if (follows_) follow(met.seen.facet, tree_.beams[next].view.kind);
         pass(tree_.beams[next].view.kind, distance, way_);
         from = point_.surface.point;
     }
@@ -117,6 +144,13 @@ void BeamShading::go(const BeamPiece& piece, const Vec2& at) {
     const Ray ray = space_ray(tree_.beams[piece.beam].back, eye);
     const double distance = meet(piece.seen.facet, ray, from, way_);
     attenuate(distance, way_);
+    if (true_.refracted) {
+        const FacetPlane& plane = geometry_.plane(piece.seen.facet);
+        const double t = -plane.at(true_.at) / dot(plane.normal, true_.direction);
+        off_ = true_.lost || !(t >= 0.0)
+                   ? std::numeric_limits<double>::infinity()
+                   : length(true_.at + t * true_.direction - point_.surface.point);
+    }
     if (conventions_.refraction_tint == ShadingConventions::RefractionTint::PerDistance &&
         way_.inside && !point_.medium_is_physical && !point_.material->unlit) {
         filter_ = power(point_.medium, distance);

@@ -23,6 +23,10 @@ class BeamShading {
     [[nodiscard]] Rgb own() const;
     /// The light that reaches the point through the facets of the part.
     [[nodiscard]] Rgb light(const BeamLight& light);
+    /// How far the point is from where the ray, refracted by Snell's law, meets the plane of the
+    /// piece; 0 where nothing was refracted, infinite where the ray is totally reflected. Known
+    /// with the layer alone.
+    [[nodiscard]] double refraction_error() const;
     /// For a piece that the eye sees.
     void add_to(PixelGeometry& geometry) const;
 
@@ -36,6 +40,8 @@ class BeamShading {
     /// Sets the point where a ray of a beam meets a facet. Returns the way from `from`.
     double meet(std::uint32_t facet, const Ray& ray, const Vec3& from, const Way& way);
     void attenuate(double distance, Way& way) const;
+    /// Takes the true ray through a facet, whose material `point_` has.
+    void follow(std::uint32_t facet, RayKind kind);
     void pass(RayKind kind, double distance, Way& way) const;
     [[nodiscard]] Rgb tint(std::span<const std::uint32_t> through, const LightSample& light);
 
@@ -53,6 +59,14 @@ class BeamShading {
     Way way_;
     Rgb filter_{1, 1, 1};  ///< of all light of the point
     bool nothing_ = false;
+    /// The ray as it is, beside that of the beam.
+    struct TrueRay {
+        Vec3 at, direction;
+        bool refracted = false, lost = false;
+    };
+    TrueRay true_;
+    bool follows_ = false;
+    double off_ = 0;
     std::vector<std::uint32_t> chain_;  ///< pieces from the leaf to the eye
 };
 

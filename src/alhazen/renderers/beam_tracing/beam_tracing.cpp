@@ -107,6 +107,7 @@ class BeamTileRenderer final : public TileRenderer {
             if (job_.stop_requested()) return;
             row_.assign(columns, {});
             geometry_.assign(layers ? columns : 0, PixelGeometry{.samples = 1});
+            errors_.assign(columns, 0.0);
             for (const std::uint32_t k : bands_.pieces_of(j)) add(tree_.pieces[k], tile, j);
             for (std::size_t c = 0; c < columns; ++c) {
                 const int i = tile.x0 + static_cast<int>(c);
@@ -114,6 +115,7 @@ class BeamTileRenderer final : public TileRenderer {
                 counters.non_finite += !filter.add(row_[c]);
                 film.set(i, j, filter.value());
                 if (layers) write_geometry(*job_.aovs, i, j, geometry_[c]);
+                if (job_.aovs) job_.aovs->set(AovKind::RefractionError, i, j, {&errors_[c], 1});
             }
         }
     }
@@ -125,6 +127,8 @@ class BeamTileRenderer final : public TileRenderer {
         for (const BeamSample& s : samples_) {
             shading_.go(piece, s.at);
             at(tile, s) += s.share * shading_.own();
+            double& error = errors_[static_cast<std::size_t>(s.i - tile.x0)];
+            error = std::max(error, shading_.refraction_error());
             if (of_eye && !geometry_.empty()) {
                 PixelGeometry& g = geometry_[static_cast<std::size_t>(s.i - tile.x0)];
                 if (g.hits == 0) shading_.add_to(g);
@@ -193,6 +197,7 @@ class BeamTileRenderer final : public TileRenderer {
     std::vector<BeamSample> samples_;
     std::vector<Rgb> row_;
     std::vector<PixelGeometry> geometry_;
+    std::vector<double> errors_;  ///< of refraction
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -226,6 +231,7 @@ std::shared_ptr<BeamReport> report_of(const BeamScene& scene, const BeamTree& tr
     for (const BeamPiece& piece : tree.pieces) {
         if (piece.beam == 0) area += twice_area(piece.seen.region);
     }
+    report->notes = scene.notes;
     report->seen_area = static_cast<double>(area) / static_cast<double>(twice_area(window));
     return report;
 }

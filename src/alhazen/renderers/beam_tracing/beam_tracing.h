@@ -16,15 +16,19 @@ namespace alhazen {
 
 class BeamTracing final : public Renderer {
   public:
-    explicit BeamTracing(const BeamTreeOptions& options = {}) : options_(options) {}
+    /// `tolerance`: of triangles in place of exact shapes, which the caller makes; 0: none.
+    explicit BeamTracing(const BeamTreeOptions& options = {}, double tolerance = 0)
+        : options_(options), tolerance_(tolerance) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
     /// Geometry is read from RenderJob::description.
     [[nodiscard]] bool needs_aggregate() const override { return false; }
     [[nodiscard]] bool gives_exact_areas() const override { return true; }
+    [[nodiscard]] double takes_triangles_within() const override { return tolerance_; }
 
   private:
     BeamTreeOptions options_;
+    double tolerance_;
 };
 
 }  // namespace alhazen

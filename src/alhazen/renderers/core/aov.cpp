@@ -98,6 +98,11 @@ std::span<const AovEntry> aov_table() {
          "objects that --antialias looked for, and that no ray met down to its depth",
          {"unmet"},
          Uint},
+        {AovKind::RefractionError,
+         "refraction_error",
+         "distance of what beam_tracing shows behind glass from where the ray would meet it",
+         {"refraction_error"},
+         Float},
     };
     return table;
 }

@@ -43,6 +43,7 @@ enum class AovKind {
     PrimitiveTests,
     Time,
     Unmet,
+    RefractionError,
 };
 
 struct AovEntry {

@@ -2,6 +2,8 @@
 /// What a renderer with beams reports besides the picture.
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace alhazen {
 
@@ -18,6 +20,7 @@ struct BeamReport {
                                 ///< window: 1 but for rounding
     double gather_seconds = 0;  ///< for the facets and their tree
     double beam_seconds = 0;    ///< for the tree of beams
+    std::vector<std::string> notes;  ///< polygons that were mended
 };
 
 }  // namespace alhazen

@@ -103,6 +103,9 @@ class Renderer {
     [[nodiscard]] virtual int usual_samples() const { return 1; }
     /// True: `render` heeds AntialiasSettings::exact.
     [[nodiscard]] virtual bool gives_exact_areas() const { return false; }
+    /// Above 0: RenderJob::description has to have triangles within this distance in place of its
+    /// exact shapes.
+    [[nodiscard]] virtual double takes_triangles_within() const { return 0.0; }
     /// True: reports have RenderReport::scan_lines.
     [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };

@@ -1,0 +1,171 @@
+#include "alhazen/session/technical/technical_drawing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/base/error.h"
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/math/constants.h"
+#include "alhazen/session/technical/line_chains.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+
+constexpr int kWidth = 160, kHeight = 120;
+
+struct Sheet {
+    explicit Sheet(SceneMaker& maker, bool hidden = true) {
+        maker.description().cameras[0].camera =
+            look_along({2.5, -6, 3.2}, {-2.5, 6, -2.6}, {0, 0, 1}, 0.66, 4.0 / 3.0);
+        maker.description().cameras[0].aspect = 4.0 / 3.0;
+        loaded.description = maker.description();
+        loaded.scene = compile(loaded.description);
+        RenderOptions options;
+        options.width = kWidth;
+        options.height = kHeight;
+        drawing = technical_drawing(loaded, options, {.tolerance = 0.01, .hidden = hidden});
+    }
+    /// The ray of a point of the picture.
+    [[nodiscard]] Ray ray(const Vec2& p) const {
+        return eye_ray(loaded.scene.cameras[0].camera, p.x / kWidth, 1.0 - p.y / kHeight);
+    }
+    [[nodiscard]] int count(LineStyle style) const {
+        int n = 0;
+        for (const DrawingLine& line : drawing.lines) n += line.style == style;
+        return n;
+    }
+    /// Parts of lines between two points.
+    [[nodiscard]] std::size_t segments(LineStyle style) const {
+        std::size_t n = 0;
+        for (const DrawingLine& line : drawing.lines) {
+            if (line.style == style) n += line.points.size() - 1;
+        }
+        return n;
+    }
+    LoadedScene loaded;
+    Drawing drawing;
+};
+
+double distance_to(const Ray& ray, const Vec3& p) {
+    return length(cross(p - ray.origin, ray.direction)) / length(ray.direction);
+}
+
+TEST(TechnicalDrawing, TheOutlineOfASphereIsItsEllipse) {
+    SceneMaker maker;
+    maker.add(Sphere{.center = {0.4, 0.3, 0.8}, .radius = 0.7}, maker.material({}));
+    const Sheet sheet(maker);
+    ASSERT_EQ(sheet.drawing.lines.size(), 1u);
+    const DrawingLine& line = sheet.drawing.lines[0];
+    ASSERT_TRUE(line.arc);
+    EXPECT_EQ(line.style, LineStyle::Silhouette);
+    EXPECT_NEAR(std::abs(line.arc->to - line.arc->from), 2 * kPi, 1e-9);
+    for (int k = 0; k < 60; ++k) {
+        EXPECT_NEAR(distance_to(sheet.ray(line.arc->at(0.1 * k)), {0.4, 0.3, 0.8}), 0.7, 1e-12);
+    }
+    const std::string svg = drawing_svg(sheet.drawing);
+    EXPECT_EQ(std::count(svg.begin(), svg.end(), 'A'), 2);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(TechnicalDrawing, RimsAndSidesOfAPlacedConeAreTrue) {
+    SceneMaker maker;
+    const Affine placed = Affine::translate({-0.4, 0.2, 0.3}) * Affine::rotate({1, 2, 3}, 0.7) *
+                          Affine::scale({1.3, 0.8, 1.1});
+    maker.add(Cone{.base = {0, 0, 0}, .top = {0, 0, 1.2}, .base_radius = 0.7, .top_radius = 0.3},
+              maker.material({}), placed);
+    const Sheet sheet(maker);
+    const Affine back = inverse(placed);
+    int arcs = 0, lines = 0;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        for (int k = 0; k <= 20; ++k) {
+            const Vec2 p =
+                line.arc ? line.arc->at(line.arc->from + (line.arc->to - line.arc->from) * k / 20.0)
+                         : line.points[0] + (k / 20.0) * (line.points[1] - line.points[0]);
+            const Ray ray = sheet.ray(p);
+            const Vec3 o = back.point(ray.origin), d = back.vector(ray.direction);
+            if (line.arc) {
+                // On one of the two rims.
+                double off = 1;
+                for (const auto& [z, r] : {std::pair{0.0, 0.7}, {1.2, 0.3}}) {
+                    const Vec3 at = o + ((z - o.z) / d.z) * d;
+                    off = std::min(off, std::abs(std::hypot(at.x, at.y) - r));
+                }
+                EXPECT_LT(off, 1e-11);
+            } else {
+                // x^2 + y^2 = (0.7 - z / 3)^2 has one root along the ray.
+                const double r = 0.7 - o.z / 3, f = -d.z / 3;
+                const double a = d.x * d.x + d.y * d.y - f * f, b = o.x * d.x + o.y * d.y - r * f,
+                             c = o.x * o.x + o.y * o.y - r * r;
+                EXPECT_NEAR((b * b - a * c) / (b * b), 0.0, 1e-10);
+            }
+        }
+        (line.arc ? arcs : lines) += 1;
+    }
+    EXPECT_EQ(lines, 2);
+    EXPECT_GE(arcs, 4);  // each rim is divided where it ends the shape
+    EXPECT_GE(sheet.count(LineStyle::Hidden), 1);
+    EXPECT_GE(sheet.count(LineStyle::Crease), 1);
+}
+
+TEST(TechnicalDrawing, WhatIsBehindIsDashedOrLeftOut) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    maker.add(BoxShape{{-1, -1, 0}, {1, 1, 1}}, grey);
+    const Sheet box(maker);
+    // Three edges meet in the corner that is farthest.
+    EXPECT_EQ(box.segments(LineStyle::Hidden), 3u);
+    EXPECT_EQ(box.segments(LineStyle::Silhouette), 6u);
+    EXPECT_EQ(box.segments(LineStyle::Crease), 3u);
+    EXPECT_EQ(Sheet(maker, false).count(LineStyle::Hidden), 0);
+    // A post in front of it: four of its edges are seen whole, and the box goes on behind it.
+    maker.add(BoxShape{{0.2, -3, -1}, {0.4, -2.8, 3}}, grey);
+    const Sheet both(maker);
+    EXPECT_GE(both.segments(LineStyle::Hidden), 3u + 3u + 2u);
+    EXPECT_GE(both.segments(LineStyle::Silhouette), 6u + 4u);
+}
+
+TEST(TechnicalDrawing, SolidsShowTheEdgesOfTheirCuts) {
+    SceneMaker maker;
+    const MaterialId grey = maker.material({});
+    const auto plate = maker.object("plate");
+    maker.description().objects[static_cast<std::size_t>(plate)].combine = Combine::Difference;
+    maker.add(BoxShape{{-1, -1, 0}, {1, 1, 0.5}}, grey, {}, plate);
+    maker.add(Cylinder{.base = {0, 0, -1}, .top = {0, 0, 2}, .radius = 0.5}, grey, {}, plate);
+    maker.add(plate, grey);
+    const Sheet sheet(maker);
+    // Some line runs around the mouth of the hole, within the tolerance.
+    int on_mouth = 0;
+    for (const DrawingLine& line : sheet.drawing.lines) {
+        for (const Vec2& p : line.points) {
+            const Ray ray = sheet.ray(p);
+            const Vec3 at = ray.origin + ((0.5 - ray.origin.z) / ray.direction.z) * ray.direction;
+            on_mouth +=
+                line.style != LineStyle::Hidden && std::abs(std::hypot(at.x, at.y) - 0.5) < 0.02;
+        }
+    }
+    EXPECT_GT(on_mouth, 10);
+    EXPECT_GT(sheet.count(LineStyle::Hidden), 3);
+}
+
+TEST(TechnicalDrawing, ItNeedsGeometry) {
+    LoadedScene loaded;
+    EXPECT_THROW((void)technical_drawing(loaded, {}, {.tolerance = 0.1}), Error);
+}
+
+TEST(LineChains, JoinWhatMeets) {
+    std::vector<DrawingLine> lines(3);
+    lines[0].points = {{0, 0}, {10, 0}};
+    lines[1].points = {{20, 5}, {10, 0}};
+    lines[2].points = {{50, 50}, {50, 51}};  // too short to be seen
+    const std::vector<DrawingLine> joined = chained(lines);
+    ASSERT_EQ(joined.size(), 1u);
+    EXPECT_EQ(joined[0].points.size(), 3u);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
