@@ -197,11 +197,10 @@ LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u) c
         const ChosenLight chosen = d.far.choose(rest);
         const double probability = (1.0 - d.near_share) * chosen.probability;
         if (!(probability > 0.0)) return {};
-        LightDraw draw =
-            d.is_environment(chosen.light)
-                ? draw_environment(*d.environment, at, probability, u)
-                : draw_singular(*d.scene, d.scene->lights[d.parallel[chosen.light]], at,
-                                probability);
+        LightDraw draw = d.is_environment(chosen.light)
+                             ? draw_environment(*d.environment, at, probability, u)
+                             : draw_singular(*d.scene, d.scene->lights[d.parallel[chosen.light]],
+                                             at, probability);
         draw.place.source = d.near_count() + chosen.light;
         return draw;
     }

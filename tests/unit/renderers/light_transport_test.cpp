@@ -176,8 +176,8 @@ std::vector<NamedScene> scenes() {
         m.add(ball({0.4, 0.2, 1.2}, 0.2), m.material(glowing({5, 6, 7})));
     });
     room("point light", [](SceneMaker& m) {
-        m.light(PointLight{.position = {0.3, -0.2, 1.5}, .color = {1, 1, 2},
-                           .attenuation = {0, 0, 1}});
+        m.light(
+            PointLight{.position = {0.3, -0.2, 1.5}, .color = {1, 1, 2}, .attenuation = {0, 0, 1}});
     });
     room("spot light", [](SceneMaker& m) {
         SpotLight spot;
@@ -312,8 +312,8 @@ TEST(LightTransport, PicturesDependNeitherOnThreadsNorOnTiles) {
     glass.index.value = 1.5;
     maker.add(ball({0.3, 0, 0.4}, 0.4), maker.material(glass));
     const Scene scene = maker.compile("wide_bvh");
-    for (const char* renderer : {"path_tracing", "light_tracing", "bidirectional",
-                                 "ambient_occlusion"}) {
+    for (const char* renderer :
+         {"path_tracing", "light_tracing", "bidirectional", "ambient_occlusion"}) {
         const Film a = picture_of(scene, renderer, 16, 4, 7, 1, 32);
         const Film b = picture_of(scene, renderer, 16, 4, 7, 2, 5);
         for (int i = 0; i < 256; ++i) {
@@ -326,8 +326,7 @@ TEST(LightTransport, AmbientOcclusionOfAFloorBesideAHighWallIsOneHalf) {
     SceneMaker maker = floor_from_above(0.002);
     maker.add(rectangle({0.002, -900, 0}, {0, 1800, 0}, {0, 0, 900}));
     const Scene scene = maker.compile();
-    const Rgb seen =
-        mean_of(picture_of(scene, "ambient_occlusion:distance=10000", 2, 4096));
+    const Rgb seen = mean_of(picture_of(scene, "ambient_occlusion:distance=10000", 2, 4096));
     EXPECT_NEAR(seen.r, 0.5, 0.01);
     EXPECT_EQ(mean_of(picture_of(scene, "ambient_occlusion:distance=0.0001", 2, 16)).g, 1.0);
 }
@@ -348,10 +347,10 @@ TEST(PathWeight, TheWeightsOfAllStrategiesSumToOne) {
         double sum = 0.0;
         const auto singular = [&](std::size_t i) { return path.vertices[i].singular; };
         for (std::size_t s = 0; s <= m + 1; ++s) {
-            const bool possible = s == 0   ? path.hit
-                                  : s == 1 ? path.joined > 0.0 && !singular(1)
-                                           : path.emitted && !singular(s - 1) &&
-                                                 (s == m + 1 || !singular(s));
+            const bool possible =
+                s == 0   ? path.hit
+                : s == 1 ? path.joined > 0.0 && !singular(1)
+                         : path.emitted && !singular(s - 1) && (s == m + 1 || !singular(s));
             if (possible) sum += path_weight(path, static_cast<int>(s));
         }
         if (sum > 0.0) EXPECT_NEAR(sum, 1.0, 1e-9) << trial;
@@ -413,7 +412,8 @@ TEST(CameraLens, JoinsAPointWhereItsEyeRayStarted) {
         const CameraLens lens(job);
         const LensRays rays(c);
         for (int i = 0; i < 200; ++i) {
-            const Vec2 film{random.uniform(), random.uniform()}, u{random.uniform(), random.uniform()};
+            const Vec2 film{random.uniform(), random.uniform()},
+                u{random.uniform(), random.uniform()};
             const Ray ray = rays.through(eye_ray(c, film.x, film.y), u);
             const Vec3 point = ray.at(random.uniform(0.5, 9));
             const auto joined = lens.connect(point, u, 0.0);

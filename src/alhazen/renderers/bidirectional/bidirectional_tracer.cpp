@@ -31,9 +31,8 @@ LitPoint lit(const PathVertex& v) {
 
 }  // namespace
 
-BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t,
-                                         RayCounters& counters, const Illumination& lights,
-                                         const PathSettings& settings,
+BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayCounters& counters,
+                                         const Illumination& lights, const PathSettings& settings,
                                          LensLight* lens_light)
     : scene_(job.scene),
       lights_(lights),
@@ -67,9 +66,9 @@ void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum
     escape_ = walk_.escape();
 
     light_.clear();
-    const LightRay light = lights_.emit(chance_.draw(id, kLightPairs).x,
-                                        chance_.draw(id, kLightPairs + 1),
-                                        chance_.draw(id, kLightPairs + 2));
+    const LightRay light =
+        lights_.emit(chance_.draw(id, kLightPairs).x, chance_.draw(id, kLightPairs + 1),
+                     chance_.draw(id, kLightPairs + 2));
     const WalkStart from_light = start_of(light, time);
     if (!from_light.throughput.is_black() && from_light.throughput.is_finite()) {
         begin_.place = lights_.point_of_light(light.place, light.ray.origin);
@@ -222,8 +221,8 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Rgb& su
             at_vertex_before(z.scatter.reverse_density(to_y), z, eye_[b - 2]);
     }
     const PathVertex& first = light_[0];
-    set_light(begin_, lit(first), first.scatter.view(), first.distance,
-              a == 1 ? back : first.back, first.scatter.geometric());
+    set_light(begin_, lit(first), first.scatter.view(), first.distance, a == 1 ? back : first.back,
+              first.scatter.geometric());
     light = path_weight(path_, static_cast<int>(a) + 1) * light;
     if (light.is_black()) return;
     const Ray ray = leaving_ray(z.surface, to_y, kBeforeLight * distance);
@@ -244,8 +243,8 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
     const double back = y.scatter.reverse_density(joined->to_lens);
     if (a >= 2) of_light(a - 2).from_eye = at_vertex_before(back, y, light_[a - 2]);
     const PathVertex& first = light_[0];
-    set_light(begin_, lit(first), first.scatter.view(), first.distance,
-              a == 1 ? back : first.back, first.scatter.geometric());
+    set_light(begin_, lit(first), first.scatter.view(), first.distance, a == 1 ? back : first.back,
+              first.scatter.geometric());
     Rgb light = path_weight(path_, static_cast<int>(a) + 1) * joined->density *
                 y.scatter.importance_correction(joined->to_lens) * (y.throughput * value);
     const Ray ray = leaving_ray(y.surface, joined->to_lens, joined->distance);

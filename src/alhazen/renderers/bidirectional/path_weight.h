@@ -1,6 +1,6 @@
 #pragma once
-/// The weight of one of the strategies that may find a whole path: a number of its vertices from the
-/// light, the others from the eye.
+/// The weight of one of the strategies that may find a whole path: a number of its vertices from
+/// the light, the others from the eye.
 ///
 /// Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, sections 10.1
 /// and 10.2 (the power heuristic with the exponent 2).
@@ -21,9 +21,9 @@ struct WholePath {
         bool singular = false;
     };
     std::vector<Vertex> vertices;  ///< 0 .. m
-    double joined = 0;      ///< density of vertex 0 where it is chosen for vertex 1; 0: never
-    bool emitted = true;    ///< light paths begin there
-    bool hit = true;        ///< rays can hit the light
+    double joined = 0;    ///< density of vertex 0 where it is chosen for vertex 1; 0: never
+    bool emitted = true;  ///< light paths begin there
+    bool hit = true;      ///< rays can hit the light
 };
 
 /// Of strategy `s`: the weights of all strategies of a path sum to 1.

@@ -34,9 +34,8 @@ struct SampleId {
 /// An estimator that draws more than the place in the pixel: `trace_samples(ids, rays, radiance)`
 /// has the sample of each ray.
 template <class E>
-concept SampleEstimator =
-    requires(E& estimator, std::span<const SampleId> ids, std::span<const Ray> rays,
-             std::span<Rgb> radiance) {
+concept SampleEstimator = requires(E& estimator, std::span<const SampleId> ids,
+                                   std::span<const Ray> rays, std::span<Rgb> radiance) {
     estimator.trace_samples(ids, rays, radiance);
 };
 

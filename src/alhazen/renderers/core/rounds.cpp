@@ -80,7 +80,8 @@ class RoundRender {
             sampler_ = plan_.sampler->make(seed, count);
         }
         const SampleRound round{*sampler_, filter_, plan_.sampler->progressive ? samples_ : 0,
-                                count,     wanted_, sums_, seed};
+                                count,     wanted_, sums_,
+                                seed};
         RenderJob part = job_;
         part.round = &round;
         if (!first) part.aovs = nullptr;

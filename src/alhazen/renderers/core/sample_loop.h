@@ -183,8 +183,7 @@ class RoundRenderer final : public TileRenderer {
     /// `more`: further arguments of the estimator.
     template <class... More>
     RoundRenderer(const RenderJob& job, std::size_t rays_at_once, const More&... more)
-        : estimator_(job, rays_at_once, counters_, more...),
-          loop_(job, rays_at_once, counters_) {}
+        : estimator_(job, rays_at_once, counters_, more...), loop_(job, rays_at_once, counters_) {}
 
     void render(const PixelBox& tile, Film& film, RayCounters& counters) override {
         loop_.run(tile, film, estimator_);

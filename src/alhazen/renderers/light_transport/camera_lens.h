@@ -46,9 +46,9 @@ class CameraLens {
     LensRays lens_;
     double focus_ = 0;  ///< distance to the plane of focus; 0: a pinhole
     PicturePlane plane_;
-    Vec3 normal_;      ///< unit, of the picture, along the view
-    double depth_;     ///< of the picture in front of the eye
-    double area_;      ///< of the picture there
+    Vec3 normal_;   ///< unit, of the picture, along the view
+    double depth_;  ///< of the picture in front of the eye
+    double area_;   ///< of the picture there
     bool parallel_ = false;
     double parallel_density_ = 0;
     const TransformMotion* motion_;

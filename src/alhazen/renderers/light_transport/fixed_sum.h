@@ -30,8 +30,8 @@ class FixedSum {
     [[nodiscard]] double value() const {
         const std::uint64_t high = high_.load(std::memory_order_relaxed);
         const std::uint64_t low = low_.load(std::memory_order_relaxed);
-        const Wide fixed = static_cast<Wide>(
-            static_cast<UnsignedWide>(high) << 64 | static_cast<UnsignedWide>(low));
+        const Wide fixed = static_cast<Wide>(static_cast<UnsignedWide>(high) << 64 |
+                                             static_cast<UnsignedWide>(low));
         return std::ldexp(static_cast<double>(fixed), -kBits);
     }
 

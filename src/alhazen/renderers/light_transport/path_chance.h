@@ -20,7 +20,8 @@ class PathChance {
     enum Pair : std::uint32_t { kLens = 1, kTime = 2, kFirstBounce = 3 };
     enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kLuck, kPairsOfBounce };
 
-    explicit PathChance(const RenderJob& job) : sampler_(job.round->sampler), seed_(mix64(job.round->seed)) {}
+    explicit PathChance(const RenderJob& job)
+        : sampler_(job.round->sampler), seed_(mix64(job.round->seed)) {}
 
     [[nodiscard]] Vec2 draw(const SampleId& id, std::uint32_t pair) const {
         constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;

@@ -17,8 +17,7 @@ bool RandomWalk::find(Ray& ray, const WalkLuck& luck, float time, bool inside) {
         set_shading_point(scene_, ray, hit_, {inside, 0.0, time}, {}, point_);
         travelled_ += hit_.t;
         segment_ += hit_.t;
-        if (luck.chance.stops(luck.id, luck.first_pair << 16 | met_++,
-                              point_.material->coverage)) {
+        if (luck.chance.stops(luck.id, luck.first_pair << 16 | met_++, point_.material->coverage)) {
             return true;
         }
         ray = leaving_ray(point_.surface, ray.direction);

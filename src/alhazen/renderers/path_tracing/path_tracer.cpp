@@ -167,8 +167,7 @@ bool PathTracer::survives(EyePath& path) const {
     if (path.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
     const double share = std::min(kMost, path.eta_scale * path.throughput.max());
-    const double luck =
-        chance_.draw(ids_[path.sample], path.scatterings - 1, PathChance::kLuck).x;
+    const double luck = chance_.draw(ids_[path.sample], path.scatterings - 1, PathChance::kLuck).x;
     if (!(luck < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;

@@ -27,18 +27,18 @@ struct EyePath {
     std::uint32_t met = 0;     ///< surfaces on its way
     int scatterings = 0;
     Rgb throughput{1, 1, 1};
-    double eta_scale = 1;   ///< of radiance, undone where roulette looks at the throughput
-    bool singular = true;   ///< the last scattering: no light is sampled for it
-    double density = 0;     ///< of the last scattering
-    LitPoint from;          ///< the last scattering
-    double travelled = 0;   ///< since then
+    double eta_scale = 1;  ///< of radiance, undone where roulette looks at the throughput
+    bool singular = true;  ///< the last scattering: no light is sampled for it
+    double density = 0;    ///< of the last scattering
+    LitPoint from;         ///< the last scattering
+    double travelled = 0;  ///< since then
     MediumStack media;
 };
 
 class PathTracer {
   public:
-    PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
-               const Illumination& lights, const PathSettings& settings);
+    PathTracer(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
+               const PathSettings& settings);
 
     /// `rays`: those through the centre of the lens.
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
