@@ -279,10 +279,10 @@ inline bool same(const MeshExtent& a, const MeshExtent& b) {
     return all_same(a1, b1) && a2 == b2;
 }
 inline bool same(const AreaLight& a, const AreaLight& b) {
-    const auto& [a1, a2, a3, a4, a5, a6] = a;
-    const auto& [b1, b2, b3, b4, b5, b6] = b;
+    const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7] = b;
     (void)a6, (void)b6;  // the surface is made by `compile`
-    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5);
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a7, b7);
 }
 inline bool same(const CameraDescription& a, const CameraDescription& b) {
     const auto& [a1, a2, a3, a4, a5] = a;

@@ -353,7 +353,9 @@ TEST(PathWeight, TheWeightsOfAllStrategiesSumToOne) {
                          : path.emitted && !singular(s - 1) && (s == m + 1 || !singular(s));
             if (possible) sum += path_weight(path, static_cast<int>(s));
         }
-        if (sum > 0.0) EXPECT_NEAR(sum, 1.0, 1e-9) << trial;
+        if (sum > 0.0) {
+            EXPECT_NEAR(sum, 1.0, 1e-9) << trial;
+        }
     }
 }
 
@@ -398,7 +400,6 @@ TEST(MediumStack, VolumesAreLeftInAnyOrder) {
 }
 
 TEST(CameraLens, JoinsAPointWhereItsEyeRayStarted) {
-    const SceneMaker maker;
     PerspectiveCamera camera = look_along({1, 2, 3}, {0.3, -0.2, -1}, {0, 1, 0}, 0.8, 1.5);
     camera.lens = {.radius = 0.2, .focus_distance = 4};
     const Camera cameras[] = {camera,
