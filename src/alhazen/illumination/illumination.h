@@ -111,6 +111,9 @@ class Illumination {
         bool is_hit = false;    ///< rays can hit it
     };
     [[nodiscard]] LightPoint point_of_light(const PlaceInLight& place, const Vec3& point) const;
+    /// What a light with a singular place gives a surface across its direction at a point: by its
+    /// own falloff, which need not be that of its rays (the inverse square).
+    [[nodiscard]] Rgb irradiance(const PlaceInLight& place, const Vec3& point) const;
     /// With which `emit` gives a ray from there along `direction`.
     [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction) const;
     /// With which `draw(at)` gives it; as LightDraw::density, but for a light that no ray hits by

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "alhazen/illumination/illumination_data.h"
+#include "alhazen/math/constants.h"
 
 namespace alhazen {
 
@@ -37,6 +38,13 @@ Illumination::LightPoint Illumination::point_of_light(const PlaceInLight& place,
         at.is_hit = place.source < d.emitters.size();
     }
     return at;
+}
+
+Rgb Illumination::irradiance(const PlaceInLight& place, const Vec3& point) const {
+    const Light* const light = data_->point_light(place.source);
+    if (light == nullptr) return {};
+    const bool clamp = data_->scene->conventions.shading.clamp_attenuation;
+    return kPi * sample(*light, point, clamp).intensity;
 }
 
 double Illumination::density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,

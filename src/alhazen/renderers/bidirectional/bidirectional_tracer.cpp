@@ -75,6 +75,7 @@ void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum
         begin_.emit = {light.place_density, light.direction_density};
         walk_.walk(Transport::Importance, from_light,
                    {chance_, id, kLightWalk, settings_.depth, settings_.roulette}, light_);
+        set_falloff(lights_, light, light_);
     }
 
     for (std::size_t b = 1; b <= eye_.size(); ++b) {

@@ -63,6 +63,7 @@ class LightTiles final : public TileRenderer {
         if (start.throughput.is_black() || !start.throughput.is_finite()) return;
         walk_.walk(Transport::Importance, start,
                    {chance_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
+        set_falloff(lights_, light, vertices_);
         for (std::uint32_t i = 0; const PathVertex& v : vertices_)
             join(v, id, kLensPairs + i++, time);
     }

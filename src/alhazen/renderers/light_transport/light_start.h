@@ -25,6 +25,19 @@ namespace alhazen {
     return start;
 }
 
+/// Gives the vertices of a path from a point the light's own falloff over its first distance.
+inline void set_falloff(const Illumination& lights, const LightRay& light,
+                        std::vector<PathVertex>& vertices) {
+    if (!light.singular_place || vertices.empty()) return;
+    const double squared = vertices[0].distance * vertices[0].distance;
+    const Rgb arrives = lights.irradiance(light.place, vertices[0].surface.point);
+    Rgb factor;
+    for (int i = 0; i < 3; ++i) {
+        if (light.radiance[i] > 0.0) factor[i] = squared * arrives[i] / light.radiance[i];
+    }
+    for (PathVertex& v : vertices) v.throughput = v.throughput * factor;
+}
+
 /// Of the medium that light runs through from the vertex along `direction`.
 [[nodiscard]] inline Rgb absorption_towards(const PathVertex& v, const Vec3& direction) {
     MediumStack media = v.media;
