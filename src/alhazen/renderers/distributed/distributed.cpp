@@ -7,6 +7,7 @@
 #include "alhazen/imaging/film/filter_kernel.h"
 #include "alhazen/renderers/core/rough_lobe.h"
 #include "alhazen/renderers/core/rounds.h"
+#include "alhazen/renderers/core/sample_draws.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/whitted/recursive_estimator.h"
@@ -23,26 +24,15 @@ enum BouncePair : std::uint32_t { kReflectedLobe = 0, kRefractedLobe = 1, kFirst
 class SamplerChance {
   public:
     explicit SamplerChance(const RenderJob& job)
-        : sampler_(job.round->sampler),
-          moves_(job.scene.has_motion || job.camera_motion != nullptr),
+        : moves_(job.scene.has_motion || job.camera_motion != nullptr),
           bounce_(static_cast<std::uint32_t>(job.scene.lights.size()) + kFirstLight),
-          together_(kFirstBounce + bounce_) {}
+          draws_(job.round->sampler, kFirstBounce + bounce_) {}
 
     /// `ids`: of the eye rays from now on.
-    void begin(std::span<const SampleId> ids) {
-        ids_ = ids;
-        for (std::vector<Vec2>& pair : together_) pair.clear();
-    }
+    void begin(std::span<const SampleId> ids) { draws_.begin(ids); }
 
-    /// Most samples use the pairs up to the first bounce: these are drawn for all at once, which
-    /// takes less time.
     [[nodiscard]] Vec2 draw(std::uint32_t sample, std::uint32_t pair) {
-        if (pair >= together_.size()) {
-            return sampler_.at(ids_[sample].pixel, pair, ids_[sample].number);
-        }
-        std::vector<Vec2>& points = together_[pair];
-        if (points.empty()) draw_all(pair, points);
-        return points[sample];
+        return draws_.at(sample, pair);
     }
     [[nodiscard]] Vec2 draw(const Path& path, int depth, std::uint32_t pair) {
         return draw(path.sample, kFirstBounce + static_cast<std::uint32_t>(depth) * bounce_ + pair);
@@ -78,24 +68,9 @@ class SamplerChance {
     }
 
   private:
-    void draw_all(std::uint32_t pair, std::vector<Vec2>& points) const {
-        points.resize(ids_.size());
-        for (std::size_t i = 0, end = 0; i < ids_.size(); i = end) {
-            const auto goes_on = [&](std::size_t k) {
-                return ids_[k].pixel.id() == ids_[i].pixel.id() &&
-                       ids_[k].number == ids_[i].number + (k - i);
-            };
-            for (end = i + 1; end < ids_.size() && goes_on(end);) ++end;
-            sampler_.points(ids_[i].pixel, pair, ids_[i].number,
-                            std::span(points).subspan(i, end - i));
-        }
-    }
-
-    const Sampler& sampler_;
     bool moves_;
     std::uint32_t bounce_;  ///< pairs of one
-    std::span<const SampleId> ids_;
-    std::vector<std::vector<Vec2>> together_;  ///< [pair][sample]; empty: not yet drawn
+    SampleDraws draws_;     ///< most samples use the pairs up to the first bounce
 };
 
 class DistributedEstimator {

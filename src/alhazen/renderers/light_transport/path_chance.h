@@ -10,6 +10,7 @@
 #include <span>
 
 #include "alhazen/renderers/core/estimator.h"
+#include "alhazen/renderers/core/sample_draws.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/sampling/random.h"
 
@@ -21,17 +22,26 @@ class PathChance {
     enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kLuck, kPairsOfBounce };
 
     explicit PathChance(const RenderJob& job)
-        : sampler_(job.round->sampler), seed_(mix64(job.round->seed)) {}
+        : sampler_(job.round->sampler), seed_(mix64(job.round->seed)), draws_(sampler_, kByHash) {}
+
+    /// `ids`: of the samples from now on, for `draw` by their number in the batch.
+    void begin(std::span<const SampleId> ids) {
+        ids_ = ids;
+        draws_.begin(ids);
+    }
+    [[nodiscard]] Vec2 draw(std::uint32_t sample, int bounce, BouncePair pair) {
+        const std::uint32_t p = pair_of(bounce, pair);
+        return p < kByHash ? draws_.at(sample, p) : draw(ids_[sample], p);
+    }
 
     [[nodiscard]] Vec2 draw(const SampleId& id, std::uint32_t pair) const {
-        constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
         if (pair < kByHash) return sampler_.at(id.pixel, pair, id.number);
         const std::uint64_t pixel = id.pixel.id();
         return {random_at(seed_, pixel, id.number, 2 * std::uint64_t{pair}),
                 random_at(seed_, pixel, id.number, 2 * std::uint64_t{pair} + 1)};
     }
     [[nodiscard]] Vec2 draw(const SampleId& id, int bounce, BouncePair pair) const {
-        return draw(id, kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair);
+        return draw(id, pair_of(bounce, pair));
     }
     /// Whether the path stops at a surface that is there by `coverage`, the `met`-th on its way.
     [[nodiscard]] bool stops(const SampleId& id, std::uint32_t met, double coverage) const {
@@ -45,10 +55,17 @@ class PathChance {
 
   private:
     static constexpr std::uint32_t kStratified = 3;  ///< bounces
+    static constexpr std::uint32_t kByHash = kFirstBounce + kStratified * kPairsOfBounce;
     static constexpr std::uint64_t kCoverage = std::uint64_t{1} << 32;
+
+    [[nodiscard]] static std::uint32_t pair_of(int bounce, BouncePair pair) {
+        return kFirstBounce + static_cast<std::uint32_t>(bounce) * kPairsOfBounce + pair;
+    }
 
     const Sampler& sampler_;
     std::uint64_t seed_;
+    SampleDraws draws_;
+    std::span<const SampleId> ids_;
 };
 
 }  // namespace alhazen

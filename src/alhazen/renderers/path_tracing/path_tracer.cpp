@@ -23,6 +23,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
     ids_ = ids;
+    chance_.begin(ids);
     paths_.clear();
     rays_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
@@ -111,9 +112,8 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
 }
 
 void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum) {
-    const SampleId& id = ids_[path.sample];
-    const Vec2 place = chance_.draw(id, path.scatterings, PathChance::kLight);
-    const Vec2 choices = chance_.draw(id, path.scatterings, PathChance::kChoices);
+    const Vec2 place = chance_.draw(path.sample, path.scatterings, PathChance::kLight);
+    const Vec2 choices = chance_.draw(path.sample, path.scatterings, PathChance::kChoices);
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
     const LightDraw drawn = lights_.draw(at, choices.y, place);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
@@ -136,9 +136,8 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
 }
 
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
-    const SampleId& id = ids_[path.sample];
-    const Vec2 u = chance_.draw(id, path.scatterings, PathChance::kDirection);
-    const Vec2 choices = chance_.draw(id, path.scatterings, PathChance::kChoices);
+    const Vec2 u = chance_.draw(path.sample, path.scatterings, PathChance::kDirection);
+    const Vec2 choices = chance_.draw(path.sample, path.scatterings, PathChance::kChoices);
     const std::optional<Scattered> drawn = scatter_.sample(choices.x, u, Transport::Radiance);
     if (!drawn || drawn->weight.is_black()) return;
     path.throughput = path.throughput * drawn->weight;
@@ -162,12 +161,12 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
     go_on(path, leaving_ray(point.surface, drawn->direction));
 }
 
-bool PathTracer::survives(EyePath& path) const {
+bool PathTracer::survives(EyePath& path) {
     if (!path.throughput.is_finite()) return false;
     if (path.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
     const double share = std::min(kMost, path.eta_scale * path.throughput.max());
-    const double luck = chance_.draw(ids_[path.sample], path.scatterings - 1, PathChance::kLuck).x;
+    const double luck = chance_.draw(path.sample, path.scatterings - 1, PathChance::kLuck).x;
     if (!(luck < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;

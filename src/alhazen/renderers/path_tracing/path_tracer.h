@@ -53,7 +53,7 @@ class PathTracer {
                       const ShadingPoint& point, Rgb& sum) const;
     void add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum);
     void scatter(EyePath& path, const ShadingPoint& point);
-    [[nodiscard]] bool survives(EyePath& path) const;
+    [[nodiscard]] bool survives(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
         next_paths_.push_back(path);
         next_rays_.push_back(ray);
