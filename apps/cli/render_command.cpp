@@ -42,13 +42,26 @@ struct RenderArguments {
     SamplingTexts sampling;
     std::optional<int> spp;
     RenderOptions render;
-    std::string environment;
+    std::string environment, tonemap;
+    ToneMapping tone;
 };
 
 Encoding parse_encoding(const std::string& name) {
     if (name == "linear") return Encoding::LinearTruncated;
     if (name == "srgb") return Encoding::Srgb;
     throw Error(ErrorKind::Usage, fmt::format("--encoding '{}': expected linear or srgb", name));
+}
+
+ToneMapping tone_mapping(const RenderArguments& args) {
+    ToneMapping tone = args.tone;
+    if (args.tonemap.empty()) return tone;
+    for (std::size_t i = 0; i < std::size(kToneCurveNames); ++i) {
+        if (args.tonemap != kToneCurveNames[i]) continue;
+        tone.curve = static_cast<ToneCurve>(i);
+        return tone;
+    }
+    throw Error(ErrorKind::Usage, fmt::format("--tonemap '{}': expected {}", args.tonemap,
+                                              fmt::join(kToneCurveNames, ", ")));
 }
 
 RenderOptions render_options(const RenderArguments& args) {
@@ -101,6 +114,9 @@ void check_effects(const RenderArguments& args) {
     need(!args.no_counts || !args.stats.empty(), "--no-counts needs --stats");
     need(args.bits == 8 || suffix == ".png", "--bits 16 is for .png: no other picture has them");
     need(!args.full_float || suffix == ".exr", "--full-float is for .exr");
+    need(tone_mapping(args).changes_nothing() || suffix == ".png" || jpeg,
+         "--tonemap, --exposure and --white-balance are for .png and .jpg: other pictures hold "
+         "linear values");
     need(args.encoding.empty() || suffix == ".png" || jpeg,
          "--encoding is for .png and .jpg: other pictures hold linear values");
 }
@@ -147,6 +163,7 @@ PictureOptions picture_options(const RenderArguments& args, int samples_per_pixe
                                const RenderResult& result) {
     PictureOptions options;
     if (!args.encoding.empty()) options.encoding = parse_encoding(args.encoding);
+    options.tone = tone_mapping(args);
     options.bits = args.bits;
     options.full_float = args.full_float;
     options.metadata = {{"software", fmt::format("alhazen {}", version())},
@@ -364,6 +381,16 @@ void add_render(CLI::App& app, int& exit_status) {
             "--encoding", args->encoding,
             "How PNG and JPG hold values: linear (truncated) or srgb; default: the format's")
         ->type_name("NAME");
+    command->add_option("--tonemap", args->tonemap, "Curve of PNG and JPG from radiance to display")
+        ->type_name("none|reinhard|aces|agx");
+    command->add_option("--exposure", args->tone.stops, "PNG and JPG show 2^STOPS times the light")
+        ->type_name("STOPS")
+        ->check(number_in(-64.0, 64.0));
+    command
+        ->add_option("--white-balance", args->tone.kelvin,
+                     "Temperature of the light that PNG and JPG shall show as white")
+        ->type_name("KELVIN")
+        ->check(number_in(ToneMapping::kLeastKelvin, ToneMapping::kMostKelvin));
     command->add_option("--bits", args->bits, "Bits per channel of a PNG")
         ->capture_default_str()
         ->check(CLI::IsMember({8, 16}));

@@ -9,17 +9,41 @@ bool holds_layers(const std::filesystem::path& path) {
     return lower_suffix(path) == ".exr";
 }
 
+namespace {
+
+/// The pixels of the crop as a display shall show them.
+Film tone_mapped(const Film& film, const ToneMapping& tone) {
+    Film shown = film;
+    const ToneMapper map(tone);
+    const PixelBox& crop = film.crop();
+    for (int y = crop.y0; y < crop.y1; ++y) {
+        for (int x = crop.x0; x < crop.x1; ++x) shown.set(x, y, map(film.at(x, y)));
+    }
+    return shown;
+}
+
+EncodedImage encoded(const Film& film, const FilmConventions& conventions,
+                     const PictureOptions& options, int bits) {
+    const int width = film.crop().width(), height = film.crop().height();
+    if (options.tone.changes_nothing()) {
+        const Encoding encoding = options.encoding.value_or(conventions.encoding());
+        return encode(film.data(), width, height, encoding, bits);
+    }
+    return encode(tone_mapped(film, options.tone).data(), width, height,
+                  options.encoding.value_or(Encoding::Srgb), bits);
+}
+
+}  // namespace
+
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const FilmConventions& conventions, const PictureOptions& options) {
     check_image_suffix(path);
-    const Encoding encoding = options.encoding.value_or(conventions.encoding());
     const std::string suffix = lower_suffix(path);
     const PixelBox& crop = film.crop();
     if (suffix == ".png") {
-        write_png(path, encode(film.data(), crop.width(), crop.height(), encoding, options.bits),
-                  options.metadata);
+        write_png(path, encoded(film, conventions, options, options.bits), options.metadata);
     } else if (suffix == ".jpg" || suffix == ".jpeg") {
-        write_jpeg(path, encode(film.data(), crop.width(), crop.height(), encoding, 8));
+        write_jpeg(path, encoded(film, conventions, options, 8));
     } else if (options.layers != nullptr && holds_layers(path)) {
         write_exr_layers(path, film, *options.layers,
                          {.full_float = options.full_float, .metadata = options.metadata});

@@ -7,6 +7,7 @@
 #include "alhazen/imaging/codecs/image_io.h"
 #include "alhazen/imaging/film/film.h"
 #include "alhazen/imaging/film/film_layers.h"
+#include "alhazen/imaging/image/tone_mapping.h"
 #include "alhazen/scene/scene.h"
 
 namespace alhazen {
@@ -17,6 +18,7 @@ struct PictureOptions {
     bool full_float = false;
     ImageMetadata metadata;
     const FilmLayers* layers = nullptr;  ///< written with the colours for the suffix .exr
+    ToneMapping tone;                    ///< of PNG and JPEG; with it sRGB is the default encoding
 };
 
 /// Whether the format holds layers (EXR only).
