@@ -327,9 +327,8 @@ void add_render(CLI::App& app, int& exit_status) {
         ->capture_default_str();
     command
         ->add_option("--spp", args->spp,
-                     "Samples per pixel, 1 if not given (distributed: 16); with --noise or a limit "
-                     "of --time the "
-                     "most of a pixel")
+                     "Samples per pixel; if not given 1, of renderers that distribute rays 16 or "
+                     "64; with --noise or a limit of --time the most of a pixel")
         ->type_name("N");
     command
         ->add_option("--sampler", args->sampling.sampler,

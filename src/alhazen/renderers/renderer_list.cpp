@@ -39,8 +39,8 @@ std::unique_ptr<Renderer> make_cone_tracing(RendererSettings& settings) {
 
 PathSettings path_settings(RendererSettings& settings) {
     PathSettings paths;
-    paths.depth = settings.whole("depth", paths.depth, 0, 100000);
-    paths.roulette = settings.whole("roulette", paths.roulette, 0, 100000);
+    paths.depth = settings.whole("depth", paths.depth, 0, PathSettings::kMostDepth);
+    paths.roulette = settings.whole("roulette", paths.roulette, 0, PathSettings::kMostDepth);
     return paths;
 }
 

@@ -128,7 +128,7 @@ TEST(LightTransport, AnEvenSkyOverAMattFloorShowsItsAlbedo) {
     }
 }
 
-/// The scenes on which all three must agree.
+/// The scenes on which all three must agree; the pane makes thirteen.
 struct NamedScene {
     std::string name;
     Scene scene;
@@ -220,6 +220,17 @@ std::vector<NamedScene> scenes() {
         m.add(ball({0, 0, 0}, 0.1), m.material(glowing({9, 6, 3})), {}, lamp);
         m.add(lamp, {}, Affine::translate({-0.5, 0, 1}));
         m.add(lamp, {}, Affine::translate({0.5, 0.2, 1.5}) * Affine::scale({1.5, 0.7, 1}));
+    });
+    room("pane before a lamp", [](SceneMaker& m) {
+        add_lamp(m, 0.3, {9, 8, 6});
+        Material pane;
+        pane.metallic_roughness.emplace();
+        pane.metallic_roughness->base_color.color = {0.9, 0.6, 0.5};
+        pane.metallic_roughness->metallic.value = 0;
+        pane.metallic_roughness->roughness.value = 0.6;
+        pane.metallic_roughness->transmission.value = 0.5;
+        pane.index.value = 1.5;
+        m.add(rectangle({-0.7, -0.6, 1.1}, {1.4, 0, 0}, {0, 1.2, 0.2}), m.material(pane));
     });
     room("sun through the open side", [](SceneMaker& m) {
         m.light(DirectionalLight{.to_light = normalize(Vec3{0.2, -1, 0.8}), .color = {1, 1, 0.5}});

@@ -1,6 +1,7 @@
 #include "alhazen/renderers/ambient_occlusion/ambient_occlusion.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 

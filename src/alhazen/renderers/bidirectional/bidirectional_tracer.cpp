@@ -34,7 +34,8 @@ LitPoint lit(const PathVertex& v) {
 BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                                          const Illumination& lights, const PathSettings& settings,
                                          LensLight* lens_light)
-    : scene_(job.scene),
+    : job_(job),
+      scene_(job.scene),
       lights_(lights),
       settings_(settings),
       counters_(counters),
@@ -48,7 +49,10 @@ BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayC
 
 void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                         std::span<Rgb> radiance) {
-    for (std::size_t i = 0; i < rays.size(); ++i) trace(ids[i], rays[i], radiance[i]);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (job_.stop_requested()) return;
+        trace(ids[i], rays[i], radiance[i]);
+    }
     lens_light_.paths.fetch_add(rays.size(), std::memory_order_relaxed);
 }
 

@@ -62,6 +62,7 @@ class BidirectionalTracer {
     void set_light(const LightEnd& end, const LitPoint& at, const Vec3& to_light, double distance,
                    double eye_density, const Vec3& geometric);
 
+    const RenderJob& job_;
     const Scene& scene_;
     const Illumination& lights_;
     PathSettings settings_;

@@ -7,10 +7,10 @@
 
 namespace alhazen {
 
-/// Beer's law: exp(-absorption * distance).
+/// Beer's law: exp(-absorption * distance); 1 where nothing is absorbed, over any distance.
 [[nodiscard]] inline Rgb transmittance(const Rgb& absorption, double distance) {
-    return {std::exp(-absorption.r * distance), std::exp(-absorption.g * distance),
-            std::exp(-absorption.b * distance)};
+    const auto of = [&](double a) { return a > 0.0 ? std::exp(-a * distance) : 1.0; };
+    return {of(absorption.r), of(absorption.g), of(absorption.b)};
 }
 
 [[nodiscard]] inline Rgb power(const Rgb& base, double exponent) {

@@ -43,8 +43,8 @@ class LightTiles final : public TileRenderer {
     void render(const PixelBox& tile, Film&, RayCounters& counters) override {
         for (int y = tile.y0; y < tile.y1; ++y) {
             for (int x = tile.x0; x < tile.x1; ++x) {
-                if (job_.stop_requested()) return;
                 for (std::uint32_t s = 0; s < job_.round->count; ++s) {
+                    if (job_.stop_requested()) return;
                     trace({{x, y}, job_.round->first + s});
                 }
             }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/renderers/core/attenuation.h"
 
@@ -43,7 +44,11 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
          pair += kWalkPairs) {
         if (!find(ray, luck, start.time, !media.empty())) {
             const Medium* const medium = media.here();
-            escape_.is = medium == nullptr || medium->absorption.is_black();
+            escape_.is = true;
+            if (medium != nullptr) {
+                throughput = throughput * transmittance(medium->absorption,
+                                                        std::numeric_limits<double>::infinity());
+            }
             escape_.direction = ray.direction;
             escape_.throughput = throughput;
             escape_.density = density;
@@ -61,7 +66,9 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         v.density = parallel ? density * cosine : density * cosine / (travelled_ * travelled_);
         parallel = false;
         if (from_eye) {
-            v.emission = point_.material->emission;
+            const bool lights_others =
+                vertices.size() >= 2 && !vertices[vertices.size() - 2].singular;
+            if (!point_.material->unlit || !lights_others) v.emission = point_.material->emission;
             if (!v.emission.is_black()) {
                 v.emit = lights_.emit_density(hit_, point_.surface, -ray.direction);
                 if (vertices.size() >= 2) {
@@ -79,6 +86,11 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         const Vec2 u = luck.chance.draw(luck.id, pair);
         const Vec2 choices = luck.chance.draw(luck.id, pair + 1);
         const std::optional<Scattered> drawn = v.scatter.sample(choices.x, u, transport);
+        // A thin sheet is passed straight by chance, and then is no vertex.
+        const double straight = v.scatter.straight_probability();
+        if (straight > 0.0 && straight < 1.0 && !(drawn && drawn->straight)) {
+            v.throughput = (1.0 / (1.0 - straight)) * v.throughput;
+        }
         if (!drawn || drawn->weight.is_black()) return;
         throughput = throughput * drawn->weight;
         if (!from_eye) throughput = v.scatter.importance_correction(drawn->direction) * throughput;

@@ -43,6 +43,10 @@ class ScatterPoint {
 
     /// The share of light that goes straight on through a thin sheet.
     [[nodiscard]] Rgb straight() const { return bsdf_.straight(local_view_); }
+    /// With which `sample` does that.
+    [[nodiscard]] double straight_probability() const {
+        return thin_ ? bsdf_.straight_probability(local_view_) : 0.0;
+    }
     [[nodiscard]] bool has_density() const { return bsdf_.has_density(); }
     [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alhazen/renderers/core/attenuation.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
@@ -68,7 +69,7 @@ void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) const {
     Rgb light = path.throughput * lights_.environment(ray.direction);
     if (light.is_black()) return;
     if (const Medium* medium = path.media.here(); medium != nullptr) {
-        if (!medium->absorption.is_black()) return;
+        light = light * transmittance(medium->absorption, std::numeric_limits<double>::infinity());
     }
     if (!path.singular) {
         const double other = lights_.environment_density(path.from, ray.direction);

@@ -194,6 +194,15 @@ Rgb Bsdf::straight(const Vec3& view) const {
     return sum;
 }
 
+double Bsdf::straight_probability(const Vec3& view) const {
+    const Choice choice = choose(view);
+    double sum = 0;
+    for (std::size_t i = 0; choice.any && i < parts_.size(); ++i) {
+        if (std::holds_alternative<ThinSheet>(parts_[i].lobe)) sum += choice.share[i];
+    }
+    return sum;
+}
+
 bool Bsdf::transmits() const {
     return std::ranges::any_of(parts_, [](const Part& p) {
         return std::visit([]<class L>(const L&) { return !L::kSingular && L::kTransmits; }, p.lobe);

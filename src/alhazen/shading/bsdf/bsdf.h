@@ -59,6 +59,8 @@ class Bsdf {
     [[nodiscard]] bool transmits() const;
     /// Share that thin sheets let go straight on: what a shadow ray keeps.
     [[nodiscard]] Rgb straight(const Vec3& view) const;
+    /// With which `sample` goes straight on through a thin sheet.
+    [[nodiscard]] double straight_probability(const Vec3& view) const;
     [[nodiscard]] std::size_t lobe_count() const { return parts_.size(); }
 
   private:
