@@ -128,7 +128,7 @@ TEST(LightTransport, AnEvenSkyOverAMattFloorShowsItsAlbedo) {
     }
 }
 
-/// The scenes on which all three must agree; the pane makes thirteen.
+/// The scenes on which all three must agree.
 struct NamedScene {
     std::string name;
     Scene scene;
@@ -273,9 +273,9 @@ Blocks blocks_of(const Scene& scene, const std::string& renderer, int samples) {
     return blocks;
 }
 
-TEST(LightTransport, TheThreeStrategiesAgreeOnTwelveScenes) {
-    // Three pairs on 12 scenes with 4 blocks, together wrong in one of 1000 runs: each is a t of
-    // 22 degrees of freedom beyond 5.7.
+TEST(LightTransport, TheThreeStrategiesAgreeOnThirteenScenes) {
+    // Three pairs on 13 scenes with 4 blocks: a t of 22 degrees of freedom beyond 5.7 is seen in
+    // one of 650 runs.
     constexpr double kMost = 5.7;
     for (const NamedScene& named : scenes()) {
         std::vector<Blocks> found;

@@ -3,9 +3,8 @@
 ///
 /// Source: Arvo, "Backward Ray Tracing", SIGGRAPH 1986 course notes; Dutre, Lafortune and Willems,
 /// "Monte Carlo Light Tracing with Direct Computation of Pixel Intensities", Compugraphics 1993.
-/// Differs: what the eye sees of lights and of the environment themselves is found by eye rays,
-/// through singular surfaces too: light tracing cannot find it. Singular surfaces show no other
-/// light.
+/// Differs: what the eye sees of lights and of the environment themselves, not in mirrors nor
+/// through glass, is found by eye rays. Singular surfaces are black.
 /// Conventions: as many paths as samples of the whole frame, so that a pixel does not depend on the
 /// crop. The sum of each pixel is exact but for one rounding of each term: same bits for any
 /// threads.
