@@ -10,21 +10,16 @@
 /// it, which changes the noise alone. Paths from a light to the lens are summed exactly but for one
 /// rounding of each: same bits for any threads and tiles.
 
-#include "alhazen/renderers/core/renderer.h"
-#include "alhazen/renderers/path_tracing/path_settings.h"
+#include "alhazen/renderers/light_transport/light_transport_renderer.h"
+#include "alhazen/renderers/light_transport/path_settings.h"
 
 namespace alhazen {
 
-class Bidirectional final : public Renderer {
+class Bidirectional final : public LightTransportRenderer {
   public:
     explicit Bidirectional(const PathSettings& settings) : settings_(settings) {}
 
-    /// Without RenderJob::sampling: `sobol` and `box`.
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
-    [[nodiscard]] bool takes_samplers() const override { return true; }
-    [[nodiscard]] bool distributes() const override { return true; }
-    [[nodiscard]] bool follows_light() const override { return true; }
-    [[nodiscard]] int usual_samples() const override { return 64; }
 
   private:
     PathSettings settings_;

@@ -11,9 +11,9 @@
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 #include "alhazen/renderers/light_transport/splat_film.h"
-#include "alhazen/renderers/path_tracing/path_settings.h"
 
 namespace alhazen {
 

@@ -10,8 +10,8 @@
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/path_chance.h"
+#include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
-#include "alhazen/renderers/path_tracing/path_settings.h"
 
 namespace alhazen {
 
