@@ -282,8 +282,8 @@ int run(const RenderArguments& args) {
     if (result.counters.non_finite > 0 && !args.quiet) {
         tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);
     }
-    if (result.beams && !args.quiet) {
-        for (const std::string& note : result.beams->notes) tell("warning: {}\n", note);
+    if (!args.quiet) {
+        for (const std::string& note : result.notes) tell("warning: {}\n", note);
     }
     if (result.antialias && !args.quiet) tell_unmet(loaded, *result.antialias);
     if (result.sampling && !args.quiet) tell_sampling(options, *result.sampling);

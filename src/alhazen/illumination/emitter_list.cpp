@@ -33,6 +33,7 @@ EmitterList::EmitterList(const Scene& scene) : scene_(scene) {
                              [&](const Material& m) { return emits(m); });
     if (!may_shine_) return;
     emitters_.reserve(count(*scene.aggregate).count());
+    leaves_some_ |= emitters_.capacity() >= kMostEmitters;
     expand(*scene.aggregate, {});
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
         if (!make_ready(emitters_[i])) {
@@ -53,27 +54,31 @@ bool EmitterList::varies(const Material& m) const {
     return m.emission.texture != kNoTexture || m.alpha_mode != AlphaMode::Opaque;
 }
 
+bool EmitterList::shines(const PrimitiveTable& table, PrimitiveId id) const {
+    const auto shines = [&](MaterialId m) {
+        return emits(scene_.materials[static_cast<std::size_t>(m)]);
+    };
+    if (table.kind(id) != kTriangleKind) return shines(table.shape_material(id));
+    const std::uint32_t i = table.index(id);
+    const PlacedMesh& placed = table.mesh_of(i);
+    const auto& of_vertices = placed.mesh->vertex_materials;
+    if (of_vertices.empty()) return shines(placed.material);
+    const auto& corners = *table.triangle_corners(i);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](std::uint32_t v) { return shines(MaterialId{of_vertices[v]}); });
+}
+
 std::uint32_t EmitterList::emitters_of(const PrimitiveTable& table, PrimitiveId id) {
     if (!table.is_seen(id, mask_of(RayKind::Reflection))) return 0;
     const std::uint32_t kind = table.kind(id), i = table.index(id);
     if (kind == kInstanceKind) {
         const Instance& instance = table.instances[i];
-        return instance.motion ? 0 : count(*instance.aggregate).count();
+        const std::uint32_t inside = count(*instance.aggregate).count();
+        if (!instance.motion) return inside;
+        leaves_some_ |= inside > 0;
+        return 0;
     }
-    const auto shines = [&](MaterialId m) {
-        return emits(scene_.materials[static_cast<std::size_t>(m)]);
-    };
-    if (kind != kTriangleKind) {
-        return shines(table.shape_material(id)) ? emitters_of_shape(table, id) : 0;
-    }
-    const PlacedMesh& placed = table.mesh_of(i);
-    const auto& of_vertices = placed.mesh->vertex_materials;
-    if (of_vertices.empty()) return shines(placed.material) ? emitters_of_shape(table, id) : 0;
-    const auto& corners = *table.triangle_corners(i);
-    const bool any = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
-        return shines(MaterialId{of_vertices[v]});
-    });
-    return any ? emitters_of_shape(table, id) : 0;
+    return shines(table, id) ? emitters_of_shape(table, id) : 0;
 }
 
 const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
@@ -81,15 +86,18 @@ const EmitterList::Table& EmitterList::count(const Aggregate& aggregate) {
     if (known != tables_.end()) return known->second;
     Table result;
     std::uint64_t sum = 0;
-    if (dynamic_cast<const CsgAggregate*>(&aggregate) == nullptr) {
-        const PrimitiveTable& table = aggregate.primitives();
-        for (std::uint32_t i = 0; i < table.size(); ++i) {
-            const std::uint32_t found = emitters_of(table, PrimitiveId{i});
-            if (found == 0) continue;
-            result.primitives.push_back(i);
-            result.before.push_back(static_cast<std::uint32_t>(sum));
-            sum = std::min<std::uint64_t>(sum + found, kMostEmitters);
+    const PrimitiveTable& table = aggregate.primitives();
+    const bool is_solid = dynamic_cast<const CsgAggregate*>(&aggregate) != nullptr;
+    for (std::uint32_t i = 0; i < table.size(); ++i) {
+        const PrimitiveId id{i};
+        const std::uint32_t found = is_solid ? 0 : emitters_of(table, id);
+        if (found == 0) {
+            leaves_some_ |= table.kind(id) != kInstanceKind && shines(table, id);
+            continue;
         }
+        result.primitives.push_back(i);
+        result.before.push_back(static_cast<std::uint32_t>(sum));
+        sum = std::min<std::uint64_t>(sum + found, kMostEmitters);
     }
     result.before.push_back(static_cast<std::uint32_t>(sum));
     return tables_.emplace(&aggregate, std::move(result)).first->second;

@@ -31,6 +31,8 @@ class EmitterList {
     [[nodiscard]] std::size_t size() const { return emitters_.size(); }
     /// False: no material of the scene emits. True also where none of its surfaces can be sampled.
     [[nodiscard]] bool may_shine() const { return may_shine_; }
+    /// Whether some surface that emits is not among them.
+    [[nodiscard]] bool leaves_some_to_chance() const { return leaves_some_; }
     [[nodiscard]] const Emitter& operator[](std::size_t i) const { return emitters_[i]; }
     /// The emitter of a hit; none where it cannot be sampled.
     [[nodiscard]] std::optional<std::size_t> find(const Hit& hit) const;
@@ -53,6 +55,7 @@ class EmitterList {
                           const Affine& world_from_table);
     [[nodiscard]] bool emits(const Material& material) const;
     [[nodiscard]] bool varies(const Material& material) const;
+    [[nodiscard]] bool shines(const PrimitiveTable& table, PrimitiveId id) const;
     [[nodiscard]] std::uint32_t emitters_of(const PrimitiveTable& table, PrimitiveId id);
     [[nodiscard]] Hit hit_of(std::size_t emitter, const Ray& ray, double distance,
                              const Vec2& parameters) const;
@@ -60,7 +63,7 @@ class EmitterList {
 
     const Scene& scene_;
     std::map<const Aggregate*, Table> tables_;
-    bool may_shine_ = false;
+    bool may_shine_ = false, leaves_some_ = false;
     std::vector<Emitter> emitters_;
     std::vector<bool> varying_;  ///< [emitter] its radiance is not the same everywhere
 };

@@ -7,7 +7,7 @@
 #include "alhazen/illumination/emitters_of_light.h"
 #include "alhazen/illumination/illumination_data.h"
 #include "alhazen/math/constants.h"
-#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/scene/scene_sphere.h"
 #include "alhazen/shading/lights/ies_profile.h"
 
 namespace alhazen {
@@ -48,30 +48,13 @@ const Rgb& color_of(const Light& light) {
                       light);
 }
 
-/// A sphere around what is bounded, and the lights' places.
-void set_scene_sphere(const Scene& scene, Vec3& center, double& radius) {
-    Box3 box;
-    if (scene.aggregate) {
-        box = scene.aggregate->box();
-        if (!box.empty() && !box.bounded()) {
-            const PrimitiveTable& table = scene.aggregate->primitives();
-            box = {};
-            for (std::size_t i = 0; i < table.size(); ++i) {
-                const Box3 b = table.box(i);
-                if (!b.empty() && b.bounded()) box.include(b);
-            }
-        }
-    }
-    if (box.empty()) box = {{-1, -1, -1}, {1, 1, 1}};
-    center = box.center();
-    radius = std::max(0.5 * length(box.size()) * (1.0 + 1e-9), 1e-100);
-}
-
 }  // namespace
 
 Illumination::Data::Data(const Scene& of, const IlluminationOptions& how)
     : scene(&of), options(how), emitters(of) {
-    set_scene_sphere(of, center, radius);
+    const BoundingSphere around = sphere_around_bounded(of);
+    center = around.center;
+    radius = around.radius;
     environment = of.environment;
     if (!environment && of.background.max() > 0.0 && of.background.is_finite()) {
         environment = std::make_shared<const Environment>(
@@ -158,6 +141,10 @@ Illumination& Illumination::operator=(Illumination&&) noexcept = default;
 
 bool Illumination::shines() const {
     return data_->near.total() > 0.0 || data_->far.total() > 0.0 || data_->emitters.may_shine();
+}
+
+bool Illumination::leaves_some_to_chance() const {
+    return data_->emitters.leaves_some_to_chance();
 }
 
 namespace {

@@ -77,6 +77,8 @@ class Illumination {
 
     /// False: nothing shines.
     [[nodiscard]] bool shines() const;
+    /// Whether some emitting surface is left to chance: `draw` and `emit` never give it.
+    [[nodiscard]] bool leaves_some_to_chance() const;
 
     /// A direction to a light. `choice` and `u` in [0, 1).
     [[nodiscard]] LightDraw draw(const LitPoint& at, double choice, const Vec2& u) const;
@@ -99,8 +101,10 @@ class Illumination {
     };
     [[nodiscard]] EmitDensity emit_density(const Hit& hit, const Surface& surface,
                                            const Vec3& direction) const;
-    /// The same for light of the environment that travels along `direction`.
-    [[nodiscard]] EmitDensity environment_emit_density(const Vec3& direction) const;
+    /// The same for light of the environment that travels along `direction` to the point `lit`; 0
+    /// where no ray of `emit` gets to, far away on unbounded surfaces.
+    [[nodiscard]] EmitDensity environment_emit_density(const Vec3& direction,
+                                                       const Vec3& lit) const;
 
     /// A point of a light that was drawn or that emitted, for the densities of other strategies.
     struct LightPoint {
@@ -114,8 +118,9 @@ class Illumination {
     /// What a light with a singular place gives a surface across its direction at a point: by its
     /// own falloff, which need not be that of its rays (the inverse square).
     [[nodiscard]] Rgb irradiance(const PlaceInLight& place, const Vec3& point) const;
-    /// With which `emit` gives a ray from there along `direction`.
-    [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction) const;
+    /// With which `emit` gives a ray from there along `direction` to the point `lit`.
+    [[nodiscard]] EmitDensity emit_density(const LightPoint& from, const Vec3& direction,
+                                           const Vec3& lit) const;
     /// With which `draw(at)` gives it; as LightDraw::density, but for a light that no ray hits by
     /// solid angle where it has an extent.
     [[nodiscard]] double density(const LitPoint& at, const LightPoint& light, const Vec3& to_light,

@@ -39,6 +39,21 @@ struct Illumination::Data {
     [[nodiscard]] std::size_t near_count() const {
         return emitters.size() + hidden.size() + points.size();
     }
+    /// Whether a ray of `emit` from afar along `direction` gets to the point.
+    [[nodiscard]] bool reaches(const Vec3& direction, const Vec3& lit) const {
+        const Vec3 from_center = lit - center;
+        const double along = dot(from_center, direction);
+        return along >= -radius &&
+               length_squared(from_center - along * direction) <= radius * radius;
+    }
+    /// The light at a point of a source, near or far; null: it is none.
+    [[nodiscard]] const Light* light_at_point(std::size_t source) const {
+        if (source < near_count()) return point_light(source);
+        const std::size_t far_light = source - near_count();
+        if (is_environment(far_light)) return nullptr;
+        const Light& light = scene->lights[parallel[far_light]];
+        return place_of(light) == LightPlace::Point ? &light : nullptr;
+    }
     [[nodiscard]] bool is_environment(std::size_t far_light) const {
         return far_light == parallel.size();
     }

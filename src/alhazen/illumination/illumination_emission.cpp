@@ -35,19 +35,17 @@ Vec3 position_of(const Light& light) {
     return spot != nullptr ? spot->position : std::get<PointLight>(light).position;
 }
 
-/// Towards a light at `distance` 1 what arrives there: intensity.
+/// What a light of the inverse square sends: intensity. Of lights that fall otherwise that of a
+/// light with a quadratic term of 1; `set_falloff` (light_start.h) makes it their own.
 Rgb intensity_towards(const Light& light, const Vec3& direction) {
     Light plain = light;
-    std::visit(Overloaded{[](PointLight& l) {
-                              l.attenuation = {0, 0, l.attenuation.quadratic};
-                              l.range = kNoRange;
-                          },
-                          [](SpotLight& l) {
-                              l.attenuation = {0, 0, l.attenuation.quadratic};
-                              l.range = kNoRange;
-                          },
-                          [](auto&) {}},
-               plain);
+    const auto set = [](auto& l) {
+        l.attenuation = {0, 0, l.attenuation.quadratic > 0.0 ? l.attenuation.quadratic : 1.0};
+        l.range = kNoRange;
+    };
+    std::visit(
+        Overloaded{[&](PointLight& l) { set(l); }, [&](SpotLight& l) { set(l); }, [](auto&) {}},
+        plain);
     return kPi * sample(plain, position_of(light) + direction, false).intensity;
 }
 
@@ -64,6 +62,25 @@ Ray ray_from_afar(const Vec3& center, double radius, const Vec3& direction, cons
     const Vec2 p = on_unit_disc(place);
     const Vec3 a = perpendicular(direction), b = cross(direction, a);
     return {center + radius * (p.x * a + p.y * b - direction), direction};
+}
+
+/// `squared`: where it has no quadratic term, that at which one with it gives as much.
+double power_of_point(const Light& light, double squared) {
+    const double solid = 2.0 * kPi * (1.0 - cosine_of_cone(light));
+    const auto power = [&](const Rgb& color, const Attenuation& falloff) {
+        const double constant = falloff.constant > 0.0 ? falloff.constant : 1.0;
+        const double scale = falloff.quadratic > 0.0 ? 1.0 / falloff.quadratic : squared / constant;
+        return kPi * solid * scale * mean_power(color);
+    };
+    return std::visit(Overloaded{[&](const PointLight& l) {
+                                     return power(mean_factor(l.profile) * l.color, l.attenuation);
+                                 },
+                                 [&](const SpotLight& l) {
+                                     return power(largest_factor(l.profile) * l.color,
+                                                  l.attenuation);
+                                 },
+                                 [](const auto&) { return 0.0; }},
+                      light);
 }
 
 LightRay emit_from_point(const Light& light, double probability, const Vec2& direction) {
@@ -85,18 +102,7 @@ void Illumination::Data::set_sources() {
     std::vector<double> powers;
     for (std::size_t i = 0; i < near_count(); ++i) {
         if (const Light* light = point_light(i)) {
-            const double solid = 2.0 * kPi * (1.0 - cosine_of_cone(*light));
-            const Rgb color = std::visit(
-                Overloaded{[](const PointLight& l) { return mean_factor(l.profile) * l.color; },
-                           [](const SpotLight& l) { return largest_factor(l.profile) * l.color; },
-                           [](const auto&) { return Rgb{}; }},
-                *light);
-            const double q =
-                std::visit(Overloaded{[](const PointLight& l) { return l.attenuation.quadratic; },
-                                      [](const SpotLight& l) { return l.attenuation.quadratic; },
-                                      [](const auto&) { return 1.0; }},
-                           *light);
-            powers.push_back(kPi * solid * mean_power(color) / q);
+            powers.push_back(power_of_point(*light, 1.0));
         } else {
             const Emitter& e = emitter(i);
             powers.push_back((e.two_sided ? 2.0 : 1.0) * kPi * e.area * mean_power(e.radiance));
@@ -105,7 +111,9 @@ void Illumination::Data::set_sources() {
     const double disc = kPi * radius * radius;
     for (const std::size_t i : parallel) {
         const auto* sun = std::get_if<DirectionalLight>(&scene->lights[i]);
-        powers.push_back(sun != nullptr ? kPi * disc * mean_power(sun->color) : 0.0);
+        // What does not fall is as strong as one that gives the middle of the scene the same.
+        powers.push_back(sun != nullptr ? kPi * disc * mean_power(sun->color)
+                                        : power_of_point(scene->lights[i], radius * radius));
     }
     if (environment) powers.push_back(4.0 * kPi * disc * mean_power(environment->mean()));
     sources = LightChooser(powers);
@@ -116,6 +124,11 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
     const ChosenLight chosen = d.sources.choose(choice);
     LightRay out;
     if (!(chosen.probability > 0.0)) return out;
+    if (const Light* light = d.light_at_point(chosen.light)) {
+        out = emit_from_point(*light, chosen.probability, direction);
+        out.place.source = chosen.light;
+        return out;
+    }
     out.place.source = chosen.light;
     if (chosen.light >= d.near_count()) {
         const std::size_t far_light = chosen.light - d.near_count();
@@ -134,11 +147,6 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
             out.singular_direction = true;
         }
         out.normal = out.ray.direction;
-        return out;
-    }
-    if (const Light* light = d.point_light(chosen.light)) {
-        out = emit_from_point(*light, chosen.probability, direction);
-        out.place.source = chosen.light;
         return out;
     }
     const Emitter& e = d.emitter(chosen.light);
@@ -177,26 +185,28 @@ Illumination::EmitDensity Illumination::emit_density(const Hit& hit, const Surfa
             std::abs(cosine) / (e.two_sided ? 2.0 * kPi : kPi)};
 }
 
-Illumination::EmitDensity Illumination::environment_emit_density(const Vec3& direction) const {
-    if (!data_->environment) return {};
+Illumination::EmitDensity Illumination::environment_emit_density(const Vec3& direction,
+                                                                 const Vec3& lit) const {
+    if (!data_->environment || !data_->reaches(direction, lit)) return {};
     const double probability =
         data_->sources.probability(data_->near_count() + data_->parallel.size());
     return {probability / (kPi * data_->radius * data_->radius),
             data_->environment->density(-direction)};
 }
 
-Illumination::EmitDensity Illumination::emit_density(const LightPoint& from,
-                                                     const Vec3& direction) const {
+Illumination::EmitDensity Illumination::emit_density(const LightPoint& from, const Vec3& direction,
+                                                     const Vec3& lit) const {
     const Data& d = *data_;
     const double probability = d.sources.probability(from.source);
+    if (const Light* light = d.light_at_point(from.source)) {
+        return {probability, 1.0 / (2.0 * kPi * (1.0 - cosine_of_cone(*light)))};
+    }
     if (from.source >= d.near_count()) {
         if (d.is_environment(from.source - d.near_count())) {
-            return environment_emit_density(direction);
+            return environment_emit_density(direction, lit);
         }
+        if (!d.reaches(direction, lit)) return {};
         return {probability / (kPi * d.radius * d.radius), 1.0};
-    }
-    if (const Light* light = d.point_light(from.source)) {
-        return {probability, 1.0 / (2.0 * kPi * (1.0 - cosine_of_cone(*light)))};
     }
     const Emitter& e = d.emitter(from.source);
     const double cosine = dot(from.normal, direction);

@@ -30,10 +30,11 @@ Illumination::LightPoint Illumination::point_of_light(const PlaceInLight& place,
                                                       const Vec3& point) const {
     const Data& d = *data_;
     LightPoint at{.source = place.source, .parameters = place.parameters};
+    if (d.light_at_point(place.source) != nullptr) return at;
     if (place.source >= d.near_count()) {
         at.infinite = true;
         at.is_hit = d.is_environment(place.source - d.near_count());
-    } else if (d.point_light(place.source) == nullptr) {
+    } else {
         at.normal = normal_at(d.emitter(place.source), point, place.parameters);
         at.is_hit = place.source < d.emitters.size();
     }
@@ -41,7 +42,7 @@ Illumination::LightPoint Illumination::point_of_light(const PlaceInLight& place,
 }
 
 Rgb Illumination::irradiance(const PlaceInLight& place, const Vec3& point) const {
-    const Light* const light = data_->point_light(place.source);
+    const Light* const light = data_->light_at_point(place.source);
     if (light == nullptr) return {};
     const bool clamp = data_->scene->conventions.shading.clamp_attenuation;
     return kPi * sample(*light, point, clamp).intensity;

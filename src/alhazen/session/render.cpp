@@ -120,6 +120,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     result.sampling = report.sampling;
     result.scan_lines = report.scan_lines;
     result.beams = report.beams;
+    result.notes = report.notes;
     result.layers = std::move(aovs.layers());
     return result;
 }

@@ -48,8 +48,7 @@ nlohmann::ordered_json beams_json(const RenderResult& result) {
             {"cuts", r.cuts},
             {"seen_area", r.seen_area},
             {"gather_seconds", r.gather_seconds},
-            {"beam_seconds", r.beam_seconds},
-            {"mended", r.notes}};
+            {"beam_seconds", r.beam_seconds}};
 }
 
 /// null: without adaptive supersampling.
@@ -171,6 +170,7 @@ nlohmann::ordered_json statistics(const std::string& scene_name, const LoadedSce
         {"sampling", sampling_json(options, result)},
         {"aov_rays", counters.aov_rays},
         {"non_finite_samples", counters.non_finite},
+        {"notes", result.notes},
         {"memory",
          {{"accelerator_bytes", census.accelerator_bytes},
           {"scene_bytes", census.scene_bytes},

@@ -9,71 +9,25 @@
 
 #include "alhazen/renderers/bidirectional/path_weight.h"
 #include "alhazen/renderers/core/renderer.h"
-#include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/light_transport/camera_lens.h"
 #include "alhazen/renderers/light_transport/fixed_sum.h"
 #include "alhazen/renderers/light_transport/medium_stack.h"
 #include "alhazen/sampling/random.h"
-#include "support/scene_maker.h"
+#include "support/light_pictures.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
 namespace {
 
+using testing::ball;
+using testing::expect_same_light;
+using testing::floor_from_above;
+using testing::glowing;
+using testing::matt;
+using testing::mean_of;
+using testing::picture_of;
+using testing::rectangle;
 using testing::SceneMaker;
 constexpr double kPi = std::numbers::pi;
-
-Material matt(const Rgb& color) {
-    Material m;
-    m.diffuse.color = color;
-    return m;
-}
-Material glowing(const Rgb& radiance, const Rgb& color = {}) {
-    Material m = matt(color);
-    m.emission.color = radiance;
-    return m;
-}
-
-Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
-    Rectangle r;
-    r.corner = corner;
-    r.edge_u = u;
-    r.edge_v = v;
-    return r;
-}
-
-Film picture_of(const Scene& scene, const std::string& renderer, int side, int samples,
-                std::uint64_t seed = 1, int threads = 1, int tile = 32) {
-    const SamplingPlan plan;
-    Film film(side, side, {0, 0, side, side});
-    const RenderJob job{.scene = scene,
-                        .camera = scene.cameras[0].camera,
-                        .samples_per_pixel = samples,
-                        .seed = seed,
-                        .sampling = &plan,
-                        .control = {.threads = threads, .tile_size = tile}};
-    const RenderReport report = make_renderer(renderer)->render(job, film);
-    EXPECT_TRUE(report.complete());
-    EXPECT_EQ(report.counters.non_finite, 0u);
-    return film;
-}
-
-Rgb mean_of(const Film& film) {
-    Rgb sum;
-    const int n = film.frame_width();
-    for (int i = 0; i < n * n; ++i) sum += film.at(i % n, i / n);
-    return (1.0 / (n * n)) * sum;
-}
-
-const char* const kRenderers[] = {"path_tracing", "light_tracing", "bidirectional"};
-
-/// A white matt floor seen straight from above, in a picture `side` wide.
-SceneMaker floor_from_above(double side, const Rgb& color = {1, 1, 1}) {
-    SceneMaker maker;
-    maker.description().cameras[0].camera =
-        OrthographicCamera{{0, 0, 0.5}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
-    maker.add(rectangle({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), maker.material(matt(color)));
-    return maker;
-}
 
 TEST(LightTransport, ASphereOfLightOverAFloorGivesItsFormFactor) {
     for (const char* renderer : {"path_tracing", "bidirectional"}) {
@@ -150,13 +104,6 @@ void add_lamp(SceneMaker& maker, double half, const Rgb& radiance) {
     lamp.double_sided = false;
     maker.add(rectangle({-half, -half, 1.98}, {0, 2 * half, 0}, {2 * half, 0, 0}),
               maker.material(lamp));
-}
-
-Sphere ball(const Vec3& center, double radius) {
-    Sphere s;
-    s.center = center;
-    s.radius = radius;
-    return s;
 }
 
 std::vector<NamedScene> scenes() {
@@ -238,61 +185,14 @@ std::vector<NamedScene> scenes() {
     return all;
 }
 
-/// Means over blocks of independent pictures, and their standard errors.
-struct Blocks {
-    static constexpr int kSide = 2;
-    std::vector<double> mean, error;
-};
-
-Blocks blocks_of(const Scene& scene, const std::string& renderer, int samples) {
-    constexpr int kRuns = 12, kPixels = 8, kBlocks = Blocks::kSide * Blocks::kSide;
-    std::vector<double> sum(kBlocks), squares(kBlocks);
-    for (int run = 0; run < kRuns; ++run) {
-        const Film film = picture_of(scene, renderer, kPixels, samples, std::uint64_t(100 + run));
-        std::vector<double> own(kBlocks);
-        for (int y = 0; y < kPixels; ++y) {
-            for (int x = 0; x < kPixels; ++x) {
-                const Rgb& c = film.at(x, y);
-                own[std::size_t(y * Blocks::kSide / kPixels * Blocks::kSide +
-                                x * Blocks::kSide / kPixels)] += c.r + c.g + c.b;
-            }
-        }
-        for (std::size_t i = 0; i < own.size(); ++i) {
-            const double value = own[i] * kBlocks / (3.0 * kPixels * kPixels);
-            sum[i] += value;
-            squares[i] += value * value;
-        }
-    }
-    Blocks blocks;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double mean = sum[i] / kRuns;
-        blocks.mean.push_back(mean);
-        blocks.error.push_back(
-            std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1)));
-    }
-    return blocks;
-}
-
 TEST(LightTransport, TheThreeStrategiesAgreeOnThirteenScenes) {
     // Three pairs on 13 scenes with 4 blocks: a t of 22 degrees of freedom beyond 5.7 is seen in
     // one of 650 runs.
     constexpr double kMost = 5.7;
     for (const NamedScene& named : scenes()) {
-        std::vector<Blocks> found;
-        for (const char* renderer : kRenderers) {
-            const std::string text = std::string(renderer) + ":depth=5";
-            found.push_back(blocks_of(named.scene, text, 24));
-        }
-        for (std::size_t a = 0; a < found.size(); ++a) {
-            for (std::size_t b = a + 1; b < found.size(); ++b) {
-                for (std::size_t i = 0; i < found[a].mean.size(); ++i) {
-                    const double error = std::hypot(found[a].error[i], found[b].error[i]);
-                    EXPECT_LE(std::abs(found[a].mean[i] - found[b].mean[i]), kMost * error + 1e-12)
-                        << named.name << ", block " << i << ": " << kRenderers[a] << " "
-                        << found[a].mean[i] << ", " << kRenderers[b] << " " << found[b].mean[i];
-                }
-            }
-        }
+        expect_same_light(
+            named.scene, named.name,
+            {"path_tracing:depth=5", "light_tracing:depth=5", "bidirectional:depth=5"}, 24, kMost);
     }
 }
 
@@ -398,15 +298,18 @@ TEST(FixedSum, CarriesAcrossItsHalves) {
 TEST(MediumStack, VolumesAreLeftInAnyOrder) {
     MediumStack media;
     EXPECT_EQ(media.here(), nullptr);
-    media.enter({1, 1.5, {}});
-    media.enter({2, 1.3, {}});
+    media.enter({1, 1.5, {}, 7});
+    media.enter({2, 1.3, {}, 8});
     EXPECT_EQ(media.here()->index, 1.3);
-    EXPECT_EQ(media.without(2)->index, 1.5);
-    EXPECT_EQ(media.without(1)->index, 1.3);
-    media.leave(1);
+    const Medium first{1, 1.5, {}, 7}, second{2, 1.3, {}, 8};
+    EXPECT_EQ(media.without(second)->index, 1.5);
+    EXPECT_EQ(media.without(first)->index, 1.3);
+    media.leave(first);
     EXPECT_EQ(media.here()->index, 1.3);
-    media.leave(7);
-    media.leave(2);
+    media.leave({9, 1.3, {}, 6});
+    EXPECT_FALSE(media.empty());
+    // Another part of the same boundary.
+    media.leave({9, 1.3, {}, 8});
     EXPECT_TRUE(media.empty());
 }
 

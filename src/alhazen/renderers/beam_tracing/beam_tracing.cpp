@@ -231,7 +231,6 @@ std::shared_ptr<BeamReport> report_of(const BeamScene& scene, const BeamTree& tr
     for (const BeamPiece& piece : tree.pieces) {
         if (piece.beam == 0) area += twice_area(piece.seen.region);
     }
-    report->notes = scene.notes;
     report->seen_area = static_cast<double>(area) / static_cast<double>(twice_area(window));
     return report;
 }
@@ -268,6 +267,7 @@ RenderReport BeamTracing::render(const RenderJob& job, Film& film) const {
     of_beams->gather_seconds = gathered;
     of_beams->beam_seconds = beams;
     report.beams = of_beams;
+    report.notes = scene.notes;
     return report;
 }
 

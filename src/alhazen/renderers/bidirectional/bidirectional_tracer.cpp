@@ -43,6 +43,7 @@ BidirectionalTracer::BidirectionalTracer(const RenderJob& job, std::size_t, RayC
       chance_(job),
       camera_(job),
       lens_(job),
+      media_(job.scene),
       walk_(job.scene, lights, counters, stats_),
       joins_(job.scene, counters, stats_),
       lens_light_(*lens_light) {}
@@ -59,7 +60,7 @@ void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span
 void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum) {
     const float time = camera_.time(chance_, id);
     const Ray ray = camera_.through_lens(chance_, id, central, time);
-    WalkStart start{.ray = ray, .time = time};
+    WalkStart start{.ray = ray, .time = time, .media = camera_.media()};
     start.parallel = lens_.is_parallel();
     start.density =
         start.parallel ? lens_.parallel_density() : lens_.direction_density(ray.direction, time);
@@ -73,7 +74,7 @@ void BidirectionalTracer::trace(const SampleId& id, const Ray& central, Rgb& sum
     const LightRay light =
         lights_.emit(chance_.draw(id, kLightPairs).x, chance_.draw(id, kLightPairs + 1),
                      chance_.draw(id, kLightPairs + 2));
-    const WalkStart from_light = start_of(light, time);
+    const WalkStart from_light = start_of(light, time, media_);
     if (!from_light.throughput.is_black() && from_light.throughput.is_finite()) {
         begin_.place = lights_.point_of_light(light.place, light.ray.origin);
         begin_.emit = {light.place_density, light.direction_density};
@@ -166,7 +167,8 @@ void BidirectionalTracer::hit_environment(Rgb& sum) {
     const PathVertex& last = eye_[b - 1];
     begin_path(0, b);
     path_.vertices[1].singular = last.singular;
-    const Illumination::EmitDensity emit = lights_.environment_emit_density(-escape_.direction);
+    const Illumination::EmitDensity emit =
+        lights_.environment_emit_density(-escape_.direction, last.surface.point);
     path_.vertices[0] = {emit.direction, escape_.density, false};
     path_.emitted = emit.place > 0.0 && emit.direction > 0.0;
     of_eye(b - 1).from_light =
@@ -188,7 +190,7 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     LightEnd end;
     end.place =
         lights_.point_of_light(drawn.place, v.surface.point + drawn.distance * drawn.to_light);
-    end.emit = lights_.emit_density(end.place, -drawn.to_light);
+    end.emit = lights_.emit_density(end.place, -drawn.to_light, v.surface.point);
     begin_path(0, b);
     set_light(end, at, drawn.to_light, drawn.distance, v.scatter.density(drawn.to_light),
               v.scatter.geometric());
@@ -239,7 +241,7 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
     if (!y.connects()) return;
     const auto joined = lens_.connect(
         y.surface.point, chance_.draw(id, kLensPairs + static_cast<std::uint32_t>(a)), time);
-    if (!joined) return;
+    if (!joined || !y.scatter.is_seen_from(joined->to_lens)) return;
     const Rgb value = y.scatter.value(joined->to_lens, Transport::Importance);
     if (value.is_black()) return;
     begin_path(a, 0);
@@ -252,8 +254,8 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
               first.scatter.geometric());
     Rgb light = path_weight(path_, static_cast<int>(a) + 1) * joined->density *
                 y.scatter.importance_correction(joined->to_lens) * (y.throughput * value);
-    const Ray ray = leaving_ray(y.surface, joined->to_lens, joined->distance);
-    light = light * joins_.passing(ray, time, absorption_towards(y, joined->to_lens));
+    light =
+        light * joins_.seen(from_lens(y, *joined), time, absorption_towards(y, joined->to_lens));
     if (!light.is_black() && !lens_light_.splats.add(joined->film, light)) ++counters_.non_finite;
 }
 

@@ -71,6 +71,7 @@ class BidirectionalTracer {
     PathChance chance_;
     CameraRays camera_;
     CameraLens lens_;
+    MediaFinder media_;
     RandomWalk walk_;
     LightBatch joins_;
     LensLight& lens_light_;

@@ -2,8 +2,6 @@
 /// What a renderer with beams reports besides the picture.
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace alhazen {
 
@@ -20,7 +18,6 @@ struct BeamReport {
                                 ///< window: 1 but for rounding
     double gather_seconds = 0;  ///< for the facets and their tree
     double beam_seconds = 0;    ///< for the tree of beams
-    std::vector<std::string> notes;  ///< polygons that were mended
 };
 
 }  // namespace alhazen

@@ -198,7 +198,7 @@ void complete_shading_point(const Scene& scene, const Ray& ray, const Arrival& a
     } else {
         point.normal = turned ? -shading : shading;
     }
-    if (!point.entering && is_unseen_from_behind(*point.material)) {
+    if (!point.entering && !arrival.meets_backs && is_unseen_from_behind(*point.material)) {
         own_material(point).coverage = 0.0;
     }
     set_media(scene, point);

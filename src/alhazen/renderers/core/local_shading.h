@@ -79,6 +79,8 @@ struct Arrival {
     bool inside = false;
     double width = 0;  ///< of the ray's cone at the hit
     float time = 0;    ///< RayQuery::time
+    /// Whether it meets the backs of single-sided surfaces, too: light that is followed does.
+    bool meets_backs = false;
 };
 
 /// Parts of a shading point that the caller needs.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "alhazen/base/progress.h"
 #include "alhazen/imaging/film/film.h"
@@ -73,6 +74,8 @@ struct RenderReport {
     std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
 
     std::shared_ptr<const SamplingReport> sampling;  ///< of RenderJob::sampling, else null
+    /// For the user: what the picture lacks, what was mended.
+    std::vector<std::string> notes;
 
     /// False after a stop.
     [[nodiscard]] bool complete() const { return done == parts; }

@@ -15,8 +15,9 @@ namespace alhazen {
 
 class VisibleBatch {
   public:
-    VisibleBatch(const Scene& scene, TraversalStats* stats)
-        : scene_(scene), stats_(stats), constant_(scene) {}
+    /// `follows_light`: rays that are no eye rays meet the backs of single-sided surfaces.
+    VisibleBatch(const Scene& scene, TraversalStats* stats, bool follows_light = false)
+        : scene_(scene), stats_(stats), follows_light_(follows_light), constant_(scene) {}
 
     /// `path(k)` returns `kind`, `cone`, `inside` and `time` of ray k. Calls `tell(k, point, t)`
     /// once for each ray: with a null pointer where nothing is seen, else with the point and its
@@ -105,7 +106,9 @@ class VisibleBatch {
               const Path& path, Tell&& tell) {
         const double t = distance + hit.t;
         const PointNeeds needs{.uv = !scene_.textures.empty(), .constant = &constant_};
-        set_shading_point(scene_, rest, hit, {path.inside, path.cone.width_at(t), path.time}, needs,
+        const bool meets_backs = follows_light_ && path.kind != RayKind::Eye;
+        set_shading_point(scene_, rest, hit,
+                          {path.inside, path.cone.width_at(t), path.time, meets_backs}, needs,
                           point_);
         if (point_.material->coverage > 0.0) {
             reported_ = &hit;
@@ -117,6 +120,7 @@ class VisibleBatch {
 
     const Scene& scene_;
     TraversalStats* stats_;
+    bool follows_light_;
     MaterialCache constant_;
     ShadingPoint point_;
     const Hit* reported_ = nullptr;

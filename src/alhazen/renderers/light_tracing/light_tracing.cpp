@@ -36,6 +36,7 @@ class LightTiles final : public TileRenderer {
           chance_(job),
           camera_(job),
           lens_(job),
+          media_(job.scene),
           walk_(job.scene, lights, counters_, job.count_tests ? &counters_.tests : nullptr),
           joins_(job.scene, counters_, job.count_tests ? &counters_.tests : nullptr),
           splats_(splats) {}
@@ -59,7 +60,7 @@ class LightTiles final : public TileRenderer {
         const Vec2 choice = chance_.draw(id, kLightPairs);
         const LightRay light = lights_.emit(choice.x, chance_.draw(id, kLightPairs + 1),
                                             chance_.draw(id, kLightPairs + 2));
-        const WalkStart start = start_of(light, time);
+        const WalkStart start = start_of(light, time, media_);
         if (start.throughput.is_black() || !start.throughput.is_finite()) return;
         walk_.walk(Transport::Importance, start,
                    {chance_, id, kWalk, settings_.depth, settings_.roulette}, vertices_);
@@ -71,13 +72,13 @@ class LightTiles final : public TileRenderer {
     void join(const PathVertex& v, const SampleId& id, std::uint32_t pair, float time) {
         if (!v.connects()) return;
         const auto joined = lens_.connect(v.surface.point, chance_.draw(id, pair), time);
-        if (!joined) return;
+        if (!joined || !v.scatter.is_seen_from(joined->to_lens)) return;
         const Rgb value = v.scatter.value(joined->to_lens, Transport::Importance);
         if (value.is_black()) return;
         Rgb light = v.scatter.importance_correction(joined->to_lens) * joined->density *
                     (v.throughput * value);
-        const Ray ray = leaving_ray(v.surface, joined->to_lens, joined->distance);
-        light = light * joins_.passing(ray, time, absorption_towards(v, joined->to_lens));
+        light = light *
+                joins_.seen(from_lens(v, *joined), time, absorption_towards(v, joined->to_lens));
         if (!light.is_black() && !splats_.add(joined->film, light)) ++counters_.non_finite;
     }
 
@@ -88,18 +89,12 @@ class LightTiles final : public TileRenderer {
     PathChance chance_;
     CameraRays camera_;
     CameraLens lens_;
+    MediaFinder media_;
     RandomWalk walk_;
     LightBatch joins_;
     SplatFilm& splats_;
     std::vector<PathVertex> vertices_;
 };
-
-/// What the eye sees of the lights themselves.
-RenderReport see_lights(const RenderJob& job, const PathSettings& settings, Film& film) {
-    PathSettings seen = settings;
-    seen.depth = 0;
-    return PathTracing(seen).render(job, film);
-}
 
 }  // namespace
 
@@ -110,10 +105,15 @@ RenderReport LightTracing::render(const RenderJob& job, Film& film) const {
                     "light_tracing traces a fixed number of paths: it takes --spp, not --noise "
                     "or a limit of --time");
     }
-    RenderReport report = see_lights(job, settings_, film);
-    if (!report.complete()) return report;
     const Illumination lights(job.scene);
-    if (!lights.shines()) return report;
+    // What the eye sees of the lights themselves.
+    RenderReport report = trace_paths(job, lights, {.depth = 0}, film);
+    if (lights.leaves_some_to_chance()) {
+        report.notes.push_back(
+            "light_tracing: some emitting surfaces send no light, for they cannot be sampled; "
+            "path_tracing finds their light");
+    }
+    if (!report.complete() || !lights.shines()) return report;
     const auto count = static_cast<std::uint32_t>(job.samples_per_pixel);
     const std::unique_ptr<Sampler> sampler = plan.sampler->make(job.seed, count);
     const FilterKernel filter(*plan.filter, plan.radius);

@@ -2,6 +2,7 @@
 /// Eye rays spread over the lens and the time of the shutter.
 
 #include "alhazen/cameras/eye_rays.h"
+#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/path_chance.h"
 
 namespace alhazen {
@@ -13,7 +14,13 @@ class CameraRays {
           motion_(job.camera_motion),
           moves_(job.scene.has_motion || job.camera_motion != nullptr) {
         if (motion_ != nullptr) camera_from_world_ = motion_->at(0.0).inner_from_outer;
+        if (const auto* camera = std::get_if<PerspectiveCamera>(&job.camera)) {
+            media_ = MediaFinder(job.scene).around(camera->eye, 0.0f);
+        }
     }
+
+    /// Around the eye as the shutter opens; none around parallel cameras.
+    [[nodiscard]] const MediumStack& media() const { return media_; }
 
     /// The moment of a sample.
     [[nodiscard]] float time(const PathChance& chance, const SampleId& id) const {
@@ -33,6 +40,7 @@ class CameraRays {
     LensRays lens_;
     const TransformMotion* motion_;
     bool moves_;
+    MediumStack media_;
     Affine camera_from_world_;  ///< as the shutter opens
 };
 

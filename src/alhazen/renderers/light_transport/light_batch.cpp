@@ -1,5 +1,6 @@
 #include "alhazen/renderers/light_transport/light_batch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "alhazen/renderers/core/attenuation.h"
@@ -19,6 +20,8 @@ LightBatch::LightBatch(const Scene& scene, RayCounters& counters, TraversalStats
     : scene_(scene),
       count_(counters[RayKind::Shadow]),
       stats_(stats),
+      has_single_sided_(std::any_of(scene.materials.begin(), scene.materials.end(),
+                                    [](const Material& m) { return !m.double_sided; })),
       met_(std::make_unique<bool[]>(kMostRays)) {
     rays_.reserve(kMostRays);
     waiting_.reserve(kMostRays);
@@ -47,7 +50,7 @@ void LightBatch::finish() {
         if (!met[i]) {
             *w.sum += w.light;
         } else if (!scene_.all_opaque) {
-            *w.sum += through_surfaces(rays_[i], times_[i]) * w.light;
+            *w.sum += through_surfaces(rays_[i], times_[i], RayKind::Shadow) * w.light;
         }
     }
     rays_.clear();
@@ -64,29 +67,43 @@ void LightBatch::find_met(std::span<bool> met) {
 }
 
 Rgb LightBatch::passing(const Ray& ray, float time, const Rgb& absorption) {
+    return passing(ray, time, RayKind::Shadow, absorption);
+}
+
+Rgb LightBatch::seen(const Ray& from_eye, float time, const Rgb& absorption) {
+    return passing(from_eye, time, RayKind::Eye, absorption);
+}
+
+Rgb LightBatch::passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption) {
     ++count_.cast;
     const Rgb left = absorption.is_black()
                          ? Rgb{1, 1, 1}
                          : transmittance(absorption, ray.t_max * length(ray.direction));
-    if (!scene_.aggregate->occluded(ray, query(time))) return left;
+    if (!scene_.aggregate->occluded(ray, query(time, kind))) return left;
     ++count_.hit;
-    return scene_.all_opaque ? Rgb{} : left * through_surfaces(ray, time);
+    return scene_.all_opaque ? Rgb{} : left * through_surfaces(ray, time, kind);
 }
 
-Rgb LightBatch::through_surfaces(const Ray& ray, float time) {
+Rgb LightBatch::through_surfaces(const Ray& ray, float time, RayKind kind) {
     crossings_.clear();
-    if (scene_.aggregate->shadowed(ray, crossings_, query(time))) return {};
+    if (scene_.aggregate->shadowed(ray, crossings_, query(time, kind))) return {};
+    if (has_single_sided_ && kind != RayKind::Eye) {
+        // Their backs are no crossings.
+        if (crossings_.empty()) return {};
+        crossings_.clear();
+        scene_.aggregate->all_hits(ray, crossings_, query(time, kind));
+    }
     Rgb share{1, 1, 1};
     for (const Hit& crossing : crossings_) {
-        share = share * through(ray, time, crossing);
+        share = share * through(ray, time, kind, crossing);
         if (share.is_black()) break;
     }
     return share;
 }
 
-Rgb LightBatch::through(const Ray& ray, float time, const Hit& crossing) const {
+Rgb LightBatch::through(const Ray& ray, float time, RayKind kind, const Hit& crossing) const {
     ShadingPoint point;
-    set_shading_point(scene_, ray, crossing, {false, 0.0, time}, {}, point);
+    set_shading_point(scene_, ray, crossing, {false, 0.0, time, kind != RayKind::Eye}, {}, point);
     const double coverage = point.material->coverage;
     if (coverage == 0.0) return {1, 1, 1};
     Rgb covered;

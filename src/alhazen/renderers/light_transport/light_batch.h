@@ -2,7 +2,8 @@
 /// Light that may be blocked: connections between points are gathered, then cast together.
 ///
 /// Conventions: alpha coverage and thin sheets let light through, tinted; what bends light blocks
-/// it, for a straight connection does not exist there.
+/// it, for a straight connection does not exist there. Single-sided surfaces block from both sides;
+/// the eye alone does not see their backs.
 
 #include <memory>
 #include <span>
@@ -26,6 +27,8 @@ class LightBatch {
 
     /// The share that passes along one ray.
     [[nodiscard]] Rgb passing(const Ray& ray, float time, const Rgb& absorption);
+    /// The same along a ray from the eye.
+    [[nodiscard]] Rgb seen(const Ray& from_eye, float time, const Rgb& absorption);
 
   private:
     struct Waiting {
@@ -33,16 +36,19 @@ class LightBatch {
         Rgb* sum;
     };
 
-    [[nodiscard]] RayQuery query(float time) const {
-        return {stats_, mask_of(RayKind::Shadow), time};
+    [[nodiscard]] RayQuery query(float time, RayKind kind = RayKind::Shadow) const {
+        return {stats_, mask_of(kind), time};
     }
     void find_met(std::span<bool> met);
-    [[nodiscard]] Rgb through_surfaces(const Ray& ray, float time);
-    [[nodiscard]] Rgb through(const Ray& ray, float time, const Hit& crossing) const;
+    /// Of a ray that meets something.
+    [[nodiscard]] Rgb through_surfaces(const Ray& ray, float time, RayKind kind);
+    [[nodiscard]] Rgb through(const Ray& ray, float time, RayKind kind, const Hit& crossing) const;
+    [[nodiscard]] Rgb passing(const Ray& ray, float time, RayKind kind, const Rgb& absorption);
 
     const Scene& scene_;
     RayCount& count_;
     TraversalStats* stats_;
+    bool has_single_sided_;
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;
     std::vector<float> times_;

@@ -1,14 +1,17 @@
 #pragma once
-/// How light paths begin, and the media along connections.
+/// How light paths begin and are joined to the lens, and the media along connections.
 
 #include <cmath>
 
+#include "alhazen/renderers/light_transport/camera_lens.h"
+#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/light_transport/random_walk.h"
 
 namespace alhazen {
 
 /// The walk of a ray of light. Its throughput is black where it carries nothing.
-[[nodiscard]] inline WalkStart start_of(const LightRay& light, float time) {
+[[nodiscard]] inline WalkStart start_of(const LightRay& light, float time,
+                                        const MediaFinder& media) {
     WalkStart start;
     start.ray = light.ray;
     start.time = time;
@@ -21,6 +24,7 @@ namespace alhazen {
     const double cosine = across ? 1.0 : std::abs(dot(light.ray.direction, light.normal));
     start.throughput = (cosine / densities) * light.radiance;
     start.parallel = light.infinite;
+    if (!light.infinite) start.media = media.around(light.ray.origin, time);
     start.density = light.infinite ? light.place_density : light.direction_density;
     return start;
 }
@@ -36,6 +40,15 @@ inline void set_falloff(const Illumination& lights, const LightRay& light,
         if (light.radiance[i] > 0.0) factor[i] = squared * arrives[i] / light.radiance[i];
     }
     for (PathVertex& v : vertices) v.throughput = v.throughput * factor;
+}
+
+/// The ray from the lens to a vertex, which ends before it.
+[[nodiscard]] inline Ray from_lens(const PathVertex& v, const LensConnection& joined) {
+    const Ray back = leaving_ray(v.surface, joined.to_lens, joined.distance);
+    const Vec3 lens = back.at(joined.distance);
+    Ray ray{lens, -joined.to_lens};
+    ray.t_max = (1.0 - 1e-7) * length(lens - back.origin);
+    return ray;
 }
 
 /// Of the medium that light runs through from the vertex along `direction`.

@@ -2,8 +2,9 @@
 /// The volumes around the end of a path, innermost last.
 ///
 /// Conventions: a volume is known by the part that bounds it, so that volumes which overlap are
-/// left in any order. Where a solid tells the media on both sides of a surface, its word counts.
-/// More than kMost volumes around one point: the outermost are forgotten.
+/// left in any order. A part that was not entered leaves the innermost volume of its material: a
+/// boundary may be made of several parts. Where a solid tells the media on both sides of a surface,
+/// its word counts. More than kMost volumes around one point: the outermost are forgotten.
 
 #include <cstdint>
 
@@ -16,6 +17,7 @@ struct Medium {
     std::uint64_t part = 0;  ///< that bounds it
     double index = 1;
     Rgb absorption;  ///< light falls by exp(-absorption * length)
+    std::uint32_t material = 0;
 };
 
 class MediumStack {
@@ -25,9 +27,9 @@ class MediumStack {
     [[nodiscard]] bool empty() const { return media_.empty(); }
     /// Null outside all volumes.
     [[nodiscard]] const Medium* here() const { return media_.empty() ? nullptr : &media_.back(); }
-    /// The medium where the volume of `part` has been left; null outside.
-    [[nodiscard]] const Medium* without(std::uint64_t part) const {
-        const std::size_t left = place_of(part);
+    /// The medium where the volume has been left; null outside.
+    [[nodiscard]] const Medium* without(const Medium& volume) const {
+        const std::size_t left = place_of(volume);
         for (std::size_t i = media_.size(); i-- > 0;) {
             if (i != left) return &media_[i];
         }
@@ -38,14 +40,17 @@ class MediumStack {
         media_.push_back(medium);
     }
     /// Nothing happens where the volume was never entered.
-    void leave(std::uint64_t part) {
-        if (const std::size_t i = place_of(part); i < media_.size()) remove(i);
+    void leave(const Medium& volume) {
+        if (const std::size_t i = place_of(volume); i < media_.size()) remove(i);
     }
 
   private:
-    [[nodiscard]] std::size_t place_of(std::uint64_t part) const {
+    [[nodiscard]] std::size_t place_of(const Medium& volume) const {
         for (std::size_t i = media_.size(); i-- > 0;) {
-            if (media_[i].part == part) return i;
+            if (media_[i].part == volume.part) return i;
+        }
+        for (std::size_t i = media_.size(); i-- > 0;) {
+            if (media_[i].material == volume.material) return i;
         }
         return media_.size();
     }

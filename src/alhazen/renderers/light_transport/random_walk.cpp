@@ -15,7 +15,8 @@ bool RandomWalk::find(Ray& ray, const WalkLuck& luck, float time, bool inside) {
         hit_ = Hit();
         if (!scene_.aggregate->closest(ray, hit_, {stats_, mask_of(kind_), time})) return false;
         ++counters_[kind_].hit;
-        set_shading_point(scene_, ray, hit_, {inside, 0.0, time}, {}, point_);
+        set_shading_point(scene_, ray, hit_, {inside, 0.0, time, kind_ != RayKind::Eye}, {},
+                          point_);
         travelled_ += hit_.t;
         segment_ += hit_.t;
         if (luck.chance.stops(luck.id, luck.first_pair << 16 | met_++, point_.material->coverage)) {
@@ -39,7 +40,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
     double density = start.density;
     bool parallel = start.parallel;
     double eta_scale = 1.0;
-    MediumStack media;
+    MediumStack media = start.media;
     for (std::uint32_t pair = luck.first_pair; static_cast<int>(vertices.size()) < luck.most;
          pair += kWalkPairs) {
         if (!find(ray, luck, start.time, !media.empty())) {

@@ -43,6 +43,7 @@ struct WalkStart {
     double density = 0;
     bool parallel = false;
     float time = 0;
+    MediumStack media;  ///< around it
 };
 
 /// Numbers and limits of a walk.

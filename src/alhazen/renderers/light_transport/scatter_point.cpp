@@ -34,10 +34,12 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     view_ = point.view;
     entering_ = point.entering;
     thin_ = material.thin;
+    one_sided_ = is_unseen_from_behind(material);
     const bool has_tangent = surface.tangent != Vec3{};
     frame_ = ShadingFrame::of(point.normal, has_tangent ? surface.tangent : surface.dpdu);
     local_view_ = frame_.to_local(view_);
-    inside_ = {part_of(surface), material.index, material.absorption};
+    inside_ = {part_of(surface), material.index, material.absorption,
+               static_cast<std::uint32_t>(surface.materials[0])};
     media_known_ = point.behind.known;
     BsdfPlace place;
     place.from_inside = !entering_;
@@ -47,7 +49,7 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
         place.eta = point.behind.eta;
     } else if (!thin_ && material.index > 0.0) {
         const double air = scene.conventions.shading.air_index;
-        const Medium* const around = entering_ ? media.here() : media.without(inside_.part);
+        const Medium* const around = entering_ ? media.here() : media.without(inside_);
         const double outside = around != nullptr ? around->index : air;
         place.eta = entering_ ? outside / material.index : material.index / outside;
     }
@@ -107,7 +109,7 @@ void ScatterPoint::cross(MediumStack& media) const {
     } else if (entering_) {
         media.enter(inside_);
     } else {
-        media.leave(inside_.part);
+        media.leave(inside_);
     }
 }
 

@@ -52,9 +52,15 @@ class ScatterPoint {
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }
     [[nodiscard]] const Vec3& geometric() const { return geometric_; }
     [[nodiscard]] const Vec3& view() const { return view_; }
+    /// Whether an eye in `direction` sees the surface, which may be single-sided.
+    [[nodiscard]] bool is_seen_from(const Vec3& direction) const {
+        return !one_sided_ || (dot(direction, geometric_) > 0.0) == entering_;
+    }
     /// Factor of importance that leaves along `direction` because of shading normals.
     [[nodiscard]] double importance_correction(const Vec3& direction) const;
 
+    /// Whether a volume lies on one of its sides.
+    [[nodiscard]] bool bounds_volume() const { return media_known_ || (transmits() && !thin_); }
     /// The media beyond the surface, for a path that is transmitted.
     void cross(MediumStack& media) const;
 
@@ -68,7 +74,7 @@ class ScatterPoint {
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;
     Medium inside_;  ///< of the volume that the surface bounds
-    bool entering_ = true, thin_ = false;
+    bool entering_ = true, thin_ = false, one_sided_ = false;
     bool media_known_ = false;  ///< a solid tells what is behind
     bool behind_inside_ = false;
 };

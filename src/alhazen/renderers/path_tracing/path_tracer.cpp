@@ -18,7 +18,7 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       counters_(counters),
       chance_(job),
       camera_(job),
-      visible_(scene_, job.count_tests ? &counters.tests : nullptr),
+      visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr) {}
 
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
@@ -32,6 +32,8 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         path.sample = i;
         path.time = camera_.time(chance_, ids[i]);
         path.cone = job_.cone;
+        path.media = camera_.media();
+        path.inside = !path.media.empty();
         rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
     }
     for (bool first = true; !paths_.empty(); first = false) {
@@ -59,8 +61,8 @@ void PathTracer::bounce(std::span<Rgb> radiance, bool first) {
     rays_.swap(next_rays_);
 }
 
-Rgb PathTracer::limited(const Rgb& light, const EyePath& path) const {
-    if (!(settings_.clamp > 0.0) || path.scatterings < 2) return light;
+Rgb PathTracer::limited(const Rgb& light, int scatterings) const {
+    if (!(settings_.clamp > 0.0) || scatterings < 2) return light;
     const double largest = light.max();
     return largest > settings_.clamp ? (settings_.clamp / largest) * light : light;
 }
@@ -75,7 +77,7 @@ void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) const {
         const double other = lights_.environment_density(path.from, ray.direction);
         light = power_heuristic(path.density, other) * light;
     }
-    sum += limited(light, path);
+    sum += limited(light, path.scatterings);
 }
 
 void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
@@ -109,12 +111,12 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
         const double other = lights_.density(path.from, ray, hit, point.surface, path.travelled);
         light = power_heuristic(path.density, other) * light;
     }
-    sum += limited(light, path);
+    sum += limited(light, path.scatterings);
 }
 
 void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum) {
-    const Vec2 place = chance_.draw(path.sample, path.scatterings, PathChance::kLight);
-    const Vec2 choices = chance_.draw(path.sample, path.scatterings, PathChance::kChoices);
+    const Vec2 place = chance_.draw(path.sample, path.drawn, PathChance::kLight);
+    const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
     const LightDraw drawn = lights_.draw(at, choices.y, place);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
@@ -125,26 +127,26 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
         weight *= power_heuristic(drawn.density, scatter_.density(drawn.to_light));
     }
     light = path.throughput * (weight * light);
-    EyePath onward = path;
-    ++onward.scatterings;
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Medium* const medium = media.here();
     // The light itself does not block its ray.
     constexpr double kBefore = 1.0 - 1e-7;
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
-                 medium != nullptr ? medium->absorption : Rgb{}, limited(light, onward), sum);
+                 medium != nullptr ? medium->absorption : Rgb{},
+                 limited(light, path.scatterings + 1), sum);
 }
 
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
-    const Vec2 u = chance_.draw(path.sample, path.scatterings, PathChance::kDirection);
-    const Vec2 choices = chance_.draw(path.sample, path.scatterings, PathChance::kChoices);
+    const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
+    const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
     const std::optional<Scattered> drawn = scatter_.sample(choices.x, u, Transport::Radiance);
     if (!drawn || drawn->weight.is_black()) return;
     path.throughput = path.throughput * drawn->weight;
+    ++path.drawn;
     if (drawn->straight) {
         // Shadow rays pass thin sheets, too: the densities remain those of the last scattering.
-        if (++path.scatterings > settings_.depth) return;
+        if (++path.met > kMaxPassedSurfaces) return;
     } else {
         ++path.scatterings;
         path.singular = drawn->singular;
@@ -167,7 +169,7 @@ bool PathTracer::survives(EyePath& path) {
     if (path.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
     const double share = std::min(kMost, path.eta_scale * path.throughput.max());
-    const double luck = chance_.draw(path.sample, path.scatterings - 1, PathChance::kLuck).x;
+    const double luck = chance_.draw(path.sample, path.drawn - 1, PathChance::kLuck).x;
     if (!(luck < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;

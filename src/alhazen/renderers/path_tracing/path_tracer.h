@@ -26,6 +26,7 @@ struct EyePath {
     std::uint32_t sample = 0;  ///< of the batch
     std::uint32_t met = 0;     ///< surfaces on its way
     int scatterings = 0;
+    int drawn = 0;  ///< scatterings and straight passes: places of its random numbers
     Rgb throughput{1, 1, 1};
     double eta_scale = 1;  ///< of radiance, undone where roulette looks at the throughput
     bool singular = true;  ///< the last scattering: no light is sampled for it
@@ -58,7 +59,8 @@ class PathTracer {
         next_paths_.push_back(path);
         next_rays_.push_back(ray);
     }
-    [[nodiscard]] Rgb limited(const Rgb& light, const EyePath& path) const;
+    /// Light at the end of a path of that many scatterings.
+    [[nodiscard]] Rgb limited(const Rgb& light, int scatterings) const;
 
     const RenderJob& job_;
     const Scene& scene_;

@@ -14,23 +14,27 @@ constexpr std::size_t kSamplesAtOnce = 1024;
 
 class PathTiles final : public TiledRenderer {
   public:
-    PathTiles(const Scene& scene, const PathSettings& settings)
-        : lights_(scene), settings_(settings) {}
+    PathTiles(const Illumination& lights, const PathSettings& settings)
+        : lights_(lights), settings_(settings) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override {
         return std::make_unique<RoundRenderer<PathTracer>>(job, kSamplesAtOnce, lights_, settings_);
     }
 
   private:
-    Illumination lights_;
+    const Illumination& lights_;
     PathSettings settings_;
 };
 
 }  // namespace
 
 RenderReport PathTracing::render(const RenderJob& job, Film& film) const {
-    const PathTiles tiles(job.scene, settings_);
-    return render_in_rounds(tiles, with_plan(job), film);
+    return trace_paths(job, Illumination(job.scene), settings_, film);
+}
+
+RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
+                         const PathSettings& settings, Film& film) {
+    return render_in_rounds(PathTiles(lights, settings), with_plan(job), film);
 }
 
 }  // namespace alhazen

@@ -17,6 +17,8 @@
 
 namespace alhazen {
 
+class Illumination;
+
 class PathTracing final : public LightTransportRenderer {
   public:
     explicit PathTracing(const PathSettings& settings) : settings_(settings) {}
@@ -26,5 +28,9 @@ class PathTracing final : public LightTransportRenderer {
   private:
     PathSettings settings_;
 };
+
+/// The same for lights that are ready.
+[[nodiscard]] RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
+                                       const PathSettings& settings, Film& film);
 
 }  // namespace alhazen

@@ -1,0 +1,127 @@
+#pragma once
+/// Small scenes and their pictures, for tests of renderers that follow light.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/renderers/core/sampling_plan.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::testing {
+
+inline Material matt(const Rgb& color) {
+    Material m;
+    m.diffuse.color = color;
+    return m;
+}
+inline Material glowing(const Rgb& radiance, const Rgb& color = {}) {
+    Material m = matt(color);
+    m.emission.color = radiance;
+    return m;
+}
+
+inline Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
+    Rectangle r;
+    r.corner = corner;
+    r.edge_u = u;
+    r.edge_v = v;
+    return r;
+}
+
+inline Film picture_of(const Scene& scene, const std::string& renderer, int side, int samples,
+                       std::uint64_t seed = 1, int threads = 1, int tile = 32) {
+    const SamplingPlan plan;
+    Film film(side, side, {0, 0, side, side});
+    const RenderJob job{.scene = scene,
+                        .camera = scene.cameras[0].camera,
+                        .samples_per_pixel = samples,
+                        .seed = seed,
+                        .sampling = &plan,
+                        .control = {.threads = threads, .tile_size = tile}};
+    const RenderReport report = make_renderer(renderer)->render(job, film);
+    EXPECT_TRUE(report.complete());
+    EXPECT_EQ(report.counters.non_finite, 0u);
+    return film;
+}
+
+inline Rgb mean_of(const Film& film) {
+    Rgb sum;
+    const int n = film.frame_width();
+    for (int i = 0; i < n * n; ++i) sum += film.at(i % n, i / n);
+    return (1.0 / (n * n)) * sum;
+}
+
+inline Sphere ball(const Vec3& center, double radius) {
+    Sphere s;
+    s.center = center;
+    s.radius = radius;
+    return s;
+}
+
+/// A white matt floor seen straight from above, in a picture `side` wide.
+inline SceneMaker floor_from_above(double side, const Rgb& color = {1, 1, 1}) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 0.5}, {0, 0, -1}, {side, 0, 0}, {0, side, 0}};
+    maker.add(rectangle({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), maker.material(matt(color)));
+    return maker;
+}
+
+/// Means over blocks of independent pictures, and their standard errors.
+struct Blocks {
+    static constexpr int kSide = 2;
+    std::vector<double> mean, error;
+};
+
+inline Blocks blocks_of(const Scene& scene, const std::string& renderer, int samples) {
+    constexpr int kRuns = 12, kPixels = 8, kBlocks = Blocks::kSide * Blocks::kSide;
+    std::vector<double> sum(kBlocks), squares(kBlocks);
+    for (int run = 0; run < kRuns; ++run) {
+        const Film film = picture_of(scene, renderer, kPixels, samples, std::uint64_t(100 + run));
+        std::vector<double> own(kBlocks);
+        for (int y = 0; y < kPixels; ++y) {
+            for (int x = 0; x < kPixels; ++x) {
+                const Rgb& c = film.at(x, y);
+                own[std::size_t(y * Blocks::kSide / kPixels * Blocks::kSide +
+                                x * Blocks::kSide / kPixels)] += c.r + c.g + c.b;
+            }
+        }
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const double value = own[i] * kBlocks / (3.0 * kPixels * kPixels);
+            sum[i] += value;
+            squares[i] += value * value;
+        }
+    }
+    Blocks blocks;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double mean = sum[i] / kRuns;
+        blocks.mean.push_back(mean);
+        blocks.error.push_back(
+            std::sqrt(std::max(0.0, squares[i] / kRuns - mean * mean) / (kRuns - 1)));
+    }
+    return blocks;
+}
+
+/// Fails where the means of two renderers differ by more than `most` standard errors of a block.
+inline void expect_same_light(const Scene& scene, const std::string& name,
+                              const std::vector<std::string>& renderers, int samples, double most) {
+    std::vector<Blocks> found;
+    for (const std::string& r : renderers) found.push_back(blocks_of(scene, r, samples));
+    for (std::size_t a = 0; a < found.size(); ++a) {
+        for (std::size_t b = a + 1; b < found.size(); ++b) {
+            for (std::size_t i = 0; i < found[a].mean.size(); ++i) {
+                const double error = std::hypot(found[a].error[i], found[b].error[i]);
+                EXPECT_LE(std::abs(found[a].mean[i] - found[b].mean[i]), most * error + 1e-12)
+                    << name << ", block " << i << ": " << renderers[a] << " " << found[a].mean[i]
+                    << ", " << renderers[b] << " " << found[b].mean[i];
+            }
+        }
+    }
+}
+
+}  // namespace alhazen::testing

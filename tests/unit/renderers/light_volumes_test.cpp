@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "alhazen/renderers/light_transport/media_finder.h"
+#include "support/light_pictures.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::ball;
+using testing::expect_same_light;
+using testing::floor_from_above;
+using testing::glowing;
+using testing::matt;
+using testing::mean_of;
+using testing::picture_of;
+using testing::rectangle;
+using testing::SceneMaker;
+
+constexpr double kIndex = 1.5;
+/// Fresnel's reflectance of glass straight on.
+constexpr double kStraight = (kIndex - 1) * (kIndex - 1) / ((kIndex + 1) * (kIndex + 1));
+/// As in TheThreeStrategiesAgreeOnThirteenScenes.
+constexpr double kMost = 5.7;
+
+Material glass(const Rgb& absorption, double index = kIndex) {
+    Material m;
+    m.dielectric = Dielectric{absorption};
+    m.index.value = index;
+    return m;
+}
+
+/// A wall of radiance 1 seen straight on by parallel rays along -z.
+SceneMaker wall_of_light() {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {0.1, 0, 0}, {0, 0.1, 0}};
+    maker.add(rectangle({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}), maker.material(glowing({1, 1, 1})));
+    return maker;
+}
+
+/// Through a slab of transmittance t: both sides reflect, again and again.
+double through_slab(double t) {
+    return (1 - kStraight) * (1 - kStraight) * t / (1 - kStraight * kStraight * t * t);
+}
+
+TEST(LightVolumes, ASlabOfSixPartsShowsWhatASolidShows) {
+    const double thick = 0.5, absorption = 1.2;
+    const double expected = through_slab(std::exp(-absorption * thick));
+    for (const bool of_parts : {false, true}) {
+        SceneMaker maker = wall_of_light();
+        const MaterialId slab = maker.material(glass({absorption, absorption, absorption}));
+        const Vec3 lo{-4, -4, 0}, x{8, 0, 0}, y{0, 8, 0}, z{0, 0, thick};
+        if (of_parts) {
+            maker.add(rectangle(lo, y, x), slab);
+            maker.add(rectangle(lo + z, x, y), slab);
+            maker.add(rectangle(lo, x, z), slab);
+            maker.add(rectangle(lo + y, z, x), slab);
+            maker.add(rectangle(lo, z, y), slab);
+            maker.add(rectangle(lo + x, y, z), slab);
+        } else {
+            BoxShape box;
+            box.lo = lo;
+            box.hi = lo + x + y + z;
+            maker.add(box, slab);
+        }
+        const Scene scene = maker.compile();
+        for (const char* renderer : {"path_tracing", "bidirectional"}) {
+            EXPECT_NEAR(mean_of(picture_of(scene, renderer, 4, 1024)).g, expected, 0.01)
+                << renderer << (of_parts ? " of six parts" : " of one");
+        }
+    }
+}
+
+TEST(LightVolumes, AnEyeInGlassLooksThroughIt) {
+    const double radius = 2, absorption = 0.4, t = std::exp(-absorption * radius);
+    SceneMaker maker = wall_of_light();
+    maker.description().cameras[0].camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.02, 1.0);
+    maker.add(ball({0, 0, 0}, radius), maker.material(glass({absorption, absorption, absorption})));
+    const Scene scene = maker.compile();
+    // What is reflected comes back through the ball, twice reflected.
+    const double back = kStraight * kStraight * std::pow(t, 4);
+    const double expected = (1 - kStraight) * t / (1 - back);
+    for (const char* renderer : {"path_tracing", "bidirectional"}) {
+        EXPECT_NEAR(mean_of(picture_of(scene, renderer, 4, 512)).g, expected, 0.01) << renderer;
+    }
+}
+
+TEST(LightVolumes, ALampInGlassShinesThroughIt) {
+    // A small lamp in the middle of a ball: its rays meet the glass straight on.
+    const double radius = 0.5, lamp = 0.02, absorption = 1.5, high = 2;
+    SceneMaker maker = floor_from_above(0.1);
+    maker.add(ball({0, 0, high}, lamp), maker.material(glowing({100, 100, 100})));
+    maker.add(ball({0, 0, high}, radius), maker.material(glass({absorption, 0, absorption})));
+    const Scene scene = maker.compile();
+    const double t = std::exp(-absorption * (radius - lamp));
+    // Reflected light meets the black lamp, and is gone.
+    const double matt_floor = 100 * (lamp / high) * (lamp / high) * (1 - kStraight);
+    const Rgb seen = mean_of(picture_of(scene, "light_tracing", 4, 1 << 15));
+    EXPECT_NEAR(seen.g, matt_floor, 0.03 * matt_floor);
+    EXPECT_NEAR(seen.r / seen.g, t, 0.01 * t);
+}
+
+TEST(LightVolumes, TheMediaAroundAPointAreFound) {
+    SceneMaker maker;
+    maker.add(ball({0, 0, 0}, 2), maker.material(glass({}, 1.3)));
+    maker.add(ball({0, 0, 0}, 1), maker.material(glass({}, 1.6)));
+    maker.add(rectangle({-9, -9, 0.1}, {18, 0, 0}, {0, 18, 0}), maker.material(matt({1, 1, 1})));
+    const Scene scene = maker.compile();
+    const MediaFinder finder(scene);
+    ASSERT_TRUE(finder.has_volumes());
+    EXPECT_TRUE(finder.around({5, 0, 0}, 0).empty());
+    EXPECT_EQ(finder.around({1.5, 0, 0}, 0).here()->index, 1.3);
+    EXPECT_EQ(finder.around({0.2, 0.1, 0}, 0).here()->index, 1.6);
+    EXPECT_TRUE(finder.around({0, 0, -3}, 0).empty());
+}
+
+/// Light that is focused by glass, found by paths that happen to hit the lamp and by others.
+TEST(LightVolumes, PathsAgreeOnGlassInARoom) {
+    const auto room = [](const Material& of_ball) {
+        SceneMaker maker;
+        const MaterialId white = maker.material(matt({0.7, 0.7, 0.7}));
+        maker.description().cameras[0].camera =
+            look_along({0, -3.8, 1}, {0, 1, 0}, {0, 0, 1}, 0.65, 1.0);
+        maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), white);
+        maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), white);
+        maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}),
+                  maker.material(glowing({1, 2, 3}, {0.5, 0.5, 0.5})));
+        maker.add(ball({0.1, 0, 0.7}, 0.5), maker.material(of_ball));
+        return maker.compile();
+    };
+    Material frosted = glass({0.5, 0.1, 0.9});
+    frosted.roughness.value = 0.4;
+    const std::vector<std::string> both{"path_tracing:depth=7", "bidirectional:depth=7"};
+    expect_same_light(room(glass({0.5, 0.1, 0.9})), "clear glass", both, 32, kMost);
+    expect_same_light(room(frosted), "frosted glass", both, 32, kMost);
+}
+
+TEST(LightVolumes, ASingleSidedSurfaceBlocksLightFromBothSides) {
+    for (const bool turned : {false, true}) {
+        SceneMaker maker = floor_from_above(0.2);
+        maker.add(ball({0, 0, 3}, 0.5), maker.material(glowing({9, 9, 9})));
+        Material one_sided = matt({0.8, 0.8, 0.8});
+        one_sided.double_sided = false;
+        const Vec3 x{20, 0, 0}, y{0, 20, 0};
+        maker.add(rectangle({-10, -10, 1}, turned ? x : y, turned ? y : x),
+                  maker.material(one_sided));
+        const Scene scene = maker.compile();
+        for (const char* renderer : {"path_tracing", "light_tracing", "bidirectional"}) {
+            EXPECT_EQ(mean_of(picture_of(scene, renderer, 4, 64)).g, 0.0) << renderer << turned;
+        }
+    }
+}
+
+TEST(LightVolumes, TheEyeSeesThroughTheBackOfASingleSidedSurface) {
+    SceneMaker maker = floor_from_above(0.2);
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{0, 0, 4}, {0, 0, -1}, {0.2, 0, 0}, {0, 0.2, 0}};
+    maker.add(ball({1, 0, 1}, 0.3), maker.material(glowing({9, 9, 9})));
+    Material ceiling = matt({0.8, 0.8, 0.8});
+    ceiling.double_sided = false;
+    maker.add(rectangle({-2, -2, 2}, {0, 4, 0}, {4, 0, 0}), maker.material(ceiling));
+    const Scene scene = maker.compile("wide_bvh");
+    EXPECT_GT(mean_of(picture_of(scene, "path_tracing", 4, 64)).g, 0.3);
+    expect_same_light(scene, "under a ceiling", {"path_tracing", "light_tracing", "bidirectional"},
+                      24, kMost);
+}
+
+TEST(LightVolumes, TheSunShinesOnEndlessPlanes) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera =
+        OrthographicCamera{{500, 0, 5}, {0, 0, -1}, {2, 0, 0}, {0, 2, 0}};
+    maker.add(Plane{{0, 0, 0}, {0, 0, 1}}, maker.material(matt({0.5, 0.5, 0.5})));
+    maker.add(ball({0, 0, 1}, 1), maker.material(matt({0.5, 0.5, 0.5})));
+    maker.description().picture.background = Rgb{0.2, 0.3, 0.4};
+    maker.light(DirectionalLight{.to_light = {0, 0.6, 0.8}, .color = {1, 1, 1}});
+    const Scene scene = maker.compile();
+    for (const char* renderer : {"path_tracing", "bidirectional"}) {
+        const Rgb seen = mean_of(picture_of(scene, renderer, 4, 256));
+        EXPECT_NEAR(seen.r, 0.5 * (0.8 + 0.2), 0.005) << renderer;
+        EXPECT_NEAR(seen.b, 0.5 * (0.8 + 0.4), 0.008) << renderer;
+    }
+}
+
+TEST(LightVolumes, LightsThatDoNotFallAreTheSameForAllStrategies) {
+    for (const Attenuation& falloff : {Attenuation{1, 0, 0}, Attenuation{0.5, 0.25, 0}}) {
+        SceneMaker maker = floor_from_above(0.5, {0.5, 0.6, 0.7});
+        maker.light(
+            PointLight{.position = {0.5, 0, 2}, .color = {2, 3, 4}, .attenuation = falloff});
+        SpotLight spot;
+        spot.position = {-0.5, 0, 1.5};
+        spot.direction = {0, 0, -1};
+        spot.inner_angle = 0.3;
+        spot.outer_angle = 0.6;
+        spot.color = {4, 3, 2};
+        spot.attenuation = falloff;
+        maker.light(spot);
+        const Scene scene = maker.compile();
+        const Rgb direct = mean_of(picture_of(scene, "whitted", 4, 64));
+        for (const char* renderer : {"path_tracing", "light_tracing", "bidirectional"}) {
+            const Rgb seen = mean_of(picture_of(scene, renderer, 4, 1 << 13));
+            EXPECT_NEAR(seen.r, direct.r, 0.02 * direct.r) << renderer;
+            EXPECT_NEAR(seen.b, direct.b, 0.02 * direct.b) << renderer;
+        }
+    }
+}
+
+TEST(LightVolumes, WhatLightTracingCannotSampleIsSaid) {
+    SceneMaker maker = floor_from_above(0.2);
+    Torus ring;
+    maker.add(ring, maker.material(glowing({1, 1, 1})));
+    const Scene scene = maker.compile();
+    const SamplingPlan plan;
+    Film film(2, 2, {0, 0, 2, 2});
+    const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera, .sampling = &plan};
+    EXPECT_EQ(make_renderer("light_tracing")->render(job, film).notes.size(), 1u);
+    EXPECT_TRUE(make_renderer("path_tracing")->render(job, film).notes.empty());
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
