@@ -235,7 +235,7 @@ TEST(BeamTracing, PolygonsThatCrossThemselvesAreMendedAndSaid) {
         SceneMaker maker = polygon_before_a_wall(polygon);
         const Picture beams = beams_of(maker);
         EXPECT_EQ(differing(beams.film, rays_of(maker).film, 1e-6), 0);
-        EXPECT_EQ(beams.report.beams->notes.size(), 1u);
+        EXPECT_EQ(beams.report.notes.size(), 1u);
     }
 }
 
@@ -246,10 +246,10 @@ TEST(BeamTracing, CornersOffAPlaneAreMovedToItOrRefused) {
         return polygon_before_a_wall(polygon);
     };
     SceneMaker flat = bent(1e-7), little = bent(4e-3), much = bent(0.5);
-    EXPECT_TRUE(beams_of(flat).report.beams->notes.empty());
+    EXPECT_TRUE(beams_of(flat).report.notes.empty());
     const Picture beams = beams_of(little);
-    ASSERT_EQ(beams.report.beams->notes.size(), 1u);
-    EXPECT_NE(beams.report.beams->notes[0].find("off its plane"), std::string::npos);
+    ASSERT_EQ(beams.report.notes.size(), 1u);
+    EXPECT_NE(beams.report.notes[0].find("off its plane"), std::string::npos);
     EXPECT_LE(differing(beams.film, rays_of(little).film, 0.01), 10);  // along its outline
     try {
         (void)beams_of(much);
