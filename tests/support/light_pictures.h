@@ -19,7 +19,7 @@ inline Material matt(const Rgb& color) {
     m.diffuse.color = color;
     return m;
 }
-inline Material glowing(const Rgb& radiance, const Rgb& color = {}) {
+inline Material shining(const Rgb& radiance, const Rgb& color = {}) {
     Material m = matt(color);
     m.emission.color = radiance;
     return m;

@@ -21,7 +21,7 @@ namespace {
 using testing::ball;
 using testing::expect_same_light;
 using testing::floor_from_above;
-using testing::glowing;
+using testing::shining;
 using testing::matt;
 using testing::mean_of;
 using testing::picture_of;
@@ -35,7 +35,7 @@ TEST(LightTransport, ASphereOfLightOverAFloorGivesItsFormFactor) {
         Sphere lamp;
         lamp.center = {0, 0, 2};
         lamp.radius = 0.5;
-        maker.add(lamp, maker.material(glowing({8, 4, 2})));
+        maker.add(lamp, maker.material(shining({8, 4, 2})));
         const Scene scene = maker.compile();
         const Rgb seen = mean_of(picture_of(scene, renderer, 4, 4096));
         // E / (pi L) = (r / d)^2, which hardly changes within the picture.
@@ -61,7 +61,7 @@ TEST(LightTransport, AnIntegratingSphereShowsTheSumOfTheSeries) {
     maker.description().cameras[0].camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1.0);
     Sphere around;
     around.radius = 3;
-    maker.add(around, maker.material(glowing({0.5, 0.5, 0.5}, {0.5, 0.2, 0.8})));
+    maker.add(around, maker.material(shining({0.5, 0.5, 0.5}, {0.5, 0.2, 0.8})));
     const Scene scene = maker.compile();
     for (const char* renderer : {"path_tracing", "bidirectional"}) {
         const Rgb seen = mean_of(picture_of(scene, renderer, 8, 256));
@@ -100,7 +100,7 @@ void add_room(SceneMaker& maker, const Rgb& color) {
 }
 
 void add_lamp(SceneMaker& maker, double half, const Rgb& radiance) {
-    Material lamp = glowing(radiance);
+    Material lamp = shining(radiance);
     lamp.double_sided = false;
     maker.add(rectangle({-half, -half, 1.98}, {0, 2 * half, 0}, {2 * half, 0, 0}),
               maker.material(lamp));
@@ -120,7 +120,7 @@ std::vector<NamedScene> scenes() {
         m.add(ball({0.3, 0, 0.4}, 0.4), m.material(matt({0.8, 0.8, 0.2})));
     });
     room("sphere of light", [](SceneMaker& m) {
-        m.add(ball({0.4, 0.2, 1.2}, 0.2), m.material(glowing({5, 6, 7})));
+        m.add(ball({0.4, 0.2, 1.2}, 0.2), m.material(shining({5, 6, 7})));
     });
     room("point light", [](SceneMaker& m) {
         m.light(
@@ -138,7 +138,7 @@ std::vector<NamedScene> scenes() {
     });
     room("two lamps behind a screen", [](SceneMaker& m) {
         add_lamp(m, 0.2, {6, 6, 6});
-        m.add(ball({-0.5, -0.2, 0.5}, 0.1), m.material(glowing({20, 5, 1})));
+        m.add(ball({-0.5, -0.2, 0.5}, 0.1), m.material(shining({20, 5, 1})));
         m.add(rectangle({-0.4, -0.4, 1.2}, {0.8, 0, 0}, {0, 0.8, 0}),
               m.material(matt({0.4, 0.4, 0.4})));
     });
@@ -147,24 +147,24 @@ std::vector<NamedScene> scenes() {
         disc.center = {0, 0.9, 1};
         disc.normal = {0, -1, 0};
         disc.radius = 0.4;
-        m.add(disc, m.material(glowing({4, 4, 4})));
+        m.add(disc, m.material(shining({4, 4, 4})));
     });
     room("mesh of light", [](SceneMaker& m) {
-        m.add(m.mesh(testing::tetrahedron()), m.material(glowing({9, 9, 3})),
+        m.add(m.mesh(testing::tetrahedron()), m.material(shining({9, 9, 3})),
               Affine::translate({0.2, 0.1, 1.1}) * Affine::scale({0.2, 0.2, 0.2}));
     });
     room("glowing wall", [](SceneMaker& m) {
         m.add(rectangle({-0.9, 0.95, 0.2}, {0.5, 0, 0}, {0, 0, 1.5}),
-              m.material(glowing({2, 3, 4}, {0.5, 0.5, 0.5})));
+              m.material(shining({2, 3, 4}, {0.5, 0.5, 0.5})));
     });
     room("parallel plates", [](SceneMaker& m) {
         m.add(rectangle({-0.8, -0.8, 1.0}, {1.6, 0, 0}, {0, 1.6, 0}),
               m.material(matt({0.9, 0.9, 0.9})));
-        m.add(rectangle({-0.5, -0.5, 0.5}, {0, 1, 0}, {1, 0, 0}), m.material(glowing({3, 3, 3})));
+        m.add(rectangle({-0.5, -0.5, 0.5}, {0, 1, 0}, {1, 0, 0}), m.material(shining({3, 3, 3})));
     });
     room("instances of light", [](SceneMaker& m) {
         const ObjectIndex lamp = m.object("lamp");
-        m.add(ball({0, 0, 0}, 0.1), m.material(glowing({9, 6, 3})), {}, lamp);
+        m.add(ball({0, 0, 0}, 0.1), m.material(shining({9, 6, 3})), {}, lamp);
         m.add(lamp, {}, Affine::translate({-0.5, 0, 1}));
         m.add(lamp, {}, Affine::translate({0.5, 0.2, 1.5}) * Affine::scale({1.5, 0.7, 1}));
     });
@@ -199,7 +199,7 @@ TEST(LightTransport, TheThreeStrategiesAgreeOnThirteenScenes) {
 TEST(LightTransport, APlaneMirrorShowsTheLampBehindIt) {
     for (const char* renderer : {"path_tracing", "bidirectional"}) {
         SceneMaker maker = floor_from_above(0.02);
-        Material lamp = glowing({10, 10, 10});
+        Material lamp = shining({10, 10, 10});
         lamp.double_sided = false;
         maker.add(rectangle({-0.25, -0.25, 2}, {0, 0.5, 0}, {0.5, 0, 0}), maker.material(lamp));
         const Rgb without = mean_of(picture_of(maker.compile(), renderer, 2, 4096));

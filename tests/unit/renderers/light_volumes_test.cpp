@@ -13,7 +13,7 @@ namespace {
 using testing::ball;
 using testing::expect_same_light;
 using testing::floor_from_above;
-using testing::glowing;
+using testing::shining;
 using testing::matt;
 using testing::mean_of;
 using testing::picture_of;
@@ -38,7 +38,7 @@ SceneMaker wall_of_light() {
     SceneMaker maker;
     maker.description().cameras[0].camera =
         OrthographicCamera{{0, 0, 5}, {0, 0, -1}, {0.1, 0, 0}, {0, 0.1, 0}};
-    maker.add(rectangle({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}), maker.material(glowing({1, 1, 1})));
+    maker.add(rectangle({-9, -9, -3}, {18, 0, 0}, {0, 18, 0}), maker.material(shining({1, 1, 1})));
     return maker;
 }
 
@@ -93,7 +93,7 @@ TEST(LightVolumes, ALampInGlassShinesThroughIt) {
     // A small lamp in the middle of a ball: its rays meet the glass straight on.
     const double radius = 0.5, lamp = 0.02, absorption = 1.5, high = 2;
     SceneMaker maker = floor_from_above(0.1);
-    maker.add(ball({0, 0, high}, lamp), maker.material(glowing({100, 100, 100})));
+    maker.add(ball({0, 0, high}, lamp), maker.material(shining({100, 100, 100})));
     maker.add(ball({0, 0, high}, radius), maker.material(glass({absorption, 0, absorption})));
     const Scene scene = maker.compile();
     const double t = std::exp(-absorption * (radius - lamp));
@@ -128,7 +128,7 @@ TEST(LightVolumes, PathsAgreeOnGlassInARoom) {
         maker.add(rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), white);
         maker.add(rectangle({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), white);
         maker.add(rectangle({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}),
-                  maker.material(glowing({1, 2, 3}, {0.5, 0.5, 0.5})));
+                  maker.material(shining({1, 2, 3}, {0.5, 0.5, 0.5})));
         maker.add(ball({0.1, 0, 0.7}, 0.5), maker.material(of_ball));
         return maker.compile();
     };
@@ -142,7 +142,7 @@ TEST(LightVolumes, PathsAgreeOnGlassInARoom) {
 TEST(LightVolumes, ASingleSidedSurfaceBlocksLightFromBothSides) {
     for (const bool turned : {false, true}) {
         SceneMaker maker = floor_from_above(0.2);
-        maker.add(ball({0, 0, 3}, 0.5), maker.material(glowing({9, 9, 9})));
+        maker.add(ball({0, 0, 3}, 0.5), maker.material(shining({9, 9, 9})));
         Material one_sided = matt({0.8, 0.8, 0.8});
         one_sided.double_sided = false;
         const Vec3 x{20, 0, 0}, y{0, 20, 0};
@@ -159,7 +159,7 @@ TEST(LightVolumes, TheEyeSeesThroughTheBackOfASingleSidedSurface) {
     SceneMaker maker = floor_from_above(0.2);
     maker.description().cameras[0].camera =
         OrthographicCamera{{0, 0, 4}, {0, 0, -1}, {0.2, 0, 0}, {0, 0.2, 0}};
-    maker.add(ball({1, 0, 1}, 0.3), maker.material(glowing({9, 9, 9})));
+    maker.add(ball({1, 0, 1}, 0.3), maker.material(shining({9, 9, 9})));
     Material ceiling = matt({0.8, 0.8, 0.8});
     ceiling.double_sided = false;
     maker.add(rectangle({-2, -2, 2}, {0, 4, 0}, {4, 0, 0}), maker.material(ceiling));
@@ -211,7 +211,7 @@ TEST(LightVolumes, LightsThatDoNotFallAreTheSameForAllStrategies) {
 TEST(LightVolumes, WhatLightTracingCannotSampleIsSaid) {
     SceneMaker maker = floor_from_above(0.2);
     Torus ring;
-    maker.add(ring, maker.material(glowing({1, 1, 1})));
+    maker.add(ring, maker.material(shining({1, 1, 1})));
     const Scene scene = maker.compile();
     const SamplingPlan plan;
     Film film(2, 2, {0, 0, 2, 2});
