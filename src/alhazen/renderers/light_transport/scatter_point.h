@@ -60,7 +60,7 @@ class ScatterPoint {
     [[nodiscard]] double importance_correction(const Vec3& direction) const;
 
     /// Whether a volume lies on one of its sides.
-    [[nodiscard]] bool bounds_volume() const { return media_known_ || (transmits() && !thin_); }
+    [[nodiscard]] bool bounds_volume() const { return media_known_ || (bsdf_.lets_through() && !thin_); }
     /// The media beyond the surface, for a path that is transmitted.
     void cross(MediumStack& media) const;
 

@@ -209,4 +209,10 @@ bool Bsdf::transmits() const {
     });
 }
 
+bool Bsdf::lets_through() const {
+    return std::ranges::any_of(parts_, [](const Part& p) {
+        return std::visit([]<class L>(const L&) { return L::kTransmits; }, p.lobe);
+    });
+}
+
 }  // namespace alhazen

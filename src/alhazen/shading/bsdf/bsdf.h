@@ -57,6 +57,8 @@ class Bsdf {
     [[nodiscard]] bool has_density() const;
     /// Whether `value` may be above 0 below the surface.
     [[nodiscard]] bool transmits() const;
+    /// Whether some lobe transmits, singular ones too.
+    [[nodiscard]] bool lets_through() const;
     /// Share that thin sheets let go straight on: what a shadow ray keeps.
     [[nodiscard]] Rgb straight(const Vec3& view) const;
     /// With which `sample` goes straight on through a thin sheet.
