@@ -97,15 +97,24 @@ TEST(LightVolumes, ALampInGlassShinesThroughIt) {
     maker.add(ball({0, 0, high}, lamp), maker.material(shining({100, 100, 100})));
     maker.add(ball({0, 0, high}, radius), maker.material(glass({absorption, 0, absorption})));
     const Scene scene = maker.compile();
-    const double t = std::exp(-absorption * (radius - lamp));
+    // Mean over the matt lamp's directions of exp(-absorption * way), with r = radius:
+    // way = sqrt(r^2 - b^2) - lamp cos, b = lamp sin.
+    double t = 0;
+    constexpr int kAngles = 256;
+    for (int i = 0; i < kAngles; ++i) {
+        const double squared = (i + 0.5) / kAngles;  // of the cosine: even for matt surfaces
+        const double b = lamp * std::sqrt(1 - squared);
+        const double way = std::sqrt(radius * radius - b * b) - lamp * std::sqrt(squared);
+        t += std::exp(-absorption * way) / kAngles;
+    }
     // Reflected light meets the black lamp, and is gone: but for rays that start aslant and pass
     // it.
-    double falls = 0;  // mean of the fourth power of the cosine over the picture
+    double falls = 0;  // mean of the cube of the cosine over the picture
     constexpr int kGrid = 64;
     for (int i = 0; i < kGrid * kGrid; ++i) {
         const double x = kSide * ((i % kGrid + 0.5) / kGrid - 0.5);
         const double y = kSide * ((i / kGrid + 0.5) / kGrid - 0.5);
-        falls += std::pow(1 + (x * x + y * y) / (high * high), -2) / (kGrid * kGrid);
+        falls += std::pow(1 + (x * x + y * y) / (high * high), -1.5) / (kGrid * kGrid);
     }
     const double matt_floor = falls * 100 * (lamp / high) * (lamp / high) * (1 - kStraight);
     const Rgb seen = mean_of(picture_of(scene, "light_tracing", 4, 1 << 14));
