@@ -172,6 +172,13 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
         case AovKind::MaterialId:
         case AovKind::InstanceId:
             return id_picture(crop, *c[0]);
+        case AovKind::Emission:
+        case AovKind::Direct:
+        case AovKind::Indirect:
+        case AovKind::Diffuse:
+        case AovKind::Specular:
+        case AovKind::Transmission:
+            return albedo_picture(crop, c);
         case AovKind::Time:
             return heat_picture(crop, *c[0], kTimeQuantile);
         case AovKind::ErrorBound:
@@ -181,6 +188,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
         case AovKind::PrimitiveTests:
         case AovKind::Unmet:
         case AovKind::RefractionError:
+        case AovKind::LightVariance:
             break;
     }
     return heat_picture(crop, *c[0], 1.0);

@@ -44,6 +44,13 @@ enum class AovKind {
     Time,
     Unmet,
     RefractionError,
+    Emission,
+    Direct,
+    Indirect,
+    Diffuse,
+    Specular,
+    Transmission,
+    LightVariance,
 };
 
 struct AovEntry {

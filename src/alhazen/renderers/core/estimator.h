@@ -29,6 +29,7 @@ concept RadianceEstimator =
 struct SampleId {
     SamplePixel pixel;
     std::uint32_t number = 0;  ///< of the sampler
+    double sign = 1;           ///< of the filter at its place
 };
 
 /// An estimator that draws more than the place in the pixel: `trace_samples(ids, rays, radiance)`

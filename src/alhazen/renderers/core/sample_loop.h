@@ -92,8 +92,10 @@ class SampleLoop {
             const std::span<Vec2> some = std::span(points_).first(std::min(room, round_.count - s));
             round_.sampler.points(place, 0, round_.first + s, some);
             for (std::uint32_t n = round_.first + s; const Vec2& u : some) {
-                if constexpr (SampleEstimator<Estimator>) ids_.push_back({place, n++});
                 const FilterKernel::Drawn drawn = round_.filter.draw(u);
+                if constexpr (SampleEstimator<Estimator>) {
+                    ids_.push_back({place, n++, drawn.sign});
+                }
                 const Vec2 p = film_place(film, place, drawn.offset);
                 if (job_.aovs != nullptr) places_.push_back(p);
                 signs_[gathered_] = drawn.sign;

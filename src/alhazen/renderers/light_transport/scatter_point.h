@@ -33,6 +33,10 @@ class ScatterPoint {
 
     /// value * |cosine| for light from `direction`; singular lobes apart.
     [[nodiscard]] Rgb value(const Vec3& direction, Transport transport) const;
+    /// Share of matt lobes in `value`.
+    [[nodiscard]] Rgb diffuse_share(const Vec3& direction) const {
+        return bsdf_.diffuse_share(local_view_, frame_.to_local(direction));
+    }
     /// With which `sample` gives `direction`.
     [[nodiscard]] double density(const Vec3& direction) const;
     /// With which a path that came from `direction` would go to the view. Only after `set` with
@@ -60,7 +64,9 @@ class ScatterPoint {
     [[nodiscard]] double importance_correction(const Vec3& direction) const;
 
     /// Whether a volume lies on one of its sides.
-    [[nodiscard]] bool bounds_volume() const { return media_known_ || (bsdf_.lets_through() && !thin_); }
+    [[nodiscard]] bool bounds_volume() const {
+        return media_known_ || (bsdf_.lets_through() && !thin_);
+    }
     /// The media beyond the surface, for a path that is transmitted.
     void cross(MediumStack& media) const;
 

@@ -10,7 +10,8 @@
 namespace alhazen {
 
 PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
-                       const Illumination& lights, const PathSettings& settings)
+                       const Illumination& lights, const PathSettings& settings,
+                       LightLayers* layers)
     : job_(job),
       scene_(job.scene),
       lights_(lights),
@@ -19,7 +20,8 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       chance_(job),
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
-      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr) {}
+      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
+      layers_(layers) {}
 
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
@@ -36,15 +38,21 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         path.inside = !path.media.empty();
         rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
     }
+    if (layers_ != nullptr) parts_.assign(rays.size(), {});
     for (bool first = true; !paths_.empty(); first = false) {
         if (job_.stop_requested()) return;
         bounce(radiance, first);
+    }
+    for (std::size_t i = 0; layers_ != nullptr && i < rays.size(); ++i) {
+        layers_->add(ids[i], parts_[i], radiance[i]);
     }
 }
 
 void PathTracer::bounce(std::span<Rgb> radiance, bool first) {
     next_paths_.clear();
     next_rays_.clear();
+    joined_.clear();
+    joined_.reserve(layers_ != nullptr ? paths_.size() : 0);
     for (const EyePath& path : paths_) ++counters_[path.kind].cast;
     visible_.find(
         rays_, first ? Coherence::Coherent : Coherence::Any,
@@ -57,8 +65,27 @@ void PathTracer::bounce(std::span<Rgb> radiance, bool first) {
             meet(path, rays_[k], visible_.reported_hit(), *point, t, sum);
         });
     shadows_.finish();
+    if (layers_ != nullptr) add_joined(radiance);
     paths_.swap(next_paths_);
     rays_.swap(next_rays_);
+}
+
+void PathTracer::add(const EyePath& path, const Rgb& light, Rgb& sum) {
+    const Rgb shown = limited(light, path.scatterings);
+    if (layers_ != nullptr) parts_[path.sample].add(shown, path.scatterings, path.first);
+    sum += shown;
+}
+
+void PathTracer::add_joined(std::span<Rgb> radiance) {
+    for (const JoinedLight& joined : joined_) {
+        parts_[joined.sample].add(joined.light, joined.scatterings, joined.first);
+        radiance[joined.sample] += joined.light;
+    }
+}
+
+FirstScattering PathTracer::first_along(const EyePath& path, const Vec3& direction) const {
+    if (layers_ == nullptr || path.scatterings > 0) return path.first;
+    return {dot(direction, scatter_.geometric()) < 0.0, scatter_.diffuse_share(direction)};
 }
 
 Rgb PathTracer::limited(const Rgb& light, int scatterings) const {
@@ -67,7 +94,7 @@ Rgb PathTracer::limited(const Rgb& light, int scatterings) const {
     return largest > settings_.clamp ? (settings_.clamp / largest) * light : light;
 }
 
-void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) const {
+void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) {
     Rgb light = path.throughput * lights_.environment(ray.direction);
     if (light.is_black()) return;
     if (const Medium* medium = path.media.here(); medium != nullptr) {
@@ -77,7 +104,7 @@ void PathTracer::escape(const EyePath& path, const Ray& ray, Rgb& sum) const {
         const double other = lights_.environment_density(path.from, ray.direction);
         light = power_heuristic(path.density, other) * light;
     }
-    sum += limited(light, path.scatterings);
+    add(path, light, sum);
 }
 
 void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point,
@@ -101,7 +128,7 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
 }
 
 void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
-                              const ShadingPoint& point, Rgb& sum) const {
+                              const ShadingPoint& point, Rgb& sum) {
     const Rgb& emission = point.material->emission;
     if (emission.is_black()) return;
     Rgb light = path.throughput * emission;
@@ -111,7 +138,7 @@ void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hi
         const double other = lights_.density(path.from, ray, hit, point.surface, path.travelled);
         light = power_heuristic(path.density, other) * light;
     }
-    sum += limited(light, path.scatterings);
+    add(path, light, sum);
 }
 
 void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum) {
@@ -130,11 +157,18 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
     MediumStack media = path.media;
     if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
     const Medium* const medium = media.here();
+    const int scatterings = path.scatterings + 1;
+    Rgb* to = &sum;
+    if (layers_ != nullptr) {
+        to = &joined_
+                  .emplace_back(JoinedLight{path.sample, scatterings,
+                                            first_along(path, drawn.to_light), Rgb{}})
+                  .light;
+    }
     // The light itself does not block its ray.
     constexpr double kBefore = 1.0 - 1e-7;
     shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
-                 medium != nullptr ? medium->absorption : Rgb{},
-                 limited(light, path.scatterings + 1), sum);
+                 medium != nullptr ? medium->absorption : Rgb{}, limited(light, scatterings), *to);
 }
 
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
@@ -143,6 +177,10 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
     const std::optional<Scattered> drawn = scatter_.sample(choices.x, u, Transport::Radiance);
     if (!drawn || drawn->weight.is_black()) return;
     path.throughput = path.throughput * drawn->weight;
+    if (layers_ != nullptr && path.scatterings == 0 && !drawn->straight) {
+        path.first = first_along(path, drawn->direction);
+        if (drawn->singular) path.first.diffuse = {};
+    }
     ++path.drawn;
     if (drawn->straight) {
         // Shadow rays pass thin sheets, too: the densities remain those of the last scattering.

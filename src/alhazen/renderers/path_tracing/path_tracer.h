@@ -9,6 +9,7 @@
 #include "alhazen/renderers/core/visible_batch.h"
 #include "alhazen/renderers/light_transport/camera_rays.h"
 #include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/light_layers.h"
 #include "alhazen/renderers/light_transport/path_chance.h"
 #include "alhazen/renderers/light_transport/path_settings.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
@@ -34,26 +35,40 @@ struct EyePath {
     LitPoint from;         ///< the last scattering
     double travelled = 0;  ///< since then
     MediumStack media;
+    FirstScattering first;  ///< only where layers of light are wanted
 };
 
 class PathTracer {
   public:
     PathTracer(const RenderJob& job, std::size_t, RayCounters& counters, const Illumination& lights,
-               const PathSettings& settings);
+               const PathSettings& settings, LightLayers* layers);
 
     /// `rays`: those through the centre of the lens.
     void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                        std::span<Rgb> radiance);
 
   private:
+    /// Light that a shadow ray may bring, for the layers.
+    struct JoinedLight {
+        std::uint32_t sample;
+        int scatterings;
+        FirstScattering first;
+        Rgb light;
+    };
+
     void bounce(std::span<Rgb> radiance, bool first);
-    void escape(const EyePath& path, const Ray& ray, Rgb& sum) const;
+    /// Adds light at the end of a path to its sample.
+    void add(const EyePath& path, const Rgb& light, Rgb& sum);
+    void add_joined(std::span<Rgb> radiance);
+    void escape(const EyePath& path, const Ray& ray, Rgb& sum);
     void meet(EyePath& path, const Ray& ray, const Hit& hit, const ShadingPoint& point, double t,
               Rgb& sum);
     void add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
-                      const ShadingPoint& point, Rgb& sum) const;
+                      const ShadingPoint& point, Rgb& sum);
     void add_direct_light(const EyePath& path, const ShadingPoint& point, Rgb& sum);
     void scatter(EyePath& path, const ShadingPoint& point);
+    /// What a scattering along `direction` does with light, where it is the first.
+    [[nodiscard]] FirstScattering first_along(const EyePath& path, const Vec3& direction) const;
     [[nodiscard]] bool survives(EyePath& path);
     void go_on(const EyePath& path, const Ray& ray) {
         next_paths_.push_back(path);
@@ -72,6 +87,9 @@ class PathTracer {
     VisibleBatch visible_;
     LightBatch shadows_;
     ScatterPoint scatter_;
+    LightLayers* layers_;            ///< null: none is wanted
+    std::vector<LightParts> parts_;  ///< [sample of the batch]
+    std::vector<JoinedLight> joined_;
     std::span<const SampleId> ids_;
     std::vector<EyePath> paths_, next_paths_;
     std::vector<Ray> rays_, next_rays_;

@@ -1,8 +1,11 @@
 #include "alhazen/renderers/path_tracing/path_tracing.h"
 
+#include <optional>
+
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
+#include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/path_tracing/path_tracer.h"
 
 namespace alhazen {
@@ -14,16 +17,18 @@ constexpr std::size_t kSamplesAtOnce = 1024;
 
 class PathTiles final : public TiledRenderer {
   public:
-    PathTiles(const Illumination& lights, const PathSettings& settings)
-        : lights_(lights), settings_(settings) {}
+    PathTiles(const Illumination& lights, const PathSettings& settings, LightLayers* layers)
+        : lights_(lights), settings_(settings), layers_(layers) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override {
-        return std::make_unique<RoundRenderer<PathTracer>>(job, kSamplesAtOnce, lights_, settings_);
+        return std::make_unique<RoundRenderer<PathTracer>>(job, kSamplesAtOnce, lights_, settings_,
+                                                           layers_);
     }
 
   private:
     const Illumination& lights_;
     PathSettings settings_;
+    LightLayers* layers_;
 };
 
 }  // namespace
@@ -34,7 +39,17 @@ RenderReport PathTracing::render(const RenderJob& job, Film& film) const {
 
 RenderReport trace_paths(const RenderJob& job, const Illumination& lights,
                          const PathSettings& settings, Film& film) {
-    return render_in_rounds(PathTiles(lights, settings), with_plan(job), film);
+    const RenderJob planned = with_plan(job);
+    std::optional<LightLayers> layers;
+    if (job.aovs != nullptr && LightLayers::has_any(job.aovs->wanted())) {
+        const SamplingPlan& plan = *planned.sampling;
+        layers.emplace(film.crop(), job.aovs->wanted(),
+                       FilterKernel(*plan.filter, plan.radius).mean_sign());
+    }
+    const PathTiles tiles(lights, settings, layers ? &*layers : nullptr);
+    RenderReport report = render_in_rounds(tiles, planned, film);
+    if (layers) layers->write(*job.aovs);
+    return report;
 }
 
 }  // namespace alhazen

@@ -40,6 +40,11 @@ double density_of(const Lobe& lobe, const Vec3& view, const Vec3& direction) {
         lobe);
 }
 
+bool is_matt(const Lobe& lobe) {
+    return std::holds_alternative<Lambert>(lobe) || std::holds_alternative<OrenNayar>(lobe) ||
+           std::holds_alternative<CoveredMatt>(lobe) ||
+           std::holds_alternative<LambertTransmission>(lobe);
+}
 /// NaN and infinities count as nothing.
 bool is_usable(const Rgb& weight) {
     return weight.is_finite() && weight.max() > 0.0;
@@ -108,10 +113,23 @@ Bsdf::Choice Bsdf::choose(const Vec3& view) const {
 }
 
 Rgb Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport) const {
+    return value(view, direction, transport, false);
+}
+
+Rgb Bsdf::diffuse_share(const Vec3& view, const Vec3& direction) const {
+    const Rgb all = value(view, direction, Transport::Radiance, false);
+    const Rgb matt = value(view, direction, Transport::Radiance, true);
+    const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
+    return {share(matt.r, all.r), share(matt.g, all.g), share(matt.b, all.b)};
+}
+
+Rgb Bsdf::value(const Vec3& view, const Vec3& direction, Transport transport,
+                bool only_matt) const {
     if (!(view.z > 0.0) || direction.z == 0.0) return {};
     const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
     Rgb sum;
     for (const Part& part : parts_) {
+        if (only_matt && !is_matt(part.lobe)) continue;
         const Rgb value = part.weight * value_of(part.lobe, view, direction, transport);
         if (!is_usable(value)) continue;
         sum += part.covers != 0 ? through(part.covers, cosine) * value : value;

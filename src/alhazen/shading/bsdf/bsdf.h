@@ -45,6 +45,8 @@ class Bsdf {
 
     /// Per steradian, without singular lobes.
     [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport) const;
+    /// Share of matt lobes in `value`; 0 where that is black.
+    [[nodiscard]] Rgb diffuse_share(const Vec3& view, const Vec3& direction) const;
     /// With which `sample(view)` gives `direction`, by solid angle, without singular lobes. (A
     /// sample's own density is this.)
     [[nodiscard]] double density(const Vec3& view, const Vec3& direction) const;
@@ -71,6 +73,9 @@ class Bsdf {
         CoverSet covers = 0;
         Lobe lobe;
     };
+    /// `value` of the lobes that are matt, or of all.
+    [[nodiscard]] Rgb value(const Vec3& view, const Vec3& direction, Transport transport,
+                            bool only_matt) const;
     /// Probabilities of the parts, for a view.
     struct Choice {
         std::array<double, kMaxLobes> share;

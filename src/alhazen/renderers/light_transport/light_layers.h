@@ -1,0 +1,84 @@
+#pragma once
+/// The light of pixels by the way on which it came to the eye, as layers of the picture.
+///
+/// Source: Lafortune, "Mathematical Models and Monte Carlo Algorithms for Physically Based
+/// Rendering", 1996 (light by the number and kind of its scatterings); the names are those of
+/// compositing programs.
+/// Conventions: emission, direct and indirect light (no, one, more scatterings) sum to the picture,
+/// and so do emission, diffuse, specular and transmitted light, by the first scattering from the
+/// eye. What goes straight through thin sheets and cut-outs is not scattered there. The variance is
+/// that of the mean of a pixel whose samples are independent.
+/// Threads: `add` may be called at the same time for different pixels.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "alhazen/imaging/film/sample_sum.h"
+#include "alhazen/renderers/core/aov.h"
+#include "alhazen/renderers/core/estimator.h"
+
+namespace alhazen {
+
+/// What the first scattering from the eye did with light.
+struct FirstScattering {
+    bool transmitted = false;
+    Rgb diffuse{};  ///< share of matt lobes in what was reflected
+};
+
+/// The light of one sample.
+struct LightParts {
+    Rgb emission;
+    struct Scattered {
+        Rgb diffuse, specular, transmitted;
+        void add(const Rgb& light, const FirstScattering& first) {
+            if (first.transmitted) {
+                transmitted += light;
+            } else {
+                diffuse += first.diffuse * light;
+                specular += light - first.diffuse * light;
+            }
+        }
+        [[nodiscard]] Rgb sum() const { return diffuse + specular + transmitted; }
+    };
+    Scattered direct, indirect;
+
+    /// `scatterings`: of the light on its way.
+    void add(const Rgb& light, int scatterings, const FirstScattering& first) {
+        if (scatterings == 0) {
+            emission += light;
+        } else {
+            (scatterings == 1 ? direct : indirect).add(light, first);
+        }
+    }
+};
+
+class LightLayers {
+  public:
+    /// `mean_sign`: of the filter.
+    LightLayers(const PixelBox& crop, const AovSet& wanted, double mean_sign);
+
+    /// Whether any of them is wanted.
+    [[nodiscard]] static bool has_any(const AovSet& wanted);
+
+    void add(const SampleId& id, const LightParts& parts, const Rgb& radiance);
+    void write(AovFilm& film) const;
+
+  private:
+    /// Sums over the samples of each pixel of the crop.
+    struct Layer {
+        AovKind kind;
+        std::vector<Rgb> plain;
+        std::vector<Rgb> with_signs;  ///< empty: all signs are 1
+        std::vector<Rgb> squares;     ///< of LightVariance
+    };
+    [[nodiscard]] SampleSum sum_of(const Layer& layer, std::size_t pixel) const;
+
+    PixelBox crop_;
+    double mean_sign_;
+    std::vector<Layer> layers_;
+    std::vector<double> signs_;  ///< [pixel] sums; empty: all are 1
+    std::vector<std::uint32_t> counts_;
+};
+
+}  // namespace alhazen
