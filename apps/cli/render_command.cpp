@@ -154,6 +154,7 @@ void complete(const RenderArguments& args, const RenderOptions& options, LoadedS
     framing.camera = options.camera;
     framing.aspect = free_aspect(loaded.description.picture, options);
     framing.follows_light = follows_light(options.renderer);
+    framing.nothing_around = args.environment == "none";
     for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {
         if (!args.quiet) tell("{}\n", note);
     }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "alhazen/base/error.h"
@@ -72,6 +71,8 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
     if (text == "none") {
         loaded.description.environment.reset();
         loaded.scene.environment = nullptr;
+        loaded.description.picture.background.reset();
+        loaded.scene.background = {};
         return {};
     }
     if (!text.empty()) {
@@ -85,9 +86,7 @@ std::vector<std::string> set_environment(LoadedScene& loaded, const std::string&
     }
     const Scene& scene = loaded.scene;
     const bool dark = !scene.environment && scene.background.is_black() &&
-                      lacks_light(loaded.description, scene) &&
-                      std::none_of(scene.materials.begin(), scene.materials.end(),
-                                   [](const Material& m) { return !m.emission.color.is_black(); });
+                      lacks_light(loaded.description, scene) && !glows(scene);
     if (!dark || !follows_light(renderer)) return {};
     EnvironmentSettings studio;
     studio.kind = EnvironmentKind::Studio;

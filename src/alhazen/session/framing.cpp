@@ -287,6 +287,11 @@ PerspectiveCamera framing_camera(const Box3& box, UpAxis up_axis, const ViewAngl
                           });
 }
 
+bool glows(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& m) { return !m.emission.color.is_black(); });
+}
+
 bool lacks_light(const SceneDescription& description, const Scene& scene) {
     return scene.lights.empty() && description.conventions.importing.headlight &&
            !shows_without_light(scene);
@@ -307,7 +312,8 @@ std::vector<std::string> complete_view(SceneDescription& description, Scene& sce
                             view.azimuth_deg, view.elevation_deg));
         }
     }
-    if (options.follows_light && scene.environment) return notes;
+    if (options.nothing_around) return notes;
+    if (options.follows_light && (scene.environment || glows(scene))) return notes;
     if (lacks_light(description, scene)) {
         const Light light = headlight(find_camera(scene, options.camera).camera);
         description.lights.push_back({"headlight", light, {}});

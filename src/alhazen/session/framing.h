@@ -45,9 +45,13 @@ struct FramingOptions {
     std::string camera;              ///< the selected camera; empty: the first
     double aspect = 4.0 / 3.0;       ///< width / height of the picture
     bool follows_light = false;      ///< of the renderer: an environment lights the scene
+    bool nothing_around = false;     ///< neither lights nor surroundings are added
 };
 
-/// True where `complete_view` adds a light, unless an environment is enough.
+/// Whether a material of the scene emits light.
+[[nodiscard]] bool glows(const Scene& scene);
+
+/// True where `complete_view` adds a light, unless an environment or emitting materials are enough.
 [[nodiscard]] bool lacks_light(const SceneDescription& description, const Scene& scene);
 
 /// Adds a camera and a light to both, where they have none, and a grey background where a light was

@@ -39,6 +39,29 @@ TEST(EnvironmentOption, ASceneWithoutLightGetsTheStudioWhereLightIsFollowed) {
     EXPECT_EQ(complete_view(loaded.description, loaded.scene, {}).size(), 1u);
 }
 
+TEST(EnvironmentOption, ASceneThatGlowsGetsNothingWhereLightIsFollowed) {
+    SceneMaker maker;
+    Material lamp;
+    lamp.emission.color = {3, 2, 1};
+    maker.add(Sphere{}, maker.material(lamp));
+    LoadedScene loaded;
+    loaded.scene = maker.compile();
+    loaded.description = maker.description();
+    loaded.description.conventions.importing.headlight = true;
+    EXPECT_TRUE(set_environment(loaded, "", "path_tracing", {}).empty());
+    EXPECT_TRUE(complete_view(loaded.description, loaded.scene, {.follows_light = true}).empty());
+    EXPECT_TRUE(loaded.scene.lights.empty());
+    EXPECT_TRUE(loaded.scene.background.is_black());
+}
+
+TEST(EnvironmentOption, NoneAddsNothing) {
+    LoadedScene loaded = loaded_ball();
+    EXPECT_TRUE(set_environment(loaded, "none", "path_tracing", {}).empty());
+    const FramingOptions none{.follows_light = true, .nothing_around = true};
+    EXPECT_TRUE(complete_view(loaded.description, loaded.scene, none).empty());
+    EXPECT_TRUE(loaded.scene.lights.empty());
+}
+
 TEST(EnvironmentOption, ASceneWithALightKeepsItsOwn) {
     SceneMaker maker;
     maker.add(Sphere{});
