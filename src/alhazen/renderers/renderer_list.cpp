@@ -11,6 +11,7 @@
 #include "alhazen/renderers/lane_carpenter/lane_carpenter.h"
 #include "alhazen/renderers/light_tracing/light_tracing.h"
 #include "alhazen/renderers/path_tracing/path_tracing.h"
+#include "alhazen/renderers/photon_mapping/photon_mapping.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
 #include "alhazen/renderers/whitted/whitted.h"
 
@@ -58,6 +59,25 @@ std::unique_ptr<Renderer> make_path_tracing(RendererSettings& settings) {
     return std::make_unique<PathTracing>(paths);
 }
 
+std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
+    PhotonMappingSettings photons;
+    const auto count = [&](const char* name, std::uint64_t fallback, double least) {
+        const double n = settings.number(name, static_cast<double>(fallback), least,
+                                         PhotonMappingSettings::kMostPhotons);
+        return static_cast<std::uint64_t>(n);
+    };
+    photons.photons = count("photons", photons.photons, 1.0);
+    photons.caustics = count("caustics", photons.caustics, 0.0);
+    photons.nearest = settings.whole("nearest", photons.nearest, 2, 1 << 20);
+    photons.radius = settings.number("radius", photons.radius, 0.0, 1e30);
+    photons.filter = static_cast<DensityFilter>(
+        settings.choice("filter", static_cast<std::size_t>(photons.filter), kDensityFilterNames));
+    photons.gather = settings.whole("gather", photons.gather, 0, 1 << 16);
+    photons.memory = settings.number("memory", photons.memory, 1.0, 1e6);
+    photons.paths = path_settings(settings);
+    return std::make_unique<PhotonMapping>(photons);
+}
+
 std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
     static constexpr const char* kSort[] = {"tree", "list"};
     static constexpr const char* kHulls[] = {"off", "on"};
@@ -72,7 +92,7 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 11> table{{
+    static constexpr std::array<RendererEntry, 12> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"distributed",
@@ -92,6 +112,12 @@ std::span<const RendererEntry> renderers() {
          "all light by random paths from the eye, lights sampled at each surface (Kajiya 1986, "
          "Veach 1997); depth=N, roulette=N, clamp=X",
          [](RendererSettings& settings) { return make_path_tracing(settings); }},
+        {"photon_mapping",
+         "all light by photons from the lights, kept in maps, and shadow rays (Jensen 1996); "
+         "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
+         "filter=disc|cone|gauss, gather=N (rays of the final gathering), memory=MB, depth=N, "
+         "roulette=N",
+         [](RendererSettings& settings) { return make_photon_mapping(settings); }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());

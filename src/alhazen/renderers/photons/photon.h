@@ -1,0 +1,90 @@
+#pragma once
+/// Light that has arrived at a surface, in 32 bytes.
+///
+/// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 4 (a compact
+/// photon); Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+/// JCGT 3(2), 2014 (octahedral vectors).
+/// Differs: three floats of power instead of a shared exponent; the normal of the surface, so that
+/// light of a wall is not taken for light of the wall behind it.
+/// Conventions: world space; directions within 10^-4 rad of what was stored, positions rounded to
+/// floats.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "alhazen/imaging/image/rgb.h"
+#include "alhazen/math/vec.h"
+
+namespace alhazen {
+
+/// A unit vector in 32 bits.
+class OctahedralVector {
+  public:
+    OctahedralVector() = default;
+    explicit OctahedralVector(const Vec3& v) {
+        const double sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+        double x = v.x / sum, y = v.y / sum;
+        if (v.z < 0.0) {
+            const double folded = (1.0 - std::abs(y)) * sign(x);
+            y = (1.0 - std::abs(x)) * sign(y);
+            x = folded;
+        }
+        x_ = rounded(x);
+        y_ = rounded(y);
+    }
+    [[nodiscard]] Vec3 vector() const {
+        double x = x_ / kScale, y = y_ / kScale;
+        const double z = 1.0 - std::abs(x) - std::abs(y);
+        if (z < 0.0) {
+            const double folded = (1.0 - std::abs(y)) * sign(x);
+            y = (1.0 - std::abs(x)) * sign(y);
+            x = folded;
+        }
+        return normalize(Vec3{x, y, z});
+    }
+
+  private:
+    static constexpr double kScale = 32767.0;
+    [[nodiscard]] static double sign(double v) { return v < 0.0 ? -1.0 : 1.0; }
+    [[nodiscard]] static std::int16_t rounded(double v) {
+        return static_cast<std::int16_t>(std::lround(std::clamp(v, -1.0, 1.0) * kScale));
+    }
+
+    std::int16_t x_ = 0, y_ = 0;
+};
+
+struct Photon {
+    std::array<float, 3> position{};
+    std::array<float, 3> power{};  ///< that arrives
+    OctahedralVector from;         ///< towards where it came from
+    OctahedralVector normal;       ///< geometric, on that side
+
+    [[nodiscard]] Vec3 point() const { return {position[0], position[1], position[2]}; }
+    [[nodiscard]] Rgb light() const { return {power[0], power[1], power[2]}; }
+};
+static_assert(sizeof(Photon) == 32);
+
+/// What a photon met between its light and the surface.
+enum class PhotonKind : std::uint8_t {
+    Direct,    ///< nothing
+    Caustic,   ///< mirrors and smooth glass only
+    Indirect,  ///< something that scatters with a density
+};
+
+/// A set of kinds.
+class PhotonKinds {
+  public:
+    constexpr PhotonKinds() = default;
+    constexpr PhotonKinds(std::initializer_list<PhotonKind> kinds) {
+        for (const PhotonKind kind : kinds) bits_ |= bit(kind);
+    }
+    [[nodiscard]] constexpr bool has(PhotonKind kind) const { return (bits_ & bit(kind)) != 0; }
+
+  private:
+    static constexpr unsigned bit(PhotonKind kind) { return 1u << static_cast<unsigned>(kind); }
+    unsigned bits_ = 0;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,77 @@
+#pragma once
+/// The light that a surface scatters, from the density of the photons around a point of it.
+///
+/// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 5 (n nearest), and
+/// "Realistic Image Synthesis Using Photon Mapping", 2001, section 7 (cone and gauss filter).
+/// Differs: of the n nearest the farthest bounds the disc and is not counted, for n in the disc
+/// that ends with the n-th are too many by n / (n - 1). All filters are divided by their mean over
+/// the disc (that of Jensen's gauss filter is 0.531). Photons of surfaces that face elsewhere are
+/// left out.
+/// Conventions: of photons that stand for flux; at a border of the surface the disc still counts as
+/// a whole.
+
+#include <cmath>
+#include <vector>
+
+#include "alhazen/renderers/light_transport/scatter_point.h"
+#include "alhazen/renderers/photons/photon_tree.h"
+
+namespace alhazen {
+
+/// How photons count by their distance.
+enum class DensityFilter : std::uint8_t { Disc, Cone, Gauss };
+inline constexpr const char* kDensityFilterNames[] = {"disc", "cone", "gauss"};
+
+/// Of a photon whose squared distance is `share` of that of the border. The mean over the disc is
+/// 1.
+[[nodiscard]] double filter_weight(DensityFilter filter, double share);
+
+/// Whether a photon arrived at a surface like that at hand.
+class PhotonFits {
+  public:
+    explicit PhotonFits(const ScatterPoint& at)
+        : normal_(at.geometric()), both_sides_(at.transmits()) {}
+    [[nodiscard]] bool operator()(const Photon& photon) const {
+        constexpr double kLeast = 0.5;  // 60 degrees
+        const double facing = dot(photon.normal.vector(), normal_);
+        return facing > kLeast || (both_sides_ && facing < -kLeast);
+    }
+
+  private:
+    Vec3 normal_;
+    bool both_sides_;
+};
+
+/// Directions that a BSDF samples with a greater density are followed from the eye: no photons are
+/// looked at for them. Of a matt surface the greatest is 1 / pi.
+inline constexpr double kGlossyDensity = 1.0;
+
+/// Which of the light that a point scatters is asked for.
+enum class LightPart : std::uint8_t { All, NotGlossy };
+
+/// Radiance towards the view for the light of a photon, of unit density by area.
+[[nodiscard]] Rgb scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part);
+
+/// A tree of photons and how it is looked at.
+struct PhotonMap {
+    PhotonTree tree;
+    std::size_t nearest = 1;  ///< photons at most, at least 2
+    double radius = 0;        ///< at most
+    DensityFilter filter = DensityFilter::Disc;
+};
+
+/// A radius that finds enough photons at most places of the map: twice that within which nine of
+/// ten photons have `nearest` others. 0 of an empty tree.
+[[nodiscard]] double usual_radius(const PhotonTree& tree, std::size_t nearest);
+
+/// Estimates of one thread.
+class PhotonDensity {
+  public:
+    [[nodiscard]] Rgb radiance(const PhotonMap& map, const ScatterPoint& at, const Vec3& point,
+                               LightPart part);
+
+  private:
+    std::vector<PhotonTree::Near> found_;
+};
+
+}  // namespace alhazen

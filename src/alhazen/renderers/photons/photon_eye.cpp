@@ -1,0 +1,123 @@
+#include "alhazen/renderers/photons/photon_eye.h"
+
+#include <algorithm>
+
+#include "alhazen/renderers/light_transport/power_heuristic.h"
+#include "alhazen/renderers/photons/photon_density.h"
+
+namespace alhazen {
+
+PhotonEye::PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
+                     const PathSettings& settings)
+    : job_(job),
+      scene_(job.scene),
+      counters_(counters),
+      settings_(settings),
+      lights_(lights),
+      chance_(job),
+      camera_(job),
+      next_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
+      shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr) {}
+
+void PhotonEye::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
+                              std::span<Rgb> radiance) {
+    // Shadow rays are cast together, and their light is added last, whatever the batch.
+    direct_.assign(rays.size(), {});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (job_.stop_requested()) return;
+        trace(ids[i], rays[i], radiance[i], direct_[i]);
+    }
+    shadows_.finish();
+    for (std::size_t i = 0; i < rays.size(); ++i) radiance[i] += direct_[i];
+}
+
+void PhotonEye::trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct) {
+    PathEnd path;
+    path.time = camera_.time(chance_, id);
+    path.cone = job_.cone;
+    path.ray = camera_.through_lens(chance_, id, ray, path.time);
+    PathNumbers numbers{job_.round->seed, id.pixel.id(), id.number};
+    Last last;
+    for (int scatterings = 0;; ++scatterings) {
+        if (!next_.find(path, numbers)) {
+            sum += escaped(path, last);
+            return;
+        }
+        const ShadingPoint& point = next_.point();
+        sum += emitted(path, last);
+        if (point.material->unlit || scatterings >= settings_.depth) return;
+        scatter_.set(scene_, point, path.media);
+        if (scatter_.has_density()) {
+            add_direct_light(id, scatterings, path, direct);
+            const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(scatterings) + 1,
+                                  numbers.path, numbers.part};
+            sum += path.throughput * photon_light({point.surface, scatter_, path, own});
+        }
+        const auto drawn = scatter_.sample(chance_.draw(id, scatterings, PathChance::kChoices).x,
+                                           chance_.draw(id, scatterings, PathChance::kDirection),
+                                           Transport::Radiance);
+        if (!drawn || drawn->weight.is_black()) return;
+        if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
+        if (!drawn->straight) {
+            last.singular = drawn->singular;
+            last.density = drawn->density;
+            last.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};
+            last.eta_scale *= drawn->transmitted ? drawn->eta * drawn->eta : 1.0;
+        }
+        NextSurface::go_on(path, point.surface, scatter_, *drawn);
+        if (!survives(path, last, id, scatterings)) return;
+    }
+}
+
+Rgb PhotonEye::escaped(const PathEnd& path, const Last& last) const {
+    const Rgb light = path.throughput * lights_.environment(path.ray.direction);
+    if (light.is_black() || last.singular) return light;
+    const double other = lights_.environment_density(last.from, path.ray.direction);
+    return power_heuristic(last.density, other) * light;
+}
+
+Rgb PhotonEye::emitted(const PathEnd& path, const Last& last) const {
+    const ShadingPoint& point = next_.point();
+    const Rgb light = path.throughput * point.material->emission;
+    if (light.is_black() || last.singular) return light;
+    // What shows its colour whatever the light is no lamp.
+    if (point.material->unlit) return {};
+    const double other =
+        lights_.density(last.from, path.ray, next_.hit(), point.surface, path.travelled);
+    return power_heuristic(last.density, other) * light;
+}
+
+void PhotonEye::add_direct_light(const SampleId& id, int scatterings, const PathEnd& path,
+                                 Rgb& direct) {
+    const ShadingPoint& point = next_.point();
+    const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
+    const LightDraw drawn = lights_.draw(at, chance_.draw(id, scatterings, PathChance::kChoices).y,
+                                         chance_.draw(id, scatterings, PathChance::kLight));
+    if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
+    const Rgb light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
+    if (light.is_black()) return;
+    double weight = 1.0 / drawn.density;
+    const double other = drawn.singular ? 0.0 : scatter_.density(drawn.to_light);
+    if (other > kGlossyDensity) weight *= power_heuristic(drawn.density, other);
+    MediumStack media = path.media;
+    if (dot(drawn.to_light, scatter_.geometric()) < 0.0) scatter_.cross(media);
+    const Medium* const medium = media.here();
+    // The light itself does not block its ray.
+    constexpr double kBefore = 1.0 - 1e-7;
+    shadows_.add(leaving_ray(point.surface, drawn.to_light, kBefore * drawn.distance), path.time,
+                 medium != nullptr ? medium->absorption : Rgb{}, path.throughput * (weight * light),
+                 direct);
+}
+
+bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id,
+                         int scatterings) const {
+    if (!path.throughput.is_finite()) return false;
+    if (scatterings < settings_.roulette) return true;
+    constexpr double kMost = 0.95;
+    const double share = std::min(kMost, last.eta_scale * path.throughput.max());
+    if (!(chance_.draw(id, scatterings, PathChance::kLuck).x < share)) return false;
+    path.throughput = (1.0 / share) * path.throughput;
+    return true;
+}
+
+}  // namespace alhazen

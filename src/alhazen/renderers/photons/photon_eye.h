@@ -1,0 +1,78 @@
+#pragma once
+/// Paths from the eye for renderers with photons: mirrors, smooth glass and glossy directions are
+/// followed, lights are sampled, and all other light is that of photons.
+///
+/// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 5 (the four parts of
+/// the light that a surface scatters).
+/// Differs: glossy is a direction, not a surface: where the BSDF samples it with more than
+/// kGlossyDensity. Direct light of those is weighed by the power heuristic, as both ways find it.
+/// Conventions: pairs of dimensions as in light_transport/path_chance.h. A pixel depends neither on
+/// the threads nor on tiles. Emitters that are left to chance (illumination.h) are seen, and light
+/// nothing.
+/// Threads: used by one thread.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/renderers/light_transport/camera_rays.h"
+#include "alhazen/renderers/light_transport/light_batch.h"
+#include "alhazen/renderers/light_transport/path_settings.h"
+#include "alhazen/renderers/photons/next_surface.h"
+
+namespace alhazen {
+
+/// A surface that is looked at.
+struct SeenPoint {
+    const ShapeSurface& surface;
+    const ScatterPoint& scatter;
+    const PathEnd& path;  ///< that arrived
+    PathNumbers numbers;  ///< for what is drawn there
+};
+
+class PhotonEye {
+  public:
+    PhotonEye(const RenderJob& job, RayCounters& counters, const Illumination& lights,
+              const PathSettings& settings);
+    virtual ~PhotonEye() = default;
+    PhotonEye(const PhotonEye&) = delete;
+    PhotonEye& operator=(const PhotonEye&) = delete;
+
+    /// `rays`: those through the centre of the lens.
+    void trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
+                       std::span<Rgb> radiance);
+
+  protected:
+    /// The radiance that the point scatters, without direct light and glossy directions.
+    [[nodiscard]] virtual Rgb photon_light(const SeenPoint& at) = 0;
+
+    const RenderJob& job_;
+    const Scene& scene_;
+    RayCounters& counters_;
+    const PathSettings settings_;
+
+  private:
+    /// The state of a path besides its end.
+    struct Last {
+        bool singular = true;  ///< the last scattering: no light is sampled for it
+        double density = 0;
+        LitPoint from;
+        double eta_scale = 1;
+    };
+    void trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct);
+    [[nodiscard]] Rgb escaped(const PathEnd& path, const Last& last) const;
+    [[nodiscard]] Rgb emitted(const PathEnd& path, const Last& last) const;
+    void add_direct_light(const SampleId& id, int scatterings, const PathEnd& path, Rgb& direct);
+    [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,
+                                int scatterings) const;
+
+    const Illumination& lights_;
+    PathChance chance_;
+    CameraRays camera_;
+    NextSurface next_;
+    LightBatch shadows_;
+    ScatterPoint scatter_;
+    std::vector<Rgb> direct_;  ///< [sample]
+};
+
+}  // namespace alhazen

@@ -1,0 +1,92 @@
+#include "alhazen/renderers/photons/photon_tree.h"
+
+#include <bit>
+#include <numeric>
+
+#include "alhazen/parallel/parallel.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Subtrees from this size on are built at the same time.
+constexpr std::size_t kLargeSubtree = 1u << 14;
+
+int longest_axis(std::span<const std::uint32_t> order, std::span<const Photon> photons) {
+    std::array<float, 3> low = photons[order[0]].position, high = low;
+    for (const std::uint32_t i : order) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], photons[i].position[k]);
+            high[k] = std::max(high[k], photons[i].position[k]);
+        }
+    }
+    int longest = 0;
+    double side = -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double own = static_cast<double>(high[k]) - static_cast<double>(low[k]);
+        if (own > side) {
+            side = own;
+            longest = static_cast<int>(k);
+        }
+    }
+    return longest;
+}
+
+/// photons[i] = what photons[from[i]] was; `from` is a permutation, and is the identity after.
+void permute(std::vector<Photon>& photons, std::vector<std::uint32_t>& from) {
+    for (std::uint32_t start = 0; start < from.size(); ++start) {
+        const Photon first = photons[start];
+        std::uint32_t at = start;
+        while (from[at] != start) {
+            const std::uint32_t next = from[at];
+            photons[at] = photons[next];
+            from[at] = at;
+            at = next;
+        }
+        photons[at] = first;
+        from[at] = at;
+    }
+}
+
+}  // namespace
+
+std::size_t left_subtree_size(std::size_t count) {
+    if (count <= 1) return 0;
+    const std::size_t half = std::bit_floor(count) / 2;  // places of the last level, on the left
+    const std::size_t last = count - (std::bit_floor(count) - 1);
+    return half - 1 + std::min(last, half);
+}
+
+PhotonTree::PhotonTree(std::vector<Photon> photons)
+    : photons_(std::move(photons)), axes_(photons_.size()) {
+    std::vector<std::uint32_t> order(photons_.size()), nodes(photons_.size());
+    std::iota(order.begin(), order.end(), 0u);
+    build(order, 0, nodes);
+    permute(photons_, nodes);
+}
+
+void PhotonTree::build(std::span<std::uint32_t> order, std::size_t node,
+                       std::vector<std::uint32_t>& nodes) {
+    if (order.empty()) return;
+    const int axis = longest_axis(order, photons_);
+    const std::size_t left = left_subtree_size(order.size());
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        const auto k = static_cast<std::size_t>(axis);
+        const float x = photons_[a].position[k], y = photons_[b].position[k];
+        return x < y || (x == y && a < b);
+    };
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(left), order.end(),
+                     before);
+    nodes[node] = order[left];
+    axes_[node] = static_cast<std::uint8_t>(axis);
+    const auto build_left = [&] { build(order.first(left), 2 * node + 1, nodes); };
+    const auto build_right = [&] { build(order.subspan(left + 1), 2 * node + 2, nodes); };
+    if (order.size() >= kLargeSubtree) {
+        parallel_invoke(build_left, build_right);
+    } else {
+        build_left();
+        build_right();
+    }
+}
+
+}  // namespace alhazen

@@ -1,0 +1,85 @@
+#pragma once
+/// Photons in a left-balanced k-d tree, which finds those nearest to a point.
+///
+/// Source: Bentley, "Multidimensional Binary Search Trees Used for Associative Searching", CACM
+/// 18(9), 1975; Jensen, "Realistic Image Synthesis Using Photon Mapping", 2001, section 6 (left
+/// balanced, in the order of a heap, split across the longest side).
+/// Conventions: node i has the children 2 i + 1 and 2 i + 2; nothing points to anything. Of equal
+/// coordinates that of the earlier photon counts as smaller, of equal distances that of the lower
+/// node: the tree and its answers depend on the list of photons alone.
+/// Complexity: build O(n log n), 5 bytes a photon besides the photons; a search O(k + log n) in
+/// the usual case. Threads: const functions may be called from many.
+
+#include <algorithm>
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "alhazen/renderers/photons/photon.h"
+
+namespace alhazen {
+
+class PhotonTree {
+  public:
+    PhotonTree() = default;
+    /// At most 2^32 - 1 photons, of finite positions. Builds with the threads of the caller's
+    /// ThreadLimit.
+    explicit PhotonTree(std::vector<Photon> photons);
+
+    [[nodiscard]] std::span<const Photon> photons() const { return photons_; }  ///< [node]
+    /// Across which the node divides its subtrees: 0, 1 or 2.
+    [[nodiscard]] int axis(std::size_t node) const { return axes_[node]; }
+
+    struct Near {
+        double squared = 0;  ///< distance
+        std::uint32_t node = 0;
+        friend auto operator<=>(const Near&, const Near&) = default;
+    };
+    /// Sets `found` to the `count` nearest photons within the root of `squared` that `accept`
+    /// takes: a heap, farthest first. `count` above 0.
+    template <class Accept>
+    void nearest(const Vec3& point, std::size_t count, double squared, const Accept& accept,
+                 std::vector<Near>& found) const {
+        found.clear();
+        search(0, point, count, squared, accept, found);
+    }
+
+  private:
+    void build(std::span<std::uint32_t> order, std::size_t node, std::vector<std::uint32_t>& nodes);
+
+    template <class Accept>
+    void search(std::size_t node, const Vec3& point, std::size_t count, double& squared,
+                const Accept& accept, std::vector<Near>& found) const {
+        if (node >= photons_.size()) return;
+        const Photon& photon = photons_[node];
+        const Vec3 apart = photon.point() - point;
+        if (2 * node + 1 < photons_.size()) {
+            const double to_plane = -apart[axes_[node]];
+            const std::size_t far = to_plane < 0.0 ? 1 : 0;
+            search(2 * node + 2 - far, point, count, squared, accept, found);
+            if (to_plane * to_plane <= squared) {
+                search(2 * node + 1 + far, point, count, squared, accept, found);
+            }
+        }
+        const Near near{length_squared(apart), static_cast<std::uint32_t>(node)};
+        if (!(near.squared <= squared) || !accept(photon)) return;
+        if (found.size() == count) {
+            if (!(near < found.front())) return;
+            std::pop_heap(found.begin(), found.end());
+            found.back() = near;
+        } else {
+            found.push_back(near);
+        }
+        std::push_heap(found.begin(), found.end());
+        if (found.size() == count) squared = found.front().squared;
+    }
+
+    std::vector<Photon> photons_;
+    std::vector<std::uint8_t> axes_;  ///< [node]
+};
+
+/// Nodes of the left subtree of a left-balanced tree of `count` nodes.
+[[nodiscard]] std::size_t left_subtree_size(std::size_t count);
+
+}  // namespace alhazen

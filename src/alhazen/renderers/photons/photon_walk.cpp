@@ -1,0 +1,116 @@
+#include "alhazen/renderers/photons/photon_walk.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alhazen/renderers/light_transport/light_start.h"
+#include "alhazen/sampling/random.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Random numbers of each surface: lobe, direction, roulette.
+constexpr std::uint64_t kAtEach = 4;
+/// The moment of a photon.
+constexpr std::uint64_t kTimeOfPhoton = std::uint64_t{1} << 31;
+
+std::array<float, 3> floats(double x, double y, double z) {
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+}  // namespace
+
+PhotonWalk::PhotonWalk(const Scene& scene, const Illumination& lights, const PhotonShot& shot,
+                       RayCounters& counters, TraversalStats* stats)
+    : scene_(scene),
+      lights_(lights),
+      shot_(shot),
+      caustics_only_(!shot.kinds.has(PhotonKind::Direct) && !shot.kinds.has(PhotonKind::Indirect)),
+      sampler_(find_sampler("sobol")->make(shot.seed, kMaxSamples)),
+      next_(scene, counters, stats) {}
+
+LightRay PhotonWalk::leave_light(std::uint64_t number) const {
+    const SamplePixel set{static_cast<int>(number / kMaxSamples), 0};
+    const auto in_set = static_cast<std::uint32_t>(number % kMaxSamples);
+    return lights_.emit(sampler_->at(set, 0, in_set).x, sampler_->at(set, 1, in_set),
+                        sampler_->at(set, 2, in_set));
+}
+
+Rgb PhotonWalk::falloff(const LightRay& light, const Vec3& point, double distance) const {
+    if (!light.singular_place) return {1, 1, 1};
+    const Rgb arrives = lights_.irradiance(light.place, point);
+    Rgb factor;
+    for (int i = 0; i < 3; ++i) {
+        if (light.radiance[i] > 0.0)
+            factor[i] = distance * distance * arrives[i] / light.radiance[i];
+    }
+    return factor;
+}
+
+void PhotonWalk::store(PhotonKind kind, const Rgb& power, std::vector<Photon>& stored) const {
+    if (!shot_.kinds.has(kind) || power.is_black() || !power.is_finite()) return;
+    const Vec3& p = next_.point().surface.point;
+    const double share = 1.0 / static_cast<double>(shot_.count);
+    stored.push_back({floats(p.x, p.y, p.z),
+                      floats(share * power.r, share * power.g, share * power.b),
+                      OctahedralVector(scatter_.view()), OctahedralVector(scatter_.geometric())});
+}
+
+bool PhotonWalk::survives(PathEnd& path, double begun, const PathNumbers& numbers,
+                          std::uint64_t dimension) const {
+    const double share = path.throughput.max() / begun;
+    if (!(share < 1.0)) return path.throughput.is_finite();
+    if (!(numbers.at(dimension) < share)) return false;
+    path.throughput = (1.0 / share) * path.throughput;
+    return true;
+}
+
+bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
+    const PathNumbers numbers{shot_.seed, number, 0};
+    const LightRay light = leave_light(number);
+    const WalkStart start = start_of(light, 0.0f);
+    if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
+    PathEnd path;
+    path.ray = start.ray;
+    path.kind = RayKind::Reflection;
+    path.throughput = start.throughput;
+    if (scene_.has_motion) {
+        path.time = std::min(static_cast<float>(numbers.at(kTimeOfPhoton)), 0x1.fffffep-1f);
+    }
+    const double begun = start.throughput.max();
+    Rgb fall{1, 1, 1};
+    PhotonKind kind = PhotonKind::Direct;
+    bool scattered = false;
+    for (int surface = 0; surface < shot_.depth; ++surface) {
+        if (!next_.find(path, numbers)) return true;
+        const ShadingPoint& point = next_.point();
+        if (point.material->unlit) return true;
+        if (!scattered) fall = falloff(light, point.surface.point, path.travelled);
+        scatter_.set(scene_, point, path.media);
+        if (scatter_.has_density()) store(kind, fall * path.throughput, stored);
+        const std::uint64_t first = kAtEach * static_cast<std::uint64_t>(surface);
+        const auto drawn =
+            scatter_.sample(numbers.at(first), {numbers.at(first + 1), numbers.at(first + 2)},
+                            Transport::Importance);
+        if (!drawn || drawn->weight.is_black()) return true;
+        if (!drawn->straight) {
+            if (!drawn->singular) {
+                if (caustics_only_) return true;
+                kind = PhotonKind::Indirect;
+            } else if (kind == PhotonKind::Direct) {
+                kind = PhotonKind::Caustic;
+            }
+            if (!scattered) path.throughput = fall * path.throughput;
+            scattered = true;
+            fall = {1, 1, 1};
+        }
+        const double turned = scatter_.importance_correction(drawn->direction);
+        NextSurface::go_on(path, point.surface, scatter_, *drawn);
+        path.throughput = turned * path.throughput;
+        if (!survives(path, begun, numbers, first + 3)) return true;
+    }
+    return true;
+}
+
+}  // namespace alhazen

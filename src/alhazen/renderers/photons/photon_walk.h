@@ -1,0 +1,56 @@
+#pragma once
+/// One photon after the other: from a light through the scene, stored at each surface that scatters
+/// with a density.
+///
+/// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 3; Arvo and Kirk,
+/// "Particle Transport and Image Synthesis", SIGGRAPH 1990 (Russian roulette).
+/// Differs: directions are drawn from the whole BSDF; the roulette keeps the largest channel of a
+/// photon at what its light gave it, and its colour changes. Shading normals: Veach's factor.
+/// Conventions: photons are numbered. What a photon does depends on the scene, the seed and its
+/// number alone. Surfaces that are passed straight (thin sheets) receive light and are no events.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/photons/next_surface.h"
+#include "alhazen/renderers/photons/photon.h"
+#include "alhazen/sampling/samplers/sampler.h"
+
+namespace alhazen {
+
+/// What is shot.
+struct PhotonShot {
+    std::uint64_t count = 0;  ///< photons that leave the lights
+    PhotonKinds kinds;        ///< to be stored
+    int depth = 64;           ///< largest number of surfaces
+    std::uint64_t seed = 0;
+};
+
+class PhotonWalk {
+  public:
+    PhotonWalk(const Scene& scene, const Illumination& lights, const PhotonShot& shot,
+               RayCounters& counters, TraversalStats* stats);
+
+    /// Appends what photon `number` of 0 .. count - 1 leaves. False: its light gave it no power.
+    bool shoot(std::uint64_t number, std::vector<Photon>& stored);
+
+  private:
+    [[nodiscard]] LightRay leave_light(std::uint64_t number) const;
+    /// Of a light with a place: its own falloff over that of its rays.
+    [[nodiscard]] Rgb falloff(const LightRay& light, const Vec3& point, double distance) const;
+    void store(PhotonKind kind, const Rgb& power, std::vector<Photon>& stored) const;
+    [[nodiscard]] bool survives(PathEnd& path, double begun, const PathNumbers& numbers,
+                                std::uint64_t dimension) const;
+
+    const Scene& scene_;
+    const Illumination& lights_;
+    PhotonShot shot_;
+    bool caustics_only_;
+    std::unique_ptr<Sampler> sampler_;  ///< of the rays that leave lights
+    NextSurface next_;
+    ScatterPoint scatter_;
+};
+
+}  // namespace alhazen

@@ -1,0 +1,365 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "alhazen/renderers/photons/photon_density.h"
+#include "alhazen/renderers/photons/photon_shooting.h"
+#include "alhazen/renderers/photons/photon_tree.h"
+#include "alhazen/sampling/random.h"
+#include "support/scene_maker.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+constexpr double kPi = std::numbers::pi;
+
+Material matt(const Rgb& color) {
+    Material m;
+    m.diffuse.color = color;
+    return m;
+}
+Material glass(double index) {
+    Material m;
+    m.metallic_roughness.emplace();
+    m.metallic_roughness->metallic.value = 0;
+    m.metallic_roughness->roughness.value = 0;
+    m.metallic_roughness->transmission.value = 1;
+    m.metallic_roughness->thickness.value = 1;
+    m.index.value = index;
+    return m;
+}
+Sphere ball(const Vec3& center, double radius) {
+    Sphere s;
+    s.center = center;
+    s.radius = radius;
+    return s;
+}
+
+TEST(Photon, DirectionsAreKeptWithinATenThousandthOfARadian) {
+    RandomStream random(2);
+    for (int i = 0; i < 20000; ++i) {
+        Vec3 v{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+        if (i % 7 == 0) v[i % 3] = i % 2 == 0 ? 0.0 : -0.0;
+        if (i % 11 == 0) v = {0, 0, i % 2 == 0 ? 1.0 : -1.0};
+        v = normalize(v);
+        EXPECT_LT(length(OctahedralVector(v).vector() - v), 1e-4) << i;
+    }
+}
+
+std::vector<Photon> random_photons(std::size_t count, bool lattice, std::uint64_t seed) {
+    RandomStream random(seed);
+    std::vector<Photon> photons(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (float& x : photons[i].position) {
+            x = lattice ? static_cast<float>(random.below(5))
+                        : static_cast<float>(random.uniform(-1, 1));
+        }
+        photons[i].power[0] = static_cast<float>(i);
+    }
+    return photons;
+}
+
+TEST(PhotonTree, IsLeftBalancedAndDividesEachSubtree) {
+    EXPECT_EQ(left_subtree_size(0), 0u);
+    EXPECT_EQ(left_subtree_size(1), 0u);
+    EXPECT_EQ(left_subtree_size(2), 1u);
+    EXPECT_EQ(left_subtree_size(5), 3u);
+    EXPECT_EQ(left_subtree_size(6), 3u);
+    EXPECT_EQ(left_subtree_size(11), 7u);
+    for (const bool lattice : {false, true}) {
+        for (const std::size_t count : {1u, 2u, 3u, 10u, 63u, 64u, 1000u, 40000u}) {
+            const PhotonTree tree(random_photons(count, lattice, count));
+            const auto photons = tree.photons();
+            std::vector<bool> seen(count);
+            for (const Photon& p : photons) seen[static_cast<std::size_t>(p.power[0])] = true;
+            EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0) << count;
+            // Each node against each node above it.
+            for (std::size_t i = 1; i < count; ++i) {
+                for (std::size_t child = i; child > 0;) {
+                    const std::size_t above = (child - 1) / 2;
+                    const auto k = static_cast<std::size_t>(tree.axis(above));
+                    const std::pair own{photons[i].position[k], photons[i].power[0]};
+                    const std::pair middle{photons[above].position[k], photons[above].power[0]};
+                    EXPECT_EQ(own < middle, child == 2 * above + 1) << count << ": " << i;
+                    child = above;
+                }
+            }
+        }
+    }
+}
+
+TEST(PhotonTree, FindsTheNearestOfBruteForce) {
+    RandomStream random(4);
+    for (const bool lattice : {false, true}) {
+        for (const std::size_t count : {0u, 1u, 2u, 7u, 50u, 3000u}) {
+            const PhotonTree tree(random_photons(count, lattice, 3 * count));
+            for (int trial = 0; trial < 60; ++trial) {
+                Vec3 p{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+                if (lattice) p = {2, 1, double(random.below(5))};
+                const std::size_t most = 1 + random.below(20);
+                const double squared = trial % 3 == 0 ? kInfinity : random.uniform(0, 1);
+                const auto even = [](const Photon& q) { return int(q.power[0]) % 2 == 0; };
+                std::vector<PhotonTree::Near> found, all;
+                tree.nearest(p, most, squared, even, found);
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const Photon& q = tree.photons()[i];
+                    const double apart = length_squared(q.point() - p);
+                    if (even(q) && apart <= squared) all.push_back({apart, i});
+                }
+                std::sort(all.begin(), all.end());
+                all.resize(std::min(all.size(), most));
+                EXPECT_EQ(found.empty() ? 0.0 : found.front().squared,
+                          all.empty() ? 0.0 : all.back().squared);
+                std::sort(found.begin(), found.end());
+                EXPECT_EQ(found, all) << count << " " << trial;
+            }
+        }
+    }
+}
+
+TEST(PhotonDensity, FiltersHaveAMeanOfOneOverTheDisc) {
+    for (const DensityFilter filter :
+         {DensityFilter::Disc, DensityFilter::Cone, DensityFilter::Gauss}) {
+        constexpr int kSteps = 10000;
+        double sum = 0.0;
+        for (int i = 0; i < kSteps; ++i) sum += filter_weight(filter, (i + 0.5) / kSteps);
+        EXPECT_NEAR(sum / kSteps, 1.0, 1e-6);
+    }
+}
+
+ShotPhotons shot_of(const Scene& scene, const PhotonShot& shot, int threads = 1) {
+    const RenderJob job{
+        .scene = scene, .camera = scene.cameras[0].camera, .control = {.threads = threads}};
+    return shoot_photons(job, Illumination(scene), shot, std::size_t{1} << 30, "test");
+}
+Rgb power_of(const std::vector<Photon>& photons) {
+    Rgb sum;
+    for (const Photon& p : photons) sum += p.light();
+    return sum;
+}
+const PhotonKinds kAll{PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect};
+
+TEST(PhotonWalk, AllPowerThatLeavesALightArrives) {
+    SceneMaker maker;
+    maker.add(ball({0, 0, 0}, 3), maker.material(matt({0.5, 0.25, 0})));
+    maker.light(PointLight{.position = {1, 0, 0}, .color = {3, 2, 1}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile();
+    const ShotPhotons direct = shot_of(scene, {20000, {PhotonKind::Direct}, 64, 5});
+    EXPECT_EQ(direct.photons.size(), 20000u);
+    // Intensities are times pi.
+    const double sphere = 4 * kPi * kPi;
+    EXPECT_NEAR(power_of(direct.photons).r, 3 * sphere, 1e-4);
+    EXPECT_NEAR(power_of(direct.photons).b, 1 * sphere, 1e-4);
+    // The series of all reflections; one reflection halves the number, not the power.
+    const ShotPhotons all = shot_of(scene, {200000, kAll, 64, 5});
+    EXPECT_NEAR(power_of(all.photons).r, 2 * 3 * sphere, 0.01 * 6 * sphere);
+    EXPECT_NEAR(power_of(all.photons).g, 4.0 / 3.0 * 2 * sphere, 0.01 * 3 * sphere);
+    EXPECT_NEAR(power_of(all.photons).b, sphere, 1e-3);
+    EXPECT_NEAR(double(all.photons.size()), 400000, 4000);
+    double most = 0.0, least = 1e30;
+    for (const Photon& p : all.photons) {
+        most = std::max(most, p.light().max());
+        least = std::min(least, p.light().max());
+    }
+    EXPECT_NEAR(most, least, 1e-5 * most);
+}
+
+TEST(PhotonWalk, ALampOfEachKindSendsItsPower) {
+    struct Case {
+        const char* name;
+        void (*add)(SceneMaker&);
+        double power;
+    };
+    const auto glowing = [](SceneMaker& m) {
+        Material lamp;
+        lamp.emission.color = {2, 2, 2};
+        return m.material(lamp);
+    };
+    static const auto glow = glowing;
+    const Case cases[] = {
+        {"sphere",
+         [](SceneMaker& m) {
+             m.add(ball({0.3, 0, 0}, 0.5), glow(m));
+         },
+         2 * kPi * 4 * kPi * 0.25},
+        {"spot",
+         [](SceneMaker& m) {
+             SpotLight spot;
+             spot.position = {0.5, 0, 0};
+             spot.direction = {0, 0, -1};
+             spot.inner_angle = spot.outer_angle = 0.5;
+             spot.color = {2, 2, 2};
+             spot.attenuation = {0, 0, 1};
+             m.light(spot);
+         },
+         2 * kPi * 2 * kPi * (1 - std::cos(0.5))},
+        {"point with other falloff",
+         [](SceneMaker& m) {
+             m.light(
+                 PointLight{.position = {0, 0, 0}, .color = {2, 2, 2}, .attenuation = {1, 0, 1}});
+         },
+         // The irradiance at distance 4 is that of 1 / (1 + r^2).
+         2 * kPi * 4 * kPi * 16.0 / 17.0},
+    };
+    for (const Case& c : cases) {
+        SceneMaker maker;
+        maker.add(ball({0, 0, 0}, 4), maker.material(matt({0, 0, 0.0001})));
+        c.add(maker);
+        const ShotPhotons shot = shot_of(maker.compile(), {40000, {PhotonKind::Direct}, 64, 5});
+        EXPECT_NEAR(power_of(shot.photons).g, c.power, 0.002 * c.power) << c.name;
+    }
+}
+
+TEST(PhotonWalk, TheSameForAnyThreads) {
+    SceneMaker maker;
+    maker.add(ball({0, 0, 0}, 3), maker.material(matt({0.5, 0.5, 0.5})));
+    maker.add(ball({0, 0, -1}, 1), maker.material(glass(1.5)));
+    maker.light(PointLight{.position = {1, 0, 1}, .color = {3, 2, 1}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile();
+    const auto bits = [](const Photon& p) {
+        return std::tuple(p.position, p.power, p.from.vector().x, p.normal.vector().x);
+    };
+    const ShotPhotons one = shot_of(scene, {30000, kAll, 64, 5});
+    for (const int threads : {2, 3}) {
+        const ShotPhotons more = shot_of(scene, {30000, kAll, 64, 5}, threads);
+        ASSERT_EQ(one.photons.size(), more.photons.size());
+        for (std::size_t i = 0; i < one.photons.size(); ++i) {
+            ASSERT_EQ(bits(one.photons[i]), bits(more.photons[i]));
+        }
+    }
+}
+
+/// Share of unpolarised light that smooth glass reflects.
+double fresnel(double cosine, double index) {
+    const double sine = std::sqrt(1 - cosine * cosine) / index;
+    const double inside = std::sqrt(1 - sine * sine);
+    const double s = (cosine - index * inside) / (cosine + index * inside);
+    const double p = (index * cosine - inside) / (index * cosine + inside);
+    return 0.5 * (s * s + p * p);
+}
+
+/// A ball of glass around the origin in the beam of a spot light that it takes whole, and a black
+/// sphere around both.
+struct BallLens {
+    static constexpr double kIndex = 1.5, kAway = 50;
+    double half_angle = 0;  ///< of the beam
+    double power = 0;
+    Scene scene;
+};
+BallLens ball_lens(double radius_of_beam) {
+    BallLens lens;
+    lens.half_angle = std::asin(radius_of_beam / BallLens::kAway);
+    lens.power = kPi * 2 * kPi * (1 - std::cos(lens.half_angle));
+    SceneMaker maker;
+    maker.add(ball({0, 0, 0}, 1), maker.material(glass(BallLens::kIndex)));
+    maker.add(ball({0, 0, 0}, 100), maker.material(matt({0, 0, 0.0001})));
+    SpotLight spot;
+    spot.position = {0, 0, BallLens::kAway};
+    spot.direction = {0, 0, -1};
+    spot.inner_angle = spot.outer_angle = lens.half_angle;
+    spot.color = {1, 1, 1};
+    spot.attenuation = {0, 0, 1};
+    maker.light(spot);
+    lens.scene = maker.compile();
+    return lens;
+}
+
+TEST(Caustics, ABallLensSendsTheRefractedPowerIntoItsCone) {
+    constexpr double kCone = 0.5;
+    const BallLens lens = ball_lens(0.98);
+    // Orders of rays that leave the ball after 0, 1, ... chords.
+    double expected = 0.0, whole = 0.0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double angle = std::acos(1 - (1 - std::cos(lens.half_angle)) * (i + 0.5) / kSteps);
+        const double b = BallLens::kAway * std::sin(angle);
+        const double in = std::asin(b), out = std::asin(b / BallLens::kIndex);
+        const double r = fresnel(std::cos(in), BallLens::kIndex);
+        for (int chords = 0; chords < 8; ++chords) {
+            const double turned =
+                chords == 0 ? 2 * in - kPi : 2 * (in - out) + (chords - 1) * (kPi - 2 * out);
+            const double share = chords == 0 ? r : (1 - r) * (1 - r) * std::pow(r, chords - 1);
+            whole += share / kSteps;
+            if (std::cos(turned - angle) > std::cos(kCone)) expected += share / kSteps;
+        }
+    }
+    EXPECT_NEAR(whole, 1.0, 1e-3);
+    EXPECT_GT(expected, 0.3);
+    EXPECT_LT(expected, 0.9);
+    const ShotPhotons shot = shot_of(lens.scene, {100000, {PhotonKind::Caustic}, 64, 5});
+    double cone = 0.0;
+    for (const Photon& p : shot.photons) {
+        if (p.from.vector().z > std::cos(kCone)) cone += p.light().g;
+    }
+    EXPECT_NEAR(power_of(shot.photons).g, lens.power, 2e-3 * lens.power);
+    EXPECT_NEAR(cone, expected * lens.power, 0.005 * lens.power);
+}
+
+/// Parallel rays near the axis meet n / (2 (n - 1)) radii behind the centre of a ball.
+TEST(Caustics, ABallLensHasItsFocusWhereTheFormulaPutsIt) {
+    constexpr double kBeam = 0.1;
+    const BallLens lens = ball_lens(kBeam);
+    const ShotPhotons shot = shot_of(lens.scene, {20000, {PhotonKind::Caustic}, 3, 5});
+    // A lens of this focal length, with the light at a distance.
+    const double f = BallLens::kIndex / (2 * (BallLens::kIndex - 1));
+    const double focus = 1 / (1 / f - 1 / BallLens::kAway);
+    const auto spread = [&](double behind) {
+        double sum = 0.0, count = 0.0;
+        for (const Photon& p : shot.photons) {
+            const Vec3 from = p.from.vector();
+            if (from.z < 0.9) continue;
+            const Vec3 at = p.point() + (p.point().z + behind) / -from.z * from;
+            sum += at.x * at.x + at.y * at.y;
+            count += 1.0;
+        }
+        return std::sqrt(sum / count);
+    };
+    double best = 0.0, least = 1e30;
+    for (double behind = 1.0; behind < 2.0; behind += 0.01) {
+        if (const double own = spread(behind); own < least) {
+            least = own;
+            best = behind;
+        }
+    }
+    EXPECT_NEAR(best, focus, 0.02);
+    EXPECT_LT(least, 0.1 * spread(1.0));
+}
+
+/// Light that falls into a ring of radius 1 along x is reflected into an envelope whose cusp is
+/// half a radius from the centre.
+TEST(Caustics, ARingHasItsCuspAtHalfItsRadius) {
+    SceneMaker maker;
+    Cylinder ring;
+    ring.radius = 1;
+    ring.base = {0, 0, 0};
+    ring.top = {0, 0, 0.6};
+    ring.capped = false;
+    Material mirror;
+    mirror.reflective.color = {1, 1, 1};
+    maker.add(ring, maker.material(mirror));
+    Disc floor;
+    floor.radius = 1.5;
+    maker.add(floor, maker.material(matt({0, 0, 0.0001})));
+    maker.light(DirectionalLight{.to_light = normalize(Vec3{-1, 0, 0.6}), .color = {1, 1, 1}});
+    const ShotPhotons shot = shot_of(maker.compile(), {2000000, {PhotonKind::Caustic}, 64, 5});
+    // Photons of one reflection in strips across x near the axis: 0.3 .. 0.7.
+    std::map<int, double> strips;
+    for (const Photon& p : shot.photons) {
+        const Vec3 at = p.point();
+        if (p.from.vector().x < 0.0 || std::abs(at.y) > 0.01) continue;
+        if (at.x > 0.2 && at.x < 0.9) strips[int(std::floor(at.x * 25))] += p.light().g;
+    }
+    const auto brightest = std::max_element(strips.begin(), strips.end(),
+                                            [](auto& a, auto& b) { return a.second < b.second; });
+    ASSERT_NE(brightest, strips.end());
+    EXPECT_NEAR((brightest->first + 0.5) / 25, 0.5, 0.05);
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
