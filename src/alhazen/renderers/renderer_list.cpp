@@ -13,6 +13,7 @@
 #include "alhazen/renderers/path_tracing/path_tracing.h"
 #include "alhazen/renderers/photon_mapping/photon_mapping.h"
 #include "alhazen/renderers/ray_casting/ray_casting.h"
+#include "alhazen/renderers/sppm/sppm.h"
 #include "alhazen/renderers/whitted/whitted.h"
 
 namespace alhazen {
@@ -59,15 +60,17 @@ std::unique_ptr<Renderer> make_path_tracing(RendererSettings& settings) {
     return std::make_unique<PathTracing>(paths);
 }
 
+std::uint64_t photon_count(RendererSettings& settings, const char* name, std::uint64_t fallback,
+                           double least) {
+    constexpr double kMost = 1e9;
+    return static_cast<std::uint64_t>(
+        settings.number(name, static_cast<double>(fallback), least, kMost));
+}
+
 std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     PhotonMappingSettings photons;
-    const auto count = [&](const char* name, std::uint64_t fallback, double least) {
-        const double n = settings.number(name, static_cast<double>(fallback), least,
-                                         PhotonMappingSettings::kMostPhotons);
-        return static_cast<std::uint64_t>(n);
-    };
-    photons.photons = count("photons", photons.photons, 1.0);
-    photons.caustics = count("caustics", photons.caustics, 0.0);
+    photons.photons = photon_count(settings, "photons", photons.photons, 1.0);
+    photons.caustics = photon_count(settings, "caustics", photons.caustics, 0.0);
     photons.nearest = settings.whole("nearest", photons.nearest, 2, 1 << 20);
     photons.radius = settings.number("radius", photons.radius, 0.0, 1e30);
     photons.filter = static_cast<DensityFilter>(
@@ -76,6 +79,16 @@ std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     photons.memory = settings.number("memory", photons.memory, 1.0, 1e6);
     photons.paths = path_settings(settings);
     return std::make_unique<PhotonMapping>(photons);
+}
+
+std::unique_ptr<Renderer> make_sppm(RendererSettings& settings) {
+    SppmSettings sppm;
+    sppm.photons = photon_count(settings, "photons", sppm.photons, 1.0);
+    sppm.radius = settings.number("radius", sppm.radius, 0.0, 1e30);
+    sppm.alpha = settings.number("alpha", sppm.alpha, 0.01, 1.0);
+    sppm.memory = settings.number("memory", sppm.memory, 1.0, 1e6);
+    sppm.paths = path_settings(settings);
+    return std::make_unique<Sppm>(sppm);
 }
 
 std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
@@ -92,7 +105,7 @@ std::unique_ptr<Renderer> make_beam_tracing(RendererSettings& settings) {
 }  // namespace
 
 std::span<const RendererEntry> renderers() {
-    static constexpr std::array<RendererEntry, 12> table{{
+    static constexpr std::array<RendererEntry, 13> table{{
         {"whitted", "recursive ray tracing: shadows, reflection, refraction (Whitted 1980)",
          [](RendererSettings&) { return std::unique_ptr<Renderer>(std::make_unique<Whitted>()); }},
         {"distributed",
@@ -118,6 +131,11 @@ std::span<const RendererEntry> renderers() {
          "filter=disc|cone|gauss, gather=N (rays of the final gathering), memory=MB, depth=N, "
          "roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }},
+        {"sppm",
+         "all light by passes of photons with shrinking radii, one for each sample of --spp "
+         "(Hachisuka and Jensen 2009); photons=N (of a pass), radius=DISTANCE (of the first), "
+         "alpha=X, memory=MB, depth=N, roulette=N",
+         [](RendererSettings& settings) { return make_sppm(settings); }},
         {"ray_casting", "visible surfaces with local shading, no further rays (Appel 1968)",
          [](RendererSettings&) {
              return std::unique_ptr<Renderer>(std::make_unique<RayCasting>());

@@ -18,8 +18,6 @@
 namespace alhazen {
 
 struct PhotonMappingSettings {
-    static constexpr double kMostPhotons = 1e9;
-
     std::uint64_t photons = 100000;   ///< of the global map that leave the lights
     std::uint64_t caustics = 100000;  ///< the same of the caustic map; 0: none
     int nearest = 80;                 ///< photons of an estimate
