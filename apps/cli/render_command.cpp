@@ -16,6 +16,7 @@
 #include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/environment_option.h"
 #include "alhazen/session/framing.h"
+#include "alhazen/session/photon_file.h"
 #include "alhazen/session/picture.h"
 #include "alhazen/session/render.h"
 #include "alhazen/session/scan_line_figure.h"
@@ -35,7 +36,7 @@ namespace {
 struct RenderArguments {
     SceneArguments scene;
     std::string output;
-    std::string size, crop, encoding, protocol, stats, tables, aovs, view, antialias;
+    std::string size, crop, encoding, protocol, stats, tables, photons, aovs, view, antialias;
     int depth = -1;
     int bits = 8;
     bool full_float = false, aov_png = false, quiet = false, no_counts = false;
@@ -85,6 +86,7 @@ RenderOptions render_options(const RenderArguments& args) {
         options.samples_per_pixel = SamplingPlan::kMostByRule;
     }
     if (!args.aovs.empty()) options.aovs = parse_aovs(args.aovs);
+    options.keep_photons = !args.photons.empty();
     if (!args.view.empty() && !options.camera.empty()) {
         throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
     }
@@ -142,6 +144,12 @@ std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
             throw Error(ErrorKind::Usage, "--tables and another output name the same file");
         }
         outputs.emplace_back(args.tables);
+    }
+    if (!args.photons.empty()) {
+        if (std::find(outputs.begin(), outputs.end(), args.photons) != outputs.end()) {
+            throw Error(ErrorKind::Usage, "--photons and another output name the same file");
+        }
+        outputs.emplace_back(args.photons);
     }
     for (const auto& path : outputs) check_writable(path);
     return outputs;
@@ -227,6 +235,7 @@ int run(const RenderArguments& args) {
     if (!args.spp && !rounds) options.samples_per_pixel = renderer->usual_samples();
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
+    check_photons(options, *renderer);
     const bool needs_aggregate = renderer->needs_aggregate();
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
         throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
@@ -280,6 +289,7 @@ int run(const RenderArguments& args) {
     if (!args.tables.empty()) {
         write_report(args.tables, scan_line_svg(*result.scan_lines, args.scene.scene));
     }
+    if (!args.photons.empty()) write_file_atomically(args.photons, photon_ply(result.photons));
     if (result.counters.non_finite > 0 && !args.quiet) {
         tell("warning: {} samples were not finite and were left out\n", result.counters.non_finite);
     }
@@ -416,6 +426,11 @@ void add_render(CLI::App& app, int& exit_status) {
         ->add_option("--tables", args->tables,
                      "Draw the tables of lane_carpenter over the scan lines as an animated SVG")
         ->type_name("FILE");
+    command
+        ->add_option("--photons", args->photons,
+                     "Write the photons of photon_mapping, or of the first pass of sppm, as points "
+                     "of a PLY file")
+        ->type_name("FILE.ply");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }

@@ -180,6 +180,7 @@ LayerPicture layer_picture(AovKind kind, const PixelBox& crop, const Channels& c
         case AovKind::Transmission:
             return albedo_picture(crop, c);
         case AovKind::Time:
+        case AovKind::Photons:
             return heat_picture(crop, *c[0], kTimeQuantile);
         case AovKind::ErrorBound:
         case AovKind::Rays:

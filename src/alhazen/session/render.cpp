@@ -82,6 +82,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     }
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
+    check_photons(options, *renderer);
     const Scene scene = adjusted(original, options);
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
@@ -102,6 +103,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
                         .description = description,
                         .antialias = options.antialias ? &*options.antialias : nullptr,
                         .sampling = options.sampling ? &*options.sampling : nullptr,
+                        .photons = options.keep_photons ? &result.photons : nullptr,
                         .control = {.threads = options.threads,
                                     .tile_size = options.tile_size,
                                     .stop = options.stop,
@@ -200,6 +202,14 @@ void check_sampling(const RenderOptions& options, const Renderer& renderer) {
                     "--noise and --time render in rounds: --aov time and counts are for a fixed "
                     "--spp");
     }
+}
+
+void check_photons(const RenderOptions& options, const Renderer& renderer) {
+    if (!options.keep_photons || renderer.has_photons()) return;
+    throw Error(
+        ErrorKind::Usage,
+        fmt::format("--photons is for renderers that shoot some: {}; renderer '{}' does not",
+                    renderers_where(&Renderer::has_photons), options.renderer));
 }
 
 std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,

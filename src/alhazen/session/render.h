@@ -10,6 +10,7 @@
 #include "alhazen/imaging/film/film.h"
 #include "alhazen/renderers/core/antialias_settings.h"
 #include "alhazen/renderers/core/aov.h"
+#include "alhazen/renderers/core/photon_cloud.h"
 #include "alhazen/renderers/core/ray_counters.h"
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/scene/scene.h"
@@ -51,7 +52,8 @@ struct RenderOptions {
     std::uint64_t seed = 0;
     Protocol protocol = Protocol::None;
     bool count_tests = false;
-    AovSet aovs;  ///< layers to render in addition to the image
+    AovSet aovs;                ///< layers to render in addition to the image
+    bool keep_photons = false;  ///< fill RenderResult::photons
     ProgressSink* progress = nullptr;
     const StopFlag* stop = nullptr;
 };
@@ -72,6 +74,7 @@ struct RenderResult {
     std::shared_ptr<const ScanLineReport> scan_lines;  ///< of a renderer in scan lines, else null
     std::shared_ptr<const BeamReport> beams;           ///< of a renderer with beams, else null
     std::vector<std::string> notes;                    ///< RenderReport::notes
+    PhotonCloud photons;                               ///< of RenderOptions::keep_photons
 };
 
 struct FrameSize {
@@ -89,6 +92,9 @@ void check_antialias(const RenderOptions& options, const Renderer& renderer);
 
 /// The same for RenderOptions::sampling.
 void check_sampling(const RenderOptions& options, const Renderer& renderer);
+
+/// The same for RenderOptions::keep_photons.
+void check_photons(const RenderOptions& options, const Renderer& renderer);
 
 /// What of the view and the lights `renderer` does not show as it is, one sentence each.
 [[nodiscard]] std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "alhazen/base/error.h"
+#include "alhazen/renderers/core/photon_cloud.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/sampling_plan.h"
 #include "alhazen/renderers/photons/photon_grid.h"
@@ -314,6 +315,46 @@ TEST(PhotonRenderers, SayWhyTheyCannotShoot) {
         EXPECT_NE(message_of(unsent, name).find("no light of the scene sends photons"),
                   std::string::npos);
         EXPECT_EQ(message_of(dark, name), "");
+    }
+}
+
+/// A light in the middle of a black sphere: photons of the caustic map by way of no mirror there
+/// are none, all others lie on the sphere, evenly.
+TEST(PhotonRenderers, TellTheirPhotonsAndTheirDensity) {
+    SceneMaker maker;
+    maker.description().cameras[0].camera = look_along({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.2, 1.0);
+    maker.add(ball({0, 0, 0}, 2), maker.material(matt({0, 0, 1})));
+    maker.light(PointLight{.position = {0, 0, 0}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile();
+    struct Case {
+        const char* renderer;
+        double photons;  ///< each of blue light goes on forever, up to the depth
+    };
+    for (const Case& c : {Case{"photon_mapping:photons=20000,caustics=10,gather=1,depth=3", 60000},
+                          Case{"sppm:photons=20000,depth=3,radius=0.2", 40000}}) {
+        AovFilm aovs(parse_aovs("photons"), {0, 0, 8, 8});
+        PhotonCloud cloud;
+        const SamplingPlan plan;
+        Film film(8, 8, {0, 0, 8, 8});
+        const RenderJob job{.scene = scene,
+                            .camera = scene.cameras[0].camera,
+                            .aovs = &aovs,
+                            .sampling = &plan,
+                            .photons = &cloud,
+                            .control = {.threads = 2}};
+        EXPECT_TRUE(make_renderer(c.renderer)->render(job, film).complete());
+        EXPECT_EQ(cloud.photons.size(), c.photons) << c.renderer;
+        double sum = 0.0;
+        for (const float v : aovs.layers().find("photons")->values) sum += v / 64.0;
+        const double density = c.photons / (16 * std::numbers::pi);
+        EXPECT_NEAR(sum, density, 0.05 * density) << c.renderer;
+        for (const CloudPhoton& p : cloud.photons) {
+            EXPECT_EQ(p.caustic, 0);
+            const Vec3 along{p.direction[0], p.direction[1], p.direction[2]};
+            const Vec3 at{p.position[0], p.position[1], p.position[2]};
+            ASSERT_NEAR(length(at), 2.0, 1e-6);
+            ASSERT_GT(dot(along, at), 0.0);
+        }
     }
 }
 

@@ -138,6 +138,11 @@ std::span<const AovEntry> aov_table() {
          "the same: variance of the pixel by its samples",
          {"variance.R", "variance.G", "variance.B"},
          Float},
+        {AovKind::Photons,
+         "photons",
+         "photons by area at what is seen, of renderers that shoot some",
+         {"photons"},
+         Float},
     };
     return table;
 }

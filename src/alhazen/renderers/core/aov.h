@@ -51,6 +51,7 @@ enum class AovKind {
     Specular,
     Transmission,
     LightVariance,
+    Photons,
 };
 
 struct AovEntry {

@@ -31,6 +31,7 @@ struct RenderControl {
 struct AntialiasReport;
 struct AntialiasSettings;
 struct BeamReport;
+struct PhotonCloud;
 struct SampleRound;
 struct SamplingPlan;
 struct SamplingReport;
@@ -57,6 +58,7 @@ struct RenderJob {
     /// samplers.h, and their mean.
     const SamplingPlan* sampling = nullptr;
     const SampleRound* round = nullptr;  ///< of `sampling`, while it is rendered (rounds.h)
+    PhotonCloud* photons = nullptr;      ///< filled by renderers that have some; may be null
     RenderControl control{};
 
     [[nodiscard]] bool stop_requested() const {
@@ -109,6 +111,8 @@ class Renderer {
     /// Above 0: RenderJob::description has to have triangles within this distance in place of its
     /// exact shapes.
     [[nodiscard]] virtual double takes_triangles_within() const { return 0.0; }
+    /// True: `render` fills RenderJob::photons.
+    [[nodiscard]] virtual bool has_photons() const { return false; }
     /// True: reports have RenderReport::scan_lines.
     [[nodiscard]] virtual bool has_scan_lines() const { return false; }
 };

@@ -3,6 +3,7 @@
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/renderers/photon_mapping/gathering_eye.h"
+#include "alhazen/renderers/photons/photon_records.h"
 
 namespace alhazen {
 
@@ -34,6 +35,12 @@ RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
     const PhotonMaps maps = make_photon_maps(job, lights, settings_);
     RenderReport report;
     if (maps.complete) {
+        add_to_cloud(maps.global.tree.photons(), false, job.photons);
+        add_to_cloud(maps.caustic.tree.photons(), true, job.photons);
+        record_photon_layer(job, film, [&](const Vec3& point, const Vec3& normal) {
+            return photons_by_area(maps.global, point, normal) +
+                   photons_by_area(maps.caustic, point, normal);
+        });
         report = render_in_rounds(PhotonTiles(lights, maps, settings_), with_plan(job), film);
     } else {
         report.parts = 1;

@@ -33,6 +33,7 @@ class PhotonMapping final : public LightTransportRenderer {
     explicit PhotonMapping(const PhotonMappingSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool has_photons() const override { return true; }
     [[nodiscard]] int usual_samples() const override { return 16; }
 
   private:

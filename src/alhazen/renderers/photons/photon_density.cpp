@@ -33,6 +33,16 @@ Rgb scattered_light(const ScatterPoint& at, const Photon& photon, LightPart part
     return cosine > 0.0 ? (1.0 / cosine) * (value * photon.light()) : Rgb{};
 }
 
+double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal) {
+    std::vector<PhotonTree::Near> found;
+    map.tree.nearest(point, map.nearest, map.radius * map.radius, PhotonFits(normal, false), found);
+    if (found.empty()) return 0.0;
+    const bool bounded = found.size() == map.nearest && map.nearest > 1;
+    const double squared = bounded ? found.front().squared : map.radius * map.radius;
+    const double count = static_cast<double>(found.size()) - (bounded ? 1.0 : 0.0);
+    return squared > 0.0 ? count / (kPi * squared) : 0.0;
+}
+
 double usual_radius(const PhotonTree& tree, std::size_t nearest) {
     constexpr std::size_t kProbes = 512;
     const std::size_t size = tree.photons().size();

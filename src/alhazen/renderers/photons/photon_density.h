@@ -29,8 +29,8 @@ inline constexpr const char* kDensityFilterNames[] = {"disc", "cone", "gauss"};
 /// Whether a photon arrived at a surface like that at hand.
 class PhotonFits {
   public:
-    explicit PhotonFits(const ScatterPoint& at)
-        : normal_(at.geometric()), both_sides_(at.transmits()) {}
+    explicit PhotonFits(const ScatterPoint& at) : PhotonFits(at.geometric(), at.transmits()) {}
+    PhotonFits(const Vec3& normal, bool both_sides) : normal_(normal), both_sides_(both_sides) {}
     [[nodiscard]] bool operator()(const Photon& photon) const {
         constexpr double kLeast = 0.5;  // 60 degrees
         const double facing = dot(photon.normal.vector(), normal_);
@@ -59,6 +59,9 @@ struct PhotonMap {
     double radius = 0;        ///< at most
     DensityFilter filter = DensityFilter::Disc;
 };
+
+/// Photons by area at a point with that geometric normal.
+[[nodiscard]] double photons_by_area(const PhotonMap& map, const Vec3& point, const Vec3& normal);
 
 /// A radius that finds enough photons at most places of the map: twice that within which nine of
 /// ten photons have `nearest` others. 0 of an empty tree.

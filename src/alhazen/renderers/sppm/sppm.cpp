@@ -17,6 +17,7 @@
 #include "alhazen/renderers/photons/photon_density.h"
 #include "alhazen/renderers/photons/photon_eye.h"
 #include "alhazen/renderers/photons/photon_grid.h"
+#include "alhazen/renderers/photons/photon_records.h"
 #include "alhazen/renderers/photons/photon_shooting.h"
 #include "alhazen/sampling/random.h"
 
@@ -67,6 +68,15 @@ double radius_of_pixels(const RenderJob& job, const Film& film) {
     return 3.0 * *middle;
 }
 
+void record_photons_of(const PhotonGrid& grid, const RenderJob& job, const Film& film) {
+    record_photon_layer(job, film, [&](const Vec3& point, const Vec3& normal) {
+        const PhotonFits fits(normal, false);
+        double count = 0.0;
+        grid.for_near(point, [&](const Photon& photon) { count += fits(photon) ? 1.0 : 0.0; });
+        return count / (kPi * grid.radius() * grid.radius());
+    });
+}
+
 }  // namespace
 
 RenderReport Sppm::render(const RenderJob& job, Film& film) const {
@@ -102,7 +112,9 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
             report.done = pass;
             return report;
         }
+        if (pass == 0) add_to_cloud(photons.photons, false, job.photons);
         const PhotonGrid grid(std::move(photons.photons), radius);
+        if (pass == 0) record_photons_of(grid, job, film);
         const SampleRound round{*sampler, filter, pass, 1, {}, sums, job.seed};
         RenderJob part = planned;
         part.round = &round;

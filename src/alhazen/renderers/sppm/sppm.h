@@ -37,6 +37,7 @@ class Sppm final : public LightTransportRenderer {
     explicit Sppm(const SppmSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool has_photons() const override { return true; }
 
   private:
     SppmSettings settings_;
