@@ -301,6 +301,56 @@ TEST(Caustics, ABallLensSendsTheRefractedPowerIntoItsCone) {
     EXPECT_NEAR(cone, expected * lens.power, 0.005 * lens.power);
 }
 
+/// A ball that a light sees under a small angle: what the projection map sends there is what the
+/// ball receives, and it is most of the photons.
+TEST(ProjectionMap, SendsThePhotonsTowardsTheGlassAndLosesNoLight) {
+    constexpr double kAngle = 0.3;
+    const double sphere = 4 * kPi * kPi;
+    const double received = sphere * (1 - std::cos(kAngle)) / 2;
+    const auto lit_by = [&](bool two_lights) {
+        SceneMaker maker;
+        maker.add(ball({3, 0, 0}, 3 * std::sin(kAngle)), maker.material(glass(1.5)));
+        maker.add(ball({0, 0, 0}, 10), maker.material(matt({0, 0, 0.0001})));
+        maker.light(PointLight{.color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+        if (two_lights) {
+            // Behind the ball, at the same distance.
+            maker.light(
+                PointLight{.position = {6, 0, 0}, .color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+        }
+        return maker.compile();
+    };
+    for (const bool two_lights : {false, true}) {
+        const Scene scene = lit_by(two_lights);
+        const Illumination lights(scene);
+        const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
+        RayCounters counters;
+        const ProjectionMap projection(job, lights, 3, counters);
+        EXPECT_GT(projection.marked(), 0u);
+        EXPECT_LT(projection.marked(), projection.cells() / (two_lights ? 8 : 16));
+        PhotonShot shot{20000, {PhotonKind::Caustic}, 64, 5};
+        const std::size_t anywhere = shot_of(scene, shot).photons.size();
+        shot.projection = &projection;
+        const ShotPhotons aimed = shot_of(scene, shot);
+        EXPECT_GT(aimed.photons.size(), (two_lights ? 5 : 15) * anywhere);
+        const double expected = two_lights ? 2 * received : received;
+        EXPECT_NEAR(power_of(aimed.photons).g, expected, 0.03 * expected) << two_lights;
+    }
+}
+
+TEST(ProjectionMap, AimsNowhereWhereNothingReflects) {
+    SceneMaker maker;
+    maker.add(ball({0, 0, 0}, 10), maker.material(matt({0.5, 0.5, 0.5})));
+    maker.light(PointLight{.color = {1, 1, 1}, .attenuation = {0, 0, 1}});
+    const Scene scene = maker.compile();
+    const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
+    RayCounters counters;
+    const ProjectionMap projection(job, Illumination(scene), 3, counters);
+    EXPECT_EQ(projection.marked(), 0u);
+    const ProjectionMap::Aim aim = projection.aim(0.3, {0.1, 0.2}, {0.4, 0.5});
+    EXPECT_EQ(aim.direction.y, 0.5);
+    EXPECT_EQ(aim.weight, 1.0);
+}
+
 /// Parallel rays near the axis meet n / (2 (n - 1)) radii behind the centre of a ball.
 TEST(Caustics, ABallLensHasItsFocusWhereTheFormulaPutsIt) {
     constexpr double kBeam = 0.1;

@@ -25,6 +25,7 @@ struct PhotonMappingSettings {
     DensityFilter filter = DensityFilter::Cone;
     int gather = 0;       ///< rays of the final gathering; 0: the global map is looked at directly
     double memory = 512;  ///< of the maps, in megabytes
+    bool projection = true;  ///< caustic photons are sent towards mirrors and glass
     PathSettings paths;
 };
 

@@ -1,9 +1,12 @@
 #include "alhazen/renderers/photon_mapping/photon_maps.h"
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/photons/photon_shooting.h"
+#include "alhazen/renderers/photons/projection_map.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -51,6 +54,12 @@ PhotonMaps make_photon_maps(const RenderJob& job, const Illumination& lights,
     shot.count = settings.caustics;
     shot.kinds = {PhotonKind::Caustic};
     shot.seed = mix64(shot.seed);
+    std::optional<ProjectionMap> projection;
+    if (settings.projection) {
+        ThreadLimit threads(job.control.threads);
+        threads.run([&] { projection.emplace(job, lights, mix64(shot.seed), maps.counters); });
+        shot.projection = &*projection;
+    }
     fill(job, lights, shot, settings, maps, maps.caustic);
     return maps;
 }

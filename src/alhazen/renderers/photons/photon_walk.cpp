@@ -33,8 +33,14 @@ PhotonWalk::PhotonWalk(const Scene& scene, const Illumination& lights, const Pho
 LightRay PhotonWalk::leave_light(std::uint64_t number) const {
     const SamplePixel set{static_cast<int>(number / kMaxSamples), 0};
     const auto in_set = static_cast<std::uint32_t>(number % kMaxSamples);
-    return lights_.emit(sampler_->at(set, 0, in_set).x, sampler_->at(set, 1, in_set),
-                        sampler_->at(set, 2, in_set));
+    ProjectionMap::Aim aim{sampler_->at(set, 0, in_set).x, sampler_->at(set, 1, in_set),
+                           sampler_->at(set, 2, in_set)};
+    if (shot_.projection != nullptr) {
+        aim = shot_.projection->aim(aim.choice, aim.place, aim.direction);
+    }
+    LightRay light = lights_.emit(aim.choice, aim.place, aim.direction);
+    light.place_density /= aim.weight;
+    return light;
 }
 
 Rgb PhotonWalk::falloff(const LightRay& light, const Vec3& point, double distance) const {

@@ -16,6 +16,7 @@
 #include "alhazen/illumination/illumination.h"
 #include "alhazen/renderers/photons/next_surface.h"
 #include "alhazen/renderers/photons/photon.h"
+#include "alhazen/renderers/photons/projection_map.h"
 #include "alhazen/sampling/samplers/sampler.h"
 
 namespace alhazen {
@@ -26,6 +27,7 @@ struct PhotonShot {
     PhotonKinds kinds;        ///< to be stored
     int depth = 64;           ///< largest number of surfaces
     std::uint64_t seed = 0;
+    const ProjectionMap* projection = nullptr;  ///< where lights send them; null: everywhere
 };
 
 class PhotonWalk {

@@ -202,6 +202,10 @@ bool Bsdf::has_density() const {
     return std::ranges::any_of(parts_, [](const Part& p) { return !is_singular(p.lobe); });
 }
 
+bool Bsdf::has_singular() const {
+    return std::ranges::any_of(parts_, [](const Part& p) { return is_singular(p.lobe); });
+}
+
 Rgb Bsdf::straight(const Vec3& view) const {
     Rgb sum;
     for (const Part& part : parts_) {
