@@ -76,6 +76,7 @@ std::unique_ptr<Renderer> make_photon_mapping(RendererSettings& settings) {
     photons.filter = static_cast<DensityFilter>(
         settings.choice("filter", static_cast<std::size_t>(photons.filter), kDensityFilterNames));
     photons.gather = settings.whole("gather", photons.gather, 0, 1 << 16);
+    photons.cache = settings.number("cache", photons.cache, 0.0, 10.0);
     photons.memory = settings.number("memory", photons.memory, 1.0, 1e6);
     static constexpr const char* kProjection[] = {"off", "on"};
     photons.projection = settings.choice("projection", 1, kProjection) == 1;
@@ -130,8 +131,8 @@ std::span<const RendererEntry> renderers() {
         {"photon_mapping",
          "all light by photons from the lights, kept in maps, and shadow rays (Jensen 1996); "
          "photons=N, caustics=N (that leave the lights), nearest=N, radius=DISTANCE, "
-         "filter=disc|cone|gauss, gather=N (rays of the final gathering), projection=on|off, "
-         "memory=MB, depth=N, roulette=N",
+         "filter=disc|cone|gauss, gather=N (rays of the final gathering), cache=ERROR (of an "
+         "irradiance cache for them), projection=on|off, memory=MB, depth=N, roulette=N",
          [](RendererSettings& settings) { return make_photon_mapping(settings); }},
         {"sppm",
          "all light by passes of photons with shrinking radii, one for each sample of --spp "

@@ -11,6 +11,7 @@
 #include "alhazen/renderers/core/photon_cloud.h"
 #include "alhazen/renderers/core/renderer.h"
 #include "alhazen/renderers/core/sampling_plan.h"
+#include "alhazen/renderers/photon_mapping/irradiance_cache.h"
 #include "alhazen/renderers/photons/photon_grid.h"
 #include "alhazen/renderers/sppm/sppm.h"
 #include "alhazen/sampling/random.h"
@@ -79,6 +80,7 @@ Rgb mean_of(const Film& film) {
 
 const char* const kPhotonRenderers[] = {"photon_mapping:photons=20000,caustics=20000,nearest=50",
                                         "photon_mapping:photons=20000,gather=8,nearest=50",
+                                        "photon_mapping:photons=20000,gather=64,cache=0.3",
                                         "sppm:photons=20000"};
 
 /// A closed sphere of albedo a that glows with e shows e / (1 - a) everywhere.
@@ -125,9 +127,9 @@ TEST(PhotonRenderers, APlaneMirrorAddsTheLightOfTheLampBehindIt) {
     // The image of the lamp is at (2, 0, 1): cosine 1 / sqrt(5), squared distance 5.
     const double expected = 1.0 + 0.8 / (5.0 * std::sqrt(5.0));
     for (const char* renderer :
-         {"photon_mapping:photons=1000,caustics=400000,nearest=1000,filter=disc",
-          "photon_mapping:photons=1000,caustics=400000,nearest=1000,filter=cone",
-          "photon_mapping:photons=1000,caustics=400000,nearest=1000,filter=gauss",
+         {"photon_mapping:photons=1000,caustics=200000,nearest=800,filter=disc",
+          "photon_mapping:photons=1000,caustics=200000,nearest=800,filter=cone",
+          "photon_mapping:photons=1000,caustics=200000,nearest=800,filter=gauss",
           "sppm:photons=100000,radius=0.1"}) {
         const Rgb seen = mean_of(picture_of(scene, renderer, 2, 8));
         EXPECT_NEAR(seen.g, expected, 0.004) << renderer;
@@ -229,12 +231,12 @@ TEST(PhotonRenderers, AgreeWithPathTracingInFiveRooms) {
         int samples;
     };
     const Case cases[] = {
-        {"photon_mapping:photons=20000,caustics=20000,nearest=30,filter=disc", 0.03, 6},
-        {"photon_mapping:photons=10000,caustics=10000,nearest=20,filter=disc,gather=6", 0.03, 4},
-        {"sppm:photons=4000,radius=0.08", 0.02, 20},
+        {"photon_mapping:photons=12000,caustics=12000,nearest=24,filter=disc", 0.03, 6},
+        {"photon_mapping:photons=6000,caustics=6000,nearest=16,filter=disc,gather=6", 0.03, 4},
+        {"sppm:photons=2000,radius=0.08", 0.02, 16},
     };
     for (const NamedRoom& r : rooms()) {
-        const BlockMeans truth = block_means(r.scene, "path_tracing", 96);
+        const BlockMeans truth = block_means(r.scene, "path_tracing", 64);
         const double whole = (truth.mean[0] + truth.mean[1] + truth.mean[2] + truth.mean[3]) / 4;
         for (const Case& c : cases) {
             const BlockMeans found = block_means(r.scene, c.renderer, c.samples);
@@ -271,6 +273,64 @@ TEST(PhotonRenderers, MorePhotonsTakeTheBiasAway) {
     const double first = bias("sppm:photons=4000,alpha=0.5,radius=0.5", 1);
     EXPECT_GT(first, 0.05);
     EXPECT_LT(bias("sppm:photons=1000,alpha=0.5,radius=0.5", 64), 0.6 * first);
+}
+
+TEST(PhotonRenderers, TheIrradianceCacheShowsWhatGatheringShows) {
+    const Scene scene = room([](SceneMaker& m) { add_lamp(m, 0.5, {4, 4, 4}); });
+    const std::string gathering = "photon_mapping:photons=10000,caustics=0,nearest=30,gather=";
+    const auto blocks = [&](const std::string& more, int samples) {
+        return block_means(scene, gathering + more, samples);
+    };
+    const BlockMeans without = blocks("8", 4), with = blocks("64,cache=0.15", 4);
+    for (int i = 0; i < 4; ++i) {
+        const double error = std::hypot(without.error[i], with.error[i]);
+        EXPECT_NEAR(with.mean[i], without.mean[i], 5.4 * error + 0.02 * without.mean[i]) << i;
+    }
+}
+
+TEST(IrradianceCache, InterpolatesWithinItsReachOnItsSide) {
+    IrradianceCache cache(0.2);
+    EXPECT_FALSE(cache.irradiance({0, 0, 0}, {0, 0, 1}));
+    cache.add({{0, 0, 0}, {0, 0, 1}, {1, 2, 3}, 1.0});
+    // The reach is 0.2.
+    for (const double x : {0.0, 0.1, -0.19}) {
+        const auto found = cache.irradiance({x, 0, 0}, {0, 0, 1});
+        ASSERT_TRUE(found) << x;
+        EXPECT_NEAR(found->b, 3.0, 1e-12);
+    }
+    EXPECT_FALSE(cache.irradiance({0.21, 0, 0}, {0, 0, 1}));
+    EXPECT_FALSE(cache.irradiance({0, 0, 0}, {0, 0, -1}));
+    // Half way between two records of equal reach lies their mean.
+    cache.add({{0.2, 0, 0}, {0, 0, 1}, {3, 4, 5}, 1.0});
+    EXPECT_NEAR(cache.irradiance({0.1, 0, 0}, {0, 0, 1})->r, 2.0, 1e-12);
+    // What lies behind does not count.
+    cache.add({{0, 0, 9}, {0, 0, 1}, {7, 7, 7}, 10.0});
+    EXPECT_FALSE(cache.irradiance({0, 0, 7.9}, {0, 0, 1}));
+    EXPECT_TRUE(cache.irradiance({1, 0, 9}, {0, 0, 1}));
+}
+
+/// All records within their reach are found, by brute force.
+TEST(IrradianceCache, FindsAllRecords) {
+    RandomStream random(8);
+    for (const double error : {0.05, 0.5}) {
+        IrradianceCache cache(error);
+        std::vector<IrradianceRecord> records;
+        for (int i = 0; i < 300; ++i) {
+            records.push_back({{random.uniform(-1, 1), random.uniform(-1, 1), 0},
+                               {0, 0, 1},
+                               {1, 1, 1},
+                               std::exp(random.uniform(-4, 1))});
+            cache.add(records.back());
+        }
+        for (int trial = 0; trial < 1000; ++trial) {
+            const Vec3 p{random.uniform(-1, 1), random.uniform(-1, 1), 0};
+            bool any = false;
+            for (const IrradianceRecord& r : records) {
+                any = any || length(p - r.point) < error * r.distance * (1 - 1e-9);
+            }
+            EXPECT_EQ(cache.irradiance(p, {0, 0, 1}).has_value(), any);
+        }
+    }
 }
 
 TEST(PhotonRenderers, PicturesDependNeitherOnThreadsNorOnTiles) {

@@ -52,6 +52,7 @@ class ScatterPoint {
         return thin_ ? bsdf_.straight_probability(local_view_) : 0.0;
     }
     [[nodiscard]] bool has_density() const { return bsdf_.has_density(); }
+    [[nodiscard]] std::optional<Rgb> lambert() const { return bsdf_.lambert(); }
     [[nodiscard]] bool has_singular() const { return bsdf_.has_singular(); }
     [[nodiscard]] bool transmits() const { return bsdf_.transmits(); }
     [[nodiscard]] const Vec3& normal() const { return frame_.z; }

@@ -1,7 +1,9 @@
 #include "alhazen/renderers/photon_mapping/gathering_eye.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "alhazen/math/constants.h"
 #include "alhazen/sampling/random.h"
 
 namespace alhazen {
@@ -24,8 +26,55 @@ double mirrored_bits(std::uint32_t n) {
 Rgb GatheringEye::photon_light(const SeenPoint& at) {
     const Vec3& point = at.surface.point;
     const Rgb caustic = density_.radiance(maps_.caustic, at.scatter, point, LightPart::NotGlossy);
-    if (gather_ > 0) return caustic + gathered(at);
+    if (gather_ > 0) {
+        const std::optional<Rgb> matt = cache_ != nullptr ? at.scatter.lambert() : std::nullopt;
+        return caustic + (matt ? matt_light(at, *matt) : gathered(at));
+    }
     return caustic + density_.radiance(maps_.global, at.scatter, point, LightPart::NotGlossy);
+}
+
+Rgb GatheringEye::matt_light(const SeenPoint& at, const Rgb& reflectance) {
+    std::optional<Rgb> irradiance = cache_->irradiance(at.surface.point, at.scatter.normal());
+    if (!irradiance) {
+        const IrradianceRecord record = record_at(at);
+        if (records_ != nullptr) records_->push_back(record);
+        irradiance = record.irradiance;
+    }
+    return (1.0 / kPi) * (reflectance * *irradiance);
+}
+
+IrradianceRecord GatheringEye::record_at(const SeenPoint& at) {
+    IrradianceRecord record{at.surface.point, at.scatter.normal(), {}, 0.0};
+    const Vec3 x = perpendicular(record.normal), y = cross(record.normal, x);
+    const Vec2 shift{at.numbers.at(0), at.numbers.at(1)};
+    double inverse = 0.0;
+    for (int k = 0; k < gather_; ++k) {
+        const double squared = fraction(static_cast<double>(k) / gather_ + shift.x);
+        const double angle = 2.0 * kPi * (mirrored_bits(static_cast<std::uint32_t>(k)) + shift.y);
+        const double across = std::sqrt(squared);
+        const Vec3 along =
+            normalize((across * std::cos(angle)) * x + (across * std::sin(angle)) * y +
+                      std::sqrt(1.0 - squared) * record.normal);
+        if (!(dot(along, at.scatter.geometric()) > 0.0)) continue;
+        PathEnd path;
+        path.time = at.path.time;
+        path.media = at.path.media;
+        path.kind = RayKind::Reflection;
+        path.ray = leaving_ray(at.surface, along);
+        const PathNumbers numbers{mix64(at.numbers.seed) + static_cast<std::uint64_t>(k),
+                                  at.numbers.path, at.numbers.part};
+        double distance = kInfinity;
+        record.irradiance += (kPi / gather_) * arriving(path, numbers, distance);
+        inverse += 1.0 / (gather_ * distance);
+    }
+    // Not closer together than pixels, not farther apart than 64 of them.
+    constexpr double kLeastPixels = 2.0, kMostPixels = 64.0;
+    const double pixel = at.path.cone.width / cache_->error();
+    record.distance = 1.0 / inverse;
+    if (pixel > 0.0) {
+        record.distance = std::clamp(record.distance, kLeastPixels * pixel, kMostPixels * pixel);
+    }
+    return record;
 }
 
 Rgb GatheringEye::gathered(const SeenPoint& at) {
@@ -44,16 +93,18 @@ Rgb GatheringEye::gathered(const SeenPoint& at) {
         NextSurface::go_on(path, at.surface, at.scatter, *drawn);
         const PathNumbers numbers{mix64(at.numbers.seed) + static_cast<std::uint64_t>(k),
                                   at.numbers.path, at.numbers.part};
-        sum += arriving(path, numbers);
+        double distance = 0.0;
+        sum += arriving(path, numbers, distance);
     }
     return (1.0 / gather_) * sum;
 }
 
-Rgb GatheringEye::arriving(PathEnd& path, const PathNumbers& numbers) {
+Rgb GatheringEye::arriving(PathEnd& path, const PathNumbers& numbers, double& distance) {
     Rgb sum;
     for (int surface = 0; surface < settings_.depth; ++surface) {
         if (!next_.find(path, numbers)) return sum;
         const ShadingPoint& point = next_.point();
+        if (surface == 0) distance = path.travelled;
         if (point.material->unlit) return sum;
         met_.set(scene_, point, path.media);
         if (met_.has_density()) {

@@ -2,6 +2,7 @@
 
 #include "alhazen/renderers/core/rounds.h"
 #include "alhazen/renderers/core/sample_loop.h"
+#include "alhazen/renderers/photon_mapping/fill_cache.h"
 #include "alhazen/renderers/photon_mapping/gathering_eye.h"
 #include "alhazen/renderers/photons/photon_records.h"
 
@@ -14,18 +15,19 @@ constexpr std::size_t kSeenAtOnce = 256;
 class PhotonTiles final : public TiledRenderer {
   public:
     PhotonTiles(const Illumination& lights, const PhotonMaps& maps,
-                const PhotonMappingSettings& settings)
-        : lights_(lights), maps_(maps), settings_(settings) {}
+                const PhotonMappingSettings& settings, const IrradianceCache* cache)
+        : lights_(lights), maps_(maps), settings_(settings), cache_(cache) {}
 
     [[nodiscard]] std::unique_ptr<TileRenderer> begin(const RenderJob& job) const override {
         return std::make_unique<RoundRenderer<GatheringEye>>(job, kSeenAtOnce, lights_, maps_,
-                                                             settings_);
+                                                             settings_, cache_);
     }
 
   private:
     const Illumination& lights_;
     const PhotonMaps& maps_;
     const PhotonMappingSettings& settings_;
+    const IrradianceCache* cache_;
 };
 
 }  // namespace
@@ -41,7 +43,15 @@ RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
             return photons_by_area(maps.global, point, normal) +
                    photons_by_area(maps.caustic, point, normal);
         });
-        report = render_in_rounds(PhotonTiles(lights, maps, settings_), with_plan(job), film);
+        const RenderJob planned = with_plan(job);
+        std::optional<IrradianceCache> cache;
+        if (settings_.cache > 0.0 && settings_.gather > 0 && lights.shines()) {
+            cache = filled_cache(planned, film, lights, maps, settings_, report.counters);
+        }
+        const RayCounters filling = report.counters;
+        report = render_in_rounds(PhotonTiles(lights, maps, settings_, cache ? &*cache : nullptr),
+                                  planned, film);
+        report.counters += filling;
     } else {
         report.parts = 1;
     }

@@ -24,6 +24,7 @@ struct PhotonMappingSettings {
     double radius = 0;                ///< largest of an estimate; 0: by the map
     DensityFilter filter = DensityFilter::Cone;
     int gather = 0;       ///< rays of the final gathering; 0: the global map is looked at directly
+    double cache = 0;     ///< error of the irradiance cache of the final gathering; 0: none
     double memory = 512;  ///< of the maps, in megabytes
     bool projection = true;  ///< caustic photons are sent towards mirrors and glass
     PathSettings paths;

@@ -202,6 +202,17 @@ bool Bsdf::has_density() const {
     return std::ranges::any_of(parts_, [](const Part& p) { return !is_singular(p.lobe); });
 }
 
+std::optional<Rgb> Bsdf::lambert() const {
+    Rgb sum;
+    for (const Part& part : parts_) {
+        if (is_singular(part.lobe)) continue;
+        const auto* const matt = std::get_if<Lambert>(&part.lobe);
+        if (matt == nullptr || part.covers != 0) return std::nullopt;
+        sum += part.weight * matt->color;
+    }
+    return sum;
+}
+
 bool Bsdf::has_singular() const {
     return std::ranges::any_of(parts_, [](const Part& p) { return is_singular(p.lobe); });
 }

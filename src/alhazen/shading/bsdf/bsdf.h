@@ -57,6 +57,8 @@ class Bsdf {
     [[nodiscard]] Rgb albedo(const Vec3& view) const;
     /// False: only singular lobes, or none: lights need not be sampled.
     [[nodiscard]] bool has_density() const;
+    /// The reflectance where all that is not singular is one matt reflection; else none.
+    [[nodiscard]] std::optional<Rgb> lambert() const;
     /// Whether light comes back or goes on in single directions.
     [[nodiscard]] bool has_singular() const;
     /// Whether `value` may be above 0 below the surface.
