@@ -33,14 +33,10 @@ PhotonWalk::PhotonWalk(const Scene& scene, const Illumination& lights, const Pho
 LightRay PhotonWalk::leave_light(std::uint64_t number) const {
     const SamplePixel set{static_cast<int>(number / kMaxSamples), 0};
     const auto in_set = static_cast<std::uint32_t>(number % kMaxSamples);
-    ProjectionMap::Aim aim{sampler_->at(set, 0, in_set).x, sampler_->at(set, 1, in_set),
-                           sampler_->at(set, 2, in_set)};
-    if (shot_.projection != nullptr) {
-        aim = shot_.projection->aim(aim.choice, aim.place, aim.direction);
-    }
-    LightRay light = lights_.emit(aim.choice, aim.place, aim.direction);
-    light.place_density /= aim.weight;
-    return light;
+    const double choice = sampler_->at(set, 0, in_set).x;
+    const Vec2 place = sampler_->at(set, 1, in_set), direction = sampler_->at(set, 2, in_set);
+    return shot_.projection != nullptr ? shot_.projection->emit(choice, place, direction)
+                                       : lights_.emit(choice, place, direction);
 }
 
 Rgb PhotonWalk::falloff(const LightRay& light, const Vec3& point, double distance) const {

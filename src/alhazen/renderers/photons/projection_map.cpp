@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "alhazen/math/constants.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/renderers/light_transport/light_start.h"
 #include "alhazen/renderers/photons/next_surface.h"
@@ -15,12 +16,12 @@ namespace {
 
 constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 /// Share of the photons that go anywhere.
-constexpr double kAnywhere = 0.1;
-/// Lights that are told apart.
-constexpr std::size_t kMostStrata = 64;
+constexpr double kAnywhere = 0.2;
+/// Parts of the choice among few lights, and among many.
+constexpr std::size_t kFewLights = 4, kFewStrata = 16, kMostStrata = 64;
 
 /// One trial: whether a ray of light meets what reflects or refracts in single directions.
-bool meets_mirror(const RenderJob& job, const LightRay& light, const PathNumbers& numbers,
+bool meets_mirror(const Scene& scene, const LightRay& light, const PathNumbers& numbers,
                   NextSurface& next, ScatterPoint& scatter) {
     const WalkStart start = start_of(light, 0.0f);
     if (start.throughput.is_black()) return false;
@@ -28,98 +29,132 @@ bool meets_mirror(const RenderJob& job, const LightRay& light, const PathNumbers
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
     if (!next.find(path, numbers) || next.point().material->unlit) return false;
-    scatter.set(job.scene, next.point(), path.media);
+    scatter.set(scene, next.point(), path.media);
     return scatter.has_singular();
 }
 
 }  // namespace
 
 ProjectionMap::ProjectionMap(const RenderJob& job, const Illumination& lights, std::uint64_t seed,
-                             RayCounters& counters) {
+                             RayCounters& counters)
+    : lights_(lights) {
     std::set<std::size_t> sources;
-    std::vector<std::uint8_t> afar;
     for (std::size_t i = 0; i < kMostStrata; ++i) {
-        const LightRay light =
-            lights.emit((static_cast<double>(i) + 0.5) / kMostStrata, {0.5, 0.5}, {0.5, 0.5});
-        sources.insert(light.place.source);
-        afar.push_back(light.infinite);
+        const double choice = (static_cast<double>(i) + 0.5) / kMostStrata;
+        sources.insert(lights.emit(choice, {0.5, 0.5}, {0.5, 0.5}).place.source);
     }
-    strata_ = sources.size() > 1 ? kMostStrata : 1;
-    side_ = sources.size() > 1 ? 16 : 48;
-    const std::size_t trials = sources.size() > 1 ? 4 : 16;
-    afar.resize(strata_);
-    afar_ = afar;
+    strata_ = sources.size() == 1 ? 1 : sources.size() <= kFewLights ? kFewStrata : kMostStrata;
+    side_ = sources.size() == 1 ? 96 : sources.size() <= kFewLights ? 64 : 32;
+    const std::vector<std::uint8_t> marks = widened(tried(job, seed, counters));
+    marked_ = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
+    if (marked_ == 0) return;
+    const double even = 1.0 / static_cast<double>(cells());
+    std::vector<bool> afar(strata_);
+    for (std::size_t i = 0; i < strata_; ++i) afar[i] = is_afar(i);
+    const std::size_t map = side_ * side_;
+    const std::size_t near =
+        map * static_cast<std::size_t>(std::count(afar.begin(), afar.end(), false));
+    const double of_marked =
+        (1.0 - kAnywhere) * static_cast<double>(near) * even / static_cast<double>(marked_);
+    for (std::size_t cell = 0; cell < cells(); ++cell) {
+        const double aimed = kAnywhere * even + (marks[cell] != 0 ? of_marked : 0.0);
+        const double own = afar[cell / map] ? even : aimed;
+        sums_.push_back((sums_.empty() ? 0.0 : sums_.back()) + own);
+    }
+}
+
+bool ProjectionMap::is_afar(std::size_t stratum) const {
+    const double choice = (static_cast<double>(stratum) + 0.5) / static_cast<double>(strata_);
+    return lights_.emit(choice, {0.5, 0.5}, {0.5, 0.5}).infinite;
+}
+
+std::vector<std::uint8_t> ProjectionMap::tried(const RenderJob& job, std::uint64_t seed,
+                                               RayCounters& counters) const {
+    const int trials = strata_ > 1 ? 4 : 16;
     std::vector<std::uint8_t> marks(cells());
-    std::vector<RayCounters> counts(side_ * strata_);
-    parallel_for(side_ * strata_, 1, [&](std::size_t begin, std::size_t end) {
+    std::vector<RayCounters> counts(strata_ * side_);
+    parallel_for(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
         ScatterPoint scatter;
         for (std::size_t row = begin; row < end; ++row) {
             NextSurface next(job.scene, counts[row],
                              job.count_tests ? &counts[row].tests : nullptr);
+            if (is_afar(row / side_)) continue;
             for (std::size_t cell = row * side_; cell < (row + 1) * side_; ++cell) {
-                for (std::size_t k = 0; k < trials && marks[cell] == 0; ++k) {
-                    const PathNumbers numbers{seed, cell, k};
-                    const Aim tried = within(cell, numbers.at(0), {numbers.at(1), numbers.at(2)},
-                                             {numbers.at(3), numbers.at(4)});
+                for (int k = 0; k < trials && marks[cell] == 0; ++k) {
+                    const PathNumbers n{seed, cell, static_cast<std::uint64_t>(k)};
+                    const LightRay light =
+                        emit_in(cell, 1.0, n.at(0), {n.at(1), n.at(2)}, {n.at(3), n.at(4)});
+                    // Light without a place is sent everywhere.
                     marks[cell] =
-                        meets_mirror(job, lights.emit(tried.choice, tried.place, tried.direction),
-                                     numbers, next, scatter);
+                        light.infinite || meets_mirror(job.scene, light, n, next, scatter);
                 }
             }
         }
     });
     for (const RayCounters& c : counts) counters += c;
-    widen(marks);
-    marked_ = static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
-    if (marked_ == 0) return;
-    const double everywhere = kAnywhere / static_cast<double>(cells());
-    for (const std::uint8_t mark : marks) {
-        const double own =
-            everywhere + (mark != 0 ? (1.0 - kAnywhere) / static_cast<double>(marked_) : 0.0);
-        sums_.push_back((sums_.empty() ? 0.0 : sums_.back()) + own);
-    }
+    return marks;
 }
 
-/// Marks the neighbours of marked cells, too.
-void ProjectionMap::widen(std::vector<std::uint8_t>& marks) const {
-    const std::vector<std::uint8_t> own = marks;
-    for (std::size_t cell = 0; cell < own.size(); ++cell) {
-        if (own[cell] == 0) continue;
+std::vector<std::uint8_t> ProjectionMap::widened(const std::vector<std::uint8_t>& marks) const {
+    std::vector<std::uint8_t> wide = marks;
+    for (std::size_t cell = 0; cell < marks.size(); ++cell) {
+        if (marks[cell] == 0) continue;
         const std::size_t stratum = cell / (side_ * side_);
         const std::size_t x = cell % side_, y = cell / side_ % side_;
         for (std::size_t v = y > 0 ? y - 1 : 0; v <= std::min(y + 1, side_ - 1); ++v) {
-            for (std::size_t u = x > 0 ? x - 1 : 0; u <= std::min(x + 1, side_ - 1); ++u) {
-                marks[(stratum * side_ + v) * side_ + u] = 1;
+            for (const std::size_t u : {(x + side_ - 1) % side_, x, (x + 1) % side_}) {
+                wide[(stratum * side_ + v) * side_ + u] = 1;
             }
         }
     }
+    return wide;
 }
 
-ProjectionMap::Aim ProjectionMap::within(std::size_t cell, double choice, const Vec2& place,
-                                         const Vec2& direction) const {
+LightRay ProjectionMap::emit_in(std::size_t cell, double share, double choice, const Vec2& place,
+                                const Vec2& direction) const {
     const std::size_t stratum = cell / (side_ * side_);
-    const auto part = [](std::size_t i, double u, std::size_t count) {
-        return std::min((static_cast<double>(i) + u) / static_cast<double>(count), kBelowOne);
-    };
-    Aim aim{part(stratum, choice, strata_), place, direction, 1.0};
-    Vec2& aimed = afar_[stratum] != 0 ? aim.place : aim.direction;
-    aimed = {part(cell % side_, aimed.x, side_), part(cell / side_ % side_, aimed.y, side_)};
-    return aim;
+    LightRay light = lights_.emit(
+        std::min((static_cast<double>(stratum) + choice) / static_cast<double>(strata_), kBelowOne),
+        place, direction);
+    if (!(light.place_density > 0.0)) return light;
+    if (light.infinite) {
+        light.place_density *= share;
+        return light;
+    }
+    // The side of a lamp with two was chosen by the halves of direction.x.
+    const double doubled = 2.0 * direction.x;
+    const double side = static_cast<double>(side_);
+    const double angle =
+        2.0 * kPi * (static_cast<double>(cell % side_) + doubled - std::floor(doubled)) / side;
+    const double z = 1.0 - 2.0 * (static_cast<double>(cell / side_ % side_) + direction.y) / side;
+    const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
+    const Vec3 along = normalize(Vec3{across * std::cos(angle), across * std::sin(angle), z});
+    const double aimed = share / (4.0 * kPi);
+    if (light.singular_place) {
+        light.radiance = lights_.irradiance(light.place, light.ray.origin + along);
+        light.direction_density = aimed;
+        light.normal = along;
+    } else {
+        const double cosine = dot(light.ray.direction, light.normal);
+        const bool two_sides = light.direction_density * kPi < 0.75 * cosine;
+        light.direction_density = two_sides ? 0.5 * aimed : aimed;
+        if (!(dot(along, light.normal) > 0.0)) light.place_density = 0.0;
+    }
+    light.ray.direction = along;
+    return light;
 }
 
-ProjectionMap::Aim ProjectionMap::aim(double choice, const Vec2& place,
-                                      const Vec2& direction) const {
-    if (marked_ == 0) return {choice, place, direction, 1.0};
+LightRay ProjectionMap::emit(double choice, const Vec2& place, const Vec2& direction) const {
+    if (sums_.empty()) return lights_.emit(choice, place, direction);
     const double sought = choice * sums_.back();
     const auto found = std::upper_bound(sums_.begin(), sums_.end() - 1, sought);
     const auto cell = static_cast<std::size_t>(found - sums_.begin());
     const double before = cell > 0 ? sums_[cell - 1] : 0.0;
-    const double share = *found - before;
+    const double own = *found - before;
     // What the choice of the cell leaves of the number chooses the light.
-    const double rest = std::clamp((sought - before) / share, 0.0, kBelowOne);
-    Aim aim = within(cell, rest, place, direction);
-    aim.weight = sums_.back() / (static_cast<double>(cells()) * share);
-    return aim;
+    const double rest = std::clamp((sought - before) / own, 0.0, kBelowOne);
+    const double share = own / sums_.back() * static_cast<double>(cells());
+    return emit_in(cell, share, rest, place, direction);
 }
 
 }  // namespace alhazen

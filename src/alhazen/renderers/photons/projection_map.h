@@ -1,15 +1,16 @@
 #pragma once
-/// Where lights send photons that are to meet mirrors and glass.
+/// In which directions lights send photons that are to meet mirrors and glass.
 ///
 /// Source: Jensen, "Global Illumination using Photon Maps", EGWR 1996, section 3 (projection maps);
 /// Hesterberg, "Weighted Average Importance Sampling and Defensive Mixture Distributions",
 /// Technometrics 37(2), 1995.
-/// Differs: cells are marked by rays that are tried, not by projected bounds, and lie in the unit
-/// square from which directions are drawn, of light without a place in that of its disc. What is
-/// not marked keeps a tenth of the photons, and each counts by its density: no light is lost where
-/// the trials missed something.
-/// Conventions: depends on the scene and the seed alone. Threads: const functions may be called
-/// from many.
+/// Differs: cells of the sphere of directions are marked by rays that are tried, not by projected
+/// bounds, with their neighbours. What is not marked keeps a fifth of the photons, and each photon
+/// counts by its density: no light is lost where the trials missed something. Light without a place
+/// (the sun, the surroundings) is not aimed, and keeps its share of the photons.
+/// Conventions: one map for each of 16 or 64 parts of the choice of a light, or for the only light;
+/// world directions. Depends on the scene and the seed alone. Threads: const functions may be
+/// called from many.
 
 #include <cstdint>
 #include <vector>
@@ -21,34 +22,31 @@ namespace alhazen {
 
 class ProjectionMap {
   public:
-    /// Casts some ten thousand rays, with the threads of the caller's ThreadLimit.
+    /// Casts some hundred thousand rays, with the threads of the caller's ThreadLimit.
     ProjectionMap(const RenderJob& job, const Illumination& lights, std::uint64_t seed,
                   RayCounters& counters);
 
-    /// Arguments of Illumination::emit, and the factor of the light that they give.
-    struct Aim {
-        double choice = 0;
-        Vec2 place, direction;
-        double weight = 1;
-    };
-    /// All in [0, 1).
-    [[nodiscard]] Aim aim(double choice, const Vec2& place, const Vec2& direction) const;
+    /// Illumination::emit, aimed. All numbers in [0, 1).
+    [[nodiscard]] LightRay emit(double choice, const Vec2& place, const Vec2& direction) const;
 
     /// Cells from which mirrors or glass may be met; 0: all are alike.
     [[nodiscard]] std::size_t marked() const { return marked_; }
     [[nodiscard]] std::size_t cells() const { return strata_ * side_ * side_; }
 
   private:
-    /// Arguments within a cell.
-    [[nodiscard]] Aim within(std::size_t cell, double choice, const Vec2& place,
-                             const Vec2& direction) const;
-    void widen(std::vector<std::uint8_t>& marks) const;
+    /// A ray of a cell; `share`: the density of the cell over that of even cells.
+    [[nodiscard]] LightRay emit_in(std::size_t cell, double share, double choice, const Vec2& place,
+                                   const Vec2& direction) const;
+    [[nodiscard]] bool is_afar(std::size_t stratum) const;
+    [[nodiscard]] std::vector<std::uint8_t> tried(const RenderJob& job, std::uint64_t seed,
+                                                  RayCounters& counters) const;
+    [[nodiscard]] std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& marks) const;
 
-    std::size_t strata_ = 1;          ///< of the choice of a light
-    std::size_t side_ = 1;            ///< cells of a stratum along each side of the square
-    std::vector<std::uint8_t> afar_;  ///< [stratum] its light has no place
-    std::vector<double> sums_;        ///< [cell] probability of all up to and with it
+    const Illumination& lights_;
+    std::size_t strata_ = 1;  ///< of the choice
+    std::size_t side_ = 1;    ///< cells of a map in latitude, and around the z axis
     std::size_t marked_ = 0;
+    std::vector<double> sums_;  ///< [cell] probability of all up to and with it; empty: none marked
 };
 
 }  // namespace alhazen

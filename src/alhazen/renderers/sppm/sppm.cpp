@@ -49,6 +49,22 @@ class PassEye final : public PhotonEye {
     const PhotonGrid& grid_;
 };
 
+/// Reports the tiles of all passes as one work.
+class PassProgress final : public ProgressSink {
+  public:
+    PassProgress(ProgressSink* sink, std::uint32_t passes) : sink_(sink), passes_(passes) {}
+    void update(std::string_view phase, std::size_t done, std::size_t total) override {
+        if (sink_ != nullptr && phase == "render") {
+            sink_->update(phase, pass_ * total + done, passes_ * total);
+        }
+    }
+    void next_pass() { ++pass_; }
+
+  private:
+    ProgressSink* sink_;
+    std::size_t passes_, pass_ = 0;
+};
+
 /// Three times the median width of a pixel at what the eye sees.
 double radius_of_pixels(const RenderJob& job, const Film& film) {
     constexpr int kProbes = 16;
@@ -80,7 +96,7 @@ void record_photons_of(const PhotonGrid& grid, const RenderJob& job, const Film&
 }  // namespace
 
 RenderReport Sppm::render(const RenderJob& job, Film& film) const {
-    const RenderJob planned = with_plan(job);
+    RenderJob planned = with_plan(job);
     const SamplingPlan& plan = *planned.sampling;
     if (plan.has_rounds()) {
         throw Error(ErrorKind::Usage,
@@ -89,6 +105,8 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
     }
     const Illumination lights(job.scene);
     const auto passes = static_cast<std::uint32_t>(job.samples_per_pixel);
+    PassProgress progress(job.control.progress, passes);
+    planned.control.progress = &progress;
     const std::unique_ptr<Sampler> sampler = plan.sampler->make(job.seed, passes);
     const FilterKernel filter(*plan.filter, plan.radius);
     std::vector<SampleSum> sums(film.crop().area());
@@ -105,7 +123,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         const PassClock::time_point begin = PassClock::now();
         ShotPhotons photons;
-        if (lights.shines()) photons = shoot_photons(job, lights, shot, most, "sppm");
+        if (lights.shines()) photons = shoot_photons(planned, lights, shot, most, "sppm");
         report.counters += photons.counters;
         if (!photons.complete) {
             report.parts = passes;
@@ -128,6 +146,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
         report.parts = eye.parts;
         report.threads = eye.threads;
         if (!eye.complete()) return report;
+        progress.next_pass();
         sampling->most_samples = pass + 1;
         sampling->rounds.push_back(
             {1, sampling->pixels, std::chrono::duration<double>(PassClock::now() - begin).count()});
