@@ -55,7 +55,7 @@ ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights, cons
             powerful += take.powerful;
             std::vector<Photon>& all = shot_photons.photons;
             if (all.size() + take.photons.size() > most) {
-                throw Error(ErrorKind::Usage,
+                throw Error(ErrorKind::Resource,
                             fmt::format("{}: {} of {} photons fill the memory, which has place "
                                         "for {} at surfaces; give it more (memory=MB), or shoot "
                                         "fewer",

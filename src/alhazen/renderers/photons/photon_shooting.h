@@ -19,8 +19,8 @@ struct ShotPhotons {
     bool complete = true;  ///< false after a stop
 };
 
-/// `renderer`: its name, for messages. Throws Error (Usage) where more than `most` would be stored,
-/// and where no light gives any photon power.
+/// `renderer`: its name, for messages. Throws Error: Resource where more than `most` would be
+/// stored, Usage where no light gives any photon power.
 [[nodiscard]] ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights,
                                         const PhotonShot& shot, std::size_t most,
                                         const char* renderer);
