@@ -375,7 +375,7 @@ TEST(ProjectionMap, LosesNoLightOfAnyKindOfLamp) {
         const RenderJob job{.scene = scene, .camera = scene.cameras[0].camera};
         RayCounters counters;
         const ProjectionMap projection(job, lights, 3, counters);
-        PhotonShot shot{100000, {PhotonKind::Caustic}, 64, 5};
+        PhotonShot shot{60000, {PhotonKind::Caustic}, 64, 5};
         const double anywhere = power_of(shot_of(scene, shot).photons).g;
         shot.projection = &projection;
         const double aimed = power_of(shot_of(scene, shot).photons).g;
@@ -446,7 +446,7 @@ TEST(Caustics, ARingHasItsCuspAtHalfItsRadius) {
     floor.radius = 1.5;
     maker.add(floor, maker.material(matt({0, 0, 0.0001})));
     maker.light(DirectionalLight{.to_light = normalize(Vec3{-1, 0, 0.6}), .color = {1, 1, 1}});
-    const ShotPhotons shot = shot_of(maker.compile(), {2000000, {PhotonKind::Caustic}, 64, 5});
+    const ShotPhotons shot = shot_of(maker.compile(), {1000000, {PhotonKind::Caustic}, 64, 5});
     // Photons of one reflection in strips across x near the axis: 0.3 .. 0.7.
     std::map<int, double> strips;
     for (const Photon& p : shot.photons) {
