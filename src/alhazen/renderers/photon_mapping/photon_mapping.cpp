@@ -5,6 +5,7 @@
 #include "alhazen/renderers/photon_mapping/fill_cache.h"
 #include "alhazen/renderers/photon_mapping/gathering_eye.h"
 #include "alhazen/renderers/photons/photon_records.h"
+#include "alhazen/renderers/photons/photon_shooting.h"
 
 namespace alhazen {
 
@@ -56,6 +57,7 @@ RenderReport PhotonMapping::render(const RenderJob& job, Film& film) const {
         report.parts = 1;
     }
     report.counters += maps.counters;
+    note_silent_lights(lights, "photon_mapping", report);
     return report;
 }
 

@@ -33,8 +33,10 @@ bool NextSurface::find(PathEnd& path, const PathNumbers& numbers) {
             return false;
         }
         ++counters_[path.kind].hit;
-        set_shading_point(scene_, path.ray, hit_,
-                          {!path.media.empty(), path.cone.width_at(hit_.t), path.time}, {}, point_);
+        set_shading_point(
+            scene_, path.ray, hit_,
+            {!path.media.empty(), path.cone.width_at(hit_.t), path.time, path.kind != RayKind::Eye},
+            {}, point_);
         path.cone = path.cone.from(hit_.t);
         path.travelled += hit_.t;
         absorb(path, hit_.t);

@@ -37,35 +37,39 @@ void PhotonEye::trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct)
     path.cone = job_.cone;
     path.ray = camera_.through_lens(chance_, id, ray, path.time);
     PathNumbers numbers{job_.round->seed, id.pixel.id(), id.number};
+    path.media = camera_.media();
     Last last;
-    for (int scatterings = 0;; ++scatterings) {
+    for (int event = 0;; ++event) {
         if (!next_.find(path, numbers)) {
             sum += escaped(path, last);
             return;
         }
         const ShadingPoint& point = next_.point();
         sum += emitted(path, last);
-        if (point.material->unlit || scatterings >= settings_.depth) return;
+        if (point.material->unlit || last.scatterings >= settings_.depth) return;
         scatter_.set(scene_, point, path.media);
         if (scatter_.has_density()) {
-            add_direct_light(id, scatterings, path, direct);
-            const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(scatterings) + 1,
+            add_direct_light(id, event, path, direct);
+            const PathNumbers own{numbers.seed + static_cast<std::uint64_t>(event) + 1,
                                   numbers.path, numbers.part};
             sum += path.throughput * photon_light({point.surface, scatter_, path, own});
         }
-        const auto drawn = scatter_.sample(chance_.draw(id, scatterings, PathChance::kChoices).x,
-                                           chance_.draw(id, scatterings, PathChance::kDirection),
-                                           Transport::Radiance);
+        const auto drawn =
+            scatter_.sample(chance_.draw(id, event, PathChance::kChoices).x,
+                            chance_.draw(id, event, PathChance::kDirection), Transport::Radiance);
         if (!drawn || drawn->weight.is_black()) return;
         if (!drawn->singular && !(drawn->density > kGlossyDensity)) return;
-        if (!drawn->straight) {
+        if (drawn->straight) {
+            if (++path.met > kMaxPassedSurfaces) return;
+        } else {
+            ++last.scatterings;
             last.singular = drawn->singular;
             last.density = drawn->density;
             last.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};
             last.eta_scale *= drawn->transmitted ? drawn->eta * drawn->eta : 1.0;
         }
         NextSurface::go_on(path, point.surface, scatter_, *drawn);
-        if (!survives(path, last, id, scatterings)) return;
+        if (!survives(path, last, id, event)) return;
     }
 }
 
@@ -87,12 +91,11 @@ Rgb PhotonEye::emitted(const PathEnd& path, const Last& last) const {
     return power_heuristic(last.density, other) * light;
 }
 
-void PhotonEye::add_direct_light(const SampleId& id, int scatterings, const PathEnd& path,
-                                 Rgb& direct) {
+void PhotonEye::add_direct_light(const SampleId& id, int event, const PathEnd& path, Rgb& direct) {
     const ShadingPoint& point = next_.point();
     const LitPoint at{point.surface.point, scatter_.normal(), scatter_.transmits()};
-    const LightDraw drawn = lights_.draw(at, chance_.draw(id, scatterings, PathChance::kChoices).y,
-                                         chance_.draw(id, scatterings, PathChance::kLight));
+    const LightDraw drawn = lights_.draw(at, chance_.draw(id, event, PathChance::kChoices).y,
+                                         chance_.draw(id, event, PathChance::kLight));
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     const Rgb light = scatter_.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
@@ -109,13 +112,12 @@ void PhotonEye::add_direct_light(const SampleId& id, int scatterings, const Path
                  direct);
 }
 
-bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id,
-                         int scatterings) const {
+bool PhotonEye::survives(PathEnd& path, const Last& last, const SampleId& id, int event) const {
     if (!path.throughput.is_finite()) return false;
-    if (scatterings < settings_.roulette) return true;
+    if (last.scatterings <= settings_.roulette) return true;
     constexpr double kMost = 0.95;
     const double share = std::min(kMost, last.eta_scale * path.throughput.max());
-    if (!(chance_.draw(id, scatterings, PathChance::kLuck).x < share)) return false;
+    if (!(chance_.draw(id, event, PathChance::kLuck).x < share)) return false;
     path.throughput = (1.0 / share) * path.throughput;
     return true;
 }

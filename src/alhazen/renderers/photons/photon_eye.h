@@ -58,13 +58,15 @@ class PhotonEye {
         double density = 0;
         LitPoint from;
         double eta_scale = 1;
+        int scatterings = 0;
     };
+    // `event`: scatterings and straight passes so far, for random numbers.
     void trace(const SampleId& id, const Ray& ray, Rgb& sum, Rgb& direct);
     [[nodiscard]] Rgb escaped(const PathEnd& path, const Last& last) const;
     [[nodiscard]] Rgb emitted(const PathEnd& path, const Last& last) const;
-    void add_direct_light(const SampleId& id, int scatterings, const PathEnd& path, Rgb& direct);
+    void add_direct_light(const SampleId& id, int event, const PathEnd& path, Rgb& direct);
     [[nodiscard]] bool survives(PathEnd& path, const Last& last, const SampleId& id,
-                                int scatterings) const;
+                                int event) const;
 
     const Illumination& lights_;
     PathChance chance_;

@@ -24,6 +24,14 @@ struct PhotonTake {
 
 }  // namespace
 
+void note_silent_lights(const Illumination& lights, const char* renderer, RenderReport& report) {
+    if (!lights.leaves_some_to_chance()) return;
+    report.notes.push_back(
+        fmt::format("{}: some emitting surfaces light nothing, for they cannot be sampled; "
+                    "path_tracing finds their light",
+                    renderer));
+}
+
 ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights, const PhotonShot& shot,
                           std::size_t most, const char* renderer) {
     ShotPhotons shot_photons;
@@ -65,9 +73,8 @@ ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights, cons
         }
         if (powerful == 0) {
             throw Error(ErrorKind::Usage,
-                        fmt::format("{}: no light of the scene sends photons: points and spots "
-                                    "need a quadratic term of the attenuation, surfaces a form "
-                                    "that can be sampled",
+                        fmt::format("{}: no light of the scene sends photons: its emitting "
+                                    "surfaces cannot be sampled; path_tracing finds their light",
                                     renderer));
         }
         shot_photons.complete = !job.stop_requested();

@@ -19,6 +19,9 @@ struct ShotPhotons {
     bool complete = true;  ///< false after a stop
 };
 
+/// A sentence for RenderReport::notes where some lights send no photons, though others do.
+void note_silent_lights(const Illumination& lights, const char* renderer, RenderReport& report);
+
 /// `renderer`: its name, for messages. Throws Error: Resource where more than `most` would be
 /// stored, Usage where no light gives any photon power.
 [[nodiscard]] ShotPhotons shoot_photons(const RenderJob& job, const Illumination& lights,

@@ -28,6 +28,7 @@ PhotonWalk::PhotonWalk(const Scene& scene, const Illumination& lights, const Pho
       shot_(shot),
       caustics_only_(!shot.kinds.has(PhotonKind::Direct) && !shot.kinds.has(PhotonKind::Indirect)),
       sampler_(find_sampler("sobol")->make(shot.seed, kMaxSamples)),
+      media_(scene),
       next_(scene, counters, stats) {}
 
 LightRay PhotonWalk::leave_light(std::uint64_t number) const {
@@ -71,15 +72,18 @@ bool PhotonWalk::survives(PathEnd& path, double begun, const PathNumbers& number
 bool PhotonWalk::shoot(std::uint64_t number, std::vector<Photon>& stored) {
     const PathNumbers numbers{shot_.seed, number, 0};
     const LightRay light = leave_light(number);
-    const WalkStart start = start_of(light, 0.0f);
+    float time = 0.0f;
+    if (scene_.has_motion) {
+        time = std::min(static_cast<float>(numbers.at(kTimeOfPhoton)), 0x1.fffffep-1f);
+    }
+    const WalkStart start = start_of(light, time, media_);
     if (start.throughput.is_black() || !start.throughput.is_finite()) return false;
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
     path.throughput = start.throughput;
-    if (scene_.has_motion) {
-        path.time = std::min(static_cast<float>(numbers.at(kTimeOfPhoton)), 0x1.fffffep-1f);
-    }
+    path.time = time;
+    path.media = start.media;
     const double begun = start.throughput.max();
     Rgb fall{1, 1, 1};
     PhotonKind kind = PhotonKind::Direct;

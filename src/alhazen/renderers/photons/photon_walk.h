@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "alhazen/illumination/illumination.h"
+#include "alhazen/renderers/light_transport/media_finder.h"
 #include "alhazen/renderers/photons/next_surface.h"
 #include "alhazen/renderers/photons/photon.h"
 #include "alhazen/renderers/photons/projection_map.h"
@@ -51,6 +52,7 @@ class PhotonWalk {
     PhotonShot shot_;
     bool caustics_only_;
     std::unique_ptr<Sampler> sampler_;  ///< of the rays that leave lights
+    MediaFinder media_;
     NextSurface next_;
     ScatterPoint scatter_;
 };

@@ -21,13 +21,14 @@ constexpr double kAnywhere = 0.2;
 constexpr std::size_t kFewLights = 4, kFewStrata = 16, kMostStrata = 64;
 
 /// One trial: whether a ray of light meets what reflects or refracts in single directions.
-bool meets_mirror(const Scene& scene, const LightRay& light, const PathNumbers& numbers,
-                  NextSurface& next, ScatterPoint& scatter) {
-    const WalkStart start = start_of(light, 0.0f);
+bool meets_mirror(const Scene& scene, const LightRay& light, const MediaFinder& media,
+                  const PathNumbers& numbers, NextSurface& next, ScatterPoint& scatter) {
+    const WalkStart start = start_of(light, 0.0f, media);
     if (start.throughput.is_black()) return false;
     PathEnd path;
     path.ray = start.ray;
     path.kind = RayKind::Reflection;
+    path.media = start.media;
     if (!next.find(path, numbers) || next.point().material->unlit) return false;
     scatter.set(scene, next.point(), path.media);
     return scatter.has_singular();
@@ -73,6 +74,7 @@ std::vector<std::uint8_t> ProjectionMap::tried(const RenderJob& job, std::uint64
     const int trials = strata_ > 1 ? 4 : 16;
     std::vector<std::uint8_t> marks(cells());
     std::vector<RayCounters> counts(strata_ * side_);
+    const MediaFinder media(job.scene);
     parallel_for(counts.size(), 1, [&](std::size_t begin, std::size_t end) {
         ScatterPoint scatter;
         for (std::size_t row = begin; row < end; ++row) {
@@ -86,7 +88,7 @@ std::vector<std::uint8_t> ProjectionMap::tried(const RenderJob& job, std::uint64
                         emit_in(cell, 1.0, n.at(0), {n.at(1), n.at(2)}, {n.at(3), n.at(4)});
                     // Light without a place is sent everywhere.
                     marks[cell] =
-                        light.infinite || meets_mirror(job.scene, light, n, next, scatter);
+                        light.infinite || meets_mirror(job.scene, light, media, n, next, scatter);
                 }
             }
         }

@@ -118,6 +118,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
     const auto most = static_cast<std::size_t>(
         std::min(settings_.memory * 1e6 / PhotonGrid::kBytesOfPhoton, 0x1p31));
     RenderReport report;
+    note_silent_lights(lights, "sppm", report);
     auto sampling = std::make_shared<SamplingReport>();
     sampling->pixels = film.crop().area();
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
