@@ -121,6 +121,7 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
     note_silent_lights(lights, "sppm", report);
     auto sampling = std::make_shared<SamplingReport>();
     sampling->pixels = film.crop().area();
+    report.sampling = sampling;
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
         const PassClock::time_point begin = PassClock::now();
         ShotPhotons photons;
@@ -154,7 +155,6 @@ RenderReport Sppm::render(const RenderJob& job, Film& film) const {
         shot.seed = mix64(shot.seed);
         radius *= std::sqrt(squared_radius_step(settings_.alpha, static_cast<int>(pass) + 1));
     }
-    report.sampling = sampling;
     return report;
 }
 
