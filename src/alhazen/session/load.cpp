@@ -1,5 +1,7 @@
 #include "alhazen/session/load.h"
 
+#include <utility>
+
 #include "alhazen/formats/importer_list.h"
 #include "alhazen/parallel/parallel.h"
 #include "alhazen/session/environment_option.h"
@@ -48,14 +50,26 @@ SceneDescription load_description(const std::filesystem::path& path, const LoadO
 }
 
 LoadedScene load(const std::filesystem::path& path, const LoadOptions& options) {
-    LoadedScene loaded;
     report_phase(options, "load", 0);
     const Stopwatch load_time;
-    loaded.description = load_description(path, options, loaded.diagnostics);
+    Diagnostics diagnostics;
+    SceneDescription description = load_description(path, options, diagnostics);
+    const double seconds = load_time.seconds();
+    report_phase(options, "load", 1);
+    LoadedScene loaded = load(std::move(description), std::move(diagnostics), options);
+    loaded.load_seconds += seconds;
+    return loaded;
+}
+
+LoadedScene load(SceneDescription description, Diagnostics diagnostics,
+                 const LoadOptions& options) {
+    LoadedScene loaded;
+    const Stopwatch load_time;
+    loaded.description = std::move(description);
+    loaded.diagnostics = std::move(diagnostics);
     add_seen_lights(loaded.description);
     loaded.load_seconds = load_time.seconds();
     loaded.load_peak_bytes = peak_rss_bytes();
-    report_phase(options, "load", 1);
     run_build_phase(loaded, options, [&] {
         loaded.scene = compile_without_geometry(loaded.description);
         warn_of_bad_texels(loaded);

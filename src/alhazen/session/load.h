@@ -44,6 +44,10 @@ struct LoadedScene {
 /// Reads, validates and compiles. Throws Error.
 [[nodiscard]] LoadedScene load(const std::filesystem::path& path, const LoadOptions& options = {});
 
+/// The same for a valid description that was made otherwise; `diagnostics` are its warnings.
+[[nodiscard]] LoadedScene load(SceneDescription description, Diagnostics diagnostics,
+                               const LoadOptions& options = {});
+
 /// Builds the aggregate where the scene has none, and adds to the times. Throws Error.
 void build_aggregate(LoadedScene& loaded, const LoadOptions& options);
 

@@ -6,6 +6,8 @@
 #include "alhazen/aggregates/wide_bvh/wide_bvh_aggregate.h"
 #include "alhazen/base/error.h"
 #include "alhazen/geometry/ray_scale.h"
+#include "alhazen/primitives/primitive_columns.h"
+#include "alhazen/scene/scene.h"
 
 namespace alhazen {
 namespace {
@@ -137,6 +139,49 @@ void Tracer::all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask) 
         append_hits(ray, lists.hits, mask);
         lists.ends.push_back(lists.hits.size());
     }
+}
+
+Tracer Tracer::of(const Scene& scene) {
+    if (!scene.aggregate) throw Error(ErrorKind::Usage, "the scene has no aggregate");
+    return {scene.aggregate, scene.census.analytic_shapes + scene.census.triangles,
+            static_cast<std::size_t>(scene.census.instance_depth)};
+}
+
+HitIds Tracer::ids(const Hit& hit) const {
+    HitIds ids;
+    const PrimitiveTable* table = &aggregate_->primitives();
+    const Instance* outermost = nullptr;
+    const Instance* shared_mesh = nullptr;
+    for (std::size_t level = hit.path.size(); level-- > 0;) {
+        check_id(*table, hit.path[level], true);
+        const Instance& instance = table->instances[table->index(hit.path[level])];
+        if (outermost == nullptr && !instance.holds_rest) outermost = &instance;
+        shared_mesh = instance.of_shared_mesh ? &instance : nullptr;
+        table = &instance.aggregate->primitives();
+    }
+    check_id(*table, hit.primitive, false);
+    const std::uint32_t kind = table->kind(hit.primitive);
+    const std::uint32_t index = static_cast<std::uint32_t>(hit.primitive) - table->first(kind);
+    if (kind == kTriangleKind) {
+        const PlacedMesh& mesh = table->mesh_of(index);
+        ids.primitive = index - mesh.first_triangle;
+        ids.geometry = GeometryId{mesh.part};
+    } else {
+        ids.geometry = GeometryId{with_column(table->columns, kind, [&](const auto& column) {
+            return column.parts.empty() ? 0 : column.parts[index];
+        })};
+    }
+    if (shared_mesh != nullptr) ids.geometry = GeometryId{shared_mesh->part};
+    ids.outermost = outermost != nullptr ? GeometryId{outermost->part} : ids.geometry;
+    return ids;
+}
+
+void Tracer::surface(const Ray& ray, const Hit& hit, Surface& surface) const {
+    const int exponent = unusual_exponent(ray.direction);
+    if (exponent == 0) return set_surface(*aggregate_, ray, hit, false, surface);
+    Hit usual = hit;
+    usual.t = std::ldexp(hit.t, exponent);
+    set_surface(*aggregate_, rescaled(ray, exponent), usual, false, surface);
 }
 
 HitDetails Tracer::details(const Ray& ray, const Hit& hit) const {

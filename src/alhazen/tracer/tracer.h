@@ -28,6 +28,8 @@
 
 namespace alhazen {
 
+struct Scene;
+
 struct TracerOptions {
     /// A name of `accelerator_table()`; others throw Error (Usage) with the valid names.
     std::string accelerator = kDefaultAccelerator;
@@ -43,6 +45,13 @@ struct HitDetails : Surface {
     std::uint32_t primitive = 0;  ///< triangle of a mesh; 0 for a shape
     /// Ids of the enclosing instances, outermost first; each in the scene of the previous one.
     InlineVector<GeometryId, kMaxInstanceDepth> instances;
+};
+
+/// What was hit, without its surface.
+struct HitIds {
+    GeometryId geometry{};        ///< as HitDetails::geometry
+    std::uint32_t primitive = 0;  ///< triangle of a mesh; 0 for a shape
+    GeometryId outermost{};       ///< the outermost instance around it, or the geometry itself
 };
 
 /// All hits of a batch of rays, in the order of the rays.
@@ -68,6 +77,10 @@ class Tracer {
     /// than `wide_bvh`, File when the file cannot be written.
     void save(const std::filesystem::path& file) const;
 
+    /// Traces a compiled scene that has its aggregate; geometry is numbered by the parts of its
+    /// description (Surface::part). Moving parts are where they are as the shutter opens.
+    [[nodiscard]] static Tracer of(const Scene& scene);
+
     /// Finds the nearest hit: t, u and v (the weights of the second and third vertex of a triangle,
     /// or the parameters of a shape). True on a hit; otherwise `hit.found()` is false.
     bool intersect(const Ray& ray, Hit& hit, RayMask mask = kAllRays) const;
@@ -86,9 +99,15 @@ class Tracer {
                   Coherence coherence = Coherence::Any) const;
     void all_hits(std::span<const Ray> rays, HitLists& lists, RayMask mask = kAllRays) const;
 
+    /// Names what was hit: cheaper than `details`. Throws Error (Usage) without a hit.
+    [[nodiscard]] HitIds ids(const Hit& hit) const;
     /// The surface at a hit of this tracer. `leaving_ray` (primitives/surface.h) starts the next
     /// ray there. Throws Error (Usage) without a hit.
     [[nodiscard]] HitDetails details(const Ray& ray, const Hit& hit) const;
+
+    /// The surface alone, into `surface`, which is large and not copied; without texture
+    /// coordinates. Precondition: a hit of this tracer.
+    void surface(const Ray& ray, const Hit& hit, Surface& surface) const;
 
     /// Spans, thickness and containment queries for geometry that bounds volumes. Creation tests
     /// which geometry does (a sort of the edges of every mesh): create once. Shares the geometry

@@ -95,6 +95,7 @@ std::string joined(const std::vector<std::string_view>& names) {
 
 std::optional<TextNode> BlockReader::find(std::string_view key) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+    if (observer_ != nullptr) observer_->key(what_, key, {});
     std::optional<TextNode> found;
     bool seen = false;
     for (const TextNode item : block_) {
@@ -113,6 +114,7 @@ bool BlockReader::has(std::string_view key) const {
 }
 
 void BlockReader::require(std::string_view key) {
+    if (observer_ != nullptr) observer_->required(what_, key);
     if (has(key)) return;
     values_.diagnostics.error(block_.location(),
                               what_ + ": '" + std::string(key) + " = ...' is missing");

@@ -45,6 +45,16 @@ struct ValueReader {
 template <class T>
 using Vocabulary = std::vector<std::pair<std::string_view, T>>;
 
+/// Takes note of what a reader asks of blocks (BlockReader::observe).
+class BlockObserver {
+  public:
+    virtual ~BlockObserver() = default;
+    /// `words`: what the value must be one of; empty: it is no keyword.
+    virtual void key(std::string_view block, std::string_view key,
+                     const std::vector<std::string_view>& words) = 0;
+    virtual void required(std::string_view block, std::string_view key) = 0;
+};
+
 /// The pairs of one block. Query every known key, then call `finish`.
 class BlockReader {
   public:
@@ -56,6 +66,9 @@ class BlockReader {
     /// `what` names the block in messages: "sphere".
     BlockReader(TextNode block, std::string what, Strictness strictness, Diagnostics& diagnostics)
         : block_(block), what_(std::move(what)), strictness_(strictness), values_{diagnostics} {}
+
+    /// Reports all further queries; null: none.
+    void observe(BlockObserver* observer) { observer_ = observer; }
 
     /// The value of `key`, unless absent or broken.
     [[nodiscard]] std::optional<TextNode> find(std::string_view key);
@@ -92,20 +105,23 @@ class BlockReader {
     Strictness strictness_;
     ValueReader values_;
     std::vector<std::string_view> known_;
+    BlockObserver* observer_ = nullptr;
 };
 
 template <class T>
 bool BlockReader::read_word(std::string_view key, const Vocabulary<T>& words, T& out) {
     const std::optional<TextNode> value = find(key);
-    if (!value) return false;
+    if (!value && observer_ == nullptr) return false;
     std::vector<std::string_view> names;
     for (const auto& [word, meaning] : words) {
-        if (value->is(NodeKind::Word) && value->text() == word) {
+        if (value && value->is(NodeKind::Word) && value->text() == word) {
             out = meaning;
             return true;
         }
         names.push_back(word);
     }
+    if (observer_ != nullptr) observer_->key(what_, key, names);
+    if (!value) return false;
     return values_.fail(*value, key, "one of " + joined(names));
 }
 

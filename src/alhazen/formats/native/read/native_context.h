@@ -38,10 +38,13 @@ struct NativeContext {
     std::filesystem::path folder;  ///< of the file whose top level is being read
     std::uint64_t included_bytes = 0;
     std::uint64_t included_files = 0;
-    std::uint64_t elements = 0;  ///< vertices, triangles and parts
+    std::uint64_t elements = 0;         ///< vertices, triangles and parts
+    BlockObserver* observer = nullptr;  ///< of all blocks; null: none
 
     [[nodiscard]] BlockReader reader(TextNode block, std::string what) const {
-        return {block, std::move(what), BlockReader::Strictness::Strict, diagnostics};
+        BlockReader made(block, std::move(what), BlockReader::Strictness::Strict, diagnostics);
+        made.observe(observer);
+        return made;
     }
     /// Throws Error (Resource) beyond options.max_elements.
     void count_elements(std::uint64_t more, const FileLocation& where);

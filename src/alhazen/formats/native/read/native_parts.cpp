@@ -97,16 +97,6 @@ constexpr std::pair<std::string_view, ReadPart> kPartBlocks[] = {
     {"defaults", read_defaults},
 };
 
-std::string known_blocks() {
-    std::vector<std::string_view> names;
-    for (const auto& [name, read] : kSettingsBlocks) names.push_back(name);
-    for (const auto& [name, read] : native_view_blocks()) names.push_back(name);
-    names.insert(names.end(), {"material", "texture", "solid_texture", "instance", "include"});
-    for (const auto& [name, read] : kPartBlocks) names.push_back(name);
-    for (const std::string_view name : native_shape_names()) names.push_back(name);
-    return joined(names);
-}
-
 /// True when `type` is a block of the top level; reads it, or reports that it is nested.
 bool read_top_level_block(const NativeBlock& block, NativeContext& context,
                           const NativeScope& scope) {
@@ -146,10 +136,20 @@ void read_entry(TextNode entry, NativeContext& context, NativeScope& scope) {
         return;
     }
     context.diagnostics.error(block.location, "unknown block '" + printable(block.type) +
-                                                  "'; known are " + known_blocks());
+                                                  "'; known are " + joined(native_block_names()));
 }
 
 }  // namespace
+
+std::vector<std::string_view> native_block_names() {
+    std::vector<std::string_view> names;
+    for (const auto& [name, read] : kSettingsBlocks) names.push_back(name);
+    for (const auto& [name, read] : native_view_blocks()) names.push_back(name);
+    names.insert(names.end(), {"material", "texture", "solid_texture", "instance", "include"});
+    for (const auto& [name, read] : kPartBlocks) names.push_back(name);
+    for (const std::string_view name : native_shape_names()) names.push_back(name);
+    return names;
+}
 
 NativeContext::NativeContext(SceneDescription& scene_, Diagnostics& diagnostics_,
                              const ImportOptions& options_)

@@ -10,4 +10,8 @@ namespace alhazen {
 void read_native_items(TextNode block, NativeContext& context, NativeScope& scope,
                        std::size_t skip = 0);
 
+/// All block types, in the order of messages: settings, cameras, lights, materials and textures,
+/// what holds parts, shapes. `instance` and `include` are no blocks, but stand among them.
+[[nodiscard]] std::vector<std::string_view> native_block_names();
+
 }  // namespace alhazen

@@ -1,0 +1,51 @@
+"""Pictures as numpy arrays that notebooks show."""
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, Optional
+
+import numpy as np
+
+from . import _alhazen
+
+
+class Picture(np.ndarray):
+    """A picture: a float32 array (height, width, 3) of linear radiance; row 0 is the top.
+
+    ``layers`` has the arrays of the other channels (height, width), by names such as ``depth.Z``; ``notes`` says what
+    was added to the scene (a camera, a light); ``complete``, ``seconds`` and ``rays`` (traced in all) are of the render.
+    Parts of it, and results of arithmetic, are pictures without layers.
+    """
+
+    layers: Dict[str, np.ndarray]
+    notes: list
+    complete: bool
+    seconds: float
+    rays: int
+
+    def __array_finalize__(self, other: Any) -> None:
+        self.layers = {}
+        self.notes = []
+        self.complete = True
+        self.seconds = 0.0
+        self.rays = 0
+
+    @classmethod
+    def of(cls, result: Dict[str, Any]) -> "Picture":
+        """From the dict of the compiled part."""
+        picture = result["image"].view(cls)
+        for name in ("layers", "notes", "complete", "seconds", "rays"):
+            setattr(picture, name, result[name])
+        return picture
+
+    def save(self, path: "str | os.PathLike[str]") -> None:
+        """Writes the picture by the suffix of the path: png, jpg (sRGB), exr, hdr, pfm (linear)."""
+        suffix = os.path.splitext(os.fspath(path))[1][1:].lower()
+        data = _alhazen.encode_picture(suffix, np.asarray(self))
+        with open(path, "wb") as file:
+            file.write(data)
+
+    def _repr_png_(self) -> Optional[bytes]:
+        if self.ndim not in (2, 3) or (self.ndim == 3 and self.shape[2] not in (1, 3)) or 0 in self.shape:
+            return None
+        return _alhazen.encode_picture("png", np.asarray(self))

@@ -1,0 +1,318 @@
+"""The class Scene."""
+from __future__ import annotations
+
+import json
+import os
+import threading
+import warnings
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _alhazen
+from ._blocks import Block, Origin, _caller
+from ._errors import SceneWarning, UsageError
+from ._picture import Picture
+
+#: Id of no geometry, primitive or material: what a ray hits that hits nothing.
+INVALID_ID = 0xFFFFFFFF
+
+_DEFAULT_FIELDS = ("t_hit", "geometry_ids", "primitive_ids", "uvs", "normals")
+
+Progress = Callable[[str, int, int], Any]
+
+
+class Scene:
+    """Geometry, materials, lights and cameras: answers rays, measures solids, renders pictures.
+
+    ``Scene(vertices, faces)`` is a scene of one triangle mesh; ``Scene()`` is empty; ``alhazen.load(path)`` reads a
+    file. ``add`` and ``add_mesh`` extend it. The first question builds the acceleration structure; what is added
+    later builds it again.
+
+    Parameters
+    ----------
+    vertices : array (n, 3), float32 or float64, scene units
+    faces : array (m, 3), of any type of integers; counterclockwise from outside
+    accelerator : a name of ``alhazen.accelerators()``, or "NAME:SETTING=VALUE,..."
+    quality : of the tree: "fast", "default" or "high"
+    csg : the evaluator of solids made of others
+    threads : at most so many; 0 takes all cores
+    folder : where names of files in blocks begin; the current one if not given
+    allowed_folders : others that such files may lie in
+    strict : warnings are errors
+
+    Conventions
+    -----------
+    Rays are arrays (..., 6) of origin x, y, z and direction x, y, z, or (..., 8) with t_min and t_max too (0 and
+    infinity otherwise). Directions need not be unit: t counts in their lengths. Results have the shape (...), and are
+    float32 for float32 rays, else float64; inside, all is computed in float64. Contiguous float32 and float64 arrays
+    are not copied; aligned float64 arrays (..., 8) are traced where they lie. Queries release the interpreter's
+    lock, use all cores, and end on Ctrl-C. A scene may be asked by several threads at once.
+
+    >>> import alhazen, numpy as np
+    >>> scene = alhazen.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> scene.intersect([[0.25, 0.25, 1, 0, 0, -1]])["t_hit"]
+    array([1.])
+    """
+
+    def __init__(self, vertices: Any = None, faces: Any = None, *, accelerator: str = "wide_bvh",
+                 quality: str = "default", csg: str = "event_heap", threads: int = 0,
+                 folder: "str | os.PathLike[str]" = ".", allowed_folders: Sequence[str] = (),
+                 strict: bool = False) -> None:
+        self._settings = {"accelerator": accelerator, "quality": quality, "csg": csg, "threads": int(threads),
+                          "allowed_folders": [os.fspath(f) for f in allowed_folders], "strict": strict}
+        self._threads = int(threads)
+        self._folder = os.fspath(folder)
+        self._base: Optional[Any] = None
+        self._meshes: List[Tuple[Any, ...]] = []
+        self._blocks: List[Block] = []
+        self._built: Optional[Any] = None
+        self._lock = threading.Lock()
+        if (vertices is None) != (faces is None):
+            raise UsageError("a mesh has vertices and faces: one of them is missing")
+        if vertices is not None:
+            self.add_mesh(vertices, faces)
+
+    # ---- what is in it
+
+    def add(self, *blocks: Block) -> "Scene":
+        """Adds blocks (``alhazen.sphere(...)`` and so on) after what is there, and returns the scene.
+
+        Materials, textures and objects must be added before the blocks that name them. What is wrong is reported by
+        the first question, at the place in the program where the block was made.
+        """
+        for block in blocks:
+            if not isinstance(block, Block):
+                raise UsageError(f"{block!r} is no block; alhazen.sphere(...) makes one")
+        self._blocks.extend(blocks)
+        self._built = None
+        return self
+
+    def add_mesh(self, vertices: Any, faces: Any, *, name: str = "", normals: Any = None, uvs: Any = None,
+                 **keys: Any) -> "Scene":
+        """Adds a triangle mesh, copied, and returns the scene.
+
+        ``normals`` (n, 3) and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``,
+        ``transform``, ``visible_to``, ``motion``.
+        """
+        taken = {mesh[0] for mesh in self._meshes}
+        if self._base is not None:
+            taken |= set(self._base.mesh_names())
+        number = len(self._meshes)
+        while f"array_{number}" in taken:
+            number += 1
+        label = f"array_{number}"
+        vertices, faces = np.asarray(vertices), np.asarray(faces)
+        block = Block("mesh", name, geometry=label, **keys)
+        # Copied now: the caller may change the arrays.
+        self._meshes.append((label, np.array(vertices), np.array(faces),
+                             None if normals is None else np.array(normals),
+                             None if uvs is None else np.array(uvs), block.origin))
+        self._blocks.append(block)
+        self._built = None
+        return self
+
+    def _scene(self) -> Any:
+        with self._lock:
+            if self._built is None:
+                lines: List[str] = []
+                origins: List[Origin] = []
+                for block in self._blocks:
+                    for line, origin in block._lines():
+                        lines.append(line)
+                        origins.append(origin)
+                self._built = _alhazen.BuiltScene.build(self._base, self._meshes, "\n".join(lines), origins,
+                                                        self._folder, self._settings)
+                _warn(self._built)
+            return self._built
+
+    def build(self) -> "Scene":
+        """Builds the scene now, instead of with the first question."""
+        self._scene()
+        return self
+
+    def save(self, path: "str | os.PathLike[str]") -> List[str]:
+        """Writes the scene: .alhazen keeps all of it (large meshes and pictures in files beside it), .ply, .obj and
+        .stl its meshes. Returns the names of the files written."""
+        return self._scene().save(os.fspath(path))
+
+    @property
+    def geometry_names(self) -> List[str]:
+        """[geometry id] the name of the part, or what it is."""
+        return self._scene().geometry_names()
+
+    @property
+    def material_names(self) -> List[str]:
+        """[material id] its name."""
+        return self._scene().material_names()
+
+    @property
+    def camera_names(self) -> List[str]:
+        """The cameras of the scene; ``render`` takes a name or a position."""
+        return self._scene().camera_names()
+
+    @property
+    def solid_names(self) -> List[str]:
+        """[solid id] the name of the solid: a closed shape or mesh, or a solid made of others."""
+        return self._scene().solid_names()
+
+    @property
+    def bounds(self) -> np.ndarray:
+        """The corners (2, 3) of the box of all geometry, scene units; infinite where a part is."""
+        return np.array(self._scene().bounds())
+
+    @property
+    def info(self) -> Dict[str, Any]:
+        """Counts of shapes, triangles and instances, bytes, seconds of building."""
+        return self._scene().counts()
+
+    def __repr__(self) -> str:
+        parts = len(self._blocks)
+        state = "built" if self._built is not None else "not built"
+        return f"<alhazen.Scene: {parts} added block{'' if parts == 1 else 's'}, {state}>"
+
+    # ---- rays
+
+    def intersect(self, rays: Any, *, fields: Sequence[str] = _DEFAULT_FIELDS, mask: int = 0xFFFFFFFF,
+                  coherent: bool = False, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
+        """The nearest hit of each ray: a dict of arrays shaped like the rays.
+
+        ===================  ==============  ==============================================================
+        t_hit                (...) real      in lengths of the direction; infinite without a hit
+        geometry_ids         (...) uint32    the part: 0, 1, ... in the order they were added, parts in objects after
+                                             those of the scene; ``geometry_names``
+        primitive_ids        (...) uint32    the triangle of a mesh; 0 for a shape
+        uvs                  (..., 2) real   weights of a triangle's second and third vertex, or a shape's parameters
+        normals              (..., 3) real   unit, geometric, outward of closed shapes
+        points               (..., 3) real   where it is
+        shading_normals      (..., 3) real   unit, interpolated
+        instance_ids         (...) uint32    the outermost part that holds it
+        material_ids         (...) uint32    ``material_names``
+        ===================  ==============  ==============================================================
+
+        Without a hit ids are INVALID_ID and the others 0. ``fields`` chooses the arrays; the first four cost least.
+        ``mask``: the kinds of rays that these are (``visible_to``): 1 eye, 2 shadow, 4 reflection, 8 refraction.
+        ``coherent`` says that neighbours go nearly the same way and begin or end near a common point, which is
+        faster for rays of a camera; it never changes a hit.
+        """
+        return self._scene().intersect(rays, list(fields), mask, coherent, self._at_most(threads))
+
+    def occluded(self, rays: Any, *, mask: int = 0xFFFFFFFF, coherent: bool = False,
+                 threads: Optional[int] = None) -> np.ndarray:
+        """Whether each ray hits anything: bool, shaped like the rays. Cheaper than ``intersect``."""
+        return self._scene().occluded(rays, mask, coherent, self._at_most(threads))
+
+    def all_hits(self, rays: Any, *, mask: int = 0xFFFFFFFF, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
+        """Every hit of each ray, the nearest first: flat arrays t_hit, geometry_ids, primitive_ids and uvs of all hits,
+        ray_ids (the ray of each, in C order), and ray_splits (rays + 1): hits of ray i are
+        [ray_splits[i], ray_splits[i + 1])."""
+        return self._scene().all_hits(rays, mask, self._at_most(threads))
+
+    list_intersections = all_hits
+
+    def count_intersections(self, rays: Any, *, mask: int = 0xFFFFFFFF, threads: Optional[int] = None) -> np.ndarray:
+        """How many hits each ray has: int64, shaped like the rays."""
+        return self._scene().count_intersections(rays, mask, self._at_most(threads))
+
+    # ---- solids
+
+    def spans(self, rays: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
+        """The parts of each ray inside solids, by entry: flat arrays solid_ids (uint64), t_enter, t_exit, ray_ids, and
+        ray_splits as in ``all_hits``. A span that holds an end of the ray is cut there."""
+        return self._scene().spans(rays, self._at_most(threads))
+
+    def thickness(self, rays: Any, *, threads: Optional[int] = None) -> np.ndarray:
+        """Length of each ray inside any solid, overlaps counted once: real, shaped like the rays, scene units."""
+        return self._scene().thickness(rays, self._at_most(threads))
+
+    def inside(self, points: Any, *, threads: Optional[int] = None) -> np.ndarray:
+        """Whether each point (..., 3) lies in a solid or on its surface: bool, shaped (...)."""
+        return self._scene().inside(points, self._at_most(threads))
+
+    def solids_at(self, points: Any, *, threads: Optional[int] = None) -> Dict[str, np.ndarray]:
+        """The solids that hold each point: flat arrays solid_ids, on_surface (bool), point_ids, and point_splits."""
+        return self._scene().solids_at(points, self._at_most(threads))
+
+    def measure(self, *solids: Union[str, int], error: float = 1e-4, seconds: float = 2.0, seed: int = 1,
+                threads: Optional[int] = None) -> List[Dict[str, Any]]:
+        """Volume, area, centroid and inertia of solids, each {"value": v, "interval": [lo, hi]} with 95 % confidence.
+
+        ``solids`` are names or ids; none: all. Work ends when the relative error of the volume is below ``error``, or
+        after ``seconds`` for each solid. Densities of materials give "mass". Scene units.
+        """
+        words = [str(s) for s in solids]
+        text = self._scene().measure_json(words, error, seconds, seed, self._at_most(threads))
+        return json.loads(text)["solids"]
+
+    def section(self, normal: Sequence[float] = (0, 0, 1), offset: float = 0.0, *solids: Union[str, int],
+                tolerance: float = 1e-4, cells: int = 256, threads: Optional[int] = None) -> List[Dict[str, Any]]:
+        """The outlines in which the plane dot(normal, p) = offset cuts solids: a dict for each that it cuts.
+
+        "loops" are closed polylines (k, 2) in the plane, the solid on their left; "points" the same in space (k, 3);
+        "area" what they enclose; "unresolved" counts cells where the outline may be wrong. ``tolerance`` (scene
+        units) is the largest distance of polyline and curve, ``cells`` the grid along the longer side.
+        """
+        return self._scene().section([float(x) for x in normal], float(offset), [str(s) for s in solids], tolerance,
+                                     cells, self._at_most(threads))
+
+    # ---- pictures
+
+    def render(self, width: Optional[int] = None, height: Optional[int] = None, *, spp: Optional[int] = None,
+               renderer: str = "whitted", camera: Union[str, int] = "", view: Union[str, Sequence[float]] = "",
+               layers: Union[str, Sequence[str]] = "", depth: Optional[int] = None, seed: int = 0,
+               crop: Optional[Sequence[int]] = None, environment: str = "", sampler: str = "", filter: str = "",
+               noise: Optional[float] = None, seconds: Optional[float] = None, threads: Optional[int] = None,
+               progress: Optional[Progress] = None) -> Picture:
+        """Renders a picture: a float32 array (height, width, 3), linear; see ``Picture``.
+
+        Parameters
+        ----------
+        width, height : pixels; one given: the other follows; none: the scene's
+        spp : samples per pixel
+        renderer : a name of ``alhazen.renderers()``
+        camera : name or position; the first if not given
+        view : (azimuth, elevation), degrees: a camera that frames all, instead
+        layers : names of ``alhazen.layers()``, or "all"; they come as ``picture.layers``
+        depth : of reflections and refractions
+        crop : (x0, y0, x1, y1), pixels from the top left
+        environment : "sky", "studio", "none" or a picture file, for renderers that follow light
+        noise, seconds : stop rules; pixels above the noise get more samples
+        progress : called as progress(phase, done, total); an exception of it ends the render
+
+        A scene without a camera or lights gets some; ``picture.notes`` says so.
+        """
+        if not isinstance(view, str):
+            view = ",".join(repr(float(a)) for a in view)
+        if not isinstance(layers, str):
+            layers = ",".join(layers)
+        wishes = {"renderer": renderer, "camera": str(camera), "width": width, "height": height, "depth": depth,
+                  "seed": seed, "threads": self._at_most(threads), "layers": layers, "view": view, "spp": spp,
+                  "crop": None if crop is None else tuple(crop), "environment": environment, "sampler": sampler,
+                  "filter": filter, "noise": noise, "seconds": seconds}
+        return Picture.of(self._scene().render(wishes, progress))
+
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows: the scene at 320 pixels of width."""
+        return self.render(width=320)._repr_png_()  # type: ignore[return-value]
+
+    def _at_most(self, threads: Optional[int]) -> int:
+        return self._threads if threads is None else int(threads)
+
+
+def _warn(built: Any) -> None:
+    for line in built.warnings():
+        warnings.warn(line, SceneWarning, stacklevel=4)
+
+
+def load(path: "str | os.PathLike[str]", *, accelerator: str = "wide_bvh", quality: str = "default",
+         csg: str = "event_heap", threads: int = 0, allowed_folders: Sequence[str] = (), strict: bool = False,
+         time: Optional[float] = None) -> Scene:
+    """Reads a scene file of any format that ``alhazen list formats`` names. ``time``: seconds, of its animations; the
+    other parameters are those of ``Scene``. Blocks that are added see its materials, textures and objects by name."""
+    scene = Scene(accelerator=accelerator, quality=quality, csg=csg, threads=threads,
+                  folder=os.path.dirname(os.path.abspath(os.fspath(path))), allowed_folders=allowed_folders,
+                  strict=strict)
+    scene._base = _alhazen.BuiltScene.load(os.fspath(path), {**scene._settings, "time": time})
+    scene._built = scene._base
+    _warn(scene._base)
+    return scene

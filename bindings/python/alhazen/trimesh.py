@@ -1,0 +1,91 @@
+"""The interface of trimesh's ray queries: ``RayMeshIntersector`` with its names, arguments and results.
+
+Source: the documentation of trimesh, ``trimesh.ray.ray_triangle.RayMeshIntersector``. Differs: hits are exact in
+float64 and come in the order of the rays, the nearest first; ``contains_points`` takes points on the surface as inside.
+trimesh itself is not needed: a mesh is anything with ``vertices`` and ``faces``.
+
+    mesh.ray = alhazen.trimesh.RayMeshIntersector(mesh)
+"""
+from __future__ import annotations
+
+from typing import Any, Tuple, Union
+
+import numpy as np
+
+from ._errors import UsageError
+from ._scene import Scene
+
+__all__ = ["RayMeshIntersector"]
+
+
+def _rays(origins: Any, directions: Any) -> np.ndarray:
+    origins, directions = np.asarray(origins), np.asarray(directions)
+    if origins.ndim != 2 or origins.shape[1:] != (3,) or origins.shape != directions.shape:
+        raise UsageError(f"ray_origins and ray_directions: expected the shape (n, 3) of both, found {origins.shape} "
+                         f"and {directions.shape}")
+    return np.concatenate([origins, directions], axis=1).astype(np.float64, copy=False)
+
+
+class RayMeshIntersector:
+    """Ray queries of one mesh. ``geometry``: an object with ``vertices`` (n, 3) and ``faces`` (m, 3).
+
+    >>> from types import SimpleNamespace
+    >>> import numpy as np
+    >>> mesh = SimpleNamespace(vertices=np.array([[0., 0, 0], [1, 0, 0], [0, 1, 0]]), faces=np.array([[0, 1, 2]]))
+    >>> ray = RayMeshIntersector(mesh)
+    >>> ray.intersects_location([[0.25, 0.25, 1]], [[0, 0, -1]])
+    (array([[0.25, 0.25, 0.  ]]), array([0]), array([0]))
+    """
+
+    def __init__(self, geometry: Any, **kwargs: Any) -> None:
+        self.mesh = geometry
+        self._scene = Scene(geometry.vertices, geometry.faces, **kwargs)
+        self._closed = len(self._scene.solid_names) > 0
+
+    def intersects_id(self, ray_origins: Any, ray_directions: Any, return_locations: bool = False,
+                      multiple_hits: bool = True, **kwargs: Any
+                      ) -> Union[Tuple[np.ndarray, np.ndarray], Tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """The triangles that rays hit: index_tri (h,) and index_ray (h,), int64, and with ``return_locations``
+        locations (h, 3). ``multiple_hits`` False: the first of each ray."""
+        rays = _rays(ray_origins, ray_directions)
+        if multiple_hits:
+            hits = self._scene.all_hits(rays)
+            index_ray = hits["ray_ids"]
+            index_tri = hits["primitive_ids"].astype(np.int64)
+            t = hits["t_hit"]
+        else:
+            first = self._scene.intersect(rays, fields=("t_hit", "primitive_ids"))
+            index_ray = np.flatnonzero(np.isfinite(first["t_hit"]))
+            index_tri = first["primitive_ids"][index_ray].astype(np.int64)
+            t = first["t_hit"][index_ray]
+        if not return_locations:
+            return index_tri, index_ray
+        return index_tri, index_ray, rays[index_ray, :3] + t[:, None] * rays[index_ray, 3:]
+
+    def intersects_location(self, ray_origins: Any, ray_directions: Any, multiple_hits: bool = True,
+                            **kwargs: Any) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Where rays hit the mesh: locations (h, 3), index_ray (h,), index_tri (h,)."""
+        index_tri, index_ray, locations = self.intersects_id(  # type: ignore[misc]
+            ray_origins, ray_directions, return_locations=True, multiple_hits=multiple_hits)
+        return locations, index_ray, index_tri
+
+    def intersects_first(self, ray_origins: Any, ray_directions: Any, **kwargs: Any) -> np.ndarray:
+        """The first triangle that each ray hits: (n,) int64, -1 for none."""
+        first = self._scene.intersect(_rays(ray_origins, ray_directions), fields=("t_hit", "primitive_ids"))
+        return np.where(np.isfinite(first["t_hit"]), first["primitive_ids"].astype(np.int64), -1)
+
+    def intersects_any(self, ray_origins: Any, ray_directions: Any, **kwargs: Any) -> np.ndarray:
+        """Whether each ray hits the mesh: (n,) bool."""
+        return self._scene.occluded(_rays(ray_origins, ray_directions))
+
+    def contains_points(self, points: Any) -> np.ndarray:
+        """Whether each point (n, 3) is inside of the mesh: (n,) bool. In a mesh with open edges, whether a line
+        through the point crosses it an odd number of times on both sides."""
+        points = np.asarray(points, dtype=np.float64)
+        if self._closed:
+            return self._scene.inside(points)
+        # A direction of no axis and no diagonal.
+        direction = np.broadcast_to([0.4395064455, 0.617598629942, 0.652231566745], points.shape)
+        ahead, behind = (self._scene.count_intersections(np.concatenate([points, d], axis=-1)) % 2 == 1
+                         for d in (direction, -direction))
+        return ahead & behind

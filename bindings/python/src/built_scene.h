@@ -1,0 +1,78 @@
+#pragma once
+/// A scene that is loaded, validated and compiled: what the Python class alhazen.Scene asks.
+///
+/// Threads: const functions may be called from many threads.
+
+#include <pybind11/numpy.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "alhazen/session/load.h"
+#include "alhazen/solids/solid_scene.h"
+#include "alhazen/tracer/tracer.h"
+#include "errors.h"
+
+namespace alhazen::python {
+
+/// How a scene is built.
+struct BuildSettings {
+    std::string accelerator = kDefaultAccelerator;
+    std::string csg = "event_heap";
+    std::string quality = "default";
+    int threads = 0;
+    bool strict = false;
+    std::vector<std::string> allowed_folders = {};
+    std::optional<double> time = {};
+};
+
+/// A mesh of arrays; a `mesh` block of the text places it by its name.
+struct ArrayMesh {
+    std::string name;
+    std::shared_ptr<TriangleMesh> mesh;
+    FileLocation location;
+};
+
+class BuiltScene {
+  public:
+    BuiltScene(SceneDescription source, LoadedScene loaded);
+
+    /// Builds what `base` has (null: nothing), the meshes, and the blocks of the text, whose lines
+    /// come from `origins`. File names are relative to `folder`. Throws Error.
+    [[nodiscard]] static std::shared_ptr<BuiltScene> build(const BuiltScene* base,
+                                                           const std::vector<ArrayMesh>& meshes,
+                                                           const std::string& text,
+                                                           const Origins& origins,
+                                                           const std::string& folder,
+                                                           const BuildSettings& settings);
+    /// Loads a file of any format. Throws Error.
+    [[nodiscard]] static std::shared_ptr<BuiltScene> load(const std::string& path,
+                                                          const BuildSettings& settings);
+
+    /// As it was given, without what rendering adds.
+    [[nodiscard]] const SceneDescription& source() const { return source_; }
+    [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+    [[nodiscard]] const Tracer& tracer() const { return tracer_; }
+    /// Made on first use: finds which geometry is closed.
+    [[nodiscard]] const SolidScene& solids() const;
+
+  private:
+    SceneDescription source_;
+    LoadedScene loaded_;
+    Tracer tracer_;
+    mutable std::once_flag solids_made_;
+    mutable std::optional<SolidScene> solids_;
+};
+
+/// The mesh of vertices (n, 3) and faces (m, 3), with normals (n, 3) and uvs (n, 2) or None.
+/// Throws Error.
+[[nodiscard]] std::shared_ptr<TriangleMesh> mesh_of_arrays(const pybind11::object& vertices,
+                                                           const pybind11::object& faces,
+                                                           const pybind11::object& normals,
+                                                           const pybind11::object& uvs,
+                                                           const FileLocation& where);
+
+}  // namespace alhazen::python

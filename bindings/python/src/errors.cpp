@@ -1,0 +1,55 @@
+#include "errors.h"
+
+namespace py = pybind11;
+
+namespace alhazen::python {
+
+namespace {
+
+/// In the order of ErrorKind.
+constexpr const char* kClasses[] = {"RenderError", "UsageError", "SceneError", "FileError",
+                                    "ResourceError"};
+
+void raise_as_python(const Error& error) {
+    const py::object type =
+        py::module_::import("alhazen._errors").attr(kClasses[static_cast<int>(error.kind())]);
+    const FileLocation& where = error.location();
+    const auto text = [](const std::string& s) {
+        return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+            s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
+    };
+    const auto number = [](int n) { return n > 0 ? py::object(py::int_(n)) : py::none(); };
+    const py::object value =
+        type(text(error.what()), where.file.empty() ? py::object(py::none()) : text(where.file),
+             number(where.line), number(where.column));
+    PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+}  // namespace
+
+void translate_errors() {
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const Error& error) {
+            raise_as_python(error);
+        }
+    });
+}
+
+Diagnostics at_origins(const Diagnostics& found, const std::string& name, const Origins& origins) {
+    Diagnostics result;
+    for (const Diagnostic& diagnostic : found.all()) {
+        FileLocation where = diagnostic.location;
+        const auto line = static_cast<std::size_t>(where.line);
+        if (where.file == name) where = line - 1 < origins.size() ? origins[line - 1] : FileLocation{};
+        if (diagnostic.severity == Severity::Error) {
+            result.error(std::move(where), diagnostic.message);
+        } else {
+            result.warning(std::move(where), diagnostic.message);
+        }
+    }
+    return result;
+}
+
+}  // namespace alhazen::python

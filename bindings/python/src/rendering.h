@@ -1,0 +1,34 @@
+#pragma once
+/// Pictures of a scene as numpy arrays.
+
+#include <pybind11/numpy.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "alhazen/session/render.h"
+#include "built_scene.h"
+
+namespace alhazen::python {
+
+struct PictureWishes {
+    RenderOptions render;  ///< without `stop` and `progress`
+    std::string layers;    ///< as for `--aov`; empty: none
+    std::string view;      ///< "azimuth,elevation" of a camera that frames all; empty: the file's
+    std::string environment;
+    SamplingTexts sampling;
+    std::optional<int> spp;
+};
+
+/// Dict of image (h, w, 3) float32, layers (dict of channels (h, w)), notes, complete, seconds, rays.
+/// Throws Error.
+[[nodiscard]] pybind11::dict render_picture(const BuiltScene& scene, PictureWishes wishes,
+                                            const pybind11::object& progress);
+
+/// The bytes of a file with this suffix for an array (h, w), (h, w, 1) or (h, w, 3) of linear
+/// values.
+[[nodiscard]] pybind11::bytes encode_picture(const std::string& suffix,
+                                             const pybind11::array_t<float>& pixels);
+
+}  // namespace alhazen::python

@@ -1,0 +1,52 @@
+"""Writes blocks.pyi, the types of the functions that alhazen/blocks.py makes from the reader's tables.
+
+Usage: PYTHONPATH=build/release/python python3 bindings/python/tools/make_stubs.py [--check] FILE
+--check writes nothing, and fails where the file differs.
+"""
+import sys
+import textwrap
+
+from alhazen._blocks import VOCABULARY
+from alhazen.blocks import _describe
+
+HEAD = '''"""All blocks of the native scene format; made by bindings/python/tools/make_stubs.py."""
+from typing import Any, List, Sequence, Union
+
+from ._blocks import Block as Block, Call as Call, Word as Word
+
+__all__: List[str]
+
+def translate(x: float, y: float, z: float) -> Call: ...
+def rotate(axis: Sequence[float], degrees: float) -> Call: ...
+def scale(*factors: float) -> Call: ...
+def matrix(rows: Any) -> Call: ...
+def texture_input(name: str, factor: Any = ..., channel: str = ...) -> Call: ...
+'''
+
+
+def stubs() -> str:
+    parts = [HEAD]
+    for name, is_shape, keys in VOCABULARY:
+        arguments = ", ".join(["label: Union[str, Block] = ...", "*items: Block"] +
+                              [f"{key}: Any = ..." for key, *_ in keys])
+        head = textwrap.fill(f"def {name}({arguments}) -> Block:", 118, subsequent_indent="    " + " " * len(name) + " ",
+                             break_long_words=False)
+        text = textwrap.indent(_describe(name, is_shape, keys), "    ").strip()
+        parts.append(f'\n{head}\n    """{text}"""\n')
+    return "".join(parts)
+
+
+def main() -> int:
+    check, path = "--check" in sys.argv, sys.argv[-1]
+    if not check:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(stubs())
+        return 0
+    with open(path, encoding="utf-8") as file:
+        if file.read() == stubs():
+            return 0
+    print(f"{path} is not what make_stubs.py writes: run it without --check", file=sys.stderr)
+    return 1
+
+
+sys.exit(main())

@@ -1,0 +1,25 @@
+# The Python package is built where pybind11 and numpy are there (scripts/setup --python). Python is the system's, whose
+# pybind11 and numpy Debian packages are for; -DPython3_EXECUTABLE chooses another one.
+set(ALHAZEN_PYTHON "AUTO" CACHE STRING "Build the Python package: ON, OFF or AUTO (where pybind11 and numpy are found)")
+set_property(CACHE ALHAZEN_PYTHON PROPERTY STRINGS AUTO ON OFF)
+
+set(ALHAZEN_HAS_PYTHON OFF)
+if(NOT ALHAZEN_PYTHON STREQUAL "OFF")
+    if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+        set(Python3_EXECUTABLE /usr/bin/python3)
+    endif()
+    find_package(Python3 QUIET COMPONENTS Interpreter Development.Module NumPy)
+    set(PYTHON_EXECUTABLE "${Python3_EXECUTABLE}" CACHE FILEPATH "As Python3_EXECUTABLE, for pybind11" FORCE)
+    find_package(pybind11 2.10 QUIET CONFIG)
+    if(pybind11_FOUND AND Python3_Development.Module_FOUND AND Python3_NumPy_FOUND)
+        set(ALHAZEN_HAS_PYTHON ON)
+    elseif(ALHAZEN_PYTHON STREQUAL "ON")
+        message(FATAL_ERROR "ALHAZEN_PYTHON=ON needs pybind11 2.10, numpy and Python's headers: scripts/setup --python")
+    else()
+        message(STATUS "The Python package is left out: no pybind11 or numpy (scripts/setup --python)")
+    endif()
+endif()
+# A sanitizer's run-time library would have to be loaded before Python itself.
+if(ALHAZEN_SANITIZE OR ALHAZEN_FUZZ)
+    set(ALHAZEN_HAS_PYTHON OFF)
+endif()
