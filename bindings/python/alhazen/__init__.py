@@ -14,6 +14,8 @@ from __future__ import annotations
 
 from typing import Dict
 
+import numpy as _numpy
+
 from . import _alhazen
 from ._errors import Error, FileError, RenderError, ResourceError, SceneError, SceneWarning, UsageError
 from ._picture import Picture
@@ -50,20 +52,18 @@ def traced_in_place(rays: object) -> bool:
     return _alhazen.traced_in_place(rays)
 
 
-def aligned_rays(*shape: int) -> "numpy.ndarray":
+def aligned_rays(*shape: int) -> _numpy.ndarray:
     """A float64 array (*shape, 8) for rays that are traced in place: t_min is 0, t_max infinite, the rest 0."""
-    import numpy
-
     count = 8
     for n in shape:
         count *= n
-    memory = numpy.zeros(count + 8)
+    memory = _numpy.zeros(count + 8)
     begin = (-memory.ctypes.data % 64) // 8
     rays = memory[begin:begin + count].reshape(*shape, 8)
-    rays[..., 7] = numpy.inf
+    rays[..., 7] = _numpy.inf
     return rays
 
 
 __all__ = ["Error", "FileError", "INVALID_ID", "Picture", "RenderError", "ResourceError", "Scene", "SceneError",
            "SceneWarning", "UsageError", "accelerators", "aligned_rays", "blocks", "hit_fields", "layers", "load",
-           "renderers", "traced_in_place"] + blocks.__all__
+           "renderers", "traced_in_place"] + [name for name in blocks.__all__ if name != "object"]

@@ -5,9 +5,14 @@ import numpy as np
 
 version: str
 
+class ArrayMesh:
+    name: str
+    def __init__(self, name: str, vertices: Any, faces: Any, normals: Any, uvs: Any,
+                 origin: Tuple[str, int]) -> None: ...
+
 class BuiltScene:
     @staticmethod
-    def build(base: Optional["BuiltScene"], meshes: List[Tuple[Any, ...]], text: str,
+    def build(base: Optional["BuiltScene"], meshes: List[ArrayMesh], text: str,
               origins: List[Tuple[str, int]], folder: str, settings: Dict[str, Any]) -> "BuiltScene": ...
     @staticmethod
     def load(path: str, settings: Dict[str, Any]) -> "BuiltScene": ...

@@ -48,7 +48,7 @@ def _quoted(text: str) -> str:
     return '"' + "".join(escapes.get(c, c if c >= " " else f"\\x{ord(c):02x}") for c in text) + '"'
 
 
-def _number(value: float) -> str:
+def _number(value: Any) -> str:
     if not np.isfinite(value):
         raise UsageError(f"{value} cannot be written: numbers of a scene are finite")
     return repr(float(value))
@@ -96,14 +96,14 @@ class Block:
         self.type = _checked(type)
         self.name = name
         self.items: List[Block] = list(items)
-        self.keys: Dict[str, Any] = {k: _prepared(type, k, v) for k, v in keys.items() if v is not None}
+        self.keys: Dict[str, Any] = {_checked(k): _prepared(type, k, v) for k, v in keys.items() if v is not None}
         self.origin = _caller()
         for item in self.items:
             if not isinstance(item, Block):
                 raise UsageError(f"{type}: {item!r} is no block")
 
     def _body(self) -> str:
-        pairs = [f"{_checked(k)} = {_text_of(v)}" for k, v in self.keys.items()]
+        pairs = [f"{k} = {_text_of(v)}" for k, v in self.keys.items()]
         return "{ " + "; ".join(pairs + [item._text() for item in self.items]) + " }"
 
     def _head(self) -> str:
@@ -117,7 +117,7 @@ class Block:
         if not self.items:
             yield self._text(), self.origin
             return
-        pairs = "; ".join(f"{_checked(k)} = {_text_of(v)}" for k, v in self.keys.items())
+        pairs = "; ".join(f"{k} = {_text_of(v)}" for k, v in self.keys.items())
         yield f"{self._head()} {{ {pairs}", self.origin
         for item in self.items:
             yield from item._lines()

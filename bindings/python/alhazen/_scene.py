@@ -5,7 +5,7 @@ import json
 import os
 import threading
 import warnings
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
@@ -63,10 +63,10 @@ class Scene:
                           "allowed_folders": [os.fspath(f) for f in allowed_folders], "strict": strict}
         self._threads = int(threads)
         self._folder = os.fspath(folder)
-        self._base: Optional[Any] = None
-        self._meshes: List[Tuple[Any, ...]] = []
+        self._base: Optional[_alhazen.BuiltScene] = None
+        self._meshes: List[_alhazen.ArrayMesh] = []
         self._blocks: List[Block] = []
-        self._built: Optional[Any] = None
+        self._built: Optional[_alhazen.BuiltScene] = None
         self._lock = threading.Lock()
         if (vertices is None) != (faces is None):
             raise UsageError("a mesh has vertices and faces: one of them is missing")
@@ -95,24 +95,20 @@ class Scene:
         ``normals`` (n, 3) and ``uvs`` (n, 2) are of the vertices; ``keys`` are those of a part: ``material``,
         ``transform``, ``visible_to``, ``motion``.
         """
-        taken = {mesh[0] for mesh in self._meshes}
+        taken = {mesh.name for mesh in self._meshes}
         if self._base is not None:
             taken |= set(self._base.mesh_names())
         number = len(self._meshes)
         while f"array_{number}" in taken:
             number += 1
         label = f"array_{number}"
-        vertices, faces = np.asarray(vertices), np.asarray(faces)
         block = Block("mesh", name, geometry=label, **keys)
-        # Copied now: the caller may change the arrays.
-        self._meshes.append((label, np.array(vertices), np.array(faces),
-                             None if normals is None else np.array(normals),
-                             None if uvs is None else np.array(uvs), block.origin))
+        self._meshes.append(_alhazen.ArrayMesh(label, vertices, faces, normals, uvs, block.origin))
         self._blocks.append(block)
         self._built = None
         return self
 
-    def _scene(self) -> Any:
+    def _scene(self) -> _alhazen.BuiltScene:
         with self._lock:
             if self._built is None:
                 lines: List[str] = []
@@ -299,7 +295,7 @@ class Scene:
         return self._threads if threads is None else int(threads)
 
 
-def _warn(built: Any) -> None:
+def _warn(built: _alhazen.BuiltScene) -> None:
     for line in built.warnings():
         warnings.warn(line, SceneWarning, stacklevel=4)
 

@@ -54,7 +54,7 @@ std::shared_ptr<BuiltScene> BuiltScene::build(const BuiltScene* base,
     read_native_fragment(text, kTextName, options.import, scene, found);
     if (found.error_count() == 0) validate(scene, found);
     Diagnostics diagnostics = at_origins(found, kTextName, origins);
-    diagnostics.throw_if_errors();
+    throw_found(diagnostics);
     if (options.strict) diagnostics.throw_if_warnings();
     LoadedScene loaded = alhazen::load(scene, std::move(diagnostics), options);
     return std::make_shared<BuiltScene>(std::move(scene), std::move(loaded));
@@ -64,14 +64,19 @@ std::shared_ptr<BuiltScene> BuiltScene::load(const std::string& path,
                                              const BuildSettings& settings) {
     const LoadOptions options = load_options(settings);
     Diagnostics diagnostics;
-    SceneDescription scene = load_description(path, options, diagnostics);
+    SceneDescription scene;
+    try {
+        scene = load_description(path, options, diagnostics);
+    } catch (const Error& error) {
+        if (error.location().file.empty()) throw_found(diagnostics);
+        throw;
+    }
     LoadedScene loaded = alhazen::load(scene, std::move(diagnostics), options);
     return std::make_shared<BuiltScene>(std::move(scene), std::move(loaded));
 }
 
 const SolidScene& BuiltScene::solids() const {
-    std::call_once(solids_made_,
-                   [this] { solids_.emplace(loaded_.description, loaded_.scene); });
+    std::call_once(solids_made_, [this] { solids_.emplace(loaded_.description, loaded_.scene); });
     return *solids_;
 }
 

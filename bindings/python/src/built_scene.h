@@ -4,6 +4,7 @@
 /// Threads: const functions may be called from many threads.
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 #include <memory>
 #include <mutex>
@@ -42,12 +43,9 @@ class BuiltScene {
 
     /// Builds what `base` has (null: nothing), the meshes, and the blocks of the text, whose lines
     /// come from `origins`. File names are relative to `folder`. Throws Error.
-    [[nodiscard]] static std::shared_ptr<BuiltScene> build(const BuiltScene* base,
-                                                           const std::vector<ArrayMesh>& meshes,
-                                                           const std::string& text,
-                                                           const Origins& origins,
-                                                           const std::string& folder,
-                                                           const BuildSettings& settings);
+    [[nodiscard]] static std::shared_ptr<BuiltScene> build(
+        const BuiltScene* base, const std::vector<ArrayMesh>& meshes, const std::string& text,
+        const Origins& origins, const std::string& folder, const BuildSettings& settings);
     /// Loads a file of any format. Throws Error.
     [[nodiscard]] static std::shared_ptr<BuiltScene> load(const std::string& path,
                                                           const BuildSettings& settings);

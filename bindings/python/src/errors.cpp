@@ -10,13 +10,12 @@ namespace {
 constexpr const char* kClasses[] = {"RenderError", "UsageError", "SceneError", "FileError",
                                     "ResourceError"};
 
-void raise_as_python(const Error& error) {
+void raise_as_python(const Error& error, const FileLocation& where) {
     const py::object type =
         py::module_::import("alhazen._errors").attr(kClasses[static_cast<int>(error.kind())]);
-    const FileLocation& where = error.location();
     const auto text = [](const std::string& s) {
-        return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
-            s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
+        return py::reinterpret_steal<py::object>(
+            PyUnicode_DecodeUTF8(s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
     };
     const auto number = [](int n) { return n > 0 ? py::object(py::int_(n)) : py::none(); };
     const py::object value =
@@ -31,10 +30,23 @@ void translate_errors() {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);
+        } catch (const FoundErrors& found) {
+            raise_as_python(found, found.first());
         } catch (const Error& error) {
-            raise_as_python(error);
+            raise_as_python(error, error.location());
         }
     });
+}
+
+void throw_found(const Diagnostics& found) {
+    for (const Diagnostic& diagnostic : found.all()) {
+        if (diagnostic.severity != Severity::Error) continue;
+        try {
+            found.throw_if_errors();
+        } catch (const Error& all) {
+            throw FoundErrors(all, diagnostic.location);
+        }
+    }
 }
 
 Diagnostics at_origins(const Diagnostics& found, const std::string& name, const Origins& origins) {
@@ -42,7 +54,8 @@ Diagnostics at_origins(const Diagnostics& found, const std::string& name, const 
     for (const Diagnostic& diagnostic : found.all()) {
         FileLocation where = diagnostic.location;
         const auto line = static_cast<std::size_t>(where.line);
-        if (where.file == name) where = line - 1 < origins.size() ? origins[line - 1] : FileLocation{};
+        if (where.file == name)
+            where = line - 1 < origins.size() ? origins[line - 1] : FileLocation{};
         if (diagnostic.severity == Severity::Error) {
             result.error(std::move(where), diagnostic.message);
         } else {

@@ -16,8 +16,8 @@ namespace alhazen::python {
 
 namespace {
 
-constexpr std::size_t kFirstBlock = 2048, kLargestBlock = std::size_t{1} << 22;
-constexpr std::size_t kGrain = 1024;  // items of a task
+constexpr std::size_t kFirstBlock = 256, kLargestBlock = std::size_t{1} << 22;
+constexpr std::size_t kLargestGrain = 1024;                // items of a task
 constexpr double kShortBlock = 0.0125, kLongBlock = 0.05;  // seconds
 constexpr std::chrono::milliseconds kTick{20};
 
@@ -67,11 +67,11 @@ void run_in_blocks(std::size_t count, int threads,
     std::size_t block = kFirstBlock;
     for (std::size_t begin = 0; begin < count;) {
         const std::size_t end = std::min(count, begin + block);
+        const std::size_t grain = std::clamp<std::size_t>((end - begin) / 8, 1, kLargestGrain);
         const auto start = Clock::now();
         limit.run([&] {
-            parallel_for(end - begin, std::min(kGrain, block / 2), [&](std::size_t a, std::size_t b) {
-                work(begin + a, begin + b);
-            });
+            parallel_for(end - begin, grain,
+                         [&](std::size_t a, std::size_t b) { work(begin + a, begin + b); });
         });
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         begin = end;

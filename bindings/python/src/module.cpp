@@ -1,6 +1,5 @@
 /// The extension module alhazen._alhazen: what the Python files of the package call.
 #include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
 
 #include "alhazen/aggregates/accelerator_table.h"
 #include "alhazen/formats/native/read/native_vocabulary.h"
@@ -39,23 +38,22 @@ FileLocation location_of(const py::tuple& origin) {
     return {origin[0].cast<std::string>(), origin[1].cast<int>(), 0};
 }
 
-/// meshes: tuples (name, vertices, faces, normals, uvs, (file, line)).
-std::shared_ptr<BuiltScene> build(const py::object& base, const py::list& meshes,
+/// The mesh called `name`, checked and copied.
+ArrayMesh make_mesh(const std::string& name, const py::object& vertices, const py::object& faces,
+                    const py::object& normals, const py::object& uvs, const py::tuple& origin) {
+    const FileLocation where = location_of(origin);
+    return {name, mesh_of_arrays(vertices, faces, normals, uvs, where), where};
+}
+
+std::shared_ptr<BuiltScene> build(const py::object& base, const std::vector<ArrayMesh>& meshes,
                                   const std::string& text, const py::list& origins,
                                   const std::string& folder, const py::dict& given) {
     const BuildSettings settings = settings_of(given);
-    std::vector<ArrayMesh> made;
-    for (const auto& item : meshes) {
-        const auto mesh = item.cast<py::tuple>();
-        const FileLocation where = location_of(mesh[5].cast<py::tuple>());
-        made.push_back({mesh[0].cast<std::string>(),
-                        mesh_of_arrays(mesh[1], mesh[2], mesh[3], mesh[4], where), where});
-    }
     Origins places;
     for (const auto& item : origins) places.push_back(location_of(item.cast<py::tuple>()));
     const auto* below = base.is_none() ? nullptr : base.cast<const BuiltScene*>();
     const py::gil_scoped_release released;
-    return BuiltScene::build(below, made, text, places, folder, settings);
+    return BuiltScene::build(below, meshes, text, places, folder, settings);
 }
 
 std::shared_ptr<BuiltScene> load_file(const std::string& path, const py::dict& given) {
@@ -187,6 +185,9 @@ BatchOptions batch(RayMask mask, bool coherent, int threads) {
 }
 
 void add_scene(py::module_& module) {
+    py::class_<ArrayMesh>(module, "ArrayMesh")
+        .def(py::init(&make_mesh))
+        .def_readonly("name", &ArrayMesh::name);
     py::class_<BuiltScene, std::shared_ptr<BuiltScene>>(module, "BuiltScene")
         .def_static("build", &build)
         .def_static("load", &load_file)

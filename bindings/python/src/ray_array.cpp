@@ -19,7 +19,8 @@ using Plain = py::array_t<Real, py::array::c_style>;
 py::array as_plain(const py::object& numbers, const char* what) {
     if (py::isinstance<py::array>(numbers)) {
         const auto array = py::reinterpret_borrow<py::array>(numbers);
-        if (py::isinstance<Plain<float>>(array) || py::isinstance<Plain<double>>(array)) return array;
+        if (py::isinstance<Plain<float>>(array) || py::isinstance<Plain<double>>(array))
+            return array;
     }
     auto copy = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(numbers);
     if (!copy) {

@@ -52,7 +52,8 @@ class RayArray {
     [[nodiscard]] std::size_t count() const { return numbers_.count(); }
     [[nodiscard]] bool single() const { return numbers_.single(); }
     [[nodiscard]] const std::vector<pybind11::ssize_t>& shape() const { return numbers_.shape(); }
-    /// The numbers lie as `Ray` has them: float64, (..., 8), aligned. They are then traced in place.
+    /// The numbers lie as `Ray` has them: float64, (..., 8), aligned. They are then traced in
+    /// place.
     [[nodiscard]] bool in_place() const;
     /// Rays of the range: those of the array itself, or made in `scratch`.
     [[nodiscard]] std::span<const Ray> rays(std::size_t begin, std::size_t end,

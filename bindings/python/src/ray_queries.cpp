@@ -66,8 +66,8 @@ class HitArrays {
         };
         if (field == "t_hit") return real(t_, 0);
         if (field == "uvs") return real(uvs_, 2);
-        wants_ids_ |= field == "geometry_ids" || field == "primitive_ids" ||
-                      field == "instance_ids";
+        wants_ids_ |=
+            field == "geometry_ids" || field == "primitive_ids" || field == "instance_ids";
         if (field == "geometry_ids") return ids(geometry_);
         if (field == "primitive_ids") return ids(primitive_);
         if (field == "instance_ids") return ids(instance_);
@@ -162,8 +162,8 @@ py::object occluded(const BuiltScene& scene, const py::object& rays_object,
     const PlainArray<bool> result(rays.shape());
     run_in_blocks(rays.count(), options.threads, [&](std::size_t begin, std::size_t end) {
         const std::span<const Ray> range = rays.rays(begin, end, scratch_of_thread().rays);
-        scene.tracer().occluded(range, std::span(result.data() + begin, range.size()),
-                                options.mask, coherence_of(options));
+        scene.tracer().occluded(range, std::span(result.data() + begin, range.size()), options.mask,
+                                coherence_of(options));
     });
     return result.array();
 }

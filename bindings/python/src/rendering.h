@@ -21,8 +21,8 @@ struct PictureWishes {
     std::optional<int> spp;
 };
 
-/// Dict of image (h, w, 3) float32, layers (dict of channels (h, w)), notes, complete, seconds, rays.
-/// Throws Error.
+/// Dict of image (h, w, 3) float32, layers (dict of channels (h, w)), notes, complete, seconds,
+/// rays. Throws Error.
 [[nodiscard]] pybind11::dict render_picture(const BuiltScene& scene, PictureWishes wishes,
                                             const pybind11::object& progress);
 

@@ -70,9 +70,9 @@ class Lists {
 
 std::vector<SolidId> chosen_solids(const SolidScene& scene, const std::vector<std::string>& words) {
     if (scene.solids().count() == 0) {
-        std::string message = "the scene has no solid: " +
-                              std::to_string(scene.solids().open_surfaces()) +
-                              " surfaces bound no volume";
+        std::string message =
+            "the scene has no solid: " + std::to_string(scene.solids().open_surfaces()) +
+            " surfaces bound no volume";
         for (const std::string& line : scene.open_meshes()) message += "\n" + line;
         throw Error(ErrorKind::Scene, message);
     }
@@ -203,8 +203,8 @@ std::string measure_json(const BuiltScene& scene, const std::vector<std::string>
             }
         });
     });
-    return alhazen::measure_json(report).dump(
-        -1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return alhazen::measure_json(report).dump(-1, ' ', false,
+                                              nlohmann::ordered_json::error_handler_t::replace);
 }
 
 py::list section(const BuiltScene& scene, const Vec3& normal, double offset,

@@ -27,10 +27,11 @@ def texture_input(name: str, factor: Any = ..., channel: str = ...) -> Call: ...
 def stubs() -> str:
     parts = [HEAD]
     for name, is_shape, keys in VOCABULARY:
-        arguments = ", ".join(["label: Union[str, Block] = ...", "*items: Block"] +
-                              [f"{key}: Any = ..." for key, *_ in keys])
-        head = textwrap.fill(f"def {name}({arguments}) -> Block:", 118, subsequent_indent="    " + " " * len(name) + " ",
-                             break_long_words=False)
+        arguments = ["label: Union[str, Block] = ...", "*items: Block"] + [f"{key}: Any = ..." for key, *_ in keys]
+        # No line ends within an argument.
+        joined = ", ".join(a.replace(" ", "~") for a in arguments)
+        head = textwrap.fill(f"def {name}({joined})~->~Block:", 118, break_long_words=False,
+                             subsequent_indent=" " * len(f"def {name}(")).replace("~", " ")
         text = textwrap.indent(_describe(name, is_shape, keys), "    ").strip()
         parts.append(f'\n{head}\n    """{text}"""\n')
     return "".join(parts)

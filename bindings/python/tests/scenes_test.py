@@ -1,0 +1,175 @@
+"""Scenes of blocks: vocabulary, errors at their places, files, pictures."""
+import os
+import tempfile
+import time
+import unittest
+
+import numpy as np
+
+import alhazen
+from closed_forms import cube
+
+
+def small_scene():
+    vertices, faces = cube(-0.5, 0.5)
+    scene = alhazen.Scene().add(
+        alhazen.picture(width=64, height=48, background=(0.1, 0.1, 0.2)),
+        alhazen.perspective_camera("main", eye=(0, -6, 2), look_at=(0, 0, 0.5), up=(0, 0, 1), fov_deg=40),
+        alhazen.point_light(position=(3, -4, 6)),
+        alhazen.solid_texture("marble", kind="marble", size=0.2),
+        alhazen.material("stone", diffuse=alhazen.texture_input("marble", 0.8), specular=0.3, shininess=20),
+        alhazen.plane("floor", normal=(0, 0, 1), point=(0, 0, -0.5)),
+        alhazen.union("cross", alhazen.box(lo=(-1.5, -0.2, 0), hi=(-0.7, 0.2, 0.4)),
+                      alhazen.sphere(center=(-1.1, 0, 0.4), radius=0.3), material="stone"))
+    return scene.add_mesh(vertices, faces, name="cube", material="stone",
+                          transform=[alhazen.rotate((0, 0, 1), 30), alhazen.translate(0.8, 0, 0)])
+
+
+class Blocks(unittest.TestCase):
+    def test_the_text_of_a_block_is_that_of_the_format(self):
+        self.assertEqual(repr(alhazen.sphere("ball", center=(0, 0, 1), radius=0.5)),
+                         'sphere "ball" { center = (0, 0, 1); radius = 0.5 }')
+        self.assertEqual(repr(alhazen.environment(kind="sky")), "environment { kind = sky }")
+        self.assertEqual(repr(alhazen.difference(alhazen.sphere(), alhazen.box(), cut_material="minuend")),
+                         "difference { cut_material = minuend; sphere {  }; box {  } }")
+        self.assertEqual(repr(alhazen.sphere(transform=np.eye(4))),
+                         "sphere { transform = matrix((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), "
+                         "(0.0, 0.0, 1.0, 0.0)) }")
+        self.assertEqual(repr(alhazen.sphere('a"\n', visible_to=("eye", "shadow"))),
+                         'sphere "a\\"\\n" { visible_to = (eye, shadow) }')
+
+    def test_every_block_of_the_reader_has_a_function_with_its_keys(self):
+        self.assertGreater(len(alhazen.blocks.VOCABULARY), 50)
+        for name, _, keys in alhazen.blocks.VOCABULARY:
+            made = getattr(alhazen, name)
+            for key, *_ in keys:
+                self.assertIn(f"- {key}", made.__doc__)
+        keys = {name: [key for key, *_ in keys] for name, _, keys in alhazen.blocks.VOCABULARY}
+        self.assertLessEqual({"center", "radius", "material", "transform"}, set(keys["sphere"]))
+        self.assertLessEqual({"kind", "file", "turbidity"}, set(keys["environment"]))
+        self.assertLessEqual({"eye", "fov_deg", "lens_radius"}, set(keys["perspective_camera"]))
+
+    def test_errors_name_the_statement_that_made_the_block(self):
+        def wrong():
+            return alhazen.sphere(radus=2)
+
+        line = wrong.__code__.co_firstlineno + 1
+        with self.assertRaises(alhazen.SceneError) as caught:
+            alhazen.Scene().add(alhazen.box(), wrong()).build()
+        self.assertEqual(caught.exception.file, __file__)
+        self.assertEqual(caught.exception.line, line)
+        self.assertIn(f"scenes_test.py:{line}: error: sphere: unknown key 'radus'; known are", str(caught.exception))
+
+    def test_errors_inside_of_a_block_and_of_the_whole_scene_have_places_too(self):
+        inner = alhazen.plane()
+        line = inner.origin[1]
+        with self.assertRaisesRegex(alhazen.SceneError, f":{line}: error: plane bounds no volume"):
+            alhazen.Scene().add(alhazen.difference(alhazen.sphere(), inner)).build()
+        with self.assertRaisesRegex(alhazen.SceneError, 'material "gold" is not defined'):
+            alhazen.Scene().add(alhazen.sphere(material="gold")).build()
+        with self.assertRaisesRegex(alhazen.UsageError, "expected one of constant, picture, sky, studio"):
+            alhazen.environment(kind="night")
+        with self.assertRaisesRegex(alhazen.UsageError, "finite"):
+            alhazen.Scene().add(alhazen.sphere(radius=float("nan"))).build()
+
+    def test_text_of_a_name_cannot_leave_its_block(self):
+        scene = alhazen.Scene().add(alhazen.sphere('x" { } box "y'))
+        self.assertEqual(scene.geometry_names, ['x" { } box "y'])
+        with self.assertRaises(alhazen.UsageError):
+            alhazen.Block("sphere", **{"radius = 1 } box { hi": 3})
+
+
+class Files(unittest.TestCase):
+    def test_a_saved_scene_renders_to_the_same_bits(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.alhazen")
+            scene = small_scene()
+            self.assertIn(path, scene.save(path))
+            again = alhazen.load(path)
+            np.testing.assert_array_equal(again.render(), scene.render())
+            self.assertEqual(again.geometry_names, scene.geometry_names)
+
+    def test_a_loaded_scene_can_be_extended(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.alhazen")
+            small_scene().save(path)
+            scene = alhazen.load(path).add(alhazen.sphere(center=(0, 0, 3), radius=0.5, material="stone"))
+            vertices, faces = cube(5, 6)
+            scene.add_mesh(vertices, faces, material="stone")
+            self.assertEqual(float(scene.intersect([0, 0, 9, 0, 0, -1])["t_hit"]), 5.5)
+            self.assertEqual(float(scene.intersect([5.2, 5.3, 9, 0, 0, -1])["t_hit"]), 3.0)
+            scene.save(os.path.join(folder, "more.alhazen"))
+            again = alhazen.load(os.path.join(folder, "more.alhazen"))
+            np.testing.assert_array_equal(again.render(), scene.render())
+
+    def test_errors_of_a_file_have_its_line_and_column(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "bad.alhazen")
+            with open(path, "w") as file:
+                file.write("alhazen 1\n\nsphere { radius = (1, 2) }\n")
+            with self.assertRaises(alhazen.SceneError) as caught:
+                alhazen.load(path)
+            self.assertEqual((caught.exception.file, caught.exception.line, caught.exception.column), (path, 3, 19))
+        with self.assertRaises(alhazen.FileError) as caught:
+            alhazen.load("/nowhere/scene.alhazen")
+        self.assertIsInstance(caught.exception, OSError)
+        self.assertIn("/nowhere/scene.alhazen", str(caught.exception))
+
+
+class Pictures(unittest.TestCase):
+    def test_a_picture_is_an_array_with_layers(self):
+        picture = small_scene().render(layers=("depth", "N"))
+        self.assertEqual((picture.shape, picture.dtype), ((48, 64, 3), np.float32))
+        self.assertEqual(sorted(picture.layers), ["N.X", "N.Y", "N.Z", "depth.Z"])
+        self.assertEqual(picture.layers["depth.Z"].shape, (48, 64))
+        self.assertTrue(picture._repr_png_().startswith(b"\x89PNG"))
+        self.assertIsNone(picture[0, 0]._repr_png_())
+        self.assertTrue(picture.complete)
+
+    def test_the_depth_layer_is_what_intersect_finds(self):
+        scene = alhazen.Scene().add(
+            alhazen.orthographic_camera(eye=(0, 0, 5), look_at=(0, 0, 0), up=(0, 1, 0), height=4),
+            alhazen.sphere(radius=1), alhazen.ambient_light(color=1))
+        depth = scene.render(40, 40, layers="depth").layers["depth.Z"]
+        x = (np.arange(40) + 0.5) / 10 - 2
+        rays = np.zeros((40, 40, 6))
+        rays[..., 0], rays[..., 1], rays[..., 2], rays[..., 5] = x[None, :], -x[:, None], 5, -1
+        np.testing.assert_allclose(depth, scene.intersect(rays)["t_hit"], rtol=1e-6)
+
+    def test_a_scene_without_camera_and_light_gets_both(self):
+        picture = alhazen.Scene(*cube()).render(32, 32)
+        self.assertEqual(len(picture.notes), 2)
+        self.assertGreater(picture.max(), 0.1)
+        self.assertTrue(alhazen.Scene(*cube())._repr_png_().startswith(b"\x89PNG"))
+
+    def test_progress_is_told_and_may_end_the_render(self):
+        scene = small_scene()
+        told = []
+        scene.render(progress=lambda *report: told.append(report))
+        self.assertEqual(told[-1][0], "render")
+        self.assertEqual(told[-1][1], told[-1][2])
+
+        class Enough(Exception):
+            pass
+
+        def stop(phase, done, total):
+            raise Enough
+
+        start = time.perf_counter()
+        with self.assertRaises(Enough):
+            scene.render(2000, 1500, spp=256, progress=stop)
+        self.assertLess(time.perf_counter() - start, 20)
+
+    def test_crops_and_files(self):
+        scene = small_scene()
+        whole = scene.render()
+        np.testing.assert_array_equal(scene.render(crop=(8, 4, 40, 20)), whole[4:20, 8:40])
+        with tempfile.TemporaryDirectory() as folder:
+            for suffix in ("png", "exr", "pfm"):
+                whole.save(os.path.join(folder, "p." + suffix))
+            with self.assertRaises(alhazen.UsageError):
+                whole.save(os.path.join(folder, "p.gif"))
+
+
+if __name__ == "__main__":
+    unittest.main()
