@@ -1,0 +1,260 @@
+#ifndef ALHAZEN_H
+#define ALHAZEN_H
+/* Rays and geometry from C99, with a stable binary interface.
+ *
+ * Source: the interface of Embree 3 (Wald, Woop, Benthin, Johnson and Ernst, "Embree: A Kernel Framework for Efficient
+ * CPU Ray Tracing", SIGGRAPH 2014). A program that keeps to the calls below is ported by renaming rtc to alhazen, RTC
+ * to Alhazen and RTC_ to ALHAZEN_.
+ * Differs: hits are computed in double whatever the vertices are, and are the same bits for any number of threads and
+ * any number of rays a call. Ng is a unit vector in world space, within instances too. AlhazenIntersectContext begins
+ * with its size and has no filter. Vertices may be double (ALHAZEN_FORMAT_DOUBLE3), rays too
+ * (alhazenIntersect1Md). Instances hold no instances.
+ *
+ * Conventions: t is in [tnear, tfar], in lengths of the direction. On a hit tfar becomes t. Ids are ALHAZEN_INVALID_ID
+ * where nothing is hit. Occlusion sets tfar to -infinity. A ray whose mask has no bit in common with that of a geometry
+ * does not see it. Objects are counted: New returns one reference, Release gives one back; a scene holds its geometries.
+ * Errors: no call ends the program. The first error of a thread is kept until alhazenGetDeviceError reads it.
+ * Threads: queries of a committed scene may run in many threads; nothing else of the scene may run meanwhile. */
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define ALHAZEN_API __attribute__((visibility("default")))
+#define ALHAZEN_ALIGN(bytes) __attribute__((aligned(bytes)))
+#else
+#define ALHAZEN_API
+#define ALHAZEN_ALIGN(bytes)
+#endif
+
+#define ALHAZEN_INVALID_ID ((unsigned int)-1)
+#define ALHAZEN_INVALID_GEOMETRY_ID ALHAZEN_INVALID_ID
+#define ALHAZEN_MAX_INSTANCE_LEVEL_COUNT 1
+
+/* ---- devices */
+
+typedef struct AlhazenDeviceTy* AlhazenDevice;
+typedef struct AlhazenSceneTy* AlhazenScene;
+typedef struct AlhazenGeometryTy* AlhazenGeometry;
+
+enum AlhazenError {
+    ALHAZEN_ERROR_NONE = 0,
+    ALHAZEN_ERROR_UNKNOWN = 1,
+    ALHAZEN_ERROR_INVALID_ARGUMENT = 2,
+    ALHAZEN_ERROR_INVALID_OPERATION = 3,
+    ALHAZEN_ERROR_OUT_OF_MEMORY = 4,
+    ALHAZEN_ERROR_UNSUPPORTED_CPU = 5,
+    ALHAZEN_ERROR_CANCELLED = 6
+};
+
+typedef void (*AlhazenErrorFunction)(void* userPtr, enum AlhazenError code, const char* text);
+/* Called before (post false) and after (post true) memory of a scene is taken, and with negative bytes when it is given
+ * back; false ends alhazenCommitScene with ALHAZEN_ERROR_OUT_OF_MEMORY. */
+typedef bool (*AlhazenMemoryMonitorFunction)(void* userPtr, ssize_t bytes, bool post);
+/* Called by alhazenCommitScene with the share that is done, from 0 to 1; false ends it with ALHAZEN_ERROR_CANCELLED. The
+ * build of the acceleration structure itself is one step. */
+typedef bool (*AlhazenProgressMonitorFunction)(void* userPtr, double done);
+
+/* config: NULL, or "threads=4,accelerator=wide_bvh,quality=high". threads: of a commit, 0 takes all cores. Keys of
+ * Embree without a meaning here (verbose, isa, set_affinity, start_threads, hugepages) are passed over. Returns NULL
+ * after an error, which alhazenGetDeviceError(NULL) gives. */
+ALHAZEN_API AlhazenDevice alhazenNewDevice(const char* config);
+ALHAZEN_API void alhazenRetainDevice(AlhazenDevice device);
+ALHAZEN_API void alhazenReleaseDevice(AlhazenDevice device);
+/* The first error of this thread since the last call, for a device, or for alhazenNewDevice (NULL). */
+ALHAZEN_API enum AlhazenError alhazenGetDeviceError(AlhazenDevice device);
+/* The text of the last error of this thread; "" without one. Valid until the next error of the thread. */
+ALHAZEN_API const char* alhazenGetDeviceErrorMessage(AlhazenDevice device);
+ALHAZEN_API void alhazenSetDeviceErrorFunction(AlhazenDevice device, AlhazenErrorFunction error, void* userPtr);
+ALHAZEN_API void alhazenSetDeviceMemoryMonitorFunction(AlhazenDevice device, AlhazenMemoryMonitorFunction monitor,
+                                                       void* userPtr);
+
+enum AlhazenDeviceProperty {
+    ALHAZEN_DEVICE_PROPERTY_VERSION = 0, /* 10000 major + 100 minor + patch */
+    ALHAZEN_DEVICE_PROPERTY_VERSION_MAJOR = 1,
+    ALHAZEN_DEVICE_PROPERTY_VERSION_MINOR = 2,
+    ALHAZEN_DEVICE_PROPERTY_VERSION_PATCH = 3,
+    ALHAZEN_DEVICE_PROPERTY_RAY_MASK_SUPPORTED = 64
+};
+/* 0 for a property that is not in the list. */
+ALHAZEN_API ssize_t alhazenGetDeviceProperty(AlhazenDevice device, enum AlhazenDeviceProperty property);
+
+/* ---- geometry */
+
+enum AlhazenGeometryType {
+    ALHAZEN_GEOMETRY_TYPE_TRIANGLE = 0,
+    ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT = 50, /* exact spheres: vertices x, y, z, radius */
+    ALHAZEN_GEOMETRY_TYPE_INSTANCE = 121
+};
+enum AlhazenBufferType { ALHAZEN_BUFFER_TYPE_INDEX = 0, ALHAZEN_BUFFER_TYPE_VERTEX = 1 };
+enum AlhazenFormat {
+    ALHAZEN_FORMAT_UINT3 = 0x5003,
+    ALHAZEN_FORMAT_FLOAT3 = 0x9003,
+    ALHAZEN_FORMAT_FLOAT4 = 0x9004,
+    ALHAZEN_FORMAT_FLOAT3X4_ROW_MAJOR = 0x9134,
+    ALHAZEN_FORMAT_FLOAT3X4_COLUMN_MAJOR = 0x9234,
+    ALHAZEN_FORMAT_FLOAT4X4_COLUMN_MAJOR = 0x9244,
+    ALHAZEN_FORMAT_DOUBLE3 = 0xA003, /* vertices of triangles */
+    ALHAZEN_FORMAT_DOUBLE4 = 0xA004  /* vertices of spheres */
+};
+
+ALHAZEN_API AlhazenGeometry alhazenNewGeometry(AlhazenDevice device, enum AlhazenGeometryType type);
+ALHAZEN_API void alhazenRetainGeometry(AlhazenGeometry geometry);
+ALHAZEN_API void alhazenReleaseGeometry(AlhazenGeometry geometry);
+/* The items are read by alhazenCommitScene: item i is at ptr + byteOffset + i * byteStride, which need not be aligned.
+ * The memory must live until then. slot is 0. */
+ALHAZEN_API void alhazenSetSharedGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type,
+                                                unsigned int slot, enum AlhazenFormat format, const void* ptr,
+                                                size_t byteOffset, size_t byteStride, size_t itemCount);
+/* Memory of the geometry for the items, byteStride apart; NULL after an error. */
+ALHAZEN_API void* alhazenSetNewGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type, unsigned int slot,
+                                              enum AlhazenFormat format, size_t byteStride, size_t itemCount);
+ALHAZEN_API void* alhazenGetGeometryBufferData(AlhazenGeometry geometry, enum AlhazenBufferType type,
+                                               unsigned int slot);
+ALHAZEN_API void alhazenUpdateGeometryBuffer(AlhazenGeometry geometry, enum AlhazenBufferType type, unsigned int slot);
+ALHAZEN_API void alhazenSetGeometryMask(AlhazenGeometry geometry, unsigned int mask);
+ALHAZEN_API void alhazenSetGeometryUserData(AlhazenGeometry geometry, void* userPtr);
+ALHAZEN_API void* alhazenGetGeometryUserData(AlhazenGeometry geometry);
+/* The scene must be committed before the scene of the instance is. */
+ALHAZEN_API void alhazenSetGeometryInstancedScene(AlhazenGeometry geometry, AlhazenScene scene);
+/* timeStep is 0. */
+ALHAZEN_API void alhazenSetGeometryTransform(AlhazenGeometry geometry, unsigned int timeStep,
+                                             enum AlhazenFormat format, const void* xfm);
+ALHAZEN_API void alhazenEnableGeometry(AlhazenGeometry geometry);
+ALHAZEN_API void alhazenDisableGeometry(AlhazenGeometry geometry);
+/* A geometry is part of the next commit of a scene only when it is committed. */
+ALHAZEN_API void alhazenCommitGeometry(AlhazenGeometry geometry);
+
+/* ---- scenes */
+
+enum AlhazenBuildQuality {
+    ALHAZEN_BUILD_QUALITY_LOW = 0,
+    ALHAZEN_BUILD_QUALITY_MEDIUM = 1,
+    ALHAZEN_BUILD_QUALITY_HIGH = 2
+};
+/* Taken and not needed: hits are robust, trees compact, in any case. */
+enum AlhazenSceneFlags {
+    ALHAZEN_SCENE_FLAG_NONE = 0,
+    ALHAZEN_SCENE_FLAG_DYNAMIC = 1,
+    ALHAZEN_SCENE_FLAG_COMPACT = 2,
+    ALHAZEN_SCENE_FLAG_ROBUST = 4
+};
+struct AlhazenBounds {
+    float lower_x, lower_y, lower_z, align0;
+    float upper_x, upper_y, upper_z, align1;
+} ALHAZEN_ALIGN(16);
+
+ALHAZEN_API AlhazenScene alhazenNewScene(AlhazenDevice device);
+ALHAZEN_API void alhazenRetainScene(AlhazenScene scene);
+ALHAZEN_API void alhazenReleaseScene(AlhazenScene scene);
+ALHAZEN_API void alhazenSetSceneBuildQuality(AlhazenScene scene, enum AlhazenBuildQuality quality);
+ALHAZEN_API void alhazenSetSceneFlags(AlhazenScene scene, enum AlhazenSceneFlags flags);
+ALHAZEN_API void alhazenSetSceneProgressMonitorFunction(AlhazenScene scene, AlhazenProgressMonitorFunction progress,
+                                                        void* userPtr);
+/* Returns the smallest free id; ALHAZEN_INVALID_ID after an error. */
+ALHAZEN_API unsigned int alhazenAttachGeometry(AlhazenScene scene, AlhazenGeometry geometry);
+ALHAZEN_API void alhazenAttachGeometryByID(AlhazenScene scene, AlhazenGeometry geometry, unsigned int geomID);
+ALHAZEN_API void alhazenDetachGeometry(AlhazenScene scene, unsigned int geomID);
+ALHAZEN_API AlhazenGeometry alhazenGetGeometry(AlhazenScene scene, unsigned int geomID);
+/* Builds, or after an error leaves what was committed before. */
+ALHAZEN_API void alhazenCommitScene(AlhazenScene scene);
+/* Rounded outward; empty (lower above upper) without geometry. */
+ALHAZEN_API void alhazenGetSceneBounds(AlhazenScene scene, struct AlhazenBounds* bounds_o);
+
+/* ---- rays */
+
+enum AlhazenIntersectContextFlags {
+    ALHAZEN_INTERSECT_CONTEXT_FLAG_NONE = 0,
+    ALHAZEN_INTERSECT_CONTEXT_FLAG_INCOHERENT = 0,
+    /* Neighbours go nearly the same way and begin or end near a common point. Never changes a hit. */
+    ALHAZEN_INTERSECT_CONTEXT_FLAG_COHERENT = 1,
+    /* Leaves Ng at 0, which takes time to compute. */
+    ALHAZEN_INTERSECT_CONTEXT_FLAG_NO_NORMALS = 256
+};
+struct AlhazenIntersectContext {
+    size_t structSize; /* of the header that the caller was compiled with */
+    enum AlhazenIntersectContextFlags flags;
+};
+static inline void alhazenInitIntersectContext(struct AlhazenIntersectContext* context) {
+    context->structSize = sizeof(struct AlhazenIntersectContext);
+    context->flags = ALHAZEN_INTERSECT_CONTEXT_FLAG_NONE;
+}
+
+struct AlhazenRay {
+    float org_x, org_y, org_z, tnear;
+    float dir_x, dir_y, dir_z, time; /* time, id and flags are not read */
+    float tfar;
+    unsigned int mask, id, flags;
+} ALHAZEN_ALIGN(16);
+struct AlhazenHit {
+    float Ng_x, Ng_y, Ng_z;
+    float u, v; /* weights of the second and third vertex; of a sphere 0 */
+    unsigned int primID, geomID;
+    unsigned int instID[ALHAZEN_MAX_INSTANCE_LEVEL_COUNT];
+} ALHAZEN_ALIGN(16);
+struct AlhazenRayHit {
+    struct AlhazenRay ray;
+    struct AlhazenHit hit;
+};
+
+#define ALHAZEN_RAY_PACKET(N)                                        \
+    struct AlhazenRay##N {                                           \
+        float org_x[N], org_y[N], org_z[N], tnear[N];                \
+        float dir_x[N], dir_y[N], dir_z[N], time[N], tfar[N];        \
+        unsigned int mask[N], id[N], flags[N];                       \
+    } ALHAZEN_ALIGN(4 * N);                                          \
+    struct AlhazenHit##N {                                           \
+        float Ng_x[N], Ng_y[N], Ng_z[N], u[N], v[N];                 \
+        unsigned int primID[N], geomID[N];                           \
+        unsigned int instID[ALHAZEN_MAX_INSTANCE_LEVEL_COUNT][N];    \
+    } ALHAZEN_ALIGN(4 * N);                                          \
+    struct AlhazenRayHit##N {                                        \
+        struct AlhazenRay##N ray;                                    \
+        struct AlhazenHit##N hit;                                    \
+    };
+ALHAZEN_RAY_PACKET(4)
+ALHAZEN_RAY_PACKET(8)
+ALHAZEN_RAY_PACKET(16)
+
+/* Rays in double. */
+struct AlhazenRayHitd {
+    double org[3], tnear, dir[3], tfar;
+    double Ng[3], u, v;
+    unsigned int mask, primID, geomID, instID;
+};
+
+/* context may be NULL: the defaults of alhazenInitIntersectContext. Lanes of a packet where valid is not -1 are left
+ * as they are. M rays lie byteStride apart; they are traced by the calling thread, from about ten on faster than one
+ * by one. */
+ALHAZEN_API void alhazenIntersect1(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                   struct AlhazenRayHit* rayhit);
+ALHAZEN_API void alhazenIntersect4(const int* valid, AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                   struct AlhazenRayHit4* rayhit);
+ALHAZEN_API void alhazenIntersect8(const int* valid, AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                   struct AlhazenRayHit8* rayhit);
+ALHAZEN_API void alhazenIntersect16(const int* valid, AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                    struct AlhazenRayHit16* rayhit);
+ALHAZEN_API void alhazenIntersect1M(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                    struct AlhazenRayHit* rayhit, unsigned int M, size_t byteStride);
+ALHAZEN_API void alhazenIntersect1Md(AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                     struct AlhazenRayHitd* rayhit, size_t M, size_t byteStride);
+ALHAZEN_API void alhazenOccluded1(AlhazenScene scene, struct AlhazenIntersectContext* context, struct AlhazenRay* ray);
+ALHAZEN_API void alhazenOccluded4(const int* valid, AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                  struct AlhazenRay4* ray);
+ALHAZEN_API void alhazenOccluded8(const int* valid, AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                  struct AlhazenRay8* ray);
+ALHAZEN_API void alhazenOccluded16(const int* valid, AlhazenScene scene, struct AlhazenIntersectContext* context,
+                                   struct AlhazenRay16* ray);
+ALHAZEN_API void alhazenOccluded1M(AlhazenScene scene, struct AlhazenIntersectContext* context, struct AlhazenRay* ray,
+                                   unsigned int M, size_t byteStride);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

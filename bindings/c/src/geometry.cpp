@@ -1,0 +1,212 @@
+#include <cstring>
+
+#include "handles.h"
+
+namespace alhazen::capi {
+
+namespace {
+
+std::size_t size_of(AlhazenFormat format) {
+    switch (format) {
+        case ALHAZEN_FORMAT_UINT3:
+        case ALHAZEN_FORMAT_FLOAT3:
+            return 12;
+        case ALHAZEN_FORMAT_FLOAT4:
+            return 16;
+        case ALHAZEN_FORMAT_DOUBLE3:
+            return 24;
+        case ALHAZEN_FORMAT_DOUBLE4:
+            return 32;
+        default:
+            return 0;
+    }
+}
+
+bool is_double(AlhazenFormat format) {
+    return format == ALHAZEN_FORMAT_DOUBLE3 || format == ALHAZEN_FORMAT_DOUBLE4;
+}
+
+/// Throws unless a buffer of the geometry may have the format.
+void check_format(const Geometry& geometry, AlhazenBufferType type, AlhazenFormat format) {
+    const bool spheres = geometry.type == ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT;
+    if (type == ALHAZEN_BUFFER_TYPE_INDEX) {
+        need_argument(format == ALHAZEN_FORMAT_UINT3, "indices have the format UINT3");
+    } else if (spheres) {
+        need_argument(format == ALHAZEN_FORMAT_FLOAT4 || format == ALHAZEN_FORMAT_DOUBLE4,
+                      "spheres have the format FLOAT4 or DOUBLE4");
+    } else {
+        need_argument(format == ALHAZEN_FORMAT_FLOAT3 || format == ALHAZEN_FORMAT_DOUBLE3,
+                      "vertices have the format FLOAT3 or DOUBLE3");
+    }
+}
+
+Affine affine_of(AlhazenFormat format, const float* m) {
+    // Entry (row, column).
+    const auto at = [&](int row, int column) -> double {
+        switch (format) {
+            case ALHAZEN_FORMAT_FLOAT3X4_ROW_MAJOR:
+                return m[4 * row + column];
+            case ALHAZEN_FORMAT_FLOAT3X4_COLUMN_MAJOR:
+                return m[3 * column + row];
+            case ALHAZEN_FORMAT_FLOAT4X4_COLUMN_MAJOR:
+                return m[4 * column + row];
+            default:
+                throw CodedError(ALHAZEN_ERROR_INVALID_ARGUMENT,
+                                 "a transform has the format FLOAT3X4 or FLOAT4X4_COLUMN_MAJOR");
+        }
+    };
+    const auto column = [&](int c) { return Vec3{at(0, c), at(1, c), at(2, c)}; };
+    return {{column(0), column(1), column(2)}, column(3)};
+}
+
+/// Runs `work` with the geometry, which must not be null.
+template <class Work>
+void with_geometry(AlhazenGeometry handle, const Work& work) {
+    Geometry* geometry = object(handle);
+    guarded(device_of(geometry), [&] {
+        need_argument(geometry != nullptr, "the geometry is NULL");
+        work(*geometry);
+    });
+}
+
+}  // namespace
+
+double Buffer::real(std::size_t i, std::size_t k) const {
+    const std::byte* item = begin + i * stride;
+    if (is_double(format)) {
+        double value;
+        std::memcpy(&value, item + 8 * k, 8);
+        return value;
+    }
+    float value;
+    std::memcpy(&value, item + 4 * k, 4);
+    return value;
+}
+
+std::uint32_t Buffer::whole(std::size_t i, std::size_t k) const {
+    std::uint32_t value;
+    std::memcpy(&value, begin + i * stride + 4 * k, 4);
+    return value;
+}
+
+Buffer& Geometry::buffer(AlhazenBufferType wanted, unsigned slot) {
+    need_argument(slot == 0, "there is one slot, 0");
+    need_argument(wanted == ALHAZEN_BUFFER_TYPE_VERTEX || wanted == ALHAZEN_BUFFER_TYPE_INDEX,
+                  "a buffer is of type VERTEX or INDEX");
+    need(type != ALHAZEN_GEOMETRY_TYPE_INSTANCE, ALHAZEN_ERROR_INVALID_OPERATION,
+         "an instance has no buffers");
+    need(wanted == ALHAZEN_BUFFER_TYPE_VERTEX || type == ALHAZEN_GEOMETRY_TYPE_TRIANGLE,
+         ALHAZEN_ERROR_INVALID_OPERATION, "spheres have no indices");
+    return wanted == ALHAZEN_BUFFER_TYPE_VERTEX ? vertex : index;
+}
+
+}  // namespace alhazen::capi
+
+using namespace alhazen::capi;
+
+AlhazenGeometry alhazenNewGeometry(AlhazenDevice device, AlhazenGeometryType type) {
+    return guarded(object(device), static_cast<AlhazenGeometry>(nullptr), [&] {
+        need_argument(device != nullptr, "the device is NULL");
+        need_argument(type == ALHAZEN_GEOMETRY_TYPE_TRIANGLE ||
+                          type == ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT ||
+                          type == ALHAZEN_GEOMETRY_TYPE_INSTANCE,
+                      "a geometry is of type TRIANGLE, SPHERE_POINT or INSTANCE");
+        return reinterpret_cast<AlhazenGeometry>(new Geometry(object(device), type));
+    });
+}
+void alhazenRetainGeometry(AlhazenGeometry geometry) {
+    if (geometry != nullptr) object(geometry)->retain();
+}
+void alhazenReleaseGeometry(AlhazenGeometry geometry) {
+    if (geometry != nullptr) object(geometry)->release();
+}
+
+void alhazenSetSharedGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type,
+                                    unsigned int slot, AlhazenFormat format, const void* ptr,
+                                    size_t byteOffset, size_t byteStride, size_t itemCount) {
+    with_geometry(geometry, [&](Geometry& g) {
+        Buffer& buffer = g.buffer(type, slot);
+        check_format(g, type, format);
+        need_argument(ptr != nullptr || itemCount == 0, "the memory of a buffer is NULL");
+        need_argument(byteStride >= size_of(format) || itemCount <= 1,
+                      "byteStride is less than an item");
+        buffer.own.clear();
+        buffer.format = format;
+        buffer.begin = ptr != nullptr ? static_cast<const std::byte*>(ptr) + byteOffset : nullptr;
+        buffer.stride = byteStride;
+        buffer.count = itemCount;
+    });
+}
+
+void* alhazenSetNewGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type,
+                                  unsigned int slot, AlhazenFormat format, size_t byteStride,
+                                  size_t itemCount) {
+    void* memory = nullptr;
+    with_geometry(geometry, [&](Geometry& g) {
+        Buffer& buffer = g.buffer(type, slot);
+        check_format(g, type, format);
+        need_argument(byteStride >= size_of(format), "byteStride is less than an item");
+        // Room for one item more: callers may write a float3 as 16 bytes.
+        need(itemCount < SIZE_MAX / byteStride - 1, ALHAZEN_ERROR_OUT_OF_MEMORY,
+             "the buffer is too large");
+        std::vector<std::byte> own((itemCount + 1) * byteStride);
+        buffer.own.swap(own);
+        buffer.format = format;
+        buffer.begin = buffer.own.data();
+        buffer.stride = byteStride;
+        buffer.count = itemCount;
+        memory = buffer.own.data();
+    });
+    return memory;
+}
+
+void* alhazenGetGeometryBufferData(AlhazenGeometry geometry, AlhazenBufferType type,
+                                   unsigned int slot) {
+    void* memory = nullptr;
+    with_geometry(geometry, [&](Geometry& g) {
+        memory = const_cast<std::byte*>(g.buffer(type, slot).begin);
+    });
+    return memory;
+}
+void alhazenUpdateGeometryBuffer(AlhazenGeometry geometry, AlhazenBufferType type,
+                                 unsigned int slot) {
+    // A commit reads every buffer anew.
+    with_geometry(geometry, [&](Geometry& g) { (void)g.buffer(type, slot); });
+}
+void alhazenSetGeometryMask(AlhazenGeometry geometry, unsigned int mask) {
+    with_geometry(geometry, [&](Geometry& g) { g.mask = mask; });
+}
+void alhazenSetGeometryUserData(AlhazenGeometry geometry, void* userPtr) {
+    with_geometry(geometry, [&](Geometry& g) { g.user_pointer = userPtr; });
+}
+void* alhazenGetGeometryUserData(AlhazenGeometry geometry) {
+    return geometry != nullptr ? object(geometry)->user_pointer : nullptr;
+}
+
+void alhazenSetGeometryInstancedScene(AlhazenGeometry geometry, AlhazenScene scene) {
+    with_geometry(geometry, [&](Geometry& g) {
+        need(g.type == ALHAZEN_GEOMETRY_TYPE_INSTANCE, ALHAZEN_ERROR_INVALID_OPERATION,
+             "only an instance has a scene");
+        need_argument(scene != nullptr, "the scene is NULL");
+        g.instanced = Reference<Scene>(object(scene));
+    });
+}
+void alhazenSetGeometryTransform(AlhazenGeometry geometry, unsigned int timeStep,
+                                 AlhazenFormat format, const void* xfm) {
+    with_geometry(geometry, [&](Geometry& g) {
+        need(g.type == ALHAZEN_GEOMETRY_TYPE_INSTANCE, ALHAZEN_ERROR_INVALID_OPERATION,
+             "only an instance has a transform");
+        need_argument(timeStep == 0, "there is one time step, 0");
+        need_argument(xfm != nullptr, "the transform is NULL");
+        g.transform = affine_of(format, static_cast<const float*>(xfm));
+    });
+}
+void alhazenEnableGeometry(AlhazenGeometry geometry) {
+    with_geometry(geometry, [](Geometry& g) { g.enabled = true; });
+}
+void alhazenDisableGeometry(AlhazenGeometry geometry) {
+    with_geometry(geometry, [](Geometry& g) { g.enabled = false; });
+}
+void alhazenCommitGeometry(AlhazenGeometry geometry) {
+    with_geometry(geometry, [](Geometry& g) { g.committed = true; });
+}

@@ -1,0 +1,197 @@
+#pragma once
+/// The objects behind the handles of alhazen.h, and the border that no exception crosses.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "alhazen/alhazen.h"
+#include "alhazen/base/error.h"
+#include "alhazen/tracer/tracer.h"
+
+namespace alhazen::capi {
+
+/// Counts references; deletes itself with the last.
+class Counted {
+  public:
+    virtual ~Counted() = default;
+    void retain() { references_.fetch_add(1, std::memory_order_relaxed); }
+    void release() {
+        if (references_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+    }
+
+  private:
+    std::atomic<std::int64_t> references_{1};
+};
+
+/// Holds one reference.
+template <class T>
+class Reference {
+  public:
+    Reference() = default;
+    explicit Reference(T* object) : object_(object) {
+        if (object_ != nullptr) object_->retain();
+    }
+    Reference(const Reference& other) : Reference(other.object_) {}
+    Reference(Reference&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+    Reference& operator=(Reference other) noexcept {
+        std::swap(object_, other.object_);
+        return *this;
+    }
+    ~Reference() {
+        if (object_ != nullptr) object_->release();
+    }
+    [[nodiscard]] T* get() const { return object_; }
+    T* operator->() const { return object_; }
+    explicit operator bool() const { return object_ != nullptr; }
+
+  private:
+    T* object_ = nullptr;
+};
+
+/// An error that has its code already.
+class CodedError : public std::runtime_error {
+  public:
+    CodedError(AlhazenError code, const std::string& text)
+        : std::runtime_error(text), code_(code) {}
+    [[nodiscard]] AlhazenError code() const { return code_; }
+
+  private:
+    AlhazenError code_;
+};
+
+inline void need(bool holds, AlhazenError code, const char* text) {
+    if (!holds) throw CodedError(code, text);
+}
+inline void need_argument(bool holds, const char* text) {
+    need(holds, ALHAZEN_ERROR_INVALID_ARGUMENT, text);
+}
+
+class Device;
+/// Notes the exception that is being handled for this thread, and tells the device's error
+/// function.
+void note_error(Device* device) noexcept;
+
+/// Runs `work`; an exception becomes an error of the device, and the result is `otherwise`.
+template <class Result, class Work>
+Result guarded(Device* device, Result otherwise, const Work& work) noexcept {
+    try {
+        return work();
+    } catch (...) {
+        note_error(device);
+        return otherwise;
+    }
+}
+template <class Work>
+void guarded(Device* device, const Work& work) noexcept {
+    try {
+        work();
+    } catch (...) {
+        note_error(device);
+    }
+}
+
+class Device final : public Counted {
+  public:
+    /// Throws CodedError for an unknown key or value.
+    explicit Device(const char* config);
+
+    /// Tells the monitor; false when it forbids.
+    bool tell_memory(std::int64_t bytes, bool post) const;
+
+    std::uint64_t number = 0;  ///< unique in the process
+    int threads = 0;
+    TracerOptions options;
+    AlhazenErrorFunction error_function = nullptr;
+    void* error_pointer = nullptr;
+    AlhazenMemoryMonitorFunction memory_function = nullptr;
+    void* memory_pointer = nullptr;
+};
+
+/// Items of one buffer.
+struct Buffer {
+    AlhazenFormat format = ALHAZEN_FORMAT_FLOAT3;
+    const std::byte* begin = nullptr;
+    std::size_t stride = 0, count = 0;
+    std::vector<std::byte> own;  ///< of alhazenSetNewGeometryBuffer
+
+    /// Number `k` of item `i`, of a format of floats or doubles.
+    [[nodiscard]] double real(std::size_t i, std::size_t k) const;
+    [[nodiscard]] std::uint32_t whole(std::size_t i, std::size_t k) const;
+};
+
+class Scene;
+
+class Geometry final : public Counted {
+  public:
+    Geometry(Device* owner, AlhazenGeometryType kind) : device(owner), type(kind) {}
+
+    /// The buffer of a type; throws CodedError for one that the geometry does not have.
+    Buffer& buffer(AlhazenBufferType wanted, unsigned slot);
+
+    Reference<Device> device;
+    AlhazenGeometryType type;
+    Buffer index, vertex;
+    Affine transform;
+    Reference<Scene> instanced;
+    RayMask mask = kAllRays;
+    void* user_pointer = nullptr;
+    bool enabled = true, committed = false;
+};
+
+/// What a commit built.
+struct Built {
+    struct Origin {
+        unsigned geometry = ALHAZEN_INVALID_ID;  ///< id in the scene
+        unsigned primitive = 0;                  ///< number of a sphere
+        std::shared_ptr<const Built> instanced;  ///< of an instance
+    };
+    std::optional<Tracer> tracer;
+    std::vector<Origin> origins;  ///< [GeometryId]
+    bool has_instances = false;
+    std::int64_t bytes = 0;
+};
+
+class Scene final : public Counted {
+  public:
+    explicit Scene(Device* owner) : device(owner) {}
+    ~Scene() override;
+
+    void commit();
+
+    Reference<Device> device;
+    std::mutex mutex;
+    std::map<unsigned, Reference<Geometry>> geometries;
+    AlhazenProgressMonitorFunction progress = nullptr;
+    void* progress_pointer = nullptr;
+    std::optional<BuildQuality> quality;
+    std::shared_ptr<const Built> built;
+
+  private:
+    void tell(double done) const;
+};
+
+inline Device* object(AlhazenDevice handle) {
+    return reinterpret_cast<Device*>(handle);
+}
+inline Geometry* object(AlhazenGeometry handle) {
+    return reinterpret_cast<Geometry*>(handle);
+}
+inline Scene* object(AlhazenScene handle) {
+    return reinterpret_cast<Scene*>(handle);
+}
+/// The device of an object that may be null.
+template <class Object>
+Device* device_of(const Object* object) {
+    return object != nullptr ? object->device.get() : nullptr;
+}
+
+}  // namespace alhazen::capi

@@ -1,0 +1,226 @@
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "alhazen/parallel/parallel.h"
+#include "handles.h"
+
+namespace alhazen::capi {
+
+namespace {
+
+/// Adds committed geometry to a scene of the tracer.
+class Gatherer {
+  public:
+    explicit Gatherer(Built& built) : built_(built) {}
+
+    void add(unsigned id, const Geometry& geometry) {
+        switch (geometry.type) {
+            case ALHAZEN_GEOMETRY_TYPE_TRIANGLE:
+                return add_triangles(id, geometry);
+            case ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT:
+                return add_spheres(id, geometry);
+            case ALHAZEN_GEOMETRY_TYPE_INSTANCE:
+                return add_instance(id, geometry);
+        }
+    }
+    [[nodiscard]] TracerScene take() { return std::move(scene_); }
+
+  private:
+    void add_triangles(unsigned id, const Geometry& geometry) {
+        auto mesh = std::make_shared<TriangleMesh>();
+        const Buffer& vertex = geometry.vertex;
+        mesh->positions.resize(vertex.count);
+        for (std::size_t i = 0; i < vertex.count; ++i) {
+            mesh->positions[i] = {vertex.real(i, 0), vertex.real(i, 1), vertex.real(i, 2)};
+        }
+        const Buffer& index = geometry.index;
+        mesh->triangles.resize(index.count);
+        for (std::size_t i = 0; i < index.count; ++i) {
+            mesh->triangles[i] = {index.whole(i, 0), index.whole(i, 1), index.whole(i, 2)};
+        }
+        scene_.add_mesh(std::shared_ptr<const TriangleMesh>(std::move(mesh)),
+                        {.visible_to = geometry.mask});
+        built_.origins.push_back({id, 0, nullptr});
+        built_.bytes += static_cast<std::int64_t>(24 * vertex.count + 12 * index.count);
+    }
+
+    void add_spheres(unsigned id, const Geometry& geometry) {
+        const Buffer& vertex = geometry.vertex;
+        for (std::size_t i = 0; i < vertex.count; ++i) {
+            scene_.add_sphere({vertex.real(i, 0), vertex.real(i, 1), vertex.real(i, 2)},
+                              vertex.real(i, 3), {.visible_to = geometry.mask});
+            built_.origins.push_back({id, static_cast<unsigned>(i), nullptr});
+        }
+        built_.bytes += static_cast<std::int64_t>(sizeof(Sphere) * vertex.count);
+    }
+
+    void add_instance(unsigned id, const Geometry& geometry) {
+        need(static_cast<bool>(geometry.instanced), ALHAZEN_ERROR_INVALID_OPERATION,
+             "an instance has no scene: alhazenSetGeometryInstancedScene");
+        const auto inner = geometry.instanced->built;
+        need(inner != nullptr, ALHAZEN_ERROR_INVALID_OPERATION,
+             "the scene of an instance is not committed");
+        need(!inner->has_instances, ALHAZEN_ERROR_INVALID_OPERATION,
+             "the scene of an instance has instances itself");
+        scene_.add_instance(*inner->tracer, {.world_from_geometry = geometry.transform,
+                                             .visible_to = geometry.mask});
+        built_.origins.push_back({id, 0, inner});
+        built_.has_instances = true;
+    }
+
+    Built& built_;
+    TracerScene scene_;
+};
+
+/// Runs `work` with the scene, which must not be null.
+template <class Work>
+void with_scene(AlhazenScene handle, const Work& work) {
+    Scene* scene = object(handle);
+    guarded(device_of(scene), [&] {
+        need_argument(scene != nullptr, "the scene is NULL");
+        work(*scene);
+    });
+}
+
+/// The nearest floats outside.
+float below(double x) {
+    const auto f = static_cast<float>(x);
+    return double(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
+float above(double x) {
+    return -below(-x);
+}
+
+}  // namespace
+
+Scene::~Scene() {
+    if (built) device->tell_memory(-built->bytes, true);
+}
+
+void Scene::tell(double done) const {
+    need(progress == nullptr || progress(progress_pointer, done), ALHAZEN_ERROR_CANCELLED,
+         "the progress monitor ended the commit");
+}
+
+void Scene::commit() {
+    const std::lock_guard lock(mutex);
+    auto next = std::make_shared<Built>();
+    Gatherer gatherer(*next);
+    tell(0.0);
+    // Gathering counts as a tenth of the work.
+    double gathered = 0;
+    for (const auto& [id, geometry] : geometries) {
+        if (geometry->enabled && geometry->committed) gatherer.add(id, *geometry.get());
+        gathered += 1;
+        tell(0.1 * gathered / static_cast<double>(geometries.size()));
+    }
+    need(device->tell_memory(next->bytes, false), ALHAZEN_ERROR_OUT_OF_MEMORY,
+         "the memory monitor forbids to build");
+    TracerOptions options = device->options;
+    if (quality) options.build.quality = *quality;
+    ThreadLimit(device->threads).run([&] { next->tracer.emplace(gatherer.take(), options); });
+    const auto tree = static_cast<std::int64_t>(next->tracer->memory_bytes());
+    const bool allowed = device->tell_memory(tree, true);
+    next->bytes += tree;
+    if (!allowed) {
+        device->tell_memory(-next->bytes, true);
+        throw CodedError(ALHAZEN_ERROR_OUT_OF_MEMORY, "the memory monitor forbids the tree");
+    }
+    const std::int64_t before = built ? built->bytes : 0;
+    built = std::move(next);
+    if (before != 0) device->tell_memory(-before, true);
+    if (progress != nullptr) progress(progress_pointer, 1.0);
+}
+
+}  // namespace alhazen::capi
+
+using namespace alhazen::capi;
+
+AlhazenScene alhazenNewScene(AlhazenDevice device) {
+    return guarded(object(device), static_cast<AlhazenScene>(nullptr), [&] {
+        need_argument(device != nullptr, "the device is NULL");
+        return reinterpret_cast<AlhazenScene>(new Scene(object(device)));
+    });
+}
+void alhazenRetainScene(AlhazenScene scene) {
+    if (scene != nullptr) object(scene)->retain();
+}
+void alhazenReleaseScene(AlhazenScene scene) {
+    if (scene != nullptr) object(scene)->release();
+}
+
+void alhazenSetSceneBuildQuality(AlhazenScene scene, AlhazenBuildQuality quality) {
+    with_scene(scene, [&](Scene& s) {
+        need_argument(quality >= ALHAZEN_BUILD_QUALITY_LOW && quality <= ALHAZEN_BUILD_QUALITY_HIGH,
+                      "a build quality is LOW, MEDIUM or HIGH");
+        using alhazen::BuildQuality;
+        constexpr BuildQuality kQualities[] = {BuildQuality::Fast, BuildQuality::Default,
+                                               BuildQuality::High};
+        s.quality = kQualities[quality];
+    });
+}
+void alhazenSetSceneFlags(AlhazenScene scene, AlhazenSceneFlags) {
+    with_scene(scene, [](Scene&) {});
+}
+void alhazenSetSceneProgressMonitorFunction(AlhazenScene scene,
+                                            AlhazenProgressMonitorFunction progress,
+                                            void* userPtr) {
+    with_scene(scene, [&](Scene& s) {
+        s.progress = progress;
+        s.progress_pointer = userPtr;
+    });
+}
+
+unsigned int alhazenAttachGeometry(AlhazenScene scene, AlhazenGeometry geometry) {
+    unsigned id = ALHAZEN_INVALID_ID;
+    with_scene(scene, [&](Scene& s) {
+        need_argument(geometry != nullptr, "the geometry is NULL");
+        const std::lock_guard lock(s.mutex);
+        unsigned free = 0;
+        while (s.geometries.count(free) != 0) ++free;
+        s.geometries.emplace(free, Reference<Geometry>(object(geometry)));
+        id = free;
+    });
+    return id;
+}
+void alhazenAttachGeometryByID(AlhazenScene scene, AlhazenGeometry geometry, unsigned int geomID) {
+    with_scene(scene, [&](Scene& s) {
+        need_argument(geometry != nullptr, "the geometry is NULL");
+        need_argument(geomID != ALHAZEN_INVALID_ID, "the id is ALHAZEN_INVALID_ID");
+        const std::lock_guard lock(s.mutex);
+        const bool added =
+            s.geometries.emplace(geomID, Reference<Geometry>(object(geometry))).second;
+        need(added, ALHAZEN_ERROR_INVALID_OPERATION, "the id is in use");
+    });
+}
+void alhazenDetachGeometry(AlhazenScene scene, unsigned int geomID) {
+    with_scene(scene, [&](Scene& s) {
+        const std::lock_guard lock(s.mutex);
+        need_argument(s.geometries.erase(geomID) == 1, "no geometry has this id");
+    });
+}
+AlhazenGeometry alhazenGetGeometry(AlhazenScene scene, unsigned int geomID) {
+    AlhazenGeometry geometry = nullptr;
+    with_scene(scene, [&](Scene& s) {
+        const std::lock_guard lock(s.mutex);
+        const auto found = s.geometries.find(geomID);
+        need_argument(found != s.geometries.end(), "no geometry has this id");
+        geometry = reinterpret_cast<AlhazenGeometry>(found->second.get());
+    });
+    return geometry;
+}
+
+void alhazenCommitScene(AlhazenScene scene) {
+    with_scene(scene, [](Scene& s) { s.commit(); });
+}
+
+void alhazenGetSceneBounds(AlhazenScene scene, AlhazenBounds* bounds_o) {
+    with_scene(scene, [&](Scene& s) {
+        need_argument(bounds_o != nullptr, "bounds_o is NULL");
+        need(s.built != nullptr, ALHAZEN_ERROR_INVALID_OPERATION, "the scene is not committed");
+        const alhazen::Box3 box = s.built->tracer->box();
+        *bounds_o = {below(box.lo.x), below(box.lo.y), below(box.lo.z), 0,
+                     above(box.hi.x), above(box.hi.y), above(box.hi.z), 0};
+    });
+}

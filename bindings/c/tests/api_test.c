@@ -1,0 +1,321 @@
+/* The C interface by itself: every kind of call, buffers with strides, errors, monitors. Prints what fails. */
+#include <alhazen/alhazen.h>
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+static int failures = 0;
+#define EXPECT(condition)                                                    \
+    do {                                                                     \
+        if (!(condition)) {                                                  \
+            printf("api_test.c:%d: not true: %s\n", __LINE__, #condition);   \
+            ++failures;                                                      \
+        }                                                                    \
+    } while (0)
+
+/* A square of two triangles at height z, from (0, 0) to (1, 1), in a struct with other members. */
+struct Vertex {
+    char name;
+    float weight;
+    float position[3];
+};
+static const struct Vertex kSquare[4] = {
+    {'a', 1, {0, 0, 0}}, {'b', 1, {1, 0, 0}}, {'c', 1, {1, 1, 0}}, {'d', 1, {0, 1, 0}}};
+static const unsigned kFaces[2][4] = {{0, 1, 2, 9}, {0, 2, 3, 9}};
+
+static AlhazenScene new_square(AlhazenDevice device, unsigned mask) {
+    AlhazenScene scene = alhazenNewScene(device);
+    AlhazenGeometry mesh = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_TRIANGLE);
+    alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_FLOAT3, kSquare,
+                                   offsetof(struct Vertex, position), sizeof(struct Vertex), 4);
+    alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_INDEX, 0, ALHAZEN_FORMAT_UINT3, kFaces, 0,
+                                   sizeof kFaces[0], 2);
+    alhazenSetGeometryMask(mesh, mask);
+    alhazenCommitGeometry(mesh);
+    alhazenAttachGeometry(scene, mesh);
+    alhazenReleaseGeometry(mesh);
+    return scene;
+}
+
+static struct AlhazenRay ray_at(float x, float y) {
+    struct AlhazenRay ray;
+    memset(&ray, 0, sizeof ray);
+    ray.org_x = x;
+    ray.org_y = y;
+    ray.org_z = 2;
+    ray.dir_z = -1;
+    ray.tfar = INFINITY;
+    ray.mask = 0xFFFFFFFFu;
+    return ray;
+}
+
+/* Position i of a 4 x 4 lattice of which two in each direction lie on the square. */
+static float place(int i) { return 0.25f + 0.55f * (float)(i - 1); }
+static bool is_hit(int i) { return i % 4 >= 1 && i % 4 <= 2 && i / 4 >= 1 && i / 4 <= 2; }
+
+static void test_all_widths_agree(AlhazenDevice device) {
+    AlhazenScene scene = new_square(device, 0xFFFFFFFFu);
+    struct AlhazenRayHit singles[16], many[16];
+    struct AlhazenRayHitd doubles[16];
+    struct AlhazenRayHit16 packet;
+    struct AlhazenRay16 shadows;
+    struct AlhazenRay row[16];
+    struct AlhazenIntersectContext context;
+    int valid[16], i;
+    alhazenCommitScene(scene);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_NONE);
+    alhazenInitIntersectContext(&context);
+    for (i = 0; i < 16; ++i) {
+        memset(&singles[i], 0, sizeof singles[i]);
+        memset(&doubles[i], 0, sizeof doubles[i]);
+        singles[i].ray = row[i] = ray_at(place(i % 4), place(i / 4));
+        many[i] = singles[i];
+        doubles[i].org[0] = singles[i].ray.org_x;
+        doubles[i].org[1] = singles[i].ray.org_y;
+        doubles[i].org[2] = 2;
+        doubles[i].dir[2] = -1;
+        doubles[i].tfar = INFINITY;
+        doubles[i].mask = 0xFFFFFFFFu;
+        packet.ray.org_x[i] = shadows.org_x[i] = singles[i].ray.org_x;
+        packet.ray.org_y[i] = shadows.org_y[i] = singles[i].ray.org_y;
+        packet.ray.org_z[i] = shadows.org_z[i] = 2;
+        packet.ray.dir_x[i] = packet.ray.dir_y[i] = shadows.dir_x[i] = shadows.dir_y[i] = 0;
+        packet.ray.dir_z[i] = shadows.dir_z[i] = -1;
+        packet.ray.tnear[i] = shadows.tnear[i] = 0;
+        packet.ray.tfar[i] = shadows.tfar[i] = INFINITY;
+        packet.ray.mask[i] = shadows.mask[i] = 0xFFFFFFFFu;
+        packet.hit.geomID[i] = 77;
+        valid[i] = i == 5 ? 0 : -1;
+        alhazenIntersect1(scene, &context, &singles[i]);
+    }
+    context.flags = ALHAZEN_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alhazenIntersect1M(scene, &context, many, 16, sizeof many[0]);
+    alhazenIntersect1Md(scene, NULL, doubles, 16, sizeof doubles[0]);
+    alhazenIntersect16(valid, scene, &context, &packet);
+    alhazenOccluded16(valid, scene, &context, &shadows);
+    alhazenOccluded1M(scene, NULL, row, 16, sizeof row[0]);
+    for (i = 0; i < 16; ++i) {
+        EXPECT((singles[i].hit.geomID == 0) == is_hit(i));
+        EXPECT((singles[i].hit.geomID == ALHAZEN_INVALID_ID) == !is_hit(i));
+        EXPECT(singles[i].hit.instID[0] == ALHAZEN_INVALID_ID);
+        EXPECT((row[i].tfar == -INFINITY) == is_hit(i));
+        EXPECT(memcmp(&singles[i], &many[i], sizeof many[i]) == 0);
+        EXPECT(doubles[i].geomID == singles[i].hit.geomID && doubles[i].primID == singles[i].hit.primID);
+        if (is_hit(i)) {
+            EXPECT(singles[i].ray.tfar == 2.0f && doubles[i].tfar == 2.0);
+            EXPECT(singles[i].hit.Ng_z == 1.0f && doubles[i].Ng[2] == 1.0);
+            /* u + v of the first triangle (0, 0) (1, 0) (1, 1) is x, u is x - y. */
+            if (singles[i].hit.primID == 0) {
+                EXPECT(fabsf(singles[i].hit.u - (place(i % 4) - place(i / 4))) < 1e-6f);
+            }
+        }
+        if (i == 5) {
+            EXPECT(packet.hit.geomID[i] == 77 && packet.ray.tfar[i] == INFINITY && shadows.tfar[i] == INFINITY);
+        } else {
+            EXPECT(packet.hit.geomID[i] == singles[i].hit.geomID);
+            EXPECT(packet.ray.tfar[i] == singles[i].ray.tfar);
+            EXPECT((shadows.tfar[i] == -INFINITY) == is_hit(i));
+        }
+    }
+    alhazenReleaseScene(scene);
+}
+
+static void test_packets_of_4_and_8(AlhazenDevice device) {
+    AlhazenScene scene = new_square(device, 0xFFFFFFFFu);
+    struct AlhazenRayHit4 four;
+    struct AlhazenRayHit8 eight;
+    int i;
+    alhazenCommitScene(scene);
+    memset(&four, 0, sizeof four);
+    memset(&eight, 0, sizeof eight);
+    for (i = 0; i < 8; ++i) {
+        eight.ray.org_x[i] = eight.ray.org_y[i] = 0.2f * (float)i + 0.1f;
+        eight.ray.org_z[i] = 2;
+        eight.ray.dir_z[i] = -1;
+        eight.ray.tfar[i] = INFINITY;
+        eight.ray.mask[i] = 1;
+        if (i < 4) {
+            four.ray.org_x[i] = four.ray.org_y[i] = eight.ray.org_x[i];
+            four.ray.org_z[i] = 2;
+            four.ray.dir_z[i] = -1;
+            four.ray.tfar[i] = INFINITY;
+            four.ray.mask[i] = 1;
+        }
+    }
+    alhazenIntersect4(NULL, scene, NULL, &four);
+    alhazenIntersect8(NULL, scene, NULL, &eight);
+    alhazenOccluded4(NULL, scene, NULL, &four.ray);
+    for (i = 0; i < 8; ++i) EXPECT((eight.hit.geomID[i] == 0) == (i < 5));
+    for (i = 0; i < 4; ++i) EXPECT(four.hit.geomID[i] == 0 && four.ray.tfar[i] == -INFINITY);
+    alhazenOccluded8(NULL, scene, NULL, &eight.ray);
+    for (i = 0; i < 8; ++i) EXPECT((eight.ray.tfar[i] == -INFINITY) == (i < 5));
+    alhazenReleaseScene(scene);
+}
+
+static void test_spheres_in_double_and_masks(AlhazenDevice device) {
+    const double spheres[2][5] = {{0, 0, -1, 0.5, 99}, {0, 0, -4, 1, 99}};
+    AlhazenScene scene = alhazenNewScene(device);
+    AlhazenGeometry balls = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT);
+    struct AlhazenRayHit hit;
+    alhazenSetSharedGeometryBuffer(balls, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_DOUBLE4, spheres, 0,
+                                   sizeof spheres[0], 2);
+    alhazenSetGeometryMask(balls, 2);
+    alhazenCommitGeometry(balls);
+    alhazenAttachGeometryByID(scene, balls, 40);
+    EXPECT(alhazenGetGeometry(scene, 40) == balls);
+    alhazenReleaseGeometry(balls);
+    alhazenCommitScene(scene);
+    memset(&hit, 0, sizeof hit);
+    hit.ray = ray_at(0, 0);
+    alhazenIntersect1(scene, NULL, &hit);
+    EXPECT(hit.hit.geomID == 40 && hit.hit.primID == 0 && hit.ray.tfar == 2.5f && hit.hit.Ng_z == 1.0f);
+    hit.ray = ray_at(0, 0);
+    hit.ray.tnear = 4;
+    alhazenIntersect1(scene, NULL, &hit);
+    EXPECT(hit.hit.primID == 1 && hit.ray.tfar == 5.0f);
+    hit.ray = ray_at(0, 0);
+    hit.ray.mask = 1;
+    alhazenIntersect1(scene, NULL, &hit);
+    EXPECT(hit.hit.geomID == ALHAZEN_INVALID_ID);
+    alhazenReleaseScene(scene);
+}
+
+static void test_instances_outlive_their_handles(AlhazenDevice device) {
+    const float moved[12] = {2, 0, 0, 10, 0, 2, 0, 0, 0, 0, 2, -3}; /* rows */
+    AlhazenScene inner = new_square(device, 0xFFFFFFFFu), scene = alhazenNewScene(device);
+    AlhazenGeometry instance = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_INSTANCE);
+    struct AlhazenRayHit hit;
+    struct AlhazenBounds bounds;
+    alhazenSetGeometryInstancedScene(instance, inner);
+    alhazenSetGeometryTransform(instance, 0, ALHAZEN_FORMAT_FLOAT3X4_ROW_MAJOR, moved);
+    alhazenCommitGeometry(instance);
+    alhazenAttachGeometryByID(scene, instance, 5);
+    alhazenCommitScene(scene);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_OPERATION); /* inner is not committed */
+    alhazenCommitScene(inner);
+    alhazenCommitScene(scene);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_NONE);
+    alhazenReleaseScene(inner);
+    alhazenReleaseGeometry(instance);
+    memset(&hit, 0, sizeof hit);
+    hit.ray = ray_at(11.5f, 0.5f);
+    alhazenIntersect1(scene, NULL, &hit);
+    EXPECT(hit.hit.instID[0] == 5 && hit.hit.geomID == 0 && hit.hit.primID == 0 && hit.ray.tfar == 5.0f);
+    alhazenGetSceneBounds(scene, &bounds);
+    EXPECT(bounds.lower_x <= 10 && bounds.upper_x >= 12 && bounds.upper_x < 12.001f && bounds.lower_z > -3.001f);
+    alhazenReleaseScene(scene);
+}
+
+static int told = 0;
+static void on_error(void* user, enum AlhazenError code, const char* text) {
+    *(enum AlhazenError*)user = code;
+    EXPECT(strlen(text) > 5);
+    ++told;
+}
+
+static void test_errors(void) {
+    enum AlhazenError last = ALHAZEN_ERROR_NONE;
+    AlhazenDevice device = alhazenNewDevice("threads=1, verbose=3");
+    AlhazenGeometry mesh;
+    AlhazenScene scene;
+    struct AlhazenRayHit hit;
+    struct AlhazenIntersectContext context;
+    const float bad[9] = {0, 0, 0, 1, 0, 0, 0, 1, NAN};
+    const unsigned face[3] = {0, 1, 3};
+    EXPECT(device != NULL);
+    EXPECT(alhazenNewDevice("sockets=2") == NULL);
+    EXPECT(strstr(alhazenGetDeviceErrorMessage(NULL), "unknown key 'sockets'") != NULL);
+    EXPECT(alhazenNewDevice("accelerator=none") == NULL);
+    EXPECT(alhazenGetDeviceError(NULL) == ALHAZEN_ERROR_INVALID_ARGUMENT);
+    EXPECT(alhazenGetDeviceError(NULL) == ALHAZEN_ERROR_NONE);
+    alhazenSetDeviceErrorFunction(device, on_error, &last);
+    scene = alhazenNewScene(device);
+    alhazenIntersect1(scene, NULL, &hit); /* not committed */
+    EXPECT(last == ALHAZEN_ERROR_INVALID_OPERATION && told == 1);
+    mesh = alhazenNewGeometry(device, ALHAZEN_GEOMETRY_TYPE_TRIANGLE);
+    alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_UINT3, bad, 0, 12, 3);
+    EXPECT(last == ALHAZEN_ERROR_INVALID_ARGUMENT && told == 2);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_OPERATION); /* the first one is kept */
+    alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_VERTEX, 0, ALHAZEN_FORMAT_FLOAT3, bad, 0, 12, 3);
+    alhazenSetSharedGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_INDEX, 0, ALHAZEN_FORMAT_UINT3, face, 0, 12, 1);
+    EXPECT(alhazenSetNewGeometryBuffer(mesh, ALHAZEN_BUFFER_TYPE_INDEX, 0, ALHAZEN_FORMAT_UINT3, 12, SIZE_MAX / 12) ==
+           NULL);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
+    alhazenCommitGeometry(mesh);
+    alhazenAttachGeometry(scene, mesh);
+    alhazenCommitScene(scene);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_ARGUMENT);
+    EXPECT(strstr(alhazenGetDeviceErrorMessage(device), "vertex") != NULL);
+    alhazenDisableGeometry(mesh);
+    alhazenCommitScene(scene);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_NONE);
+    memset(&context, 0, sizeof context); /* without alhazenInitIntersectContext */
+    alhazenIntersect1(scene, &context, &hit);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_ARGUMENT);
+    alhazenDetachGeometry(scene, 9);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_INVALID_ARGUMENT);
+    alhazenCommitScene(NULL);
+    EXPECT(alhazenGetDeviceError(NULL) == ALHAZEN_ERROR_INVALID_ARGUMENT);
+    alhazenReleaseGeometry(mesh);
+    alhazenReleaseScene(scene);
+    alhazenReleaseScene(NULL);
+    alhazenReleaseDevice(device);
+}
+
+static ssize_t bytes_held = 0;
+static int memory_calls = 0;
+static bool allow_memory = true;
+static bool on_memory(void* user, ssize_t bytes, bool post) {
+    (void)user;
+    (void)post;
+    ++memory_calls;
+    if (!allow_memory) return false;
+    bytes_held += bytes;
+    return true;
+}
+static double last_done = -1;
+static bool on_progress(void* user, double done) {
+    EXPECT(done >= last_done && done <= 1);
+    last_done = done;
+    return user == NULL;
+}
+
+static void test_monitors(void) {
+    AlhazenDevice device = alhazenNewDevice(NULL);
+    AlhazenScene scene;
+    int stop = 1;
+    alhazenSetDeviceMemoryMonitorFunction(device, on_memory, NULL);
+    scene = new_square(device, 0xFFFFFFFFu);
+    alhazenSetSceneProgressMonitorFunction(scene, on_progress, NULL);
+    alhazenCommitScene(scene);
+    EXPECT(last_done == 1 && memory_calls >= 2 && bytes_held > 0);
+    last_done = -1;
+    alhazenSetSceneProgressMonitorFunction(scene, on_progress, &stop);
+    alhazenCommitScene(scene);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_CANCELLED);
+    alhazenSetSceneProgressMonitorFunction(scene, NULL, NULL);
+    allow_memory = false;
+    alhazenCommitScene(scene);
+    EXPECT(alhazenGetDeviceError(device) == ALHAZEN_ERROR_OUT_OF_MEMORY);
+    allow_memory = true;
+    alhazenReleaseScene(scene);
+    EXPECT(bytes_held == 0);
+    alhazenReleaseDevice(device);
+}
+
+int main(void) {
+    AlhazenDevice device = alhazenNewDevice(NULL);
+    EXPECT(device != NULL);
+    EXPECT(alhazenGetDeviceProperty(device, ALHAZEN_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 1);
+    test_all_widths_agree(device);
+    test_packets_of_4_and_8(device);
+    test_spheres_in_double_and_masks(device);
+    test_instances_outlive_their_handles(device);
+    test_errors();
+    test_monitors();
+    alhazenReleaseDevice(device);
+    printf("%d failures\n", failures);
+    return failures == 0 ? 0 : 1;
+}
