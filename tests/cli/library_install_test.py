@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Installs the library, builds the example against it, and runs the example.
+"""Installs the library, builds the example against it, and runs the example; the same for a program in C and for
+Python, where the build has these.
 
 Usage: library_install_test.py BUILD_FOLDER SOURCE_FOLDER TRACE_RAYS CONFIG PREFIXES [CMAKE_OPTION...]
 
@@ -8,7 +9,9 @@ installed library must print the same. PREFIXES is where this build found its pa
 how it compiles.
 """
 
+import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -33,6 +36,34 @@ def check_picture(picture, expected):
     assert picture == expected, f"{picture}differs from that of the build:\n{expected}"
 
 
+def check_c(installed, source, folder):
+    """A program in C99 by pkg-config."""
+    packages = next(installed.rglob("alhazen.pc"), None)
+    if packages is None:
+        return
+    flags = subprocess.run(["pkg-config", "--cflags", "--libs", "alhazen"], check=True, capture_output=True, text=True,
+                           env={**os.environ, "PKG_CONFIG_PATH": str(packages.parent)}).stdout.split()
+    library = next(installed.rglob("libalhazen.so")).parent
+    program = folder / "api_test"
+    run("cc", "-std=c99", "-o", program, source / "bindings" / "c" / "tests" / "api_test.c", *flags, "-lm",
+        f"-Wl,-rpath,{library}")
+    assert run(program) == "0 failures\n"
+
+
+def check_python(installed):
+    package = next(installed.rglob("alhazen/__init__.py"), None)
+    if package is None:
+        return
+    code = "import alhazen; print(alhazen.Scene().add(alhazen.sphere()).intersect([0, 0, 5, 0, 0, -1])['t_hit'])"
+    # The module was built for the system's Python (cmake/AlhazenPython.cmake).
+    version = re.search(r"cpython-(\d)(\d+)", next(package.parent.glob("_alhazen*")).name)
+    python = "/usr/bin/python3" if pathlib.Path("/usr/bin/python3").exists() else sys.executable
+    number = run(python, "-c", "import sys; print(*sys.version_info[:2], sep='')").strip()
+    if version and number == "".join(version.groups()):
+        os.environ["PYTHONPATH"] = str(package.parent.parent)
+        assert run(python, "-c", code) == "4.0\n"
+
+
 def main():
     build, source, trace_rays, config, prefixes = sys.argv[1:6]
     with tempfile.TemporaryDirectory(prefix="alhazen_install_") as folder:
@@ -46,6 +77,8 @@ def main():
         run("cmake", "--build", example, "--config", config)
         check_picture(run(example / "trace_rays"), run(trace_rays))
         run(folder / "moved" / "bin" / "alhazen", "--version")
+        check_c(folder / "moved", pathlib.Path(source), folder)
+        check_python(folder / "moved")
         for name in folder.rglob("alhazen*.cmake"):
             assert source not in name.read_text(encoding="utf-8"), f"{name} knows {source}"
 

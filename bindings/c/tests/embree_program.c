@@ -69,20 +69,20 @@ int main(void) {
     rtcReleaseScene(inner);
     rtcCommitScene(scene);
     rtcGetSceneBounds(scene, &bounds);
-    printf("bounds %g %g %g to %g %g %g\n", bounds.lower_x, bounds.lower_y, bounds.lower_z, bounds.upper_x,
-           bounds.upper_y, bounds.upper_z);
+    printf("bounds %ld %ld %ld to %ld %ld %ld\n", lrintf(bounds.lower_x), lrintf(bounds.lower_y),
+           lrintf(bounds.lower_z), lrintf(bounds.upper_x), lrintf(bounds.upper_y), lrintf(bounds.upper_z));
     rtcInitIntersectContext(&context);
     for (y = 0; y < 8; ++y) {
         for (x = 0; x < 24; ++x) {
             struct RTCRayHit one;
-            struct RTCRay shadow = ray_at(0.27f * (float)x - 0.09f, 0.31f * (float)y - 0.1f);
+            struct RTCRay shadow = ray_at(0.2713f * (float)x - 0.0937f, 0.3119f * (float)y - 0.1041f);
             one.ray = shadow;
             one.hit.geomID = one.hit.primID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(scene, &context, &one);
             rtcOccluded1(scene, &context, &shadow);
             if ((one.hit.geomID != RTC_INVALID_GEOMETRY_ID) != (shadow.tfar < 0)) printf("occlusion differs\n");
             if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-            printf("%d %d: geometry %u primitive %u instance %d t %.4f u %.4f v %.4f up %d\n", x, y, one.hit.geomID,
+            printf("%d %d: geometry %u primitive %u instance %d t %.3f u %.3f v %.3f up %d\n", x, y, one.hit.geomID,
                    one.hit.primID, (int)one.hit.instID[0], one.ray.tfar, one.hit.u, one.hit.v, one.hit.Ng_z > 0);
         }
     }
