@@ -19,9 +19,9 @@ import urllib.parse
 COLUMNS = 120
 
 # Folders with documents; of the root only its own files.
-DOCUMENTS = ("docs", "examples", "scenes", "bench", "tests", "src", "apps", "tools", "scripts")
+DOCUMENTS = ("docs", "bindings", "examples", "scenes", "bench", "tests", "src", "apps", "tools", "scripts")
 # Folders whose files name documents by their path from the root.
-NAMING = ("src", "apps", "tests", "bench", "tools", "scripts", "cmake", "scenes", "examples")
+NAMING = ("src", "apps", "bindings", "tests", "bench", "tools", "scripts", "cmake", "scenes", "examples")
 NAMING_SUFFIXES = {".h", ".cpp", ".py", ".txt", ".cmake", ".alhazen", ""}
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^()\s]+)(?:\s+\"[^\"]*\")?\)")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when a file includes what its folder may not.
 
-Checks of src/alhazen and apps:
+Checks of src/alhazen, apps and bindings:
   - a room (a folder of src/alhazen) includes only the rooms below it (ROOMS), siblings never each other;
   - a folder inside of a room includes of the same room only the folders below it (INSIDE);
   - no chain of includes leads from a folder, or a file, back to itself;
@@ -46,7 +46,13 @@ ROOMS = {
     "session": ["formats", "renderers", "verification"],
     "laboratory": ["session"],
     "apps": ["laboratory"],
+    "bindings": ["session", "tracer"],
 }
+
+# Rooms outside of src: files are included by their name from files beside them.
+OUTSIDE = ("apps", "bindings")
+# Headers that programs include as "alhazen/...", wherever they lie.
+PUBLIC = "/include/"
 
 # Room -> its folders, each with the folders of the room that it may include directly. "" stands for the files of the
 # room itself: without an entry they may include every folder, and no folder includes them.
@@ -176,7 +182,8 @@ LIBRARIES = {
     "cairo": {"imaging"},
     "jpeglib.h": {"imaging"},
     "yaml-cpp/": {"formats"},
-    "nlohmann/": {"formats", "solids", "session", "laboratory", "apps"},
+    "nlohmann/": {"formats", "solids", "session", "laboratory", "apps", "bindings"},
+    "pybind11/": {"bindings"},
     "CLI/": {"apps"},
 }
 
@@ -222,15 +229,15 @@ class Source:
 
 
 def read_sources(root):
-    """All sources by the name they are included by (apps: by path)."""
+    """All sources by the name they are included by (outside of src: by path, but for public headers)."""
     sources = {}
-    for top in (root / "src" / "alhazen", root / "apps"):
+    for top in (root / "src" / "alhazen", *(root / room for room in OUTSIDE)):
         for path in sorted(top.rglob("*")) if top.is_dir() else []:
             if path.suffix not in (".h", ".cpp"):
                 continue
             inside = path.relative_to(root)
-            if inside.parts[0] == "apps":
-                name, room, folder = inside.as_posix(), "apps", ""
+            if inside.parts[0] in OUTSIDE:
+                name, room, folder = inside.as_posix().split(PUBLIC)[-1], inside.parts[0], ""
             else:
                 name, room = path.relative_to(root / "src").as_posix(), inside.parts[2]
                 folder = "/".join(inside.parts[3:-1])
@@ -246,7 +253,7 @@ def check_one_include(source, include, sources):
             yield f"{where}<{name}> belongs to {', '.join(sorted(rooms))}, not to {source.room}"
     if not name.startswith("alhazen/"):
         beside = (source.path.parent / name).is_file()
-        if quote == '"' and not name.startswith("hwy/") and not (source.room == "apps" and beside):
+        if quote == '"' and not name.startswith("hwy/") and not (source.room in OUTSIDE and beside):
             yield f'{where}write "{name}" from src, as "alhazen/ROOM/FILE.h"'
         return
     if name not in sources:
@@ -263,7 +270,7 @@ def check_own_header(source, sources):
     if source.path.suffix != ".cpp":
         return
     own = source.name[:-4] + ".h"
-    if source.room == "apps":
+    if source.room in OUTSIDE:
         exists, own = source.path.with_suffix(".h").is_file(), source.path.with_suffix(".h").name
     else:
         exists = own in sources
@@ -325,7 +332,7 @@ def check(root, tables=True):
         for include in source.includes:
             findings += check_one_include(source, include, sources)
         findings += check_own_header(source, sources)
-        header = source.path.suffix == ".h" and not source.name.endswith(REPEATED)
+        header = source.path.suffix == ".h" and not source.name.endswith(REPEATED) and PUBLIC not in str(source.path)
         if header and "#pragma once" not in source.text:
             findings.append(f"{source.path}:1: the header has no #pragma once")
     return findings + list(find_cycles(sources))

@@ -23,6 +23,11 @@ from ._scene import INVALID_ID, Scene, load
 from . import blocks
 from .blocks import *  # noqa: F403
 
+# Where a program knows them from: in messages, and in help().
+for _public in (Error, FileError, Picture, RenderError, ResourceError, Scene, SceneError, SceneWarning, UsageError,
+                blocks.Block, blocks.Call, blocks.Word, load):
+    _public.__module__ = "alhazen"
+
 __version__: str = _alhazen.version
 
 
