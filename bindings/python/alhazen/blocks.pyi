@@ -412,8 +412,15 @@ def difference(label: Union[str, Block] = ..., *items: Block, transform: Any = .
     - cut_material: one of own, minuend
     - material"""
 
-def objects(label: Union[str, Block] = ..., *items: Block) -> Block:
-    """A block ``objects`` of a scene; keys:"""
+def objects(label: Union[str, Block] = ..., *items: Block, names: Any = ..., root: Any = ..., root_name: Any = ...,
+            combine: Any = ..., cut_material: Any = ...) -> Block:
+    """A block ``objects`` of a scene; keys:
+
+    - names: required
+    - root: required
+    - root_name
+    - combine: one of group, union, intersection, difference
+    - cut_material: one of own, minuend"""
 
 def object(label: Union[str, Block] = ..., *items: Block, material: Any = ..., name: Any = ..., combine: Any = ...,
            cut_material: Any = ..., accelerator: Any = ...) -> Block:

@@ -34,8 +34,9 @@ class Direct {
   public:
     Direct(const Doubles& vertices, const Faces& faces) : tracer_(scene_of(vertices, faces)) {}
 
-    /// Seconds of Tracer::intersect over all rays, which lie ready, as do the hits.
-    double seconds(const Doubles& numbers, int threads) {
+    /// Seconds of Tracer::intersect over all rays, which lie ready, as do the hits; with `normals`,
+    /// also of the normal of each hit.
+    double seconds(const Doubles& numbers, int threads, bool normals) {
         const auto count = static_cast<std::size_t>(numbers.shape(0));
         if (rays_.size() != count) {
             rays_.resize(count);
@@ -45,14 +46,23 @@ class Direct {
                 rays_[i] = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
             }
         }
+        normals_.resize(count);
         const auto start = std::chrono::steady_clock::now();
+        const auto trace = [&](std::size_t begin, std::size_t end) {
+            tracer_.intersect(std::span<const alhazen::Ray>(rays_).subspan(begin, end - begin),
+                              std::span(hits_).subspan(begin, end - begin));
+            if (!normals) return;
+            alhazen::Surface surface;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (!hits_[i].found()) continue;
+                tracer_.surface(rays_[i], hits_[i], surface);
+                normals_[i] = surface.normal;
+            }
+        };
         if (threads == 1) {
-            tracer_.intersect(rays_, hits_);
+            trace(0, count);
         } else {
-            in_ranges(count, threads, [&](std::size_t begin, std::size_t end) {
-                tracer_.intersect(std::span<const alhazen::Ray>(rays_).subspan(begin, end - begin),
-                                  std::span(hits_).subspan(begin, end - begin));
-            });
+            in_ranges(count, threads, trace);
         }
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
@@ -75,6 +85,7 @@ class Direct {
     alhazen::Tracer tracer_;
     std::vector<alhazen::Ray> rays_;
     std::vector<alhazen::Hit> hits_;
+    std::vector<alhazen::Vec3> normals_;
 };
 
 class Embree {

@@ -5,7 +5,9 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
+import zipfile
 from types import SimpleNamespace
 
 import numpy as np
@@ -109,6 +111,21 @@ class Package(unittest.TestCase):
             for name in names:
                 if name not in ("INVALID_ID",):
                     self.assertTrue(getattr(owner, name).__doc__, f"{owner} {name}")
+
+    def test_a_wheel_holds_all_of_the_package(self):
+        folder = os.path.dirname(os.path.abspath(__file__))
+        sys.path.insert(0, os.path.join(folder, "..", "tools"))
+        import wheel_backend
+        with tempfile.TemporaryDirectory() as place:
+            name = wheel_backend.pack(os.path.dirname(alhazen.__file__), place)
+            with zipfile.ZipFile(os.path.join(place, name)) as wheel:
+                self.assertIsNone(wheel.testzip())
+                wheel.extractall(place)
+            env = {**os.environ, "PYTHONPATH": place}
+            code = "import alhazen; print(alhazen.__file__, alhazen.Scene().add(alhazen.box()).measure()[0]['name'])"
+            output = subprocess.run([sys.executable, "-c", code], env=env, check=True, capture_output=True,
+                                    text=True).stdout
+            self.assertEqual(output.split(), [os.path.join(place, "alhazen", "__init__.py"), "box"])
 
     def test_errors_are_those_of_python_too(self):
         for kind, python in ((alhazen.UsageError, ValueError), (alhazen.SceneError, ValueError),

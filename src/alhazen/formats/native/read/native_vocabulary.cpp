@@ -41,8 +41,9 @@ class KeyNotes final : public BlockObserver {
     bool empty_ = true;
 };
 
-/// Reads a text for what the reader asks of it; findings do not matter.
-void read_noted(const std::string& text, KeyNotes& notes) {
+/// Reads a text for what the reader asks of it; findings do not matter. `with_object`: there is an
+/// object "x".
+void read_noted(const std::string& text, bool with_object, KeyNotes& notes) {
     SceneDescription scene;
     scene.path = "scene.alhazen";
     scene.objects.push_back({"scene", {}, {}});
@@ -51,7 +52,7 @@ void read_noted(const std::string& text, KeyNotes& notes) {
     const SourceText source(text, "");
     const TextTree tree(source, {}, ignored);
     NativeContext context(scene, ignored, options);
-    context.object_names.emplace("x", ObjectIndex{0});
+    if (with_object) context.object_names.emplace("x", ObjectIndex{0});
     context.observer = &notes;
     std::vector<Part> parts;
     NativeScope scope{parts, {}, std::nullopt, {}};
@@ -107,12 +108,13 @@ NativeBlockType block_type(std::string_view name) {
     NativeBlockType type{std::string(name), is_native_shape(name), {}};
     KeyNotes notes(type);
     const std::string head = type.name + " \"x\" ";
-    read_noted(head + "{ }", notes);
+    const bool of_object = type.name == "instance";
+    read_noted(head + "{ }", of_object, notes);
     notes.begin(false);
     const std::vector<NativeKey> found = type.keys;
     for (const NativeKey& key : found) {
         for (const std::string& word : key.words) {
-            read_noted(head + "{ " + key.name + " = " + word + " }", notes);
+            read_noted(head + "{ " + key.name + " = " + word + " }", of_object, notes);
         }
     }
     if (type.is_shape) describe_fields(AnalyticShapes{}, type);
