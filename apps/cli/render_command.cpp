@@ -15,9 +15,9 @@
 #include "alhazen/session/aov_pictures.h"
 #include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/environment_option.h"
-#include "alhazen/session/framing.h"
 #include "alhazen/session/photon_file.h"
 #include "alhazen/session/picture.h"
+#include "alhazen/session/prepare_view.h"
 #include "alhazen/session/render.h"
 #include "alhazen/session/scan_line_figure.h"
 #include "alhazen/session/scene_files.h"
@@ -155,19 +155,6 @@ std::vector<std::filesystem::path> checked_outputs(const RenderArguments& args,
     return outputs;
 }
 
-/// Adds a camera and a light where the file has none, and reports it.
-void complete(const RenderArguments& args, const RenderOptions& options, LoadedScene& loaded) {
-    FramingOptions framing;
-    if (!args.view.empty()) framing.view = parse_view(args.view);
-    framing.camera = options.camera;
-    framing.aspect = free_aspect(loaded.description.picture, options);
-    framing.follows_light = follows_light(options.renderer);
-    framing.nothing_around = args.environment == "none";
-    for (const std::string& note : complete_view(loaded.description, loaded.scene, framing)) {
-        if (!args.quiet) tell("{}\n", note);
-    }
-}
-
 PictureOptions picture_options(const RenderArguments& args, int samples_per_pixel,
                                const RenderResult& result) {
     PictureOptions options;
@@ -256,13 +243,10 @@ int run(const RenderArguments& args) {
     if (!args.quiet) print_warnings(loaded.diagnostics);
     // Framing reads the tables of the aggregate.
     if (!args.view.empty() || loaded.scene.cameras.empty()) build_aggregate(loaded, load_options);
-    for (const std::string& note : set_environment(loaded, args.environment, options.renderer,
-                                                   load_options.import.image_limits)) {
-        if (!args.quiet) tell("{}\n", note);
-    }
-    complete(args, options, loaded);
-
-    for (const std::string& note : simplified(loaded.scene, options, *renderer)) {
+    ViewWishes wishes{.environment = args.environment,
+                      .image_limits = load_options.import.image_limits};
+    if (!args.view.empty()) wishes.view = parse_view(args.view);
+    for (const std::string& note : prepare_view(loaded, options, wishes)) {
         if (!args.quiet) tell("{}\n", note);
     }
     if (const double within = renderer->takes_triangles_within(); within > 0) {

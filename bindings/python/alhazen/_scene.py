@@ -257,6 +257,7 @@ class Scene:
                renderer: str = "whitted", camera: Union[str, int] = "", view: Union[str, Sequence[float]] = "",
                layers: Union[str, Sequence[str]] = "", depth: Optional[int] = None, seed: int = 0,
                crop: Optional[Sequence[int]] = None, environment: str = "", sampler: str = "", filter: str = "",
+               antialias: str = "",
                noise: Optional[float] = None, seconds: Optional[float] = None, threads: Optional[int] = None,
                progress: Optional[Progress] = None) -> Picture:
         """Renders a picture: a float32 array (height, width, 3), linear; see ``Picture``.
@@ -264,7 +265,7 @@ class Scene:
         Parameters
         ----------
         width, height : pixels; one given: the other follows; none: the scene's
-        spp : samples per pixel
+        spp : samples per pixel; the renderer's usual number if not given
         renderer : a name of ``alhazen.renderers()``
         camera : name or position; the first if not given
         view : (azimuth, elevation), degrees: a camera that frames all, instead
@@ -272,6 +273,8 @@ class Scene:
         depth : of reflections and refractions
         crop : (x0, y0, x1, y1), pixels from the top left
         environment : "sky", "studio", "none" or a picture file, for renderers that follow light
+        antialias : "whitted" or "exact", with settings as of ``alhazen render --antialias``
+        sampler, filter : by name, as of ``alhazen list``
         noise, seconds : stop rules; pixels above the noise get more samples
         progress : called as progress(phase, done, total); an exception of it ends the render
 
@@ -284,7 +287,7 @@ class Scene:
         wishes = {"renderer": renderer, "camera": str(camera), "width": width, "height": height, "depth": depth,
                   "seed": seed, "threads": self._at_most(threads), "layers": layers, "view": view, "spp": spp,
                   "crop": None if crop is None else tuple(crop), "environment": environment, "sampler": sampler,
-                  "filter": filter, "noise": noise, "seconds": seconds}
+                  "filter": filter, "antialias": antialias, "noise": noise, "seconds": seconds}
         return Picture.of(self._scene().render(wishes, progress))
 
     def _repr_png_(self) -> bytes:

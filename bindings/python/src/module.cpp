@@ -146,8 +146,12 @@ py::dict render_with(const BuiltScene& scene, const py::dict& given, const py::o
     take(given, "seed", wishes.render.seed);
     take(given, "threads", wishes.render.threads);
     take(given, "layers", wishes.layers);
-    take(given, "view", wishes.view);
-    take(given, "environment", wishes.environment);
+    take(given, "environment", wishes.view.environment);
+    take(given, "antialias", wishes.antialias);
+    if (given.contains("view")) {
+        const auto view = given["view"].cast<std::string>();
+        if (!view.empty()) wishes.view.view = parse_view(view);
+    }
     take(given, "sampler", wishes.sampling.sampler);
     take(given, "filter", wishes.sampling.filter);
     take(given, "noise", wishes.sampling.noise);

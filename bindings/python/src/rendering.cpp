@@ -4,8 +4,9 @@
 
 #include "alhazen/base/error.h"
 #include "alhazen/imaging/codecs/image_io.h"
+#include "alhazen/renderers/core/renderer.h"
+#include "alhazen/session/conversion/tessellated.h"
 #include "alhazen/session/environment_option.h"
-#include "alhazen/session/framing.h"
 #include "array_making.h"
 #include "interruptible.h"
 
@@ -48,11 +49,16 @@ void complete_options(PictureWishes& wishes) {
     RenderOptions& options = wishes.render;
     if (!wishes.layers.empty()) options.aovs = parse_aovs(wishes.layers);
     options.sampling = parse_sampling(wishes.sampling);
+    if (!wishes.antialias.empty()) options.antialias = parse_antialias(wishes.antialias);
     if (wishes.spp) {
         options.samples_per_pixel = *wishes.spp;
     } else if (options.sampling && options.sampling->has_rounds()) {
         options.samples_per_pixel = SamplingPlan::kMostByRule;
+    } else {
+        options.samples_per_pixel = make_renderer(options.renderer)->usual_samples();
     }
+    check_environment(wishes.view.environment, options.renderer);
+    options.count_tests = options.aovs.has_tests();
 }
 
 }  // namespace
@@ -67,16 +73,9 @@ py::dict render_picture(const BuiltScene& scene, PictureWishes wishes, const py:
     run_watched(stop, progress, [&](ProgressSink& sink) {
         options.progress = &sink;
         LoadedScene view = scene.loaded();  // shares all geometry
-        check_environment(wishes.environment, options.renderer);
-        notes = set_environment(view, wishes.environment, options.renderer, {});
-        FramingOptions framing;
-        if (!wishes.view.empty()) framing.view = parse_view(wishes.view);
-        framing.camera = options.camera;
-        framing.aspect = free_aspect(view.description.picture, options);
-        framing.follows_light = follows_light(options.renderer);
-        for (std::string& note : complete_view(view.description, view.scene, framing)) {
-            notes.push_back(std::move(note));
-        }
+        notes = prepare_view(view, options, wishes.view);
+        const double within = make_renderer(options.renderer)->takes_triangles_within();
+        if (within > 0) (void)tessellate(view.description, within);
         result.emplace(render(view, options));
     });
     py::dict picture;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "alhazen/session/render.h"
+#include "alhazen/session/prepare_view.h"
 #include "built_scene.h"
 
 namespace alhazen::python {
@@ -15,8 +15,8 @@ namespace alhazen::python {
 struct PictureWishes {
     RenderOptions render;  ///< without `stop` and `progress`
     std::string layers;    ///< as for `--aov`; empty: none
-    std::string view;      ///< "azimuth,elevation" of a camera that frames all; empty: the file's
-    std::string environment;
+    ViewWishes view;
+    std::string antialias;  ///< as for `--antialias`; empty: none
     SamplingTexts sampling;
     std::optional<int> spp;
 };

@@ -160,6 +160,17 @@ class Pictures(unittest.TestCase):
             scene.render(2000, 1500, spp=256, progress=stop)
         self.assertLess(time.perf_counter() - start, 20)
 
+    def test_renderers_that_need_more_get_it(self):
+        scene = small_scene()
+        path = scene.render(16, 12, renderer="path_tracing", environment="studio", spp=2)
+        self.assertTrue(path.complete and path.max() > 0)
+        np.testing.assert_array_equal(scene.render(16, 12, renderer="distributed"),
+                                      scene.render(16, 12, renderer="distributed", spp=16))
+        smooth = scene.render(antialias="whitted:threshold=0.02,depth=2")
+        self.assertFalse(np.array_equal(smooth, scene.render()))
+        with self.assertRaisesRegex(alhazen.UsageError, "environment"):
+            scene.render(environment="night", renderer="path_tracing")
+
     def test_crops_and_files(self):
         scene = small_scene()
         whole = scene.render()

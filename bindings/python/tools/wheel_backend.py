@@ -63,5 +63,5 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         subprocess.run(command, check=True, cwd=ROOT, env=env)
 
     run("cmake", "--preset", "release", "-DALHAZEN_PYTHON=ON", f"-DPython3_EXECUTABLE={sys.executable}")
-    run("cmake", "--build", build, "--parallel", "--target", "alhazen_python")
+    run("cmake", "--build", build, "--parallel", "--target", "alhazen_python_package")
     return pack(os.path.join(build, "python", "alhazen"), wheel_directory)
