@@ -107,6 +107,14 @@ void for_each_mask(const Rays& rays, std::size_t begin, std::size_t end, Scratch
 /// Rays of a call are taken so many at a time.
 constexpr std::size_t kBlock = 1024;
 
+/// One ray, without the lists of many.
+void intersect_one(const Built& built, const Wishes& wishes, const RayLayout auto& rays) {
+    const Ray ray = rays.ray(0);
+    Hit hit;
+    built.tracer->intersect(ray, hit, rays.mask(0));
+    rays.answer(0, answer_of(built, ray, hit, wishes.normals, scratch_of_thread().surface));
+}
+
 template <RayLayout Rays>
 void intersect_all(const Built& built, const Wishes& wishes, std::size_t count, const Rays& rays) {
     Scratch& scratch = scratch_of_thread();
@@ -293,7 +301,9 @@ using namespace alhazen::capi;
 
 void alhazenIntersect1(AlhazenScene scene, AlhazenIntersectContext* context,
                        AlhazenRayHit* rayhit) {
-    alhazenIntersect1M(scene, context, rayhit, 1, sizeof(AlhazenRayHit));
+    ask(scene, context, rayhit, [&](const Built& built, const Wishes& wishes) {
+        intersect_one(built, wishes, StructRays(rayhit, sizeof(AlhazenRayHit)));
+    });
 }
 void alhazenIntersect1M(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRayHit* rayhit,
                         unsigned int M, size_t byteStride) {
@@ -323,7 +333,10 @@ void alhazenIntersect16(const int* valid, AlhazenScene scene, AlhazenIntersectCo
                          rayhit != nullptr ? &rayhit->hit : nullptr);
 }
 void alhazenOccluded1(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRay* ray) {
-    alhazenOccluded1M(scene, context, ray, 1, sizeof(AlhazenRay));
+    ask(scene, context, ray, [&](const Built& built, const Wishes&) {
+        const StructRays rays(ray, sizeof(AlhazenRay));
+        if (built.tracer->occluded(rays.ray(0), rays.mask(0))) rays.occlude(0);
+    });
 }
 void alhazenOccluded1M(AlhazenScene scene, AlhazenIntersectContext* context, AlhazenRay* ray,
                        unsigned int M, size_t byteStride) {

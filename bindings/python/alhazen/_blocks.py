@@ -104,7 +104,8 @@ class Block:
 
     def _body(self) -> str:
         pairs = [f"{k} = {_text_of(v)}" for k, v in self.keys.items()]
-        return "{ " + "; ".join(pairs + [item._text() for item in self.items]) + " }"
+        inner = "; ".join(pairs + [item._text() for item in self.items])
+        return f"{{ {inner} }}" if inner else "{ }"
 
     def _head(self) -> str:
         return self.type + (" " + _quoted(self.name) if self.name else "")

@@ -31,7 +31,7 @@ class Blocks(unittest.TestCase):
                          'sphere "ball" { center = (0, 0, 1); radius = 0.5 }')
         self.assertEqual(repr(alhazen.environment(kind="sky")), "environment { kind = sky }")
         self.assertEqual(repr(alhazen.difference(alhazen.sphere(), alhazen.box(), cut_material="minuend")),
-                         "difference { cut_material = minuend; sphere {  }; box {  } }")
+                         "difference { cut_material = minuend; sphere { }; box { } }")
         self.assertEqual(repr(alhazen.sphere(transform=np.eye(4))),
                          "sphere { transform = matrix((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), "
                          "(0.0, 0.0, 1.0, 0.0)) }")
@@ -71,6 +71,13 @@ class Blocks(unittest.TestCase):
             alhazen.environment(kind="night")
         with self.assertRaisesRegex(alhazen.UsageError, "finite"):
             alhazen.Scene().add(alhazen.sphere(radius=float("nan"))).build()
+
+    def test_meshes_of_arrays_are_parts_of_solids(self):
+        vertices, faces = cube(-1, 1)
+        scene = alhazen.Scene().add(alhazen.difference("hollow", alhazen.mesh(points=vertices, faces=faces),
+                                                       alhazen.sphere(radius=0.5)))
+        lo, hi = scene.measure("hollow", error=1e-3, seconds=2)[0]["volume"]["interval"]
+        self.assertTrue(lo < 8 - np.pi / 6 < hi)
 
     def test_text_of_a_name_cannot_leave_its_block(self):
         scene = alhazen.Scene().add(alhazen.sphere('x" { } box "y'))
