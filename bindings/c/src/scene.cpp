@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "alhazen/parallel/parallel.h"
 #include "handles.h"
@@ -42,7 +43,6 @@ class Gatherer {
         scene_.add_mesh(std::shared_ptr<const TriangleMesh>(std::move(mesh)),
                         {.visible_to = geometry.mask});
         built_.origins.push_back({id, 0, nullptr});
-        built_.bytes += static_cast<std::int64_t>(24 * vertex.count + 12 * index.count);
     }
 
     void add_spheres(unsigned id, const Geometry& geometry) {
@@ -52,7 +52,6 @@ class Gatherer {
                               vertex.real(i, 3), {.visible_to = geometry.mask});
             built_.origins.push_back({id, static_cast<unsigned>(i), nullptr});
         }
-        built_.bytes += static_cast<std::int64_t>(sizeof(Sphere) * vertex.count);
     }
 
     void add_instance(unsigned id, const Geometry& geometry) {
@@ -71,6 +70,37 @@ class Gatherer {
 
     Built& built_;
     TracerScene scene_;
+};
+
+/// Bytes that the copy of a geometry takes.
+std::int64_t bytes_of(const Geometry& geometry) {
+    const bool spheres = geometry.type == ALHAZEN_GEOMETRY_TYPE_SPHERE_POINT;
+    const std::size_t bytes = geometry.vertex.count * (spheres ? sizeof(Sphere) : sizeof(Vec3)) +
+                              geometry.index.count * 3 * sizeof(std::uint32_t);
+    return static_cast<std::int64_t>(bytes);
+}
+
+/// Memory that the monitor knows of, given back unless it is kept.
+class ToldMemory {
+  public:
+    explicit ToldMemory(const Device& device) : device_(device) {}
+    ~ToldMemory() {
+        if (bytes_ != 0) device_.tell_memory(-bytes_, true);
+    }
+    ToldMemory(const ToldMemory&) = delete;
+    ToldMemory& operator=(const ToldMemory&) = delete;
+
+    /// Throws CodedError when the monitor forbids.
+    void add(std::int64_t bytes, bool post) {
+        need(device_.tell_memory(bytes, post), ALHAZEN_ERROR_OUT_OF_MEMORY,
+             "the memory monitor forbids to build");
+        bytes_ += bytes;
+    }
+    std::int64_t keep() { return std::exchange(bytes_, 0); }
+
+  private:
+    const Device& device_;
+    std::int64_t bytes_ = 0;
 };
 
 /// Runs `work` with the scene, which must not be null.
@@ -107,26 +137,26 @@ void Scene::commit() {
     const std::lock_guard lock(mutex);
     auto next = std::make_shared<Built>();
     Gatherer gatherer(*next);
-    tell(0.0);
-    // Gathering counts as a tenth of the work.
-    double gathered = 0;
+    std::vector<std::pair<unsigned, const Geometry*>> wanted;
+    std::int64_t bytes = 0;
     for (const auto& [id, geometry] : geometries) {
-        if (geometry->enabled && geometry->committed) gatherer.add(id, *geometry.get());
-        gathered += 1;
-        tell(0.1 * gathered / static_cast<double>(geometries.size()));
+        if (!geometry->enabled || !geometry->committed) continue;
+        wanted.emplace_back(id, geometry.get());
+        bytes += bytes_of(*geometry.get());
     }
-    need(device->tell_memory(next->bytes, false), ALHAZEN_ERROR_OUT_OF_MEMORY,
-         "the memory monitor forbids to build");
+    tell(0.0);
+    ToldMemory memory(*device.get());
+    memory.add(bytes, false);
+    // Gathering counts as a tenth of the work.
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        gatherer.add(wanted[i].first, *wanted[i].second);
+        tell(0.1 * static_cast<double>(i + 1) / static_cast<double>(wanted.size()));
+    }
     TracerOptions options = device->options;
     if (quality) options.build.quality = *quality;
     ThreadLimit(device->threads).run([&] { next->tracer.emplace(gatherer.take(), options); });
-    const auto tree = static_cast<std::int64_t>(next->tracer->memory_bytes());
-    const bool allowed = device->tell_memory(tree, true);
-    next->bytes += tree;
-    if (!allowed) {
-        device->tell_memory(-next->bytes, true);
-        throw CodedError(ALHAZEN_ERROR_OUT_OF_MEMORY, "the memory monitor forbids the tree");
-    }
+    memory.add(static_cast<std::int64_t>(next->tracer->memory_bytes()), true);
+    next->bytes = memory.keep();
     const std::int64_t before = built ? built->bytes : 0;
     built = std::move(next);
     if (before != 0) device->tell_memory(-before, true);

@@ -116,6 +116,7 @@ class Tracer {
 
     /// Bounds all geometry; empty for an empty scene, infinite with planes.
     [[nodiscard]] Box3 box() const { return aggregate_->box(); }
+    /// Calls that added geometry; of a compiled scene the shapes and triangles stored.
     [[nodiscard]] std::size_t geometry_count() const { return geometry_count_; }
     /// Bytes of the acceleration structure, excluding instanced tracers.
     [[nodiscard]] std::size_t memory_bytes() const { return aggregate_->memory_bytes(); }
