@@ -24,7 +24,7 @@ import unittest
 BUILD = pathlib.Path(sys.argv[1])
 SOURCE = pathlib.Path(sys.argv[2])
 
-COPIED = ["apps", "docs/reference/formats", "src", "tests/fuzz", "tests/support", "tests/unit", "tools"]
+COPIED = ["apps", "bindings", "docs/reference/formats", "src", "tests/fuzz", "tests/support", "tests/unit", "tools"]
 
 SHAPE_H = """#pragma once
 /// The least shape: a sphere by another name.
