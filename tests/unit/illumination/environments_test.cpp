@@ -222,8 +222,11 @@ TEST(Environments, IlluminationDrawsThem) {
             const LightRay out = lights.emit(0.5, {random.uniform(), random.uniform()}, {u, v});
             ASSERT_TRUE(out.infinite);
             power += out.radiance.g / (out.place_density * out.direction_density) / kRays;
-            const auto density = lights.environment_emit_density(out.ray.direction);
-            EXPECT_EQ(density.place, out.place_density);
+            // Its ray comes to all of the disc, and to nothing beside it.
+            const Vec3 beside = out.ray.origin + 3.0 * perpendicular(out.ray.direction);
+            EXPECT_EQ(lights.environment_emit_density(out.ray.direction, out.ray.at(1.0)).place,
+                      out.place_density);
+            EXPECT_EQ(lights.environment_emit_density(out.ray.direction, beside).place, 0.0);
         }
         const double disc = kPi * 0.75 * (1.0 + 2e-9);  // of the box of the ball
         EXPECT_NEAR(power / (disc * 4.0 * kPi * scene.environment->mean().g), 1.0, 0.03);
