@@ -5,7 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "alhazen/accel/bounds/goldsmith_salmon.h"
+#include "alhazen/accel/bounds/hierarchy.h"
 #include "alhazen/accel/bounds/kay_kajiya.h"
+#include "alhazen/accel/bounds/list.h"
 #include "alhazen/accel/cells/kd_tree.h"
 #include "alhazen/accel/cells/octree.h"
 #include "alhazen/accel/cells/uniform_grid.h"
@@ -104,26 +107,35 @@ std::vector<Vec3> shape_of(const KdTree& tree, const TraversalStep& step) {
     return corners_of(box);
 }
 
-std::vector<Vec3> shape_of(const KayKajiya& kay_kajiya, const TraversalStep& step) {
-    const auto of_bound = []<int K>(const SlabBound<K>& bound) {
-        std::vector<HalfSpaceOfPoints> sides;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(K); ++k) {
-            const Vec3& n = SlabDirections<K>::all()[k];
-            sides.push_back({n, bound.range[k].hi});
-            sides.push_back({-n, -bound.range[k].lo});
-        }
-        return plane_corners(sides);
-    };
-    return std::visit(
-        [&](const auto& tree) {
-            const auto& bound = tree.nodes[step.number].bound;
-            if constexpr (requires { of_bound(bound); }) {
-                return of_bound(bound);
-            } else {
-                return std::vector<Vec3>{};  // spheres: this accelerator has none
-            }
-        },
-        kay_kajiya.tree());
+/// A sphere has no corners.
+std::vector<Vec3> shape_of(const SphereBound&) {
+    return {};
+}
+template <int K>
+std::vector<Vec3> shape_of(const SlabBound<K>& bound) {
+    std::vector<HalfSpaceOfPoints> sides;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(K); ++k) {
+        const Vec3& n = SlabDirections<K>::all()[k];
+        sides.push_back({n, bound.range[k].hi});
+        sides.push_back({-n, -bound.range[k].lo});
+    }
+    return plane_corners(sides);
+}
+
+template <class Tree>
+requires requires(const Tree& tree) {
+    std::visit([](const auto&) {}, tree.tree());
+}
+std::vector<Vec3> shape_of(const Tree& accelerator, const TraversalStep& step) {
+    return std::visit([&](const auto& tree) { return shape_of(tree.nodes[step.number].bound); },
+                      accelerator.tree());
+}
+std::vector<Vec3> shape_of(const GoldsmithSalmon& accelerator, const TraversalStep& step) {
+    return shape_of(accelerator.tree().nodes[step.number].bound);
+}
+/// Its steps are tests of primitives.
+std::vector<Vec3> shape_of(const List&, const TraversalStep&) {
+    return {};
 }
 
 /// Gives every step its shape.
@@ -198,7 +210,10 @@ struct Traceable {
     const char* name;
     void (*trace)(const Scene&, const AcceleratorChoice&, TraversalTrace&);
 };
-constexpr Traceable kTraceable[] = {{KayKajiya::kName, &trace<KayKajiya>},
+constexpr Traceable kTraceable[] = {{List::kName, &trace<List>},
+                                    {Hierarchy::kName, &trace<Hierarchy>},
+                                    {GoldsmithSalmon::kName, &trace<GoldsmithSalmon>},
+                                    {KayKajiya::kName, &trace<KayKajiya>},
                                     {UniformGrid::kName, &trace<UniformGrid>},
                                     {Octree::kName, &trace<Octree>},
                                     {RayClassification::kName, &trace<RayClassification>},

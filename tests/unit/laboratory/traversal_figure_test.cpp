@@ -26,7 +26,8 @@ std::uint64_t count(const TraversalTrace& trace, Kind kind) {
 TEST(TraversalTrace, HasTheStepsThatTheAggregateCountsAndItsHit) {
     const SceneTrial trial(small_scene(), {.max_depth = 0});
     for (const std::string name :
-         {"kay_kajiya", "uniform_grid", "octree", "kd_tree", "ray_classification"}) {
+         {"list", "hierarchy", "hierarchy:bound=sphere,order=stored", "goldsmith_salmon",
+          "kay_kajiya", "uniform_grid", "octree", "kd_tree", "ray_classification"}) {
         const Scene scene = trial.build(name).scene;
         for (int x = 0; x < 40; x += 7) {
             const Ray ray = trial.eye_ray_of(x, 15);
@@ -67,7 +68,8 @@ TEST(TraversalTrace, TheRayGoesThroughEveryCell) {
 
 TEST(TraversalTrace, RefusesWhatItCannotTrace) {
     const SceneTrial trial(small_scene(3), {.max_depth = 0});
-    EXPECT_THROW((void)trace_traversal(trial.reference(), "list", trial.eye_ray_of(0, 0)), Error);
+    EXPECT_THROW((void)trace_traversal(trial.reference(), "light_buffer", trial.eye_ray_of(0, 0)),
+                 Error);
     EXPECT_THROW((void)trace_traversal(trial.reference(), "octree:walk=x", trial.eye_ray_of(0, 0)),
                  Error);
     EXPECT_THROW((void)trial.eye_ray_of(40, 0), Error);

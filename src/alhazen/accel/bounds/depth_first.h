@@ -11,6 +11,7 @@
 
 #include "alhazen/accel/bounds/bound_tree.h"
 #include "alhazen/accel/core/reentrant_stack.h"
+#include "alhazen/accel/core/traversal_trace.h"
 
 namespace alhazen {
 
@@ -29,6 +30,7 @@ void traverse_depth_first(const BoundTree<B>& tree, ChildOrder order, const Ray&
     const typename B::Probe probe(ray);
     ReentrantStack<ReachedNode> stack;
     const auto root = probe.enter(tree.nodes[0].bound, visitor.t_max(), stats);
+    note_bound(stats, 0, root.has_value());
     if (!root) return;
     stack.push({0, *root});
     while (!stack.empty()) {
@@ -44,6 +46,7 @@ void traverse_depth_first(const BoundTree<B>& tree, ChildOrder order, const Ray&
         // In reverse, so that the first child is on top.
         for (std::uint32_t i = node.count; i-- > 0;) {
             const auto t = probe.enter(tree.nodes[node.first + i].bound, visitor.t_max(), stats);
+            note_bound(stats, node.first + i, t.has_value());
             if (t) stack.push({node.first + i, *t});
         }
         if (order == ChildOrder::NearestFirst) {

@@ -47,6 +47,7 @@ class Hierarchy {
     }
 
     [[nodiscard]] std::size_t memory_bytes() const { return alhazen::memory_bytes(tree_); }
+    [[nodiscard]] const AnyBoundTree& tree() const { return tree_; }
 
   private:
     Hierarchy(AnyBoundTree tree, ChildOrder order) : tree_(std::move(tree)), order_(order) {}
