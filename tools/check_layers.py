@@ -45,7 +45,8 @@ ROOMS = {
     "verification": ["solids"],
     "session": ["formats", "renderers", "verification"],
     "laboratory": ["session"],
-    "apps": ["laboratory"],
+    "explain": ["laboratory"],
+    "apps": ["explain"],
     "bindings": ["session", "tracer"],
 }
 
@@ -71,6 +72,12 @@ INSIDE = {
         "wide_bvh/leaves": [],
         "wide_bvh": ["wide_bvh/leaves"],
         "motion": [],
+    },
+    "explain": {
+        "tree": [],
+        "spans": [],
+        "": ["tree", "spans"],
+        "page": [""],
     },
     "formats": {
         "core": [],
@@ -182,7 +189,7 @@ LIBRARIES = {
     "cairo": {"imaging"},
     "jpeglib.h": {"imaging"},
     "yaml-cpp/": {"formats"},
-    "nlohmann/": {"formats", "solids", "session", "laboratory", "apps", "bindings"},
+    "nlohmann/": {"formats", "solids", "session", "laboratory", "explain", "apps", "bindings"},
     "pybind11/": {"bindings"},
     "CLI/": {"apps"},
 }

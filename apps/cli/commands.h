@@ -28,6 +28,7 @@ void add_measure(CLI::App& app, int& exit_status);
 void add_samples(CLI::App& app, int& exit_status);
 void add_vector(CLI::App& app, int& exit_status);
 void add_section(CLI::App& app, int& exit_status);
+void add_explain(CLI::App& app, int& exit_status);
 void add_diff(CLI::App& app, int& exit_status);
 void add_list(CLI::App& app, int& exit_status);
 

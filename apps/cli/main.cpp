@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
     add_info(app, exit_status);
     add_verify(app, exit_status);
     add_compare(app, exit_status);
+    add_explain(app, exit_status);
     add_solid_queries(app, exit_status);
     add_measure(app, exit_status);
     add_section(app, exit_status);

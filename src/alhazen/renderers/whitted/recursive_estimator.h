@@ -31,6 +31,23 @@ struct NoChance {
     [[nodiscard]] static float time(std::uint32_t /*sample*/) { return 0.0f; }
 };
 
+/// A chance that watches the tree grow, at no cost for others. In the order of the calls, for some
+/// rays of a generation: `begin_rays`; for each surface `see_light` for the lights it faces, then
+/// `meet`; `miss` for rays that meet nothing; `gather`, after the next generation, with the
+/// surfaces in the order of `meet`; `end_rays`, when the radiance is known.
+template <class Chance>
+concept TreeWatcher = requires(Chance& chance, const GenerationPart& part,
+                               const ShadingPoint& point, const Path& path, const MetSurface& met,
+                               const Wavefront& front, const LightSample& light, const Rgb& left,
+                               std::uint32_t ray, double t, int depth) {
+    chance.begin_rays(part, depth);
+    chance.see_light(std::size_t{}, light, t);
+    chance.meet(point, t, path, depth, met);
+    chance.miss(ray, left, depth);
+    chance.gather(front, depth);
+    chance.end_rays(part, depth);
+};
+
 /// From this depth on fewer rays are traced at a time, which bounds the memory of waiting
 /// generations.
 inline constexpr int kDeepGeneration = 16;
@@ -95,6 +112,7 @@ class RecursiveEstimator {
         Wavefront& front = front_at(depth);
         front.begin(part.size());
         for (const Path& path : part.paths) ++counters_[path.kind].cast;
+        if constexpr (TreeWatcher<Chance>) chance_.begin_rays(part, depth);
         for (int met = 0; met < kMaxPassedSurfaces && !front.active.empty(); ++met) {
             // One eye ray can cause millions of rays; its pixel is dropped after a stop.
             if (job_.stop_requested()) return;
@@ -102,9 +120,11 @@ class RecursiveEstimator {
             meet_surfaces(part, depth, met == 0, front);
             shadows_.finish(depth == 0 ? eye_shadows_ : Coherence::Any);
             trace_all(front.next, depth + 1);
+            if constexpr (TreeWatcher<Chance>) chance_.gather(front, depth);
             gather(front, part.radiance);
             front.go_on();
         }
+        if constexpr (TreeWatcher<Chance>) chance_.end_rays(part, depth);
     }
 
     Wavefront& front_at(int depth) {
@@ -126,6 +146,7 @@ class RecursiveEstimator {
                 const std::uint32_t i = front.active[k];
                 Rgb& left = front.left[i];
                 if (point == nullptr) {
+                    if constexpr (TreeWatcher<Chance>) chance_.miss(i, left, depth);
                     part.radiance[i] = part.radiance[i] + left * scene_.background;
                     return;
                 }
@@ -137,6 +158,7 @@ class RecursiveEstimator {
                 met.ray = i;
                 met.share = coverage * left;
                 shade({*point, rays[k], t, path, depth}, met, front.next);
+                if constexpr (TreeWatcher<Chance>) chance_.meet(*point, t, path, depth, met);
                 left = (1.0 - coverage) * left;
                 if (!(left.max() >= kLeastTransmittance)) return;
                 front.next_active.push_back(i);
@@ -208,6 +230,7 @@ class RecursiveEstimator {
                                    seen.path, seen.depth);
             const double cosine = dot(point.normal, l.to_light);
             if (!(cosine > 0.0)) continue;
+            if constexpr (TreeWatcher<Chance>) chance_.see_light(here, l, cosine);
             shadows_.add(point.surface, l, reflected_fraction(conventions_, point, l, cosine),
                          seen.path, sum);
         }

@@ -1,0 +1,223 @@
+#include "alhazen/explain/explanation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/base/error.h"
+#include "alhazen/cameras/eye_rays.h"
+#include "alhazen/explain/spans/part_of_primitive.h"
+#include "alhazen/explain/tree/ray_tree_recorder.h"
+#include "alhazen/imaging/film/pixel_filter.h"
+#include "alhazen/renderers/core/samplers.h"
+#include "alhazen/session/aov_pictures.h"
+
+namespace alhazen {
+
+namespace {
+
+/// The samples of one pixel of a job.
+class PixelSamples {
+  public:
+    PixelSamples(const RenderJob& job, int width, int height, int x, int y)
+        : width_(width), height_(height), x_(x), y_(y) {
+        if (job.samples_per_pixel == 1) {
+            list(PointSampler(job, width, height));
+        } else {
+            list(JitteredSampler(job, width, height));
+        }
+        const EyeRays eye(job.camera);
+        for (const Vec2& p : film_) rays_.push_back(eye.ray(eye.column(p.x) + eye.row(p.y)));
+    }
+
+    [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
+    /// In the pixel.
+    [[nodiscard]] Vec2 place(std::size_t i) const {
+        return {film_[i].x * width_ - x_, (1.0 - film_[i].y) * height_ - y_};
+    }
+
+  private:
+    template <PixelSampler Sampler>
+    void list(const Sampler& sampler) {
+        for (int s = 0; s < sampler.count(); ++s) film_.push_back(sampler.at(x_, y_, s));
+    }
+
+    int width_, height_, x_, y_;
+    std::vector<Vec2> film_;  ///< places on the film
+    std::vector<Ray> rays_;
+};
+
+void check(const LoadedScene& loaded, const ExplainOptions& options, const FrameSize& frame) {
+    const auto need = [](bool ok, const std::string& message) {
+        if (!ok) throw Error(ErrorKind::Usage, message);
+    };
+    need(loaded.scene.aggregate != nullptr, "an explanation needs the aggregate of the scene");
+    need(options.x >= 0 && options.x < frame.width && options.y >= 0 && options.y < frame.height,
+         fmt::format("pixel {},{} is not in a picture of {}x{}", options.x, options.y, frame.width,
+                     frame.height));
+    const int samples = options.render.samples_per_pixel;
+    need(samples >= 1 && samples <= 4096,
+         fmt::format("samples per pixel must be 1 to 4096, found {}", samples));
+    need(options.sample >= 0 && options.sample < samples,
+         fmt::format("sample {}: the pixel has {}, counted from 0", options.sample, samples));
+}
+
+/// The radiance of every sample, and the tree of one.
+void trace_samples(const RenderJob& job, const PixelSamples& samples, Explanation& e) {
+    RayCounters counters;
+    RecursiveEstimator<RayTreeRecorder> estimator(job, 1, counters);
+    BoxFilter filter;
+    for (std::size_t i = 0; i < samples.rays().size(); ++i) {
+        Rgb radiance;
+        estimator.trace(samples.rays().subspan(i, 1), {&radiance, 1});
+        std::vector<RayNode> tree = estimator.chance().take();
+        if (static_cast<int>(i) == e.sample) e.tree = std::move(tree.front());
+        filter.add(radiance);
+        e.samples.push_back({samples.place(i), radiance});
+    }
+    e.pixel = filter.value();
+}
+
+AcceleratorWork work_of(const std::string& accelerator, const Scene& scene, const Ray& ray) {
+    AcceleratorWork work;
+    work.accelerator = accelerator;
+    Hit hit;
+    try {
+        const auto aggregate = make_aggregate(accelerator, scene.aggregate->primitives());
+        (void)aggregate->closest(ray, hit, {&work.stats, mask_of(RayKind::Eye)});
+    } catch (const Error& error) {
+        work.unavailable = error.what();
+    }
+    work.t = hit.t;
+    return work;
+}
+
+/// Steps of the chosen accelerator, and the work of it, `list` and `wide_bvh`.
+void trace_accelerators(const LoadedScene& loaded, const std::string& accelerator, const Ray& ray,
+                        Explanation& e) {
+    if (accelerator.empty()) return;
+    const PrimitiveTable& table = loaded.scene.aggregate->primitives();
+    e.traversal = trace_traversal(loaded.scene, accelerator, ray);
+    for (const TraversalStep& step : e.traversal.steps) {
+        e.candidates.push_back(
+            step.kind == TraversalStep::Kind::Primitive
+                ? part_name(loaded.description, part_of_primitive(table, PrimitiveId{step.number}))
+                : "");
+    }
+    for (const std::string& name : {accelerator, std::string("list"), std::string("wide_bvh")}) {
+        const auto has = [&](const AcceleratorWork& w) { return w.accelerator == name; };
+        if (std::any_of(e.work.begin(), e.work.end(), has)) continue;
+        e.work.push_back(work_of(name, loaded.scene, ray));
+    }
+}
+
+void name_parts_of(const RayNode& ray, const SceneDescription& description, Explanation& e) {
+    const auto name = [&](std::uint32_t part) {
+        if (e.part_names.size() <= part) e.part_names.resize(part + 1);
+        if (e.part_names[part].empty()) e.part_names[part] = part_name(description, part);
+    };
+    for (const SurfaceNode& surface : ray.surfaces) {
+        name(surface.part);
+        for (const LightTerm& light : surface.lights) {
+            for (const LightTerm::Crossing& crossing : light.crossings) name(crossing.part);
+        }
+        for (const RayNode& child : surface.reflected) name_parts_of(child, description, e);
+        for (const RayNode& child : surface.refracted) name_parts_of(child, description, e);
+    }
+}
+
+std::string light_name(const SceneDescription& description, const Scene& scene, std::size_t i) {
+    if (i < description.lights.size() && !description.lights[i].name.empty()) {
+        return description.lights[i].name;
+    }
+    constexpr const char* kNames[] = {"ambient light", "directional light", "point light",
+                                      "spot light", "area light"};
+    static_assert(std::size(kNames) == std::variant_size_v<Light>);
+    return fmt::format("{} {}", kNames[scene.lights[i].index()], i + 1);
+}
+
+/// A small picture, and where its pixels are in space.
+void add_picture(const LoadedScene& loaded, const ExplainOptions& options, Explanation& e) {
+    constexpr int kLongestSide = 240;
+    const double scale =
+        std::min(1.0, static_cast<double>(kLongestSide) / std::max(e.width, e.height));
+    RenderOptions small = options.render;
+    small.renderer = "whitted";
+    small.width = std::max(1, static_cast<int>(std::lround(e.width * scale)));
+    small.height = std::max(1, static_cast<int>(std::lround(e.height * scale)));
+    small.samples_per_pixel = 1;
+    small.aovs = AovSet();
+    small.aovs.add(AovKind::Position);
+    small.aovs.add(AovKind::Alpha);
+    const RenderResult result = render(loaded, small);
+    e.preview = encode(result.film.data(), *small.width, *small.height, Encoding::Srgb, 8);
+    const LayerChannel* channels[] = {result.layers.find("P.X"), result.layers.find("P.Y"),
+                                      result.layers.find("P.Z"), result.layers.find("A")};
+    for (const LayerChannel* channel : channels) {
+        if (channel == nullptr) return;
+    }
+    constexpr int kEvery = 3;  // pixels a point
+    for (int y = 1; y < *small.height; y += kEvery) {
+        for (int x = 1; x < *small.width; x += kEvery) {
+            const auto i = static_cast<std::size_t>(y * *small.width + x);
+            if (!(channels[3]->values[i] > 0.0f)) continue;
+            e.points.push_back(
+                {{channels[0]->values[i], channels[1]->values[i], channels[2]->values[i]},
+                 result.film.at(x, y)});
+        }
+    }
+}
+
+}  // namespace
+
+Explanation explain_pixel(const LoadedScene& loaded, const ExplainOptions& options) {
+    Scene scene = loaded.scene;
+    if (options.render.max_depth) scene.conventions.shading.max_depth = *options.render.max_depth;
+    const CameraDescription& described = find_camera(scene, options.render.camera);
+    const FrameSize frame =
+        frame_size(loaded.description.picture, options.render, described.aspect);
+    check(loaded, options, frame);
+    const RenderJob job{
+        .scene = scene,
+        .camera = with_aspect(described.camera, described.aspect,
+                              static_cast<double>(frame.width) / frame.height),
+        .samples_per_pixel = options.render.samples_per_pixel,
+        .seed = options.render.seed,
+        .cone = eye_cone(described.camera, frame.height, options.render.samples_per_pixel)};
+
+    Explanation e;
+    e.width = frame.width;
+    e.height = frame.height;
+    e.x = options.x;
+    e.y = options.y;
+    e.sample = options.sample;
+    e.scene = loaded.description.path.filename().string();
+    e.camera = described.name;
+    e.max_depth = scene.conventions.shading.max_depth;
+    e.min_contribution = scene.conventions.shading.min_contribution;
+    e.background = scene.background;
+    const PixelSamples samples(job, frame.width, frame.height, options.x, options.y);
+    trace_samples(job, samples, e);
+    const Ray& ray = samples.rays()[static_cast<std::size_t>(options.sample)];
+    e.spans = solid_spans(loaded, ray);
+    e.polynomials = polynomials_on_ray(loaded, ray);
+    trace_accelerators(loaded, options.accelerator, ray, e);
+    name_parts_of(e.tree, loaded.description, e);
+    for (const Material& material : scene.materials) e.material_names.push_back(material.name);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        e.light_names.push_back(light_name(loaded.description, scene, i));
+    }
+    e.parallel = std::holds_alternative<OrthographicCamera>(job.camera);
+    const Vec2 corners[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Ray corner = eye_ray(job.camera, corners[i].x, corners[i].y);
+        e.picture[i] = e.parallel ? corner.origin : corner.at(1.0);
+    }
+    if (options.with_picture) add_picture(loaded, options, e);
+    return e;
+}
+
+}  // namespace alhazen

@@ -1,0 +1,78 @@
+// The whole explanation of a pixel: showExplanation(root, data, picture).
+
+function showExplanation(root, data, picture) {
+  const rays = raysOf(data.tree);
+  let view, outline;
+  const select = (ray, reveal = true) => {
+    view.select(ray);
+    outline.select(ray, reveal);
+  };
+  const canvas = element("canvas", {class: "space", tabindex: "0", role: "img", "aria-label":
+    `${rays.length} rays in space. Arrow keys turn the view, plus and minus come nearer, 0 goes back.`});
+  const section = (id, title, ...children) => element("section", {id, "aria-labelledby": `${id}-title`},
+    element("h2", {id: `${id}-title`}, title), ...children);
+  const tree = element("div", {class: "outline"});
+  const spans = element("div"), plots = element("div", {class: "plots"}), steps = element("div");
+  root.replaceChildren(
+    header(data, picture),
+    element("div", {class: "top"},
+      section("space", "The rays in space", canvas, legend(data, () => view)),
+      section("tree", "The tree of rays", element("p", {class: "soft"},
+        "I = ke + \u03a3 ka Ia + \u03a3 S I [kd (N\u00b7L) + ks highlight] + kr I(reflected) + kt I(refracted). " +
+        "The numbers are those of the renderer; each table adds up to the colour of its ray."), tree)),
+    section("spans", "Inside which solids the eye ray is", spans),
+    data.polynomials.length ? section("roots", "Polynomials on the ray and their roots", plots) : "",
+    data.traversal ? section("steps", "How the first surface is found", steps) : "",
+    data.samples.length > 1 ? section("samples", "The samples of the pixel", sampleTable(data)) : "");
+  view = new SceneView(canvas, data, rays, select);
+  outline = new RayOutline(tree, data, select);
+  spanBars(spans, data);
+  polynomialPlots(plots, data);
+  if (data.traversal) new TraversalSteps(steps, data, view);
+  select(rays[0], false);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => view.draw());
+  return {view, outline, select};
+}
+
+function header(data, picture) {
+  const facts = [`(${triple(data.pixel)})`, `${data.width} \u00d7 ${data.height}`, `depth ${data.max_depth}`,
+    `${data.samples.length} sample${data.samples.length > 1 ? `s, number ${data.sample} shown` : ""}`,
+    ...Object.entries(data.rays).filter(([, n]) => n).map(([kind, n]) => `${n} ${kind}`)];
+  const head = element("header", {}, element("div", {},
+    element("h1", {}, swatch(data.pixel), ` Pixel ${data.x},${data.y} of ${data.scene}`),
+    element("p", {class: "soft"}, facts.join(" \u00b7 "))));
+  if (picture) {
+    const image = element("img", {src: picture, alt: `The scene; the pixel is marked`});
+    const mark = element("span", {class: "mark", "aria-hidden": "true"});
+    mark.style.left = `${100 * (data.x + 0.5) / data.width}%`;
+    mark.style.top = `${100 * (data.y + 0.5) / data.height}%`;
+    head.append(element("div", {class: "preview"}, image, mark));
+  }
+  return head;
+}
+function legend(data, view) {
+  const shadows = element("input", {type: "checkbox", checked: true, change: e => {
+    view().showShadows = e.target.checked;
+    view().draw();
+  }});
+  const kinds = Object.entries(KINDS).filter(([kind]) => data.rays[kind]);
+  return element("div", {class: "legend"},
+    ...kinds.map(([kind, text]) => element("span", {class: kind}, element("i", {class: "key", "aria-hidden": "true"}), text)),
+    element("label", {}, shadows, " show shadow rays"),
+    element("button", {type: "button", click: () => view().home()}, "Home view"));
+}
+function sampleTable(data) {
+  const plot = element("svg:svg", {class: "pixel", viewBox: "0 0 100 100", role: "img", "aria-label": "Where the samples lie in the pixel"},
+    element("svg:rect", {class: "frame", x: 0, y: 0, width: 100, height: 100}));
+  data.samples.forEach((s, i) => {
+    const dot = element("svg:circle", {cx: 100 * s.place[0], cy: 100 * s.place[1], r: i === data.sample ? 5 : 3.5,
+                                       class: i === data.sample ? "chosen" : ""});
+    dot.style.fill = css(s.radiance);
+    plot.append(dot);
+  });
+  const rows = data.samples.map((s, i) => element("tr", {}, element("th", {scope: "row"}, String(i)),
+    ...s.radiance.map(c => element("td", {}, number(c))), element("td", {}, swatch(s.radiance))));
+  return element("div", {class: "samples"}, plot, element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Samples"},
+    element("table", {}, element("thead", {}, element("tr", {}, ...["sample", "red", "green", "blue", ""].map(
+      h => element("th", {scope: "col"}, h)))), element("tbody", {}, ...rows))));
+}

@@ -1,0 +1,17 @@
+#pragma once
+/// An explanation as JSON (docs/guide/explain.md lists the fields).
+///
+/// Conventions: numbers that are not finite are null; rays are numbered in the order of the tree,
+/// depth first, from 1. `weight` of a ray is the product of all that its radiance is multiplied by
+/// on the way to the pixel, so `weight * radiance` is its share of the pixel.
+
+#include <string>
+
+#include "alhazen/explain/explanation.h"
+
+namespace alhazen {
+
+/// `indent`: blanks per level; negative: one line.
+[[nodiscard]] std::string explanation_json(const Explanation& explanation, int indent);
+
+}  // namespace alhazen

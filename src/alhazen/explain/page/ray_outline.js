@@ -1,0 +1,122 @@
+// The tree of rays as an outline that folds: each ray, each surface that it meets, and the shading equation there, term
+// by term.
+
+const REASONS = {
+  no_coefficient: "the material has none", deepest: "the tree ends at this depth",
+  too_weak: "its share of the pixel would be below the least contribution",
+  total_reflection: "total internal reflection: Snell\u2019s law has no solution",
+  not_traced: "this scene\u2019s conventions trace none"};
+
+// All rays of the tree, shadow rays included, outermost first; each gets the fields that drawing needs.
+function raysOf(tree) {
+  const list = [];
+  const visit = ray => {
+    list.push(ray);
+    for (const surface of ray.surfaces) {
+      for (const light of surface.lights ?? []) {
+        if (!light.cast) continue;
+        light.kind = "shadow";
+        light.blocked = light.through.every(c => c === 0);
+        light.distance = light.t;
+        if (light.blocked && light.crossings.length) light.t = light.crossings.at(-1).t;
+        list.push(light);
+      }
+      for (const term of [surface.reflected, surface.refracted]) if (term?.ray) visit(term.ray);
+    }
+  };
+  visit(tree);
+  return list;
+}
+
+class RayOutline {
+  constructor(root, data, onSelect) {
+    this.onSelect = onSelect;
+    this.places = new Map();
+    root.append(this.ray(data.tree));
+  }
+  select(ray, reveal) {
+    for (const [other, place] of this.places) place.classList.toggle("selected", other === ray);
+    const place = this.places.get(ray);
+    if (!place || !reveal) return;
+    for (let at = place.parentElement; at; at = at.parentElement) if (at.tagName === "DETAILS") at.open = true;
+    place.scrollIntoView({block: "nearest", behavior: "smooth"});
+  }
+
+  ray(ray) {
+    const met = ray.surfaces.map(s => `\u2018${s.object}\u2019`).join(", then ");
+    const first = ray.surfaces[0];
+    const summary = element("summary", {class: ray.kind},
+      element("b", {class: "badge"}, `${ray.id}`), ` ${KINDS[ray.kind]} `,
+      met ? `meets ${met} at t = ${number(first.t)}` : "meets nothing", " ", swatch(ray.radiance));
+    const body = element("details", {open: ray.depth < 3, class: "ray"}, summary,
+      element("p", {class: "soft"}, `radiance (${triple(ray.radiance)}) \u00d7 weight (${triple(ray.weight)}) = ` +
+              `(${triple(ray.in_pixel)}) of the pixel`),
+      element("details", {}, element("summary", {class: "soft"}, "where it runs"), element("p", {class: "mono"},
+              `origin (${triple(ray.origin)}), direction (${triple(ray.direction)})`,
+              ray.inside ? "; it starts inside something transparent" : "")));
+    summary.addEventListener("click", () => this.onSelect(ray));
+    summary.addEventListener("focus", () => this.onSelect(ray, false));
+    this.places.set(ray, summary);
+    ray.surfaces.forEach(s => body.append(this.surface(s)));
+    if (ray.escaped) body.append(element("p", {}, `It leaves the scene and takes (${triple(ray.left)}) of the background.`));
+    return body;
+  }
+
+  surface(s) {
+    const box = element("div", {class: "surface"});
+    box.append(element("p", {}, element("b", {}, `\u2018${s.object}\u2019`),
+      s.material ? `, material \u2018${s.material}\u2019` : "", `, t = ${number(s.t)}, `,
+      s.entering ? "from outside" : "from inside",
+      s.share.some(c => c !== 1) ? `, share of the ray (${triple(s.share)})` : ""));
+    box.append(this.equation(s));
+    for (const term of [s.reflected, s.refracted]) if (term?.ray) box.append(this.ray(term.ray));
+    return box;
+  }
+
+  equation(s) {
+    const rows = [];
+    const row = (name, how, value, ray) => {
+      const line = element("tr", {}, element("th", {scope: "row"}, name), element("td", {class: "how"}, ...[how].flat()),
+        ...(value ?? [null, null, null]).map(c => element("td", {title: String(c)}, value ? number(c) : "\u2013")),
+        element("td", {}, value ? swatch(value) : ""));
+      if (ray?.kind === "shadow") {
+        const button = element("button", {type: "button", class: "link shadow", click: () => this.onSelect(ray)}, name);
+        line.firstChild.replaceChildren(button);
+        this.places.set(ray, line);
+      }
+      rows.push(line);
+    };
+    row("emission", "ke", s.emission);
+    if (!s.unlit) {
+      for (const a of s.ambient) {
+        row(`ambient, ${a.light}`, `ka (${triple(s.ambient_factor)}) \u00d7 Ia (${triple(a.intensity)})`, a.value);
+      }
+      for (const light of s.lights) row(light.light, this.lightText(light), light.value, light);
+      this.onward("reflected", "kr", s.reflected, row);
+      this.onward("refracted", "kt", s.refracted, row);
+      if (s.filter) row("medium", `all of it \u00d7 (${triple(s.filter)}): what the medium lets through`, null);
+    }
+    return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `Shading of ${s.object}`},
+      element("table", {class: "equation"},
+        element("thead", {}, element("tr", {}, ...["term", "factors", "red", "green", "blue", ""].map(
+          t => element("th", {scope: "col"}, t)))),
+        element("tbody", {}, ...rows),
+        element("tfoot", {}, element("tr", {}, element("th", {scope: "row", colspan: 2}, "sum"),
+          ...s.color.map(c => element("td", {title: String(c)}, number(c))), element("td", {}, swatch(s.color))))));
+  }
+  lightText(light) {
+    const names = light.crossings.map(c => `\u2018${c.object}\u2019`);
+    if (light.intensity.every(c => c === 0)) return `shines elsewhere: I (0, 0, 0), N\u00b7L = ${number(light.cosine)}`;
+    const through = !light.cast ? "no shadow rays are cast"
+      : light.blocked ? `blocked${names.length ? ` by ${names.at(-1)}` : ""}`
+      : names.length ? `(${triple(light.through)}) comes through ${names.join(", ")}` : "unhindered";
+    return `${through}; I (${triple(light.intensity)}) \u00d7 [kd (N\u00b7L) (${triple(light.diffuse)}) + ` +
+           `ks highlight (${triple(light.highlight)})], N\u00b7L = ${number(light.cosine)}`;
+  }
+  onward(name, factor, term, row) {
+    if (!term) return;
+    if (term.ray) row(name, `${factor} (${triple(term.factor)}) \u00d7 ray ${term.ray.id} (${triple(term.ray.radiance)})`,
+                      term.value);
+    else if (term.reason !== "no_coefficient") row(name, `not sent: ${REASONS[term.reason]}`, null);
+  }
+}

@@ -1,0 +1,200 @@
+#include "alhazen/explain/spans/polynomials_on_ray.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <tuple>
+
+#include "alhazen/math/constants.h"
+#include "alhazen/primitives/primitive_table.h"
+#include "alhazen/session/aov_pictures.h"
+#include "alhazen/shapes/algebraic/polynomial_expression.h"
+
+namespace alhazen {
+
+namespace {
+
+/// An equation in a frame.
+struct LocalEquation {
+    std::string text;
+    SolidFrame frame;
+};
+
+/// The sum of the terms whose coefficients are not 0.
+class ExpressionText {
+  public:
+    void add(double coefficient, const char* term) {
+        if (coefficient == 0.0) return;
+        const char* sign = coefficient < 0.0 ? "-" : text_.empty() ? "" : "+";
+        const double size = std::abs(coefficient);
+        text_ += text_.empty() ? sign : fmt::format(" {} ", sign);
+        if (*term == '\0') {
+            text_ += fmt::format("{:.17g}", size);
+        } else {
+            text_ += size == 1.0 ? term : fmt::format("{:.17g}*{}", size, term);
+        }
+    }
+    [[nodiscard]] std::string take() { return text_.empty() ? "0" : std::move(text_); }
+
+  private:
+    std::string text_;
+};
+
+std::string text_of(const QuadricForm& f) {
+    ExpressionText text;
+    text.add(f.xx, "x^2");
+    text.add(f.yy, "y^2");
+    text.add(f.zz, "z^2");
+    text.add(2.0 * f.xy, "x*y");
+    text.add(2.0 * f.yz, "y*z");
+    text.add(2.0 * f.zx, "z*x");
+    text.add(2.0 * f.x, "x");
+    text.add(2.0 * f.y, "y");
+    text.add(2.0 * f.z, "z");
+    text.add(f.c, "");
+    return text.take();
+}
+
+/// The quadric of a truncated general cone is that of one case only.
+template <class Shape>
+concept QuadricShape = !std::same_as<Shape, Tgc> && requires(const Shape& shape) {
+    shape.solid.quadric.form();
+};
+template <class Shape>
+concept AlgebraicShape = QuadricShape<Shape> || std::same_as<Shape, Sphere> ||
+    std::same_as<Shape, Torus> || std::same_as<Shape, Algebraic>;
+
+template <QuadricShape Shape>
+LocalEquation equation_of(const Shape& shape) {
+    return {text_of(shape.solid.quadric.form()), shape.solid.frame};
+}
+LocalEquation equation_of(const Sphere& sphere) {
+    const double r = sphere.radius;
+    return {"x^2 + y^2 + z^2 - 1",
+            SolidFrame(sphere.center, Mat3{{r, 0, 0}, {0, r, 0}, {0, 0, r}})};
+}
+LocalEquation equation_of(const Torus& torus) {
+    const double k = (1.0 - torus.tube) * (1.0 + torus.tube);
+    return {fmt::format("(x^2 + y^2 + z^2 + {:.17g})^2 - 4*(x^2 + y^2)", k), torus.frame};
+}
+LocalEquation equation_of(const Algebraic& surface) {
+    return {surface.expression, SolidFrame()};
+}
+
+/// The range of t in a box; empty where the line misses it.
+Interval range_in(const Box3& box, const Ray& ray) {
+    Interval range{-kInfinity, kInfinity};
+    for (int k = 0; k < 3; ++k) {
+        const double d = ray.direction[k], lo = box.lo[k] - ray.origin[k],
+                     hi = box.hi[k] - ray.origin[k];
+        if (d == 0.0) {
+            if (lo > 0.0 || hi < 0.0) return {kInfinity, -kInfinity};
+            continue;
+        }
+        range.lo = std::max(range.lo, (d > 0.0 ? lo : hi) / d);
+        range.hi = std::min(range.hi, (d > 0.0 ? hi : lo) / d);
+    }
+    return range;
+}
+
+class Finder {
+  public:
+    Finder(const LoadedScene& loaded, std::vector<PolynomialOnRay>& found)
+        : loaded_(loaded), found_(found) {}
+
+    /// `ray`: in the frame of the table. Recursion ends with the nesting of instances.
+    void look(const PrimitiveTable& table, const Ray& ray) {
+        std::apply([&](const auto&... column) { (look_at(table, column, ray), ...); },
+                   table.columns);
+        for (const Instance& instance : table.instances) {
+            const Ray inner = inner_ray(instance, ray);
+            if (!meets(instance.aggregate->box(), inner)) continue;
+            look(instance.aggregate->primitives(), inner);
+        }
+    }
+
+  private:
+    static bool meets(const Box3& box, const Ray& ray) {
+        const Interval range = range_in(box, ray);
+        return range.lo <= range.hi && range.hi > 0.0;
+    }
+
+    template <class Shape>
+    void look_at(const PrimitiveTable&, const ShapeColumn<Shape>&, const Ray&) {}
+    template <AlgebraicShape Shape>
+    void look_at(const PrimitiveTable& table, const ShapeColumn<Shape>& column, const Ray& ray) {
+        for (std::size_t i = 0; i < column.shapes.size(); ++i) {
+            const std::uint32_t placement = column.placements[i];
+            const Ray inner = placement == kNoPlacement
+                                  ? ray
+                                  : transformed(table.placements[placement].inner_from_outer, ray);
+            const Shape& shape = column.shapes[i];
+            if (!meets(shape.box(), inner)) continue;
+            const LocalEquation equation = equation_of(shape);
+            PolynomialOnRay p;
+            p.shape = Shape::kName;
+            p.part = part_name(loaded_.description, column.parts.empty() ? 0 : column.parts[i]);
+            p.expression = equation.text;
+            set_roots(shape, inner, p);
+            if (set_coefficients(equation, range_in(shape.box(), inner), inner, p)) {
+                found_.push_back(std::move(p));
+            }
+        }
+    }
+
+    /// Crossings of the surface itself: part 0.
+    template <class Shape>
+    static void set_roots(const Shape& shape, const Ray& ray, PolynomialOnRay& p) {
+        ShapeHit hits[Shape::kMaxHits];
+        Ray line = ray;
+        line.t_min = 0.0;
+        line.t_max = kInfinity;
+        const int count = shape.intersect(line, hits);
+        for (int i = 0; i < count; ++i) {
+            if (hits[i].part == 0) p.roots.push_back(hits[i].t);
+        }
+    }
+
+    /// False where the polynomial is constant, or the range not finite.
+    static bool set_coefficients(const LocalEquation& equation, Interval range, const Ray& ray,
+                                 PolynomialOnRay& p) {
+        constexpr double kRoom = 0.15;  // to see the roots from both sides
+        if (!std::isfinite(range.lo)) range.lo = p.roots.empty() ? 0.0 : p.roots.front() - 1.0;
+        if (!std::isfinite(range.hi)) range.hi = p.roots.empty() ? 10.0 : p.roots.back() + 1.0;
+        const double room = kRoom * (range.hi - range.lo);
+        p.from = range.lo - room;
+        p.to = range.hi + room;
+        const PolynomialExpression polynomial(equation.text);
+        p.degree = polynomial.degree();
+        if (p.degree < 1 || !(p.from < p.to)) return false;
+        const auto at = [&](double t) {
+            const Vec3 local = equation.frame.to_local(ray.at(t));
+            return Point3<double>{local.x, local.y, local.z};
+        };
+        p.bernstein.resize(static_cast<std::size_t>(p.degree) + 1);
+        polynomial.restricted(at(p.from), at(p.to), p.bernstein.data());
+        return true;
+    }
+
+    const LoadedScene& loaded_;
+    std::vector<PolynomialOnRay>& found_;
+};
+
+}  // namespace
+
+std::vector<PolynomialOnRay> polynomials_on_ray(const LoadedScene& loaded, const Ray& ray,
+                                                std::size_t most) {
+    std::vector<PolynomialOnRay> found;
+    Finder(loaded, found).look(loaded.scene.aggregate->primitives(), ray);
+    const auto place = [](const PolynomialOnRay& p) {
+        return p.roots.empty() ? kInfinity : p.roots.front();
+    };
+    std::stable_sort(found.begin(), found.end(),
+                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    if (found.size() > most) found.resize(most);
+    return found;
+}
+
+}  // namespace alhazen

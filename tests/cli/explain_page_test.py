@@ -1,0 +1,248 @@
+#!/usr/bin/env python3
+"""`alhazen explain`: the data, and the page in a browser.
+
+Usage: explain_page_test.py ALHAZEN [SCREENSHOT_FOLDER]
+
+Without a browser (chromium, google-chrome) the tests of the page in a browser are skipped, with a message; the others
+run. With SCREENSHOT_FOLDER pictures of the page are left there to be looked at. `scripts/setup --browser` installs one.
+"""
+
+import html
+import json
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ALHAZEN = sys.argv[1]
+SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
+
+# A name that would break out of text and of a script.
+NAME = "</script><img src=x onerror=alert(1)>"
+SCENE = """alhazen 1
+picture { width = 60; height = 45 }
+conventions { max_depth = 4 }
+perspective_camera "front" { eye = (0, 1, 6); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }
+ambient_light { color = 0.2 }
+point_light "key" { position = (3, 5, 4); color = (1, 1, 1) }
+material "mirror" { diffuse = 0.1; reflective = 0.8 }
+material "glass" { diffuse = 0.05; specular = 0.5; shininess = 50; transmissive = 0.8; reflective = 0.1; index = 1.4 }
+difference "ball with a hole" {
+    sphere "NAME" { center = (0, 1, 0); radius = 1; material = "glass" }
+    cylinder "drill" { base = (0, 1, -2); top = (0, 1, 2); radius = 0.3; material = "glass" }
+}
+torus "ring" { center = (0, 1, -2); axis = (0, 0, 1); major_radius = 1; minor_radius = 0.4; material = "mirror" }
+box { lo = (-2, 0, 0); hi = (-1.2, 0.8, 0.8); material = "mirror" }
+plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
+""".replace("NAME", NAME)
+
+BEFORE = """<script>window.seen = {errors: []};
+addEventListener("error", e => seen.errors.push(String(e.message)));
+addEventListener("securitypolicyviolation", e => seen.errors.push("policy: " + e.blockedURI));</script>"""
+# Uses the page as a reader would, and records what it says.
+AFTER = """<script type="module">
+const all = query => [...document.querySelectorAll(query)];
+const data = JSON.parse(document.getElementById("data").textContent);
+seen.rays = all(".ray").length;
+seen.tables = all("table.equation").length;
+seen.headings = all("h2").map(h => h.textContent);
+seen.sum = all("table.equation tfoot")[0].textContent;
+seen.selected = [all("summary.selected").length];
+const canvas = document.querySelector("canvas"), ink = () => canvas.toDataURL();
+seen.pictures = [ink()];
+all(".ray>summary")[1].click();
+seen.selected.push(all("summary.selected").length, all(".ray>summary").findIndex(s => s.classList.contains("selected")));
+seen.pictures.push(ink());
+canvas.dispatchEvent(new KeyboardEvent("keydown", {key: "ArrowLeft"}));
+seen.pictures.push(ink());
+const next = document.querySelector("[aria-label='One step on']");
+for (let i = 0; i < 3; ++i) next.click();
+seen.step = document.querySelector("output").textContent;
+seen.pictures.push(ink());
+document.querySelector("input[type=checkbox]").click();
+seen.pictures.push(ink());
+all("details").forEach(d => { d.open = true; });
+seen.in = all(".roth td.yes").length;
+seen.roots = all("circle.root").length;
+seen.unnamed = all("canvas,[role=img],input,button").filter(e => !e.getAttribute("aria-label") && !e.textContent.trim() &&
+  !e.closest("label")).length;
+seen.images = [...document.images].map(i => i.complete && i.naturalWidth > 0);
+seen.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+seen.pictures = [seen.pictures.length, new Set(seen.pictures).size];
+const result = document.createElement("pre");
+result.id = "seen";
+result.textContent = JSON.stringify(seen);
+document.body.append(result);
+</script>"""
+
+
+def browser():
+    for name in ("chromium", "chromium-browser", "google-chrome"):
+        if shutil.which(name):
+            return shutil.which(name)
+    return None
+
+
+def times(a, b):
+    return [x * y for x, y in zip(a, b)]
+
+
+def plus(a, b):
+    return [x + y for x, y in zip(a, b)]
+
+
+class ExplainPage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.scene = cls.folder / "scene.alhazen"
+        cls.scene.write_text(SCENE, encoding="utf-8")
+        cls.page = cls.folder / "page.html"
+        result = cls.explain("-o", str(cls.page), "--pixel", "22,22", "--steps", "octree", "--spp", "4")
+        assert result.returncode == 0, result.stderr
+        cls.text = cls.page.read_text(encoding="utf-8")
+
+    @classmethod
+    def explain(cls, *options):
+        return subprocess.run([ALHAZEN, "explain", str(cls.scene), *options], capture_output=True, text=True, timeout=60)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def data(self, *options):
+        result = self.explain("-o", "-", "--pixel", "22,22", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)
+
+    def check_ray(self, ray, background):
+        total = times(ray.get("left", [0, 0, 0]), background)
+        for surface in ray["surfaces"]:
+            color = surface["emission"]
+            for term in surface["ambient"] + surface["lights"]:
+                color = plus(color, term["value"])
+            for key in ("reflected", "refracted"):
+                if "ray" not in surface[key]:
+                    self.assertNotEqual(surface[key]["reason"], "sent")
+                    continue
+                color = plus(color, times(surface[key]["factor"], surface[key]["ray"]["radiance"]))
+                self.check_ray(surface[key]["ray"], background)
+            color = times(color, surface.get("filter", [1, 1, 1]))
+            for a, b in zip(color, surface["color"]):
+                self.assertAlmostEqual(a, b, delta=1e-12)
+            total = plus(total, times(surface["share"], color))
+        for a, b, weight, in_pixel in zip(total, ray["radiance"], ray["weight"], ray["in_pixel"]):
+            self.assertAlmostEqual(a, b, delta=1e-12)
+            self.assertAlmostEqual(weight * b, in_pixel, delta=1e-12)
+
+    def test_the_terms_of_the_json_add_up(self):
+        data = self.data()
+        self.assertEqual(data["format"], "alhazen explanation 1")
+        self.assertEqual(data["tree"]["surfaces"][0]["object"], NAME)
+        self.check_ray(data["tree"], data["background"])
+        self.assertEqual(data["tree"]["radiance"], data["pixel"])
+        self.assertEqual(data["points"], [])
+
+    def test_the_samples_are_those_of_the_picture(self):
+        data = self.data("--spp", "4", "--sample", "2")
+        self.assertEqual(len(data["samples"]), 4)
+        self.assertEqual(data["tree"]["radiance"], data["samples"][2]["radiance"])
+        for sample in data["samples"]:
+            self.assertTrue(all(0 <= c <= 1 for c in sample["place"]))
+        picture = self.folder / "pixel.pfm"
+        subprocess.run([ALHAZEN, "render", str(self.scene), "-o", str(picture), "--spp", "4", "--crop", "22,22,23,23",
+                        "-q"], check=True, timeout=60)
+        values = struct.unpack("<3f", picture.read_bytes()[-12:])
+        for a, b in zip(values, data["pixel"]):
+            self.assertAlmostEqual(a, b, delta=1e-6)
+
+    def test_spans_and_steps_are_there(self):
+        data = self.data("--steps", "kd_tree")
+        solid = data["solids"][0]
+        self.assertEqual(solid["combination"]["operator"], "difference")
+        self.assertEqual([o["name"] for o in solid["combination"]["operands"]], [NAME, "drill"])
+        self.assertEqual(data["traversal"]["accelerator"], "kd_tree")
+        self.assertEqual([w["accelerator"] for w in data["traversal"]["work"]], ["kd_tree", "list", "wide_bvh"])
+
+    def test_wrong_usage_says_what_was_expected(self):
+        for options, message in ((("--pixel", "60,0", "-o", "-"), "is not in a picture of 60x45"),
+                                 (("--pixel", "1;2", "-o", "-"), "expected X,Y"),
+                                 (("--pixel", "1,2", "-o", "x.png"), "ends in .html or .json"),
+                                 (("--pixel", "1,2", "-o", "-", "--sample", "1"), "the pixel has 1"),
+                                 (("--pixel", "1,2", "-o", "-", "--steps", "wide_bvh"), "traceable accelerators: list")):
+            result = self.explain(*options)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(message, result.stderr)
+
+    def test_the_page_names_no_other_place(self):
+        without = re.sub(r"base64,[A-Za-z0-9+/=]*", "", self.text).replace("http://www.w3.org/2000/svg", "")
+        self.assertEqual(re.findall(r"(?:https?:)?//[a-z]+\.", without), [])
+        self.assertIn("default-src 'none'", self.text)
+        self.assertNotIn("<img src=x", self.text)
+
+    def in_browser(self, window, *options):
+        """Uses the page; returns its results, the console output and its network requests."""
+        program = browser()
+        if program is None:
+            self.skipTest("no chromium here: scripts/setup --browser installs it")
+        page = self.folder / "used.html"
+        page.write_text(self.text.replace("<style>", BEFORE + "<style>", 1).replace("</body>", AFTER + "</body>"),
+                        encoding="utf-8")
+        log = self.folder / "net.json"
+        common = [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
+                  "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                  "--disable-default-apps", "--disable-extensions", f"--user-data-dir={self.folder}/profile",
+                  "--host-resolver-rules=MAP * ~NOTFOUND", f"--window-size={window}", "--virtual-time-budget=3000", *options]
+        result = subprocess.run([*common, "--enable-logging=stderr", f"--log-net-log={log}", "--dump-dom",
+                                 page.as_uri()], capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        console = [line for line in result.stderr.splitlines() if "CONSOLE" in line]
+        match = re.search(r'<pre id="seen">(.*?)</pre>', result.stdout, re.DOTALL)
+        self.assertIsNotNone(match, f"the script did not run to its end: {console}")
+        requests = []
+        for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
+            initiator = re.search(r'"initiator":"([^"]*)"', line)
+            url = re.search(r'"url":"((?:https?|wss?|ftp):[^"]*)"', line)
+            if initiator and url and initiator.group(1) != "not an origin":
+                requests.append(url.group(1))
+        if SCREENSHOTS:
+            SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+            picture = SCREENSHOTS / f"explain_{window.replace(',', 'x')}{'_dark' if options else ''}.png"
+            subprocess.run([*common, f"--screenshot={picture}", self.page.as_uri()], capture_output=True, timeout=120)
+        return json.loads(html.unescape(match.group(1))), console, requests
+
+    def check(self, window, *options):
+        seen, console, requests = self.in_browser(window, *options)
+        data = json.loads(re.search(r'id="data">(.*?)</script>', self.text, re.DOTALL).group(1))
+        rays = data["rays"]
+        self.assertEqual((seen["errors"], console, requests), ([], [], []))
+        self.assertEqual(seen["rays"], rays["eye"] + rays["reflection"] + rays["refraction"])
+        self.assertGreater(seen["rays"], 4)
+        self.assertGreater(seen["tables"], 3)
+        self.assertIn("The samples of the pixel", seen["headings"])
+        self.assertEqual(seen["selected"], [1, 1, 1])
+        self.assertEqual(seen["pictures"], [5, 5], "some action drew nothing new")
+        self.assertTrue(seen["step"].startswith("Step 3 of "), seen["step"])
+        self.assertGreater(seen["in"], 0)
+        self.assertGreaterEqual(seen["roots"], 2)
+        self.assertEqual(seen["unnamed"], 0)
+        self.assertEqual(seen["images"], [True])
+        self.assertLessEqual(seen["overflow"], 0)
+
+    def test_a_browser_shows_it_without_errors_and_without_the_network(self):
+        self.check("1400,1400")
+
+    def test_it_fits_a_phone_in_the_dark(self):
+        self.check("500,1600", "--blink-settings=preferredColorScheme=0")
+
+
+if __name__ == "__main__":
+    program = unittest.main(argv=sys.argv[:1], exit=False)
+    if not program.result.wasSuccessful():
+        sys.exit(1)
+    sys.exit(77 if program.result.skipped else 0)

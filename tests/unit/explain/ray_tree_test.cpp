@@ -1,0 +1,197 @@
+#include "alhazen/explain/tree/ray_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "alhazen/base/error.h"
+#include "alhazen/explain/explanation.h"
+#include "alhazen/laboratory/traversal_trace.h"
+#include "support/scene_maker.h"
+#include "support/test_data.h"
+#include "unit/laboratory/small_scene.h"
+
+namespace alhazen::ALHAZEN_TEST_FILE {
+namespace {
+
+using testing::SceneMaker;
+using testing::small_scene;
+
+LoadedScene loaded_of(SceneDescription description) {
+    LoadedScene loaded;
+    loaded.description = std::move(description);
+    loaded.scene = compile(loaded.description);
+    return loaded;
+}
+LoadedScene loaded_file(const std::string& name) {
+    return load(testing::source_folder() / "scenes" / name);
+}
+
+/// The radiance of every ray of the tree is that of its terms.
+void expect_sums(const RayNode& ray, const Rgb& background, int& rays) {
+    ++rays;
+    EXPECT_EQ(radiance_of(ray, background), ray.radiance);
+    for (const SurfaceNode& surface : ray.surfaces) {
+        Rgb direct;
+        for (const LightTerm& light : surface.lights) {
+            if (light.blocked()) continue;
+            direct += light.through * light.intensity * (light.diffuse + light.highlight);
+        }
+        EXPECT_EQ(direct, surface.direct);
+        for (const RayNode& child : surface.reflected) expect_sums(child, background, rays);
+        for (const RayNode& child : surface.refracted) expect_sums(child, background, rays);
+    }
+}
+
+/// Explains pixels of a small picture; the sums and the picture of the renderer agree bit for bit.
+void expect_pixels_of_whitted(const LoadedScene& loaded, int samples = 1) {
+    ExplainOptions options;
+    options.render.width = 20;
+    options.render.height = 15;
+    options.render.samples_per_pixel = samples;
+    options.accelerator = "";
+    options.with_picture = false;
+    const RenderResult picture = render(loaded, options.render);
+    int rays = 0, children = 0;
+    for (int y = 1; y < 15; y += 3) {
+        for (int x = 1; x < 20; x += 3) {
+            options.x = x;
+            options.y = y;
+            const Explanation e = explain_pixel(loaded, options);
+            EXPECT_EQ(e.pixel, picture.film.at(x, y)) << x << "," << y;
+            const int before = rays;
+            expect_sums(e.tree, e.background, rays);
+            children += rays - before - 1;
+        }
+    }
+    EXPECT_EQ(picture.film.crop().area(), 300u);
+    EXPECT_GT(children, 0) << "the scene has no mirror and no glass in view";
+}
+
+TEST(RayTree, TermsOfEveryRaySumToThePixelOfWhitted) {
+    expect_pixels_of_whitted(loaded_of(small_scene()));
+}
+TEST(RayTree, TermsSumToThePixelInTheScenesOfTheRepository) {
+    for (const char* name : {"showcase.alhazen", "cornell.alhazen", "glass_of_wine.alhazen",
+                             "solids.alhazen", "lens_stack.alhazen"}) {
+        SCOPED_TRACE(name);
+        expect_pixels_of_whitted(loaded_file(name));
+    }
+}
+TEST(RayTree, SeveralSamplesHaveTheMeanOfThePixel) {
+    expect_pixels_of_whitted(loaded_of(small_scene()), 5);
+}
+
+/// Two facing mirrors and a light: the tree is a chain whose every number is known.
+TEST(RayTree, BetweenTwoMirrorsIsAChainOfKnownNumbers) {
+    SceneMaker scene;
+    Material mirror;
+    mirror.diffuse.color = {0, 0, 0};
+    mirror.reflective.color = {0.5, 0.5, 0.5};
+    mirror.emission.color = {0.25, 0, 0};
+    scene.material(mirror);
+    scene.add(Plane{.point = {0, 0, -3}, .normal = {0, 0, 1}});
+    scene.add(Plane{.point = {0, 0, 9}, .normal = {0, 0, -1}});
+    scene.description().conventions.shading.max_depth = 3;
+    scene.description().conventions.shading.min_contribution = 0;
+    ExplainOptions options;
+    options.render.width = options.render.height = 1;
+    options.accelerator = "";
+    options.with_picture = false;
+    const Explanation e = explain_pixel(loaded_of(scene.description()), options);
+    const RayNode* ray = &e.tree;
+    const double t[] = {8, 12, 12, 12};                   // the eye is at z = 5
+    const double red[] = {0.46875, 0.4375, 0.375, 0.25};  // 1/4 (1 + 1/2 + ...)
+    for (int depth = 0; depth <= 3; ++depth) {
+        SCOPED_TRACE(depth);
+        EXPECT_EQ(ray->depth, depth);
+        EXPECT_EQ(ray->kind, depth == 0 ? RayKind::Eye : RayKind::Reflection);
+        ASSERT_EQ(ray->surfaces.size(), 1u);
+        const SurfaceNode& surface = ray->surfaces.front();
+        EXPECT_NEAR(surface.t, t[depth], 1e-9);
+        EXPECT_EQ(ray->radiance, (Rgb{red[depth], 0, 0}));
+        EXPECT_EQ(surface.no_refracted, NotSent::NoCoefficient);
+        EXPECT_EQ(surface.no_reflected, depth < 3 ? NotSent::Sent : NotSent::Deepest);
+        ASSERT_EQ(surface.reflected.size(), depth < 3 ? 1u : 0u);
+        if (depth < 3) ray = &surface.reflected.front();
+    }
+}
+
+TEST(RayTree, TellsWhatBlocksALightAndWhatTintsIt) {
+    SceneMaker scene;
+    Material matt, glass;
+    matt.diffuse.color = {0.5, 0.5, 0.5};
+    glass.diffuse.color = {0, 0, 0};
+    glass.transmissive.color = {0.5, 1, 1};
+    const MaterialId matt_id = scene.material(matt), glass_id = scene.material(glass);
+    scene.light(PointLight{.position = {0, 4, 0}, .color = {1, 1, 1}});
+    scene.light(PointLight{.position = {4, 0, 3}, .color = {1, 1, 1}});
+    scene.add(Plane{.point = {0, 0, -1}, .normal = {0, 0, 1}}, matt_id);
+    scene.add(Sphere{{0, 2, -0.5}, 0.3}, matt_id);                      // before the first
+    scene.add(Rectangle{{2, -1, -1}, {0, 2, 0}, {0, 0, 6}}, glass_id);  // before the second
+    scene.description().conventions.shading.shadow_tint =
+        ShadingConventions::ShadowTint::PerCrossing;
+    ExplainOptions options;
+    options.render.width = options.render.height = 1;
+    options.accelerator = "";
+    options.with_picture = false;
+    const Explanation e = explain_pixel(loaded_of(scene.description()), options);
+    ASSERT_EQ(e.tree.surfaces.size(), 1u);
+    const SurfaceNode& surface = e.tree.surfaces.front();
+    ASSERT_EQ(surface.lights.size(), 2u);
+    EXPECT_TRUE(surface.lights[0].blocked());
+    ASSERT_FALSE(surface.lights[0].crossings.empty());
+    EXPECT_EQ(e.part_names[surface.lights[0].crossings[0].part], "sphere");
+    EXPECT_EQ(surface.lights[1].through, (Rgb{0.5, 1, 1}));
+    ASSERT_EQ(surface.lights[1].crossings.size(), 1u);
+    EXPECT_EQ(e.part_names[surface.lights[1].crossings[0].part], "rectangle");
+    EXPECT_NEAR(surface.lights[1].cosine, 4.0 / std::sqrt(32.0), 1e-12);
+    const RayCensus census = census_of(e.tree);
+    EXPECT_EQ(census.eye, 1u);
+    EXPECT_EQ(census.shadow, 2u);
+}
+
+TEST(RayTree, StepsAndWorkAgreeForEveryTraceableAccelerator) {
+    const LoadedScene loaded = loaded_of(small_scene());
+    std::string names = traceable_accelerators() + ", ";
+    for (std::size_t end; (end = names.find(", ")) != std::string::npos; names.erase(0, end + 2)) {
+        ExplainOptions options;
+        options.x = 20;
+        options.y = 15;
+        options.accelerator = names.substr(0, end);
+        options.with_picture = false;
+        SCOPED_TRACE(options.accelerator);
+        const Explanation e = explain_pixel(loaded, options);
+        ASSERT_EQ(e.candidates.size(), e.traversal.steps.size());
+        std::uint64_t tested = 0;
+        for (const TraversalStep& step : e.traversal.steps) {
+            tested += step.kind == TraversalStep::Kind::Primitive;
+        }
+        ASSERT_GE(e.work.size(), 2u);
+        EXPECT_EQ(e.work.front().accelerator, options.accelerator);
+        EXPECT_EQ(e.work.front().stats.primitive_tests, tested);
+        for (const AcceleratorWork& work : e.work) {
+            EXPECT_EQ(work.unavailable, "");
+            EXPECT_EQ(work.t, e.traversal.hit.t) << work.accelerator;
+        }
+    }
+}
+
+TEST(RayTree, WhatThereIsNotIsRefused) {
+    const LoadedScene loaded = loaded_of(small_scene());
+    const auto refuses = [&](auto&& change) {
+        ExplainOptions options;
+        options.with_picture = false;
+        change(options);
+        EXPECT_THROW((void)explain_pixel(loaded, options), Error);
+    };
+    refuses([](ExplainOptions& o) { o.x = 40; });
+    refuses([](ExplainOptions& o) { o.y = -1; });
+    refuses([](ExplainOptions& o) { o.sample = 1; });
+    refuses([](ExplainOptions& o) { o.render.samples_per_pixel = 0; });
+    refuses([](ExplainOptions& o) { o.accelerator = "wide_bvh"; });
+    refuses([](ExplainOptions& o) { o.render.camera = "nobody's"; });
+}
+
+}  // namespace
+}  // namespace alhazen::ALHAZEN_TEST_FILE
