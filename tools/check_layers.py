@@ -192,6 +192,7 @@ LIBRARIES = {
     "nlohmann/": {"formats", "solids", "session", "laboratory", "explain", "apps", "bindings"},
     "pybind11/": {"bindings"},
     "CLI/": {"apps"},
+    "boost/": {"apps"},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)

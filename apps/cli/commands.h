@@ -26,6 +26,7 @@ void add_compare(CLI::App& app, int& exit_status);
 void add_solid_queries(CLI::App& app, int& exit_status);  ///< spans, inside, thickness
 void add_measure(CLI::App& app, int& exit_status);
 void add_samples(CLI::App& app, int& exit_status);
+void add_view(CLI::App& app, int& exit_status);
 void add_vector(CLI::App& app, int& exit_status);
 void add_section(CLI::App& app, int& exit_status);
 void add_explain(CLI::App& app, int& exit_status);

@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
     add_section(app, exit_status);
     add_samples(app, exit_status);
     add_vector(app, exit_status);
+    add_view(app, exit_status);
     add_diff(app, exit_status);
     add_list(app, exit_status);
     try {

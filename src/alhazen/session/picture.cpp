@@ -22,18 +22,18 @@ Film tone_mapped(const Film& film, const ToneMapping& tone) {
     return shown;
 }
 
-EncodedImage encoded(const Film& film, const FilmConventions& conventions,
-                     const PictureOptions& options, int bits) {
+}  // namespace
+
+EncodedImage encoded_picture(const Film& film, const FilmConventions& conventions,
+                             const PictureOptions& options) {
     const int width = film.crop().width(), height = film.crop().height();
     if (options.tone.changes_nothing()) {
         const Encoding encoding = options.encoding.value_or(conventions.encoding());
-        return encode(film.data(), width, height, encoding, bits);
+        return encode(film.data(), width, height, encoding, options.bits);
     }
     return encode(tone_mapped(film, options.tone).data(), width, height,
-                  options.encoding.value_or(Encoding::Srgb), bits);
+                  options.encoding.value_or(Encoding::Srgb), options.bits);
 }
-
-}  // namespace
 
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const FilmConventions& conventions, const PictureOptions& options) {
@@ -41,9 +41,11 @@ void write_picture(const std::filesystem::path& path, const Film& film,
     const std::string suffix = lower_suffix(path);
     const PixelBox& crop = film.crop();
     if (suffix == ".png") {
-        write_png(path, encoded(film, conventions, options, options.bits), options.metadata);
+        write_png(path, encoded_picture(film, conventions, options), options.metadata);
     } else if (suffix == ".jpg" || suffix == ".jpeg") {
-        write_jpeg(path, encoded(film, conventions, options, 8));
+        PictureOptions eight = options;
+        eight.bits = 8;
+        write_jpeg(path, encoded_picture(film, conventions, eight));
     } else if (options.layers != nullptr && holds_layers(path)) {
         write_exr_layers(path, film, *options.layers,
                          {.full_float = options.full_float, .metadata = options.metadata});

@@ -24,6 +24,10 @@ struct PictureOptions {
 /// Whether the format holds layers (EXR only).
 [[nodiscard]] bool holds_layers(const std::filesystem::path& path);
 
+/// The codes of the film as a picture of `options.bits` per channel shows them.
+[[nodiscard]] EncodedImage encoded_picture(const Film& film, const FilmConventions& conventions,
+                                           const PictureOptions& options);
+
 /// Integer formats are encoded from the film's doubles: truncation is exact. Throws Error.
 void write_picture(const std::filesystem::path& path, const Film& film,
                    const FilmConventions& conventions, const PictureOptions& options);

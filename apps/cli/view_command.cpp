@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+#include <spawn.h>
+
+#include "../viewer/http_server.h"
+#include "../viewer/view_page.h"
+#include "../viewer/view_session.h"
+#include "alhazen/aggregates/accelerator_table.h"
+#include "alhazen/base/error.h"
+#include "commands.h"
+#include "messages.h"
+#include "options.h"
+#include "stop_signals.h"
+
+extern char** environ;
+
+namespace alhazen::cli {
+
+namespace {
+
+struct ViewArguments {
+    SceneArguments scene;
+    std::string address = "127.0.0.1";
+    int port = 0;
+    bool allow_remote = false, no_open = false;
+};
+
+/// Opens the page in the user's browser; nothing happens where there is none.
+void open_in_browser(const std::string& url) {
+    std::string program = "xdg-open", address = url;
+    char* arguments[] = {program.data(), address.data(), nullptr};
+    pid_t child = 0;
+    (void)posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ);
+}
+
+int run_view(ViewArguments& args) {
+    if (!viewer::is_loopback(args.address) && !args.allow_remote) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--serve {}: other machines could reach it; add --allow-remote if "
+                                "that is wanted",
+                                args.address));
+    }
+    check_accelerator(args.scene.accelerator);
+    viewer::ViewSession session(args.scene.scene, args.scene.load_options(), args.scene.threads);
+    viewer::HttpServer server(
+        {.address = args.address,
+         .port = static_cast<std::uint16_t>(args.port),
+         .assets = viewer::view_page(),
+         .handler = [&](const viewer::Request& request) { return session.answer(request); }});
+    print("{}\n", server.url());
+    (void)std::fflush(stdout);
+    if (!args.no_open) open_in_browser(server.url());
+    server.run(stop_on_signals());
+    return kDone;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, int& exit_status) {
+    CLI::App* command = app.add_subcommand(
+        "view",
+        "Look at a scene in the browser: walk, switch renderers, click a pixel and see why");
+    const auto args = std::make_shared<ViewArguments>();
+    args->scene.add_to(*command, kDefaultAccelerator);
+    command->add_option("--serve", args->address, "Address of this machine to listen at")
+        ->capture_default_str()
+        ->type_name("ADDRESS");
+    command->add_option("--port", args->port, "Port to listen at; 0: any that is free")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 65535));
+    command->add_flag("--allow-remote", args->allow_remote,
+                      "Allow an address that other machines reach; the way is not encrypted");
+    command->add_flag("--no-open", args->no_open, "Only print the address of the page");
+    command->callback([args, &exit_status] { exit_status = run_view(*args); });
+}
+
+}  // namespace alhazen::cli

@@ -1,0 +1,271 @@
+#include "http_server.h"
+
+#include <fmt/format.h>
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <chrono>
+#include <thread>
+
+#include "alhazen/base/error.h"
+
+namespace alhazen::viewer {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using tcp = asio::ip::tcp;
+
+namespace {
+
+constexpr int kMostClients = 8;
+constexpr auto kPatience = std::chrono::seconds(5);
+constexpr std::uint32_t kMostHeader = 8 * 1024;
+constexpr std::uint64_t kMostBody = 1024 * 1024;
+
+using HttpRequest = http::request<http::string_body>;
+using HttpResponse = http::response<http::string_body>;
+
+std::string random_token() {
+    std::array<unsigned char, 16> bytes{};
+    if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+        throw Error(ErrorKind::Resource, "the system gives no random numbers for the token");
+    }
+    std::string text;
+    for (const unsigned char b : bytes) text += fmt::format("{:02x}", b);
+    return text;
+}
+
+asio::ip::address address_of(const std::string& text) {
+    boost::system::error_code error;
+    const asio::ip::address address = asio::ip::make_address(text, error);
+    if (error || address.is_unspecified()) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--serve '{}': expected the address of one interface, such as "
+                                "127.0.0.1 or ::1",
+                                text));
+    }
+    return address;
+}
+
+std::string_view view_of(beast::string_view s) {
+    return {s.data(), s.size()};
+}
+
+}  // namespace
+
+bool is_loopback(const std::string& address) {
+    return address_of(address).is_loopback();
+}
+
+bool same_secret(std::string_view a, std::string_view b) {
+    if (a.size() != b.size()) return false;
+    unsigned char different = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        different = static_cast<unsigned char>(different | (a[i] ^ b[i]));
+    }
+    return different == 0;
+}
+
+struct HttpServer::State {
+    explicit State(ServerOptions given)
+        : options(std::move(given)), token(random_token()), acceptor(io) {
+        const asio::ip::address address = address_of(options.address);
+        const tcp::endpoint end(address, options.port);
+        boost::system::error_code error;
+        const auto check = [&] {
+            if (!error) return;
+            throw Error(ErrorKind::File,
+                        fmt::format("cannot listen at {}: {}", options.address, error.message()));
+        };
+        (void)acceptor.open(end.protocol(), error);
+        check();
+        (void)acceptor.bind(end, error);
+        check();
+        (void)acceptor.listen(kMostClients, error);
+        check();
+        port = acceptor.local_endpoint().port();
+        const std::string name = address.is_v6() ? "[" + options.address + "]" : options.address;
+        hosts.push_back(fmt::format("{}:{}", name, port));
+        if (address.is_loopback()) {
+            for (const char* loopback : {"127.0.0.1", "localhost", "[::1]"}) {
+                hosts.push_back(fmt::format("{}:{}", loopback, port));
+            }
+        }
+    }
+
+    ServerOptions options;
+    std::string token;
+    asio::io_context io;
+    tcp::acceptor acceptor;
+    std::uint16_t port = 0;
+    std::vector<std::string> hosts;  ///< that this server is called by
+    std::atomic<int> clients{0};
+
+    [[nodiscard]] bool is_own_host(std::string_view host) const {
+        return std::find(hosts.begin(), hosts.end(), host) != hosts.end();
+    }
+
+    static HttpResponse plain(int status, std::string text) {
+        HttpResponse response;
+        response.result(static_cast<unsigned>(status));
+        response.set(http::field::content_type, "text/plain; charset=utf-8");
+        response.body() = std::move(text);
+        return response;
+    }
+
+    /// The checks of a request that has arrived, and its answer.
+    [[nodiscard]] HttpResponse answer(const HttpRequest& request) const {
+        const std::string_view host = view_of(request[http::field::host]);
+        if (!is_own_host(host) || request.count(http::field::host) != 1) {
+            return plain(403, "this is not the server of that name\n");
+        }
+        const bool post = request.method() == http::verb::post;
+        const std::string_view origin = view_of(request[http::field::origin]);
+        const bool has_origin = request.count(http::field::origin) > 0;
+        if ((post || has_origin) && origin != "http://" + std::string(host)) {
+            return plain(403, "requests of other pages are refused\n");
+        }
+        if (!post && request.method() != http::verb::get) {
+            return plain(405, "expected GET or POST\n");
+        }
+        const std::string path(view_of(request.target()));
+        if (!post) return file(path);
+        const std::string_view given = view_of(request[http::field::authorization]);
+        if (!same_secret(given, "Bearer " + token)) return plain(401, "wrong token\n");
+        const Response made = options.handler({path, request.body()});
+        HttpResponse response;
+        response.result(static_cast<unsigned>(made.status));
+        response.set(http::field::content_type, made.type);
+        if (!made.facts.empty()) response.set("X-Alhazen", made.facts);
+        response.body() = made.body;
+        return response;
+    }
+
+    [[nodiscard]] HttpResponse file(const std::string& path) const {
+        for (const Asset& asset : options.assets) {
+            if (asset.path != path) continue;
+            HttpResponse response;
+            response.set(http::field::content_type, asset.type);
+            response.body() = asset.text;
+            return response;
+        }
+        return plain(404, "there is no such file\n");
+    }
+
+    static void protect(HttpResponse& response) {
+        response.set("Content-Security-Policy",
+                     "default-src 'self'; img-src 'self' blob: data:; base-uri 'none'; "
+                     "form-action 'none'; frame-ancestors 'none'");
+        response.set("X-Content-Type-Options", "nosniff");
+        response.set("Cross-Origin-Resource-Policy", "same-origin");
+        response.set("Referrer-Policy", "no-referrer");
+        response.set(http::field::cache_control, "no-store");
+    }
+
+    asio::awaitable<void> send(beast::tcp_stream& stream, HttpResponse response, bool keep) {
+        response.version(11);
+        response.keep_alive(keep);
+        protect(response);
+        response.prepare_payload();
+        stream.expires_after(kPatience);
+        co_await http::async_write(stream, response, asio::use_awaitable);
+    }
+
+    static int status_of(const boost::system::error_code& error) {
+        if (error == http::error::body_limit) return 413;
+        if (error == http::error::header_limit || error == http::error::buffer_overflow) return 431;
+        return error.category() == http::make_error_code(http::error::bad_method).category() &&
+                       error != http::error::end_of_stream && error != http::error::partial_message
+                   ? 400
+                   : 0;
+    }
+
+    asio::awaitable<void> serve(beast::tcp_stream stream) {
+        beast::flat_buffer buffer(kMostHeader + kMostBody);
+        for (bool keep = true; keep;) {
+            http::request_parser<http::string_body> parser;
+            parser.header_limit(kMostHeader);
+            parser.body_limit(kMostBody);
+            stream.expires_after(kPatience);
+            boost::system::error_code error;
+            co_await http::async_read(stream, buffer, parser,
+                                      asio::redirect_error(asio::use_awaitable, error));
+            if (error) {
+                const int status = status_of(error);
+                if (status != 0) co_await send(stream, plain(status, error.message()), false);
+                break;
+            }
+            stream.expires_never();
+            const HttpRequest& request = parser.get();
+            keep = request.keep_alive();
+            co_await send(stream, answer(request), keep);
+        }
+        boost::system::error_code ignored;
+        (void)stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
+    }
+
+    asio::awaitable<void> client(beast::tcp_stream stream) {
+        struct Counted {
+            std::atomic<int>& clients;
+            ~Counted() { --clients; }
+        } const counted{clients};
+        try {
+            if (clients.load() > kMostClients) {
+                co_await send(stream, plain(503, "too many clients\n"), false);
+            } else {
+                co_await serve(std::move(stream));
+            }
+        } catch (const boost::system::system_error&) {
+            // The client is gone, or late.
+        }
+    }
+
+    asio::awaitable<void> accept() {
+        for (;;) {
+            boost::system::error_code error;
+            auto executor = asio::make_strand(io);
+            tcp::socket socket(executor);
+            co_await acceptor.async_accept(socket,
+                                           asio::redirect_error(asio::use_awaitable, error));
+            if (error == asio::error::operation_aborted) co_return;
+            if (error) {  // no more descriptors, say: others leave
+                asio::steady_timer pause(io, std::chrono::milliseconds(50));
+                co_await pause.async_wait(asio::use_awaitable);
+                continue;
+            }
+            ++clients;
+            asio::co_spawn(executor, client(beast::tcp_stream(std::move(socket))), asio::detached);
+        }
+    }
+};
+
+HttpServer::HttpServer(ServerOptions options)
+    : state_(std::make_unique<State>(std::move(options))) {}
+HttpServer::~HttpServer() = default;
+
+std::uint16_t HttpServer::port() const {
+    return state_->port;
+}
+const std::string& HttpServer::token() const {
+    return state_->token;
+}
+std::string HttpServer::url() const {
+    return fmt::format("http://{}/#{}", state_->hosts.front(), state_->token);
+}
+
+void HttpServer::run(const StopFlag& stop) {
+    asio::co_spawn(state_->io, state_->accept(), asio::detached);
+    std::vector<std::jthread> threads;
+    // One more than clients: while all of them work, somebody says so to the next.
+    for (int i = 0; i < kMostClients + 1; ++i) threads.emplace_back([this] { state_->io.run(); });
+    while (!stop.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    state_->io.stop();
+}
+
+}  // namespace alhazen::viewer

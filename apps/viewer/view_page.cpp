@@ -1,0 +1,15 @@
+#include "view_page.h"
+
+#include "alhazen/explain/page/explanation_page.h"
+
+namespace alhazen::viewer {
+
+std::vector<Asset> view_page() {
+    return {{"/", "text/html; charset=utf-8", std::string(kViewPage)},
+            {"/view.js", "text/javascript; charset=utf-8",
+             std::string(kExplanationScript) + std::string(kViewScript)},
+            {"/view.css", "text/css; charset=utf-8",
+             std::string(kExplanationStyle) + std::string(kViewStyle)}};
+}
+
+}  // namespace alhazen::viewer

@@ -1,0 +1,116 @@
+"""A browser that a test steers: Chromium by its DevTools protocol, over a WebSocket (RFC 6455)."""
+
+import base64
+import json
+import os
+import re
+import shutil
+import socket
+import struct
+import subprocess
+import time
+import urllib.request
+
+
+def browser():
+    for name in ("chromium", "chromium-browser", "google-chrome"):
+        if shutil.which(name):
+            return shutil.which(name)
+    return None
+
+
+class BrowserSession:
+    """One page. `console` has what it said, `requests` the addresses that it asked for."""
+
+    def __init__(self, folder, window):
+        self.process = subprocess.Popen(
+            [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run", "--hide-scrollbars",
+             "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions",
+             "--remote-debugging-port=0", f"--user-data-dir={folder}", f"--window-size={window}", "about:blank"],
+            stderr=subprocess.PIPE, text=True)
+        for line in self.process.stderr:
+            if match := re.search(r"ws://127\.0\.0\.1:(\d+)/", line):
+                break
+        with urllib.request.urlopen(f"http://127.0.0.1:{match.group(1)}/json") as answer:
+            target = next(t for t in json.load(answer) if t["type"] == "page")
+        self.connect(int(match.group(1)), target["webSocketDebuggerUrl"].split("/", 3)[3])
+        self.last, self.console, self.requests = 0, [], []
+        for domain in ("Page", "Runtime", "Network", "Log"):
+            self.call(f"{domain}.enable")
+
+    def connect(self, port, path):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=30)
+        self.socket.sendall((f"GET /{path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                             f"Sec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n"
+                             "Sec-WebSocket-Version: 13\r\n\r\n").encode())
+        self.stream = self.socket.makefile("rb")
+        while self.stream.readline() != b"\r\n":
+            pass
+
+    def send(self, text):
+        data, mask = text.encode(), os.urandom(4)
+        size = len(data)
+        head = bytes([0x81, 0x80 | size]) if size < 126 else struct.pack(">BBH", 0x81, 0xFE, size) if size < 65536 \
+            else struct.pack(">BBQ", 0x81, 0xFF, size)
+        self.socket.sendall(head + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(data)))
+
+    def receive(self):
+        text = b""
+        while True:
+            first, size = self.stream.read(2)
+            if size == 126:
+                size, = struct.unpack(">H", self.stream.read(2))
+            elif size == 127:
+                size, = struct.unpack(">Q", self.stream.read(8))
+            text += self.stream.read(size)
+            if first & 0x80:
+                return json.loads(text)
+
+    def call(self, method, **parameters):
+        self.last += 1
+        self.send(json.dumps({"id": self.last, "method": method, "params": parameters}))
+        while True:
+            message = self.receive()
+            if message.get("id") == self.last:
+                assert "error" not in message, message
+                return message["result"]
+            self.note(message)
+
+    def note(self, message):
+        parameters = message.get("params", {})
+        if message.get("method") == "Network.requestWillBeSent":
+            self.requests.append(parameters["request"]["url"])
+        elif message.get("method") == "Log.entryAdded":
+            self.console.append(parameters["entry"]["text"])
+        elif message.get("method") == "Runtime.exceptionThrown":
+            self.console.append(json.dumps(parameters["exceptionDetails"])[:500])
+
+    def value(self, expression):
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        assert "exceptionDetails" not in result, result
+        return result["result"].get("value")
+
+    def wait(self, expression, seconds=20):
+        """Until the expression is true; the seconds that took."""
+        begin = time.monotonic()
+        while not self.value(expression):
+            assert time.monotonic() - begin < seconds, f"not true in {seconds} s: {expression}"
+            time.sleep(0.02)
+        return time.monotonic() - begin
+
+    def mouse(self, kind, x, y, buttons=0):
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=buttons, clickCount=1)
+
+    def key(self, key):
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key)
+
+    def screenshot(self, path):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(base64.b64decode(self.call("Page.captureScreenshot")["data"]))
+
+    def close(self):
+        self.socket.close()
+        self.process.terminate()
+        self.process.wait(20)
+        self.process.stderr.close()

@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""The page of `alhazen view` in a browser.
+
+Usage: view_page_test.py ALHAZEN [SCREENSHOT_FOLDER]
+
+Skipped, with a message, without a browser: `scripts/setup --browser` installs one.
+"""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+from browser_session import BrowserSession, browser
+from view_server import SCENE, Server
+
+ALHAZEN = sys.argv[1]
+SCREENSHOTS = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
+READY = "globalThis.viewer?.frames > 0 && viewer.image.complete && viewer.image.naturalWidth > 0"
+# The last frame of the view is shown: all levels are done.
+FINE = f"({READY}) && viewer.level >= 4 && viewer.shownGeneration === viewer.generation"
+
+
+@unittest.skipIf(browser() is None, "no chromium here: scripts/setup --browser installs it")
+class ViewPage(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.folder = pathlib.Path(self.temporary.name)
+        self.scene = self.folder / "scene.alhazen"
+        self.scene.write_text(SCENE, encoding="utf-8")
+        self.server = Server(ALHAZEN, self.scene)
+
+    def tearDown(self):
+        self.page.close()
+        self.server.close()
+        self.temporary.cleanup()
+
+    def open(self, window):
+        self.page = BrowserSession(self.folder / "profile", window)
+        self.page.call("Page.navigate", url=self.server.url)
+        self.page.wait(READY)
+        self.page.wait(FINE)
+
+    def shoot(self, name):
+        if SCREENSHOTS:
+            self.page.screenshot(SCREENSHOTS / f"{name}.png")
+
+    def picture(self):
+        """The colours of the picture, coarse."""
+        return self.page.value("""(() => {
+            const c = document.createElement("canvas");
+            c.width = 16; c.height = 12;
+            const g = c.getContext("2d");
+            g.drawImage(viewer.image, 0, 0, 16, 12);
+            return [...g.getImageData(0, 0, 16, 12).data].join();
+        })()""")
+
+    def place(self, u, v):
+        box = self.page.value("(b => [b.left, b.top, b.width, b.height])(viewer.image.getBoundingClientRect())")
+        return box[0] + u * box[2], box[1] + v * box[3]
+
+    def changes(self, act):
+        """The picture is another one after `act`."""
+        before = self.picture()
+        act()
+        self.page.wait(FINE)
+        self.assertNotEqual(self.picture(), before)
+
+    def check_quiet(self):
+        self.assertEqual(self.page.console, [])
+        for url in self.page.requests:
+            self.assertTrue(url.startswith((f"http://{self.server.host}/", "blob:", "data:", "about:")), url)
+
+    def test_it_moves_explains_switches_and_follows_the_file(self):
+        page = None
+        self.open("1300,900")
+        page = self.page
+        self.assertEqual(page.value("location.hash"), "")
+        self.shoot("view")
+        first = self.picture()
+
+        def drag():
+            x, y = self.place(0.5, 0.5)
+            page.mouse("mousePressed", x, y, 1)
+            for i in range(1, 9):
+                page.mouse("mouseMoved", x + 12 * i, y + 4 * i, 1)
+            page.mouse("mouseReleased", x + 96, y + 32)
+
+        self.changes(drag)
+        self.changes(lambda: page.value("[...document.querySelectorAll('button')].find(b => b.textContent === 'Undo').click()"))
+        self.assertEqual(self.picture(), first)
+        page.value("viewer.image.focus()")
+        for key in ("ArrowLeft", "+", "w"):
+            self.changes(lambda: page.key(key))
+        self.changes(lambda: page.value(
+            "viewer.renderer.value = 'ray_casting'; viewer.renderer.dispatchEvent(new Event('change'))"))
+        self.changes(lambda: page.value("viewer.cameraMenu.value = '1'; viewer.cameraMenu.dispatchEvent(new Event('change'))"))
+        page.value("viewer.accelerator.value = 'octree'; viewer.accelerator.dispatchEvent(new Event('change'))")
+        page.wait(FINE)
+        # A click explains: the ball is in the middle.
+        x, y = self.place(0.5, 0.5)
+        page.mouse("mousePressed", x, y, 1)
+        page.mouse("mouseReleased", x, y)
+        page.wait("document.querySelectorAll('#explanation .ray').length > 0")
+        self.assertIn("ball", page.value("document.querySelector('#explanation summary').textContent"))
+        self.shoot("view_explained")
+        # The block is a camera that shows the same.
+        block = page.value("viewer.camera.block()")
+        self.assertIn("perspective_camera \"view\"", block)
+        # The file: an error at its line, the last good picture, then the new one.
+        shown = self.picture()
+        self.scene.write_text(SCENE.replace("radius = 1;", "radius = = 1;"), encoding="utf-8")
+        page.wait("document.getElementById('message').textContent.includes('scene.alhazen:9:')")
+        self.assertEqual(self.picture(), shown)
+        self.shoot("view_error")
+        self.changes(lambda: (self.scene.write_text(SCENE.replace("radius = 1;", "radius = 0.5;"), encoding="utf-8"),
+                              page.wait("viewer.scene.version > 1 && document.getElementById('message').hidden")))
+        self.check_quiet()
+        # Without a server it says so, and keeps the picture.
+        self.server.process.kill()
+        page.wait("document.getElementById('message').textContent.includes('does not answer')")
+        self.assertTrue(page.value(READY))
+
+    def test_it_fits_a_phone_and_is_named_for_readers(self):
+        self.open("480,1000")
+        self.shoot("view_phone")
+        self.assertLessEqual(self.page.value("document.documentElement.scrollWidth - innerWidth"), 0)
+        self.assertEqual(self.page.value("""[...document.querySelectorAll("img,input,select,textarea,button")].filter(e =>
+            !e.alt && !e.getAttribute("aria-label") && !e.textContent.trim() && !e.closest("label")).length"""), 0)
+        self.page.value("viewer.image.focus()")
+        self.page.key("Enter")
+        self.page.wait("document.querySelectorAll('#explanation .ray').length > 0")
+        self.check_quiet()
+
+    def test_without_its_key_the_page_shows_nothing(self):
+        self.page = BrowserSession(self.folder / "profile", "800,600")
+        self.page.call("Page.navigate", url=f"http://{self.server.host}/")
+        self.page.wait("document.getElementById('message')?.textContent.includes('no key')")
+        self.assertFalse(self.page.value("viewer.frames > 0"))
+        self.shoot("view_without_key")
+
+
+if __name__ == "__main__":
+    program = unittest.main(argv=sys.argv[:1], exit=False)
+    if not program.result.wasSuccessful():
+        sys.exit(1)
+    sys.exit(77 if program.result.skipped else 0)

@@ -1,0 +1,76 @@
+"""A running `alhazen view`, for its tests."""
+
+import json
+import re
+import socket
+import subprocess
+
+SCENE = """alhazen 1
+picture { width = 160; height = 120; background = (0.1, 0.15, 0.3) }
+conventions { max_depth = 4 }
+perspective_camera "front" { eye = (0, 1, 6); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }
+perspective_camera "side" { eye = (6, 1, 0); look_at = (0, 0.9, 0); up = (0, 1, 0); fov_deg = 40 }
+point_light "key" { position = (3, 5, 4); color = (1, 1, 1) }
+material "mirror" { diffuse = 0.1; reflective = 0.8 }
+material "red" { diffuse = (0.8, 0.1, 0.1) }
+sphere "ball" { center = (0, 1, 0); radius = 1; material = "mirror" }
+box "block" { lo = (-2, 0, 0); hi = (-1.2, 0.8, 0.8); material = "red" }
+plane { normal = (0, 1, 0); material = { diffuse = (0.7, 0.6, 0.5) } }
+"""
+
+
+class Server:
+    """Starts the server of a scene, and asks it as a page would, or otherwise."""
+
+    def __init__(self, alhazen, scene, *options):
+        self.process = subprocess.Popen([alhazen, "view", str(scene), "--no-open", *options], stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, text=True)
+        self.url = self.process.stdout.readline().strip()
+        match = re.fullmatch(r"http://([^/]+):(\d+)/#([0-9a-f]{32})", self.url)
+        if match is None:
+            raise RuntimeError(f"{self.url!r}: {self.process.stderr.read()}")
+        self.address, self.port, self.token = match.group(1), int(match.group(2)), match.group(3)
+        self.host = f"{self.address}:{self.port}"
+
+    def close(self):
+        self.process.terminate()
+        self.process.wait(10)
+        self.process.stdout.close()
+        self.process.stderr.close()
+
+    def connect(self):
+        return socket.create_connection((self.address.strip("[]"), self.port), timeout=20)
+
+    def raw(self, data):
+        """Sends bytes; returns all that comes back."""
+        with self.connect() as s:
+            try:
+                s.sendall(data)
+                s.shutdown(socket.SHUT_WR)
+            except OSError:
+                pass  # refused before all was sent
+            answer = b""
+            try:
+                while part := s.recv(65536):
+                    answer += part
+            except ConnectionResetError:
+                pass
+            return answer
+
+    def ask(self, path, body=None, method="POST", **change):
+        """Status, headers and body of an answer; `change` replaces headers, None leaves one out."""
+        data = b"" if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
+        headers = {"Host": self.host, "Origin": f"http://{self.host}", "Authorization": f"Bearer {self.token}",
+                   "Content-Length": str(len(data)), "Connection": "close"}
+        headers.update({k.replace("_", "-"): v for k, v in change.items()})
+        text = f"{method} {path} HTTP/1.1\r\n" + "".join(f"{k}: {v}\r\n" for k, v in headers.items() if v is not None)
+        answer = self.raw(text.encode() + b"\r\n" + data)
+        head, _, rest = answer.partition(b"\r\n\r\n")
+        lines = head.decode("latin-1").split("\r\n")
+        status = int(lines[0].split()[1]) if lines[0] else 0
+        return status, {k.lower(): v for k, v in (line.split(": ", 1) for line in lines[1:])}, rest
+
+    def state(self):
+        status, _, body = self.ask("/state", {})
+        assert status == 200, body
+        return json.loads(body)

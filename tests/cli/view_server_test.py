@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""`alhazen view`: who may ask, what is refused, and what the answers are.
+
+Usage: view_server_test.py ALHAZEN
+"""
+
+import json
+import pathlib
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+from view_server import SCENE, Server
+
+ALHAZEN = sys.argv[1]
+WISH = {"width": 80, "height": 60, "renderer": "whitted", "accelerator": "wide_bvh",
+        "camera": {"eye": [0, 1, 6], "look": [0, 0, -1], "right": [0.9, 0, 0], "up": [0, 0.7, 0]}}
+
+
+class ViewServer(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.scene = pathlib.Path(cls.temporary.name) / "scene.alhazen"
+        cls.scene.write_text(SCENE, encoding="utf-8")
+        cls.server = Server(ALHAZEN, cls.scene)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.close()
+        cls.temporary.cleanup()
+
+    def status(self, path="/state", body=None, method="POST", **change):
+        return self.server.ask(path, {} if body is None else body, method, **change)[0]
+
+    # ---- who may ask
+    def test_it_listens_on_the_loopback_alone_at_a_port_of_its_own(self):
+        self.assertEqual(self.server.address, "127.0.0.1")
+        other = Server(ALHAZEN, self.scene)
+        self.assertNotEqual((other.port, other.token), (self.server.port, self.server.token))
+        other.close()
+        names = {a[4][0] for a in socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)}
+        for name in names - {"127.0.0.1"}:
+            if name.startswith("127."):
+                continue
+            with self.assertRaises(OSError):
+                socket.create_connection((name, self.server.port), timeout=2)
+
+    def test_other_addresses_need_allow_remote(self):
+        for address, message in (("192.0.2.1", "--allow-remote"), ("0.0.0.0", "one interface"), ("x", "one interface")):
+            result = subprocess.run([ALHAZEN, "view", str(self.scene), "--serve", address, "--no-open"],
+                                    capture_output=True, text=True, timeout=20)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(message, result.stderr)
+
+    def test_wrong_tokens_are_refused(self):
+        token = self.server.token
+        for given in (None, "", "Bearer", "Bearer ", f"Bearer {token[:-1]}", f"Bearer {token}0", token,
+                      f"Bearer {'0' * 32}", f"bearer {token}"):
+            self.assertEqual(self.status(Authorization=given), 401, given)
+        self.assertEqual(self.status(f"/state?token={token}", Authorization=None), 401)
+
+    def test_other_hosts_are_refused(self):
+        port = self.server.port
+        for host in ("evil.com", f"evil.com:{port}", f"127.0.0.1.evil.com:{port}", "127.0.0.1", f"127.0.0.1:{port + 1}",
+                     "", None, f"localhost.:{port}"):
+            self.assertIn(self.status(Host=host, Origin=f"http://{host}"), (400, 403), host)
+            self.assertIn(self.status("/", b"", "GET", Host=host, Origin=None), (400, 403), host)
+        double = f"GET / HTTP/1.1\r\nHost: {self.server.host}\r\nHost: evil.com\r\nConnection: close\r\n\r\n"
+        self.assertIn(b" 403 ", self.server.raw(double.encode()).split(b"\r\n")[0])
+
+    def test_this_machine_has_three_names(self):
+        for name in ("127.0.0.1", "localhost", "[::1]"):
+            host = f"{name}:{self.server.port}"
+            self.assertEqual(self.status(Host=host, Origin=f"http://{host}"), 200)
+
+    def test_other_origins_are_refused(self):
+        for origin in (None, "null", "http://evil.com", f"https://{self.server.host}", "http://127.0.0.1",
+                       f"http://{self.server.host}.evil.com"):
+            self.assertEqual(self.status(Origin=origin), 403, origin)
+        self.assertEqual(self.status("/", b"", "GET", Origin="http://evil.com"), 403)
+
+    def test_a_simple_request_across_sites_is_refused(self):
+        self.assertEqual(self.status("/frame", WISH, Origin="http://evil.com", Authorization=None,
+                                     Content_Type="text/plain"), 403)
+
+    # ---- what is refused
+    def test_only_files_of_the_page_are_served(self):
+        for path in ("/..%2f", "/../../etc/passwd", "/%2e%2e/etc/passwd", "/scene.alhazen", "/view.js/", "//view.js",
+                     f"/{self.scene}", "http://evil.com/", "*"):
+            self.assertIn(self.status(path, b"", "GET", Origin=None), (400, 404), path)
+        for path in ("/", "/view.js", "/view.css"):
+            status, headers, body = self.server.ask(path, b"", "GET", Origin=None, Authorization=None)
+            self.assertEqual(status, 200)
+            self.assertGreater(len(body), 100)
+            self.assertNotIn(self.server.token.encode(), body)
+        self.assertEqual(self.status("/nothing", {}), 404)
+
+    def test_headers_protect_the_page(self):
+        for path, method in (("/", "GET"), ("/state", "POST"), ("/none", "GET")):
+            _, headers, _ = self.server.ask(path, {} if method == "POST" else b"", method)
+            self.assertIn("default-src 'self'", headers["content-security-policy"])
+            self.assertIn("frame-ancestors 'none'", headers["content-security-policy"])
+            self.assertNotIn("unsafe", headers["content-security-policy"])
+            self.assertEqual(headers["x-content-type-options"], "nosniff")
+            self.assertEqual(headers["cross-origin-resource-policy"], "same-origin")
+            self.assertFalse([h for h in headers if h.startswith("access-control")])
+
+    def test_other_methods_are_refused(self):
+        for method in ("PUT", "DELETE", "OPTIONS", "TRACE", "HEAD", "CONNECT"):
+            self.assertIn(self.status("/", b"", method), (400, 405), method)
+
+    def test_large_bodies_and_headers_are_refused(self):
+        self.assertEqual(self.status("/frame", b"x" * (1 << 20 | 1)), 413)
+        self.assertEqual(self.status("/frame", b"", Content_Length=str(1 << 30)), 413)
+        self.assertEqual(self.status(X_Long="x" * 9000), 431)
+        self.assertEqual(self.status(f"/{'x' * 9000}"), 431)
+
+    def test_what_is_not_http_is_refused(self):
+        for data in (b"\x16\x03\x01\x02\x00\x01", b"GARBAGE\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"\0" * 100, b"",
+                     b"GET / HTTP/1.1\r\nHost : x\r\n\r\n"):
+            answer = self.server.raw(data)
+            self.assertTrue(answer == b"" or answer.startswith(b"HTTP/1.1 4"), (data, answer[:80]))
+
+    def test_what_is_no_wish_is_a_clear_error(self):
+        def camera(**change):
+            return {**WISH, "camera": {**WISH["camera"], **change}}
+
+        for path, body in (("/frame", b""), ("/frame", b"{"), ("/frame", b"[" * 100000), ("/frame", {}), ("/frame", [1]),
+                           ("/frame", {**WISH, "width": 0}), ("/frame", {**WISH, "width": 1e9}),
+                           ("/frame", {**WISH, "renderer": "none"}), ("/frame", {**WISH, "accelerator": "none"}),
+                           ("/frame", {**WISH, "samples": -1}), ("/frame", {**WISH, "curve": "x"}),
+                           ("/frame", {**WISH, "exposure": 1e9}), ("/frame", camera(eye=[0, 0])),
+                           ("/frame", camera(look=[0, 0, 0])), ("/frame", camera(eye=["a", 0, 0])),
+                           ("/explain", {**WISH, "x": 80, "y": 0}), ("/explain", WISH)):
+            status, _, answer = self.server.ask(path, body)
+            self.assertEqual(status, 400, (path, body if len(str(body)) < 300 else "...", answer))
+            self.assertTrue(json.loads(answer)["error"])
+        self.assertEqual(self.server.ask("/frame", WISH)[0], 200)
+
+    def test_slow_clients_are_let_go_and_others_answered(self):
+        memory = self.server.state()["memory"]
+        sockets = []
+        for _ in range(200):
+            s = self.server.connect()
+            try:
+                s.sendall(b"POST /state HTTP/1.1\r\nHost: ")
+            except OSError:
+                pass  # refused at once
+            sockets.append(s)
+        begin = time.monotonic()
+        while self.status() != 200:
+            self.assertLess(time.monotonic() - begin, 9, "slow clients keep their places")
+            time.sleep(0.2)
+        for s in sockets:
+            s.close()
+        self.assertLess(self.server.state()["memory"] - memory, 32 << 20)
+
+    # ---- what the answers are
+    def test_frames_are_the_pictures_of_render(self):
+        status, headers, body = self.server.ask("/frame", {**WISH, "png": True})
+        self.assertEqual((status, headers["content-type"]), (200, "image/png"))
+        self.assertEqual(body[:8], b"\x89PNG\r\n\x1a\n")
+        facts = json.loads(headers["x-alhazen"])
+        self.assertGreater(facts["rays"], 80 * 60)
+        self.assertEqual(self.server.ask("/frame", {**WISH, "png": True})[2], body)
+        self.assertEqual(self.server.ask("/frame", {**WISH, "png": True, "accelerator": "octree"})[2], body)
+        self.assertNotEqual(self.server.ask("/frame", {**WISH, "png": True, "exposure": 1})[2], body)
+        self.assertEqual(self.server.ask("/frame", WISH)[2][:2], b"\xff\xd8")
+
+    def test_an_explanation_has_the_tree_of_the_pixel(self):
+        status, _, body = self.server.ask("/explain", {**WISH, "x": 40, "y": 30, "steps": "list"})
+        self.assertEqual(status, 200)
+        data = json.loads(body)
+        self.assertEqual(data["tree"]["surfaces"][0]["object"], "ball")
+        self.assertEqual((data["width"], data["traversal"]["accelerator"]), (80, "list"))
+
+    def test_menus_are_those_of_the_program(self):
+        state = self.server.state()
+        listed = subprocess.run([ALHAZEN, "list", "accelerators"], capture_output=True, text=True).stdout
+        for entry in state["accelerators"]:
+            self.assertIn(f"  {entry['name']} ", listed)
+        self.assertIn("whitted", [r["name"] for r in state["renderers"]])
+        self.assertEqual([c["name"] for c in state["cameras"]], ["front", "side"])
+
+    def test_a_newer_frame_ends_an_older_one(self):
+        long = {**WISH, "width": 2000, "height": 1500, "samples": 1024}
+        results = []
+        thread = threading.Thread(target=lambda: results.append(self.server.ask("/frame", long)[0]))
+        thread.start()
+        time.sleep(0.5)
+        begin = time.monotonic()
+        self.assertEqual(self.server.ask("/frame", WISH)[0], 200)
+        self.assertLess(time.monotonic() - begin, 3)
+        thread.join(10)
+        self.assertEqual(results, [204])
+
+    def test_a_changed_file_is_read_again_and_a_bad_one_keeps_the_last(self):
+        scene = self.scene.with_name("changing.alhazen")
+        scene.write_text(SCENE, encoding="utf-8")
+        server = Server(ALHAZEN, scene)
+        try:
+            version = server.state()["version"]
+            frame = server.ask("/frame", {**WISH, "png": True})[2]
+            scene.write_text(SCENE.replace("radius = 1;", "radius = = 1;"), encoding="utf-8")
+            state = server.state()
+            self.assertEqual(state["version"], version)
+            self.assertIn("changing.alhazen:9:", state["error"])
+            self.assertEqual(server.ask("/frame", {**WISH, "png": True})[2], frame)
+            scene.write_text(SCENE.replace("radius = 1;", "radius = 0.5;"), encoding="utf-8")
+            state = server.state()
+            self.assertEqual((state["version"], state["error"]), (version + 1, ""))
+            self.assertNotEqual(server.ask("/frame", {**WISH, "png": True})[2], frame)
+        finally:
+            server.close()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
