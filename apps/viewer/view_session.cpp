@@ -220,6 +220,10 @@ Response ViewSession::frame(const json& wish) {
 }
 
 Response ViewSession::explain(const json& wish) {
+    {  // The frame in hand can be rendered again.
+        const std::lock_guard lock(newest_mutex_);
+        if (newest_) newest_->request();
+    }
     const std::lock_guard lock(scene_mutex_);
     ExplainOptions options;
     options.render = options_of(wish);

@@ -193,8 +193,11 @@ class Viewer {
     const begin = performance.now();
     try {
       const answer = await this.ask("/frame", {...this.wish(this.camera, width), samples});
-      if (answer.status === 204) {  // a newer one was asked for
-        if (generation === this.generation) this.level = levels.length;
+      if (answer.status === 204) {  // a newer one was asked for, or an explanation
+        if (generation === this.generation) {
+          this.ended = this.level;
+          this.level = levels.length;
+        }
       } else if (answer.ok) {
         const facts = JSON.parse(answer.headers.get("X-Alhazen"));
         const blob = await answer.blob();
@@ -248,6 +251,11 @@ class Viewer {
     const at = (w, n) => Math.min(n - 1, Math.max(0, Math.floor(w * n)));
     const answer = await this.ask("/explain", {...wish, samples: 1, x: at(u, width), y: at(v, wish.height), steps: this.steps.value});
     const data = await answer.json();
+    if (this.ended !== undefined && this.level > this.ended) {
+      this.level = this.ended;
+      this.next();
+    }
+    this.ended = undefined;
     if (!answer.ok) return this.say(data.error);
     const root = document.getElementById("explanation");
     showExplanation(root, data, this.image.src);
