@@ -188,8 +188,8 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     Rgb light = v.scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
     LightEnd end;
-    end.place =
-        lights_.point_of_light(drawn.place, v.surface.point + drawn.distance * drawn.to_light);
+    const double away = std::isfinite(drawn.distance) ? drawn.distance : 0.0;
+    end.place = lights_.point_of_light(drawn.place, v.surface.point + away * drawn.to_light);
     end.emit = lights_.emit_density(end.place, -drawn.to_light, v.surface.point);
     begin_path(0, b);
     set_light(end, at, drawn.to_light, drawn.distance, v.scatter.density(drawn.to_light),
