@@ -45,7 +45,8 @@ int run_view(ViewArguments& args) {
         {.address = args.address,
          .port = static_cast<std::uint16_t>(args.port),
          .assets = viewer::view_page(),
-         .handler = [&](const viewer::Request& request) { return session.answer(request); }});
+         .handler = [&](const viewer::Request& request) { return session.answer(request); },
+         .close = [&] { session.close(); }});
     print("{}\n", server.url());
     (void)std::fflush(stdout);
     if (!args.no_open) open_in_browser(server.url());

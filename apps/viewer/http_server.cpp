@@ -1,5 +1,6 @@
 #include "http_server.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/random.h>
 
@@ -89,6 +90,8 @@ struct HttpServer::State {
         check();
         (void)acceptor.listen(kMostClients, error);
         check();
+        // The browser that is started is not to hold the port.
+        (void)fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
         port = acceptor.local_endpoint().port();
         const std::string name = address.is_v6() ? "[" + options.address + "]" : options.address;
         hosts.push_back(fmt::format("{}:{}", name, port));
@@ -265,6 +268,7 @@ void HttpServer::run(const StopFlag& stop) {
     // One more than clients: while all of them work, somebody says so to the next.
     for (int i = 0; i < kMostClients + 1; ++i) threads.emplace_back([this] { state_->io.run(); });
     while (!stop.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (state_->options.close) state_->options.close();
     state_->io.stop();
 }
 

@@ -42,6 +42,8 @@ struct ServerOptions {
     std::vector<Asset> assets;
     /// Answers POST requests that are not refused.
     std::function<Response(const Request&)> handler;
+    /// Called once when `run` is to end, so that requests in hand end soon.
+    std::function<void()> close;
 };
 
 class HttpServer {

@@ -29,6 +29,10 @@ Response failure(int status, const std::string& message) {
     return {status, "application/json", text_of({{"error", message}}), ""};
 }
 
+Response closed() {
+    return failure(503, "the viewer is closing");
+}
+
 Vec3 vector_in(const json& wish, const char* key) {
     const json& v = wish.at(key);
     const Vec3 vector{v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
@@ -190,6 +194,7 @@ Response ViewSession::frame(const json& wish) {
     const auto own = std::make_shared<StopFlag>();
     {
         const std::lock_guard lock(newest_mutex_);
+        if (closing_) return closed();
         if (newest_) newest_->request();
         newest_ = own;
     }
@@ -222,6 +227,7 @@ Response ViewSession::frame(const json& wish) {
 Response ViewSession::explain(const json& wish) {
     {  // The frame in hand can be rendered again.
         const std::lock_guard lock(newest_mutex_);
+        if (closing_) return closed();
         if (newest_) newest_->request();
     }
     const std::lock_guard lock(scene_mutex_);
@@ -231,6 +237,12 @@ Response ViewSession::explain(const json& wish) {
     options.y = wish.at("y").get<int>();
     options.accelerator = wish.value("steps", options.accelerator);
     return {200, "application/json", explanation_json(explain_pixel(loaded_, options), -1), ""};
+}
+
+void ViewSession::close() {
+    const std::lock_guard lock(newest_mutex_);
+    closing_ = true;
+    if (newest_) newest_->request();
 }
 
 Response ViewSession::answer(const Request& request) {

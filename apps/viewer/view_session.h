@@ -28,6 +28,8 @@ class ViewSession {
     ViewSession(std::filesystem::path scene, LoadOptions options, int threads);
 
     [[nodiscard]] Response answer(const Request& request);
+    /// Ends the frame in hand; every request is answered by 503 from now on.
+    void close();
 
   private:
     using FileTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
@@ -52,6 +54,7 @@ class ViewSession {
     std::string error_;           ///< of the last attempt to read it
     std::mutex newest_mutex_;
     std::shared_ptr<StopFlag> newest_;  ///< of the frame that is rendered
+    bool closing_ = false;
 };
 
 }  // namespace alhazen::viewer
