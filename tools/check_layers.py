@@ -159,7 +159,7 @@ INSIDE = {
         "textures": [],
         "materials": ["optics", "textures"],
         "microfacets": ["optics"],
-        "spectrum": [],
+        "spectrum": ["optics"],
         "bsdf": ["microfacets", "materials", "spectrum"],
     },
     "shapes": {

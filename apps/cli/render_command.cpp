@@ -39,7 +39,7 @@ struct RenderArguments {
     std::string size, crop, encoding, protocol, stats, tables, photons, aovs, view, antialias;
     int depth = -1;
     int bits = 8;
-    bool full_float = false, aov_png = false, quiet = false, no_counts = false;
+    bool full_float = false, aov_png = false, quiet = false, no_counts = false, spectral = false;
     SamplingTexts sampling;
     std::optional<int> spp;
     RenderOptions render;
@@ -87,6 +87,7 @@ RenderOptions render_options(const RenderArguments& args) {
     }
     if (!args.aovs.empty()) options.aovs = parse_aovs(args.aovs);
     options.keep_photons = !args.photons.empty();
+    options.spectral = args.spectral;
     if (!args.view.empty() && !options.camera.empty()) {
         throw Error(ErrorKind::Usage, "--view and --camera exclude each other");
     }
@@ -223,6 +224,7 @@ int run(const RenderArguments& args) {
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
     check_photons(options, *renderer);
+    check_spectral(options, *renderer);
     const bool needs_aggregate = renderer->needs_aggregate();
     if (!args.tables.empty() && !renderer->has_scan_lines()) {
         throw Error(ErrorKind::Usage, "--tables is for renderers in scan lines: lane_carpenter");
@@ -415,6 +417,8 @@ void add_render(CLI::App& app, int& exit_status) {
                      "Write the photons of photon_mapping, or of the first pass of sppm, as points "
                      "of a PLY file")
         ->type_name("FILE.ply");
+    command->add_flag("--spectral", args->spectral,
+                      "Light by wavelengths instead of red, green and blue: glass disperses");
     command->add_flag("-q,--quiet", args->quiet, "No progress, no warnings");
     command->callback([args, &exit_status] { exit_status = run(*args); });
 }

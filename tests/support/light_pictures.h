@@ -33,17 +33,20 @@ inline Rectangle rectangle(const Vec3& corner, const Vec3& u, const Vec3& v) {
     return r;
 }
 
+/// `renderer`: its name, or NAME --spectral.
 inline Film picture_of(const Scene& scene, const std::string& renderer, int side, int samples,
                        std::uint64_t seed = 1, int threads = 1, int tile = 32) {
     const SamplingPlan plan;
+    const std::size_t option = renderer.find(" --spectral");
     Film film(side, side, {0, 0, side, side});
     const RenderJob job{.scene = scene,
                         .camera = scene.cameras[0].camera,
                         .samples_per_pixel = samples,
                         .seed = seed,
                         .sampling = &plan,
+                        .spectral = option != std::string::npos,
                         .control = {.threads = threads, .tile_size = tile}};
-    const RenderReport report = make_renderer(renderer)->render(job, film);
+    const RenderReport report = make_renderer(renderer.substr(0, option))->render(job, film);
     EXPECT_TRUE(report.complete());
     EXPECT_EQ(report.counters.non_finite, 0u);
     return film;

@@ -14,11 +14,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "alhazen/geometry/box.h"
 #include "alhazen/imaging/image/rgb.h"
 #include "alhazen/math/affine.h"
+#include "alhazen/shading/optics/illuminant.h"
 #include "alhazen/shapes/patches/bezier_net.h"
 
 namespace alhazen {
@@ -52,6 +54,7 @@ struct Emitter {
     double inner = 0;
     double area = 0;  ///< of one side; of what is curved by numerical integration
     Rgb radiance;     ///< its mean
+    std::optional<Illuminant> illuminant;  ///< its spectrum, where known
     std::shared_ptr<const EmitterParts> parts;
     std::shared_ptr<const EmittingPatch> patch;
 };

@@ -139,6 +139,7 @@ void EmitterList::expand_primitive(const PrimitiveTable& table, PrimitiveId id,
     for (std::size_t i = first; i < emitters_.size(); ++i) {
         emitters_[i].two_sided = m.double_sided;
         emitters_[i].radiance = m.emission.color;
+        emitters_[i].illuminant = m.illuminant;
     }
 }
 

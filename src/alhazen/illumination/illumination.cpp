@@ -211,7 +211,8 @@ LightDraw Illumination::draw(const LitPoint& at, double choice, const Vec2& u,
     draw.passes = mask_of(RayKind::Shadow);
     if (chosen.light < d.emitters.size()) {
         draw.radiance = waves.emission(
-            d.emitters.radiance(chosen.light, at.point, s.to_light, s.distance, s.parameters));
+            d.emitters.radiance(chosen.light, at.point, s.to_light, s.distance, s.parameters),
+            emitter.illuminant);
     } else {
         // No ray sees it: as a light of one direction, with its irradiance.
         draw.radiance = waves.emission((1.0 / s.density) * emitter.radiance);

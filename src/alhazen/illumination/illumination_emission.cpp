@@ -173,7 +173,7 @@ LightRay Illumination::emit(double choice, const Vec2& place, const Vec2& direct
         radiance = d.emitters.radiance(chosen.light, p.point + away * out.normal, -out.normal, away,
                                        p.parameters);
     }
-    out.radiance = waves.emission(radiance);
+    out.radiance = waves.emission(radiance, e.illuminant);
     return out;
 }
 

@@ -83,6 +83,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
     check_photons(options, *renderer);
+    check_spectral(options, *renderer);
     const Scene scene = adjusted(original, options);
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
@@ -103,6 +104,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
                         .description = description,
                         .antialias = options.antialias ? &*options.antialias : nullptr,
                         .sampling = options.sampling ? &*options.sampling : nullptr,
+                        .spectral = options.spectral,
                         .photons = options.keep_photons ? &result.photons : nullptr,
                         .control = {.threads = options.threads,
                                     .tile_size = options.tile_size,
@@ -210,6 +212,14 @@ void check_photons(const RenderOptions& options, const Renderer& renderer) {
         ErrorKind::Usage,
         fmt::format("--photons is for renderers that shoot some: {}; renderer '{}' does not",
                     renderers_where(&Renderer::has_photons), options.renderer));
+}
+
+void check_spectral(const RenderOptions& options, const Renderer& renderer) {
+    if (!options.spectral || renderer.takes_wavelengths()) return;
+    throw Error(ErrorKind::Usage,
+                fmt::format("--spectral is for renderers that follow light by its wavelengths: {}; "
+                            "renderer '{}' does not",
+                            renderers_where(&Renderer::takes_wavelengths), options.renderer));
 }
 
 std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,

@@ -54,6 +54,7 @@ struct RenderOptions {
     bool count_tests = false;
     AovSet aovs;                ///< layers to render in addition to the image
     bool keep_photons = false;  ///< fill RenderResult::photons
+    bool spectral = false;      ///< RenderJob::spectral
     ProgressSink* progress = nullptr;
     const StopFlag* stop = nullptr;
 };
@@ -95,6 +96,9 @@ void check_sampling(const RenderOptions& options, const Renderer& renderer);
 
 /// The same for RenderOptions::keep_photons.
 void check_photons(const RenderOptions& options, const Renderer& renderer);
+
+/// The same for RenderOptions::spectral.
+void check_spectral(const RenderOptions& options, const Renderer& renderer);
 
 /// What of the view and the lights `renderer` does not show as it is, one sentence each.
 [[nodiscard]] std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,

@@ -98,6 +98,13 @@ inline const Vocabulary<AlphaMode>& native_words() {
     return kWords;
 }
 template <>
+inline const Vocabulary<IlluminantKind>& native_words() {
+    // A black body has a word of its own.
+    static const Vocabulary<IlluminantKind> kWords{
+        {"A", IlluminantKind::A}, {"D65", IlluminantKind::D65}, {"E", IlluminantKind::E}};
+    return kWords;
+}
+template <>
 inline const Vocabulary<Wrap>& native_words() {
     static const Vocabulary<Wrap> kWords{
         {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}, {"mirror", Wrap::Mirror}};

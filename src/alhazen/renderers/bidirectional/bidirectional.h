@@ -20,6 +20,7 @@ class Bidirectional final : public LightTransportRenderer {
     explicit Bidirectional(const PathSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool takes_wavelengths() const override { return true; }
 
   private:
     PathSettings settings_;

@@ -53,17 +53,18 @@ void BidirectionalTracer::trace_samples(std::span<const SampleId> ids, std::span
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (job_.stop_requested()) return;
         const Spectrum light = trace(ids[i], rays[i]);
-        radiance[i] = waves_->color(light);
+        radiance[i] = waves_.color(light);
     }
     lens_light_.paths.fetch_add(rays.size(), std::memory_order_relaxed);
 }
 
 Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     Spectrum sum;
+    waves_ = chance_.waves(id);
     const float time = camera_.time(chance_, id);
     const Ray ray = camera_.through_lens(chance_, id, central, time);
     WalkStart start{.ray = ray, .time = time, .media = camera_.media()};
-    start.waves = waves_;
+    start.waves = &waves_;
     start.parallel = lens_.is_parallel();
     start.density =
         start.parallel ? lens_.parallel_density() : lens_.direction_density(ray.direction, time);
@@ -76,14 +77,14 @@ Spectrum BidirectionalTracer::trace(const SampleId& id, const Ray& central) {
     light_.clear();
     const LightRay light =
         lights_.emit(chance_.draw(id, kLightPairs).x, chance_.draw(id, kLightPairs + 1),
-                     chance_.draw(id, kLightPairs + 2), *waves_);
-    const WalkStart from_light = start_of(light, time, media_, *waves_);
+                     chance_.draw(id, kLightPairs + 2), waves_);
+    const WalkStart from_light = start_of(light, time, media_, waves_);
     if (!from_light.throughput.is_black() && from_light.throughput.is_finite()) {
         begin_.place = lights_.point_of_light(light.place, light.ray.origin);
         begin_.emit = {light.place_density, light.direction_density};
         walk_.walk(Transport::Importance, from_light,
                    {chance_, id, kLightWalk, settings_.depth, settings_.roulette}, light_);
-        set_falloff(lights_, light, *waves_, light_);
+        set_falloff(lights_, light, waves_, light_);
     }
 
     for (std::size_t b = 1; b <= eye_.size(); ++b) {
@@ -161,7 +162,7 @@ void BidirectionalTracer::hit_light(std::size_t b, Spectrum& sum) {
 
 void BidirectionalTracer::hit_environment(Spectrum& sum) {
     if (!escape_.is) return;
-    const Spectrum light = escape_.throughput * lights_.environment(escape_.direction, *waves_);
+    const Spectrum light = escape_.throughput * lights_.environment(escape_.direction, waves_);
     if (light.is_black()) return;
     const std::size_t b = eye_.size();
     if (b == 0) {
@@ -188,7 +189,7 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     const auto pair = kDrawPairs + 2 * static_cast<std::uint32_t>(b);
     const LitPoint at = lit(v);
     const LightDraw drawn =
-        lights_.draw(at, chance_.draw(id, pair).x, chance_.draw(id, pair + 1), *waves_);
+        lights_.draw(at, chance_.draw(id, pair).x, chance_.draw(id, pair + 1), waves_);
     if (!(drawn.density > 0.0) || drawn.radiance.is_black()) return;
     Spectrum light = v.scatter.value(drawn.to_light, Transport::Radiance) * drawn.radiance;
     if (light.is_black()) return;
@@ -205,7 +206,7 @@ void BidirectionalTracer::join_light(const SampleId& id, std::size_t b, float ti
     }
     light = (path_weight(path_, 1) / drawn.density) * (v.throughput * light);
     const Ray ray = leaving_ray(v.surface, drawn.to_light, kBeforeLight * drawn.distance);
-    sum += joins_.passing(ray, time, absorption_towards(v, drawn.to_light), *waves_) * light;
+    sum += joins_.passing(ray, time, absorption_towards(v, drawn.to_light), waves_) * light;
 }
 
 void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectrum& sum) {
@@ -236,9 +237,11 @@ void BidirectionalTracer::join(std::size_t a, std::size_t b, float time, Spectru
     set_light(begin_, lit(first), first.scatter.view(), first.distance, a == 1 ? back : first.back,
               first.scatter.geometric());
     light = path_weight(path_, static_cast<int>(a) + 1) * light;
+    // Of the hero on both sides: it counts for all four once.
+    if (y.hero_only && z.hero_only) light = (1.0 / Spectrum::kCount) * light;
     if (light.is_black()) return;
     const Ray ray = leaving_ray(z.surface, to_y, kBeforeLight * distance);
-    sum += joins_.passing(ray, time, absorption_towards(z, to_y), *waves_) * light;
+    sum += joins_.passing(ray, time, absorption_towards(z, to_y), waves_) * light;
 }
 
 void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float time) {
@@ -260,8 +263,8 @@ void BidirectionalTracer::join_lens(const SampleId& id, std::size_t a, float tim
     Spectrum light = path_weight(path_, static_cast<int>(a) + 1) * joined->density *
                      y.scatter.importance_correction(joined->to_lens) * (y.throughput * value);
     light = light * joins_.seen(from_lens(y, *joined), time, absorption_towards(y, joined->to_lens),
-                                *waves_);
-    if (!light.is_black() && !lens_light_.splats.add(joined->film, waves_->color(light))) {
+                                waves_);
+    if (!light.is_black() && !lens_light_.splats.add(joined->film, waves_.color(light))) {
         ++counters_.non_finite;
     }
 }

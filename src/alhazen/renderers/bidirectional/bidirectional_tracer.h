@@ -78,8 +78,8 @@ class BidirectionalTracer {
     LensLight& lens_light_;
     std::vector<PathVertex> eye_, light_;
     RandomWalk::Escape escape_;
-    LightEnd begin_;  ///< of `light_`
-    const Wavelengths* waves_ = &kColorChannels;
+    LightEnd begin_;     ///< of `light_`
+    Wavelengths waves_;  ///< of the sample, as both its paths begin
     WholePath path_;
 };
 

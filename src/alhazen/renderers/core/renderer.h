@@ -58,6 +58,7 @@ struct RenderJob {
     /// samplers.h, and their mean.
     const SamplingPlan* sampling = nullptr;
     const SampleRound* round = nullptr;  ///< of `sampling`, while it is rendered (rounds.h)
+    bool spectral = false;               ///< light by wavelengths, not by channels of colour
     PhotonCloud* photons = nullptr;      ///< filled by renderers that have some; may be null
     RenderControl control{};
 
@@ -111,6 +112,8 @@ class Renderer {
     /// Above 0: RenderJob::description has to have triangles within this distance in place of its
     /// exact shapes.
     [[nodiscard]] virtual double takes_triangles_within() const { return 0.0; }
+    /// True: `render` heeds RenderJob::spectral.
+    [[nodiscard]] virtual bool takes_wavelengths() const { return false; }
     /// True: `render` fills RenderJob::photons.
     [[nodiscard]] virtual bool has_photons() const { return false; }
     /// True: reports have RenderReport::scan_lines.

@@ -56,7 +56,7 @@ class LightTiles final : public TileRenderer {
 
   private:
     void trace(const SampleId& id) {
-        const Wavelengths& waves = kColorChannels;
+        const Wavelengths waves = chance_.waves(id);
         const float time = camera_.time(chance_, id);
         const Vec2 choice = chance_.draw(id, kLightPairs);
         const LightRay light = lights_.emit(choice.x, chance_.draw(id, kLightPairs + 1),

@@ -19,6 +19,7 @@ class LightTracing final : public LightTransportRenderer {
     explicit LightTracing(const PathSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool takes_wavelengths() const override { return true; }
 
   private:
     PathSettings settings_;

@@ -2,8 +2,9 @@
 /// The random numbers of paths: from the sampler of the round for the first bounces, from a hash
 /// for those behind, where stratification no longer shows.
 ///
-/// Conventions: pairs of dimensions: 0 the pixel, 1 the lens, 2 the time; from 3 + 4 b on those of
-/// bounce b: direction of the BSDF, place on a light, the two choices (lobe, light), roulette.
+/// Conventions: pairs of dimensions: 0 the pixel, 1 the lens, 2 the time and the wavelengths; from
+/// 3 + 4 b on those of bounce b: direction of the BSDF, place on a light, the two choices (lobe,
+/// light), roulette.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include "alhazen/renderers/core/sample_draws.h"
 #include "alhazen/renderers/core/sample_loop.h"
 #include "alhazen/sampling/random.h"
+#include "alhazen/shading/spectrum/wavelengths.h"
 
 namespace alhazen {
 
@@ -22,7 +24,10 @@ class PathChance {
     enum BouncePair : std::uint32_t { kDirection, kLight, kChoices, kLuck, kPairsOfBounce };
 
     explicit PathChance(const RenderJob& job)
-        : sampler_(job.round->sampler), seed_(mix64(job.round->seed)), draws_(sampler_, kByHash) {}
+        : sampler_(job.round->sampler),
+          seed_(mix64(job.round->seed)),
+          spectral_(job.spectral),
+          draws_(sampler_, kByHash) {}
 
     /// `ids`: of the samples from now on, for `draw` by their number in the batch.
     void begin(std::span<const SampleId> ids) {
@@ -48,6 +53,11 @@ class PathChance {
         if (coverage >= 1.0) return true;
         return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
     }
+    /// Of a sample: channels, or wavelengths where the job asks for them.
+    [[nodiscard]] Wavelengths waves(const SampleId& id) const {
+        return spectral_ ? Wavelengths::drawn(draw(id, kTime).y) : Wavelengths();
+    }
+    [[nodiscard]] bool is_spectral() const { return spectral_; }
     [[nodiscard]] float time(const SampleId& id) const {
         // Below 1, where the double may round up to it.
         return std::min(static_cast<float>(draw(id, kTime).x), 0x1.fffffep-1f);
@@ -64,6 +74,7 @@ class PathChance {
 
     const Sampler& sampler_;
     std::uint64_t seed_;
+    bool spectral_;
     SampleDraws draws_;
     std::span<const SampleId> ids_;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "alhazen/renderers/light_transport/emission_of.h"
+
 namespace alhazen {
 
 bool RandomWalk::find(Ray& ray, const WalkLuck& luck, float time, bool inside) {
@@ -34,7 +36,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
     const bool from_eye = transport == Transport::Radiance;
     kind_ = from_eye ? RayKind::Eye : RayKind::Reflection;
     Ray ray = start.ray;
-    const Wavelengths& waves = *start.waves;
+    Wavelengths waves = *start.waves;
     Spectrum throughput = start.throughput;
     double density = start.density;
     bool parallel = start.parallel;
@@ -69,7 +71,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
             const bool lights_others =
                 vertices.size() >= 2 && !vertices[vertices.size() - 2].singular;
             if (!point_.material->unlit || !lights_others) {
-                v.emission = waves.emission(point_.material->emission);
+                v.emission = emission_of(scene_, point_, waves);
             }
             if (!v.emission.is_black()) {
                 v.emit = lights_.emit_density(hit_, point_.surface, -ray.direction);
@@ -83,6 +85,11 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
             }
         }
         v.scatter.set(scene_, point_, media, waves, true);
+        if (v.scatter.needs_hero()) {
+            waves.keep_hero(throughput);
+            v.throughput = throughput;
+        }
+        v.hero_only = waves.hero_only();
         if (point_.material->unlit || static_cast<int>(vertices.size()) == luck.most) return;
 
         const Vec2 u = luck.chance.draw(luck.id, pair);
@@ -95,6 +102,7 @@ void RandomWalk::walk(Transport transport, const WalkStart& start, const WalkLuc
         }
         if (!drawn || drawn->weight.is_black()) return;
         throughput = throughput * drawn->weight;
+        if (drawn->dispersed) waves.keep_hero(throughput);
         if (!from_eye) throughput = v.scatter.importance_correction(drawn->direction) * throughput;
         if (drawn->transmitted) v.scatter.cross(media);
         kind_ = drawn->transmitted ? RayKind::Refraction : RayKind::Reflection;

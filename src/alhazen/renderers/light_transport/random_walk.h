@@ -21,13 +21,14 @@ namespace alhazen {
 struct PathVertex {
     ShapeSurface surface;
     ScatterPoint scatter;
-    Spectrum throughput;    ///< of the path up to the vertex
-    double density = 0;     ///< with which its own side finds it
-    double reverse = 0;     ///< with which the other side would, once it has two more vertices
-    double back = 0;        ///< by solid angle, of what it was found from, once it has one more
-    bool singular = false;  ///< the path went on from it by a singular lobe
-    MediumStack media;      ///< in front of it
-    Spectrum emission;      ///< of it towards the path
+    Spectrum throughput;     ///< of the path up to the vertex
+    bool hero_only = false;  ///< `throughput` is of the hero, and stands for all four wavelengths
+    double density = 0;      ///< with which its own side finds it
+    double reverse = 0;      ///< with which the other side would, once it has two more vertices
+    double back = 0;         ///< by solid angle, of what it was found from, once it has one more
+    bool singular = false;   ///< the path went on from it by a singular lobe
+    MediumStack media;       ///< in front of it
+    Spectrum emission;       ///< of it towards the path
     Illumination::EmitDensity emit;  ///< of that light
     double joined = 0;               ///< density with which it is drawn for the vertex before
     double distance = 0;             ///< from the vertex before
@@ -39,7 +40,7 @@ struct PathVertex {
 struct WalkStart {
     Ray ray;
     Spectrum throughput{1, 1, 1, 1};
-    const Wavelengths* waves = &kColorChannels;
+    const Wavelengths* waves = &kColorChannels;  ///< of the path as it begins
     /// By solid angle; by area across the ray where it is parallel; 0: singular.
     double density = 0;
     bool parallel = false;

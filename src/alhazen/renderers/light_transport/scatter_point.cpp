@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "alhazen/shading/bsdf/dispersing.h"
+
 namespace alhazen {
 
 namespace {
@@ -41,23 +43,55 @@ void ScatterPoint::set(const Scene& scene, const ShadingPoint& point, const Medi
     inside_ = {part_of(surface), material.index, material.absorption,
                static_cast<std::uint32_t>(surface.materials[0])};
     media_known_ = point.behind.known;
-    BsdfPlace place{.from_inside = !entering_, .waves = waves};
     if (media_known_) {
         behind_inside_ = point.behind.inside;
         inside_.absorption = point.behind.absorption;
-        place.eta = point.behind.eta;
-    } else if (!thin_ && material.index > 0.0) {
-        const double air = scene.conventions.shading.air_index;
-        const Medium* const around = entering_ ? media.here() : media.without(inside_);
-        const double outside = around != nullptr ? around->index : air;
-        place.eta = entering_ ? outside / material.index : material.index / outside;
     }
+    const Spectrum all = etas(scene, point, media, waves);
+    const bool disperses = !(all == Spectrum::all(all.a));
+    BsdfPlace place{.eta = all.a,
+                    .from_inside = !entering_,
+                    .etas = disperses ? &all : nullptr,
+                    .waves = waves};
     bsdf_ = bsdf_at(scene, surface, place);
+    needs_hero_ = disperses && bsdf_.has_rough_boundary();
+    if (needs_hero_) {
+        place.etas = nullptr;
+        bsdf_ = bsdf_at(scene, surface, place);
+    }
     from_behind_.reset();
     if (!both_ways || !bsdf_.has_density() || !bsdf_.transmits()) return;
+    place.etas = nullptr;
     place.from_inside = entering_;
     if (place.eta > 0.0) place.eta = 1.0 / place.eta;
     from_behind_ = bsdf_at(scene, surface, place);
+}
+
+Spectrum ScatterPoint::etas(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
+                            const Wavelengths& waves) const {
+    const auto over = [](const Spectrum& x, const Spectrum& y) {
+        return Spectrum{x.a / y.a, x.b / y.b, x.c / y.c, x.d / y.d};
+    };
+    const double air = scene.conventions.shading.air_index;
+    const auto material = [&](std::uint32_t i) -> const Material& { return scene.materials[i]; };
+    if (media_known_) {
+        if (!waves.is_spectral()) return Spectrum::all(point.behind.eta);
+        const auto index = [&](const std::optional<MaterialId>& id) {
+            if (!id) return Spectrum::all(air);
+            const Material& m = material(static_cast<std::uint32_t>(*id));
+            return index_of(m, m.index.value, waves);
+        };
+        return over(index(point.surface.media.before), index(point.surface.media.after));
+    }
+    const double own = point.material->index;
+    if (thin_ || !(own > 0.0)) return {};
+    const Medium* const around = entering_ ? media.here() : media.without(inside_);
+    const double outside = around != nullptr ? around->index : air;
+    if (!waves.is_spectral()) return Spectrum::all(entering_ ? outside / own : own / outside);
+    const Spectrum there = around != nullptr ? index_of(material(around->material), outside, waves)
+                                             : Spectrum::all(air);
+    const Spectrum here = index_of(material(inside_.material), own, waves);
+    return entering_ ? over(there, here) : over(here, there);
 }
 
 Spectrum ScatterPoint::value(const Vec3& direction, Transport transport) const {
@@ -84,7 +118,7 @@ std::optional<Scattered> ScatterPoint::sample(double choice, const Vec2& u,
     const std::optional<BsdfSample> drawn = bsdf_.sample(local_view_, choice, u, transport);
     if (!drawn) return std::nullopt;
     Scattered s{frame_.to_world(drawn->direction), drawn->weight, drawn->density, drawn->singular,
-                drawn->direction.z < 0.0,          drawn->eta,    false};
+                drawn->direction.z < 0.0,          drawn->eta,    false,          drawn->dispersed};
     s.straight = s.singular && s.transmitted && thin_;
     if (s.straight) {
         s.direction = -view_;

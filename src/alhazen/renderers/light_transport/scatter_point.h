@@ -23,6 +23,8 @@ struct Scattered {
     bool transmitted = false;
     double eta = 1;         ///< index where it enters over where it came from
     bool straight = false;  ///< through a thin sheet, as if nothing were there
+    /// Only light of the hero goes there: Wavelengths::keep_hero is then due.
+    bool dispersed = false;
 };
 
 class ScatterPoint {
@@ -30,6 +32,10 @@ class ScatterPoint {
     /// `media`: around the path before the surface. `both_ways`: `reverse_density` will be asked.
     void set(const Scene& scene, const ShadingPoint& point, const MediumStack& media,
              const Wavelengths& waves, bool both_ways = false);
+
+    /// Whether the point is that of the hero alone: Wavelengths::keep_hero is due before anything
+    /// is asked.
+    [[nodiscard]] bool needs_hero() const { return needs_hero_; }
 
     /// value * |cosine| for light from `direction`; singular lobes apart.
     [[nodiscard]] Spectrum value(const Vec3& direction, Transport transport) const;
@@ -73,6 +79,10 @@ class ScatterPoint {
     void cross(MediumStack& media) const;
 
   private:
+    /// The index on the side of the view over that behind, of each wavelength; 0 where the material
+    /// says.
+    [[nodiscard]] Spectrum etas(const Scene& scene, const ShadingPoint& point,
+                                const MediumStack& media, const Wavelengths& waves) const;
     [[nodiscard]] bool sides_agree(const Vec3& direction, const Vec3& local) const {
         return local.z * dot(direction, geometric_) > 0.0;
     }
@@ -82,7 +92,7 @@ class ScatterPoint {
     ShadingFrame frame_;
     Vec3 geometric_, view_, local_view_;
     Medium inside_;  ///< of the volume that the surface bounds
-    bool entering_ = true, thin_ = false, one_sided_ = false;
+    bool entering_ = true, thin_ = false, one_sided_ = false, needs_hero_ = false;
     bool media_known_ = false;  ///< a solid tells what is behind
     bool behind_inside_ = false;
 };

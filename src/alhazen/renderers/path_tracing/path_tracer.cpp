@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "alhazen/renderers/light_transport/emission_of.h"
 #include "alhazen/renderers/light_transport/power_heuristic.h"
 
 namespace alhazen {
@@ -31,6 +32,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         EyePath& path = paths_.emplace_back();
         path.sample = i;
+        if (chance_.is_spectral()) waves_.push_back(chance_.waves(ids[i]));
         path.time = camera_.time(chance_, ids[i]);
         path.cone = job_.cone;
         path.media = camera_.media();
@@ -38,13 +40,14 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
     }
     light_.assign(rays.size(), {});
+    waves_.clear();
     if (layers_ != nullptr) parts_.assign(rays.size(), {});
     for (bool first = true; !paths_.empty(); first = false) {
         if (job_.stop_requested()) return;
         bounce(first);
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Wavelengths& waves = kColorChannels;
+        const Wavelengths& waves = chance_.is_spectral() ? waves_[i] : kColorChannels;
         radiance[i] = waves.color(light_[i]);
         if (layers_ != nullptr) layers_->add(ids[i], parts_[i], waves, radiance[i]);
     }
@@ -127,15 +130,15 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     add_emission(path, ray, hit, point, sum);
     if (point.material->unlit || path.scatterings >= settings_.depth) return;
     scatter_.set(scene_, point, path.media, waves(path));
+    if (scatter_.needs_hero()) keep_hero(path);
     if (scatter_.has_density()) add_direct_light(path, point, sum);
     scatter(path, point);
 }
 
 void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
                               const ShadingPoint& point, Spectrum& sum) {
-    const Rgb& emission = point.material->emission;
-    if (emission.is_black()) return;
-    Spectrum light = path.throughput * waves(path).emission(emission);
+    if (point.material->emission.is_black()) return;
+    Spectrum light = path.throughput * emission_of(scene_, point, waves(path));
     if (!path.singular) {
         // What shows its colour whatever the light is no lamp.
         if (point.material->unlit) return;
@@ -182,6 +185,7 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
     const std::optional<Scattered> drawn = scatter_.sample(choices.x, u, Transport::Radiance);
     if (!drawn || drawn->weight.is_black()) return;
     path.throughput = path.throughput * drawn->weight;
+    if (drawn->dispersed) keep_hero(path);
     if (layers_ != nullptr && path.scatterings == 0 && !drawn->straight) {
         path.first = first_along(path, drawn->direction);
         if (drawn->singular) path.first.diffuse = {};

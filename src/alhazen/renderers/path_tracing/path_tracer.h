@@ -74,7 +74,13 @@ class PathTracer {
         next_paths_.push_back(path);
         next_rays_.push_back(ray);
     }
-    [[nodiscard]] const Wavelengths& waves(const EyePath&) const { return kColorChannels; }
+    [[nodiscard]] const Wavelengths& waves(const EyePath& path) const {
+        return chance_.is_spectral() ? waves_[path.sample] : kColorChannels;
+    }
+    /// The path goes on as that of the hero.
+    void keep_hero(EyePath& path) {
+        if (chance_.is_spectral()) waves_[path.sample].keep_hero(path.throughput);
+    }
     /// Light at the end of a path of that many scatterings.
     [[nodiscard]] Spectrum limited(const Spectrum& light, int scatterings) const;
 
@@ -92,7 +98,8 @@ class PathTracer {
     std::vector<LightParts> parts_;  ///< [sample of the batch]
     std::vector<JoinedLight> joined_;
     std::span<const SampleId> ids_;
-    std::vector<Spectrum> light_;  ///< [sample of the batch]
+    std::vector<Wavelengths> waves_;  ///< [sample of the batch]; empty: channels
+    std::vector<Spectrum> light_;     ///< [sample of the batch]
     std::vector<EyePath> paths_, next_paths_;
     std::vector<Ray> rays_, next_rays_;
 };

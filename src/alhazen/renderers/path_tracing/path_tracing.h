@@ -24,6 +24,7 @@ class PathTracing final : public LightTransportRenderer {
     explicit PathTracing(const PathSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
+    [[nodiscard]] bool takes_wavelengths() const override { return true; }
 
   private:
     PathSettings settings_;

@@ -245,6 +245,11 @@ bool Bsdf::transmits() const {
     });
 }
 
+bool Bsdf::has_rough_boundary() const {
+    return std::ranges::any_of(
+        parts_, [](const Part& p) { return std::holds_alternative<RoughDielectric>(p.lobe); });
+}
+
 bool Bsdf::lets_through() const {
     return std::ranges::any_of(parts_, [](const Part& p) {
         return std::visit([]<class L>(const L&) { return L::kTransmits; }, p.lobe);

@@ -65,6 +65,8 @@ class Bsdf {
     [[nodiscard]] bool has_singular() const;
     /// Whether `value` may be above 0 below the surface.
     [[nodiscard]] bool transmits() const;
+    /// Whether some lobe is a rough boundary between clear media.
+    [[nodiscard]] bool has_rough_boundary() const;
     /// Whether some lobe transmits, singular ones too.
     [[nodiscard]] bool lets_through() const;
     /// Share that thin sheets let go straight on: what a shadow ray keeps.
@@ -103,6 +105,8 @@ struct BsdfPlace {
     /// own two sides (CSG walls); else 0: by the material's index and `from_inside`.
     double eta = 0;
     bool from_inside = false;  ///< the view is inside the volume that the surface bounds
+    /// `eta` of each of four wavelengths, the first of which is that above, where they differ.
+    const Spectrum* etas = nullptr;
     /// Of the path.
     const Wavelengths& waves = kColorChannels;
 };

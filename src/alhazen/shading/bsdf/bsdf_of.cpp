@@ -5,6 +5,7 @@
 
 #include "alhazen/shading/materials/texture_inputs.h"
 #include "alhazen/shading/optics/fresnel.h"
+#include "alhazen/shading/optics/metals.h"
 
 namespace alhazen {
 
@@ -14,17 +15,26 @@ double eta_at(const BsdfPlace& place, double index) {
     return place.from_inside ? n : 1.0 / n;
 }
 
+namespace {
+
+std::optional<Spectrum> etas_at(const BsdfPlace& place) {
+    return place.etas != nullptr ? std::optional(*place.etas) : std::nullopt;
+}
+
+}  // namespace
+
 Lobe reflection_lobe(double roughness, const FresnelTerm& fresnel) {
     const double alpha = roughness * roughness;
     if (alpha < kSmoothAlpha) return Mirror{fresnel};
     return RoughReflection({alpha, alpha}, fresnel);
 }
 
-Lobe boundary_lobe(double roughness, double eta, const Spectrum& reflection,
-                   const Spectrum& transmission) {
+Lobe boundary_lobe(double roughness, const BsdfPlace& place, double index,
+                   const Spectrum& reflection, const Spectrum& transmission) {
     const double alpha = roughness * roughness;
+    const double eta = eta_at(place, index);
     if (alpha < kSmoothAlpha || std::abs(eta - 1.0) < 1e-3) {
-        return SmoothDielectric{eta, reflection, transmission};
+        return SmoothDielectric{eta, reflection, transmission, true, etas_at(place)};
     }
     return RoughDielectric(alpha, eta, reflection, transmission);
 }
@@ -69,7 +79,7 @@ Bsdf bsdf_of_coefficients(const Material& m, std::span<const Texture> textures,
     if (!mirror.is_black()) add(mirror, reflection_lobe(roughness, SchlickTerm{}));
     if (!refracted.is_black()) {
         const double eta = eta_at(place, value_at(m.index, textures, lookup));
-        add(refracted, SmoothDielectric{.eta = eta, .fresnel = false});
+        add(refracted, SmoothDielectric{.eta = eta, .fresnel = false, .etas = etas_at(place)});
     }
     return bsdf;
 }
@@ -78,8 +88,14 @@ Bsdf bsdf_of_conductor(const Material& m, const Conductor& c, std::span<const Te
                        const SurfaceLookup& lookup, const BsdfPlace& place) {
     Bsdf bsdf;
     const double roughness = roughness_of(m, textures, lookup);
-    const ConductorTerm term{place.waves.optical_constant(c.index),
-                             place.waves.optical_constant(c.extinction)};
+    ConductorTerm term{place.waves.optical_constant(c.index),
+                       place.waves.optical_constant(c.extinction)};
+    const Metal* const metal = place.waves.is_spectral() ? find_metal(c.name) : nullptr;
+    for (int i = 0; metal != nullptr && i < Spectrum::kCount; ++i) {
+        const MetalAtWave at = constants_at(*metal, place.waves.nm(i));
+        term.index[i] = at.index;
+        term.extinction[i] = at.extinction;
+    }
     bsdf.add(Spectrum::all(1), reflection_lobe(roughness, term));
     return bsdf;
 }
@@ -88,8 +104,9 @@ Bsdf bsdf_of_dielectric(const Material& m, std::span<const Texture> textures,
                         const SurfaceLookup& lookup, const BsdfPlace& place) {
     Bsdf bsdf;
     const double roughness = roughness_of(m, textures, lookup);
-    const double eta = eta_at(place, value_at(m.index, textures, lookup));
-    bsdf.add(Spectrum::all(1), boundary_lobe(roughness, eta, Spectrum::all(1), Spectrum::all(1)));
+    const double index = value_at(m.index, textures, lookup);
+    bsdf.add(Spectrum::all(1),
+             boundary_lobe(roughness, place, index, Spectrum::all(1), Spectrum::all(1)));
     return bsdf;
 }
 

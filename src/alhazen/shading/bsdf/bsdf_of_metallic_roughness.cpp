@@ -95,7 +95,7 @@ class LayerMaker {
 
     [[nodiscard]] FresnelTerm term(const SchlickTerm& base) const {
         if (!(film_share_ > 0.0)) return base;
-        return FilmTerm{base, film_share_, p_.film.index, film_nm_};
+        return FilmTerm{base, film_share_, p_.film.index, film_nm_, place_.waves.all_nm()};
     }
     [[nodiscard]] Lobe face_lobe(const SchlickTerm& base) const {
         if (ggx_.x < kSmoothAlpha) return Mirror{term(base)};
@@ -108,7 +108,8 @@ class LayerMaker {
         if (film_share_ > 0.0) {
             const SchlickTerm base{kColorChannels.reflectance(f0), grey(f90)};
             for (const double cosine : {1.0, 0.8, 0.6, 0.4, 0.2}) {
-                most = std::max(most, schlick_fit(term(base), cosine).f0.max());
+                const FilmTerm film{base, film_share_, p_.film.index, film_nm_, {}};
+                most = std::max(most, schlick_fit(film, cosine).f0.max());
             }
             f90 = 1.0;
         }
@@ -140,8 +141,7 @@ class LayerMaker {
             // What goes through is covered by the face, as the matt body is.
             const CoverSet below = covers_ | bsdf_.add_cover(cover);
             if (!thin) {
-                bsdf_.add(grey(clear), boundary_lobe(roughness_, eta_at(place_, index), {}, base_),
-                          below);
+                bsdf_.add(grey(clear), boundary_lobe(roughness_, place_, index, {}, base_), below);
             } else if (ggx_.x < kSmoothAlpha) {
                 bsdf_.add(grey(clear), ThinSheet{base_}, below);
             } else {
@@ -150,7 +150,7 @@ class LayerMaker {
             return;
         }
         bsdf_.add(grey(clear),
-                  boundary_lobe(roughness_, eta_at(place_, index),
+                  boundary_lobe(roughness_, place_, index,
                                 place_.waves.reflectance(strength * clipped(tint)), base_),
                   covers_);
     }

@@ -29,6 +29,13 @@ Spectrum at(const DielectricTerm& t, double cosine) {
 }
 Spectrum at(const FilmTerm& t, double cosine) {
     const Spectrum& f0 = t.base.f0;
+    if (t.nm.a > 0.0) {
+        Spectrum film;
+        for (int i = 0; i < Spectrum::kCount; ++i) {
+            film[i] = thin_film_reflectance_at(t.nm[i], cosine, t.index, t.thickness_nm, f0[i]);
+        }
+        return (1.0 - t.share) * at(t.base, cosine) + t.share * film;
+    }
     const Rgb c = thin_film_reflectance(cosine, t.index, t.thickness_nm, {f0.a, f0.b, f0.c});
     const Spectrum film{c.r, c.g, c.b, c.b};
     return (1.0 - t.share) * at(t.base, cosine) + t.share * film;

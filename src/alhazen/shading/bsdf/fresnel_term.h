@@ -25,6 +25,7 @@ struct DielectricTerm {
 struct FilmTerm {
     SchlickTerm base;
     double share = 1, index = 1.3, thickness_nm = 400;
+    Spectrum nm;  ///< the wavelengths; 0: channels of colour
 };
 
 using FresnelTerm = std::variant<SchlickTerm, ConductorTerm, DielectricTerm, FilmTerm>;

@@ -3,7 +3,9 @@
 /// rest; all is reflected beyond the critical angle.
 ///
 /// Source: Born and Wolf, "Principles of Optics", 7th edition, 1999, section 1.5; Veach 1997,
-/// section 5.2 (radiance changes by eta^2 where it is refracted, importance does not).
+/// section 5.2 (radiance changes by eta^2 where it is refracted, importance does not); Wilkie et
+/// al., "Hero Wavelength Spectral Sampling", EGSR 2014 (the weights of reflection where the index
+/// depends on the wavelength: the balance heuristic over the four that may be the first).
 
 #include <optional>
 
@@ -17,6 +19,8 @@ struct SmoothDielectric {
     Spectrum reflection_tint{1, 1, 1, 1}, transmission_tint{1, 1, 1, 1};
     /// False: Whitted's refraction, of which nothing is reflected but beyond the critical angle.
     bool fresnel = true;
+    /// Given: `eta` of each wavelength, the first of which is that above.
+    std::optional<Spectrum> etas;
 
     [[nodiscard]] std::optional<BsdfSample> sample(const Vec3& view, double choice, const Vec2& u,
                                                    Transport transport) const;

@@ -20,6 +20,8 @@ struct BsdfSample {
     double density = 0;     ///< by solid angle; of a singular lobe the probability of its choice
     bool singular = false;  ///< its directions have no density
     double eta = 1;         ///< of a transmitted ray: index where it enters over where it came from
+    /// It went where light of the first wavelength alone goes; `weight` is of that one.
+    bool dispersed = false;
 };
 
 }  // namespace alhazen

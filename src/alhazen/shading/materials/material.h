@@ -17,6 +17,8 @@
 #include <span>
 #include <string>
 
+#include "alhazen/shading/optics/dispersion.h"
+#include "alhazen/shading/optics/illuminant.h"
 #include "alhazen/shading/textures/texture.h"
 
 namespace alhazen {
@@ -92,7 +94,7 @@ struct MetallicRoughness {
     SheenLayer sheen;
     IridescentFilm film;
     Grooves anisotropy;
-    double dispersion = 0;  ///< 20 / Abbe number; kept, and not seen by renderers of three colours
+    double dispersion = 0;  ///< 20 / Abbe number; seen by renderers of wavelengths alone
     bool unlit = false;     ///< shows its base colour whatever the light
 };
 
@@ -118,6 +120,10 @@ struct Material {
     ColorInput transmissive;               ///< kt, the refracted direction
     ScalarInput shininess{0, kNoTexture};  ///< ns, exponent of the highlight
     ScalarInput index{1, kNoTexture};      ///< index of refraction inside the surface's normal
+    /// How `index`, which is that of line d, depends on the wavelength; none: not at all.
+    std::optional<Dispersion> dispersion;
+    /// Given: the spectrum of the emission, whose colour is that of `emission`.
+    std::optional<Illuminant> illuminant;
     /// 0..1: how far reflected and refracted rays spread, for renderers in which they do.
     ScalarInput roughness{0, kNoTexture};
 

@@ -17,13 +17,20 @@
 
 namespace alhazen {
 
+struct MetalAtWave {
+    double nm, index, extinction;
+};
+
 struct Metal {
     std::string_view name;
     Rgb index, extinction;
+    std::span<const MetalAtWave> by_wave;  ///< as measured, ascending; from below 382 to above 780 nm
 };
 
 /// In the order of their names.
 [[nodiscard]] std::span<const Metal> metals();
+/// Between the wavelengths of the table linear, constant beyond.
+[[nodiscard]] MetalAtWave constants_at(const Metal& metal, double nm);
 [[nodiscard]] const Metal* find_metal(std::string_view name);
 
 }  // namespace alhazen

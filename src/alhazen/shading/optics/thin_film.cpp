@@ -39,6 +39,28 @@ Rgb sensitivity(double path_nm, const Rgb& shift) {
 
 }  // namespace
 
+double thin_film_reflectance_at(double nm, double cosine, double film_index, double thickness_nm,
+                                double base) {
+    const double c = std::clamp(cosine, 0.0, 1.0);
+    const double vanish = std::clamp(thickness_nm / 30.0, 0.0, 1.0);
+    const double index = 1.0 + (film_index - 1.0) * vanish * vanish * (3.0 - 2.0 * vanish);
+    const double squared = 1.0 - (1.0 - c * c) / (index * index);
+    if (!(squared > 0.0)) return 1.0;
+    const double inside = std::sqrt(squared);
+    const double r12 = dielectric_reflectance(c, 1.0 / index);
+    const double ratio = index_of(base) / index;
+    const double at_normal = normal_reflectance_of(ratio);
+    const double r23 = at_normal + (1.0 - at_normal) * schlick_weight(inside);
+    const double shift = (index < 1.0 ? 0.0 : kPi) + (ratio < 1.0 ? kPi : 0.0);
+    const double phase = 2.0 * kPi * 2.0 * index * thickness_nm * inside / nm + shift;
+    const double r123 = std::min(r12 * r23, 0.99999),
+                 through = (1.0 - r12) * (1.0 - r12) * r23 / (1.0 - r123);
+    // The sum of q^m cos(m phase) over m = 1, 2, ...
+    const double q = std::sqrt(r123), cosine_of_phase = std::cos(phase);
+    const double series = (q * cosine_of_phase - q * q) / (1.0 - 2.0 * q * cosine_of_phase + q * q);
+    return std::clamp(r12 + through + 2.0 * (through - (1.0 - r12)) * series, 0.0, 1.0);
+}
+
 Rgb thin_film_reflectance(double cosine, double film_index, double thickness_nm, const Rgb& base) {
     const double c = std::clamp(cosine, 0.0, 1.0);
     // A film that vanishes takes the index of the air with it.

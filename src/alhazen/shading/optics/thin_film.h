@@ -16,5 +16,8 @@ namespace alhazen {
 /// formula.
 [[nodiscard]] Rgb thin_film_reflectance(double cosine, double film_index, double thickness_nm,
                                         const Rgb& base);
+/// The same at one wavelength, with all terms of the series.
+[[nodiscard]] double thin_film_reflectance_at(double nm, double cosine, double film_index,
+                                              double thickness_nm, double base);
 
 }  // namespace alhazen

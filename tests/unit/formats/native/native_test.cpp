@@ -32,6 +32,30 @@ TEST(NativeImporter, RefusesOtherHeadersAndVersions) {
     }
 }
 
+TEST(NativeImporter, GlassesHaveTheirIndexByNameByFormulaOrByAbbe) {
+    const auto material = [](const std::string& fields) {
+        return import_native("material \"m\" { " + fields + " } sphere { material = \"m\" }");
+    };
+    const Imported bk7 = material("glass = \"bk7\"");
+    EXPECT_EQ(bk7.messages(), "");
+    const Material& m = bk7.scene.materials.at(0).material;
+    EXPECT_NEAR(m.index.value, 1.5168, 1e-5);
+    EXPECT_TRUE(m.dielectric && m.dispersion->name == "BK7");
+    EXPECT_EQ(material("abbe = 30; index = 1.6; dielectric = { }").messages(), "");
+    EXPECT_EQ(material("sellmeier = (1.1, 0.01)").messages(), "");
+    EXPECT_EQ(material("emission = blackbody(3200)").messages(), "");
+    EXPECT_EQ(material("emission = illuminant(\"A\", 2.5)").messages(), "");
+    EXPECT_TRUE(material("glass = \"crown\"").says("fused_quartz"));
+    EXPECT_TRUE(material("glass = \"BK7\"; index = 1.5").says("expected no 'index'"));
+    EXPECT_TRUE(material("glass = \"BK7\"; abbe = 30").says("expected one of them"));
+    for (const char* bad :
+         {"abbe = 0", "abbe = -3", "sellmeier = (1, 2, 3)", "sellmeier = (1, 0.25)",
+          "sellmeier = 3", "emission = blackbody(3)", "emission = blackbody()",
+          "emission = illuminant(\"F2\")", "emission = illuminant(A)"}) {
+        EXPECT_EQ(material(bad).errors(), 1u) << bad << material(bad).messages();
+    }
+}
+
 TEST(NativeImporter, LoadsTheExampleOfItsDocumentation) {
     const std::string page =
         read_file(testing::source_folder() / "docs/reference/formats/native.md");

@@ -14,6 +14,7 @@
 #include "alhazen/formats/native/read/native_text.h"
 #include "alhazen/formats/text/unique_labels.h"
 #include "alhazen/imaging/image/image.h"
+#include "alhazen/shading/spectrum/illuminant_spectrum.h"
 #include "native_round_trip.h"
 
 namespace alhazen::ALHAZEN_TEST_FILE {
@@ -278,6 +279,18 @@ TEST(NativeWriter, MaterialsComeBackWithEveryInput) {
     metal.conductor = Conductor{n.color(), n.color(), ""};
     water.dielectric = Dielectric{n.color()};
     water.index.value = 1.33;
+    water.dispersion = Dispersion{.abbe = 55.8};
+    Material bk7, formula, lamp, filament;
+    const NamedGlass& named = *find_glass("BK7");
+    bk7.dielectric = Dielectric{n.color()};
+    bk7.dispersion = Dispersion{.sellmeier = named.sellmeier, .name = "BK7"};
+    bk7.index.value = named.sellmeier.index(kLineD);
+    formula.dispersion = Dispersion{.sellmeier = {{1.1, 0.2}, {0.01, 100}}};
+    formula.index.value = formula.dispersion->sellmeier.index(kLineD);
+    lamp.illuminant = Illuminant{IlluminantKind::BlackBody, 3200, n.positive()};
+    filament.illuminant = Illuminant{IlluminantKind::A, 0, n.positive()};
+    for (Material* m : {&lamp, &filament}) m->emission.color = color_of(*m->illuminant);
+    for (const Material& m : {bk7, formula, lamp, filament}) scene.materials.push_back({m, {}});
     for (const Material& m : {gold, metal, water}) scene.materials.push_back({m, {}});
     expect_round_trip(scene);
 }

@@ -1,7 +1,11 @@
 #include "alhazen/formats/native/read/native_materials.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "alhazen/formats/native/native_words.h"
 #include "alhazen/shading/optics/metals.h"
+#include "alhazen/shading/spectrum/illuminant_spectrum.h"
 
 namespace alhazen {
 
@@ -230,12 +234,131 @@ void read_dielectric(BlockReader& outer, NativeContext& context, Material& m) {
     });
 }
 
+/// blackbody(KELVIN) or illuminant("NAME"), both with a luminance as the last argument, which is 1
+/// without.
+void read_illuminant(TextNode value, NativeContext& context, Material& m) {
+    constexpr std::string_view kKey = "emission";
+    const ValueReader values{context.diagnostics};
+    const bool is_body = value.is(NodeKind::Entry, "blackbody");
+    const char* const expected = is_body
+                                     ? "blackbody(KELVIN) or blackbody(KELVIN, luminance), 500 to "
+                                       "1000000 K"
+                                     : "illuminant(\"NAME\") or illuminant(\"NAME\", luminance), "
+                                       "with the name A, D65 or E";
+    const TextNode list = value.empty() ? value : value.first();
+    if (value.broken()) return;
+    const std::size_t count = list.is(NodeKind::List) ? list.size() : 0;
+    if (count < 1 || count > 2) return (void)values.fail(value, kKey, expected);
+    Illuminant light;
+    auto argument = list.begin();
+    if (is_body) {
+        light.kind = IlluminantKind::BlackBody;
+        if (!values.read(*argument, kKey, light.kelvin)) return;
+        if (!(light.kelvin >= 500.0 && light.kelvin <= 1e6)) {
+            return (void)values.fail(value, kKey, expected);
+        }
+    } else {
+        bool known = false;
+        for (const auto& [name, kind] : native_words<IlluminantKind>()) {
+            if (!(*argument).is(NodeKind::String) || (*argument).text() != name) continue;
+            light.kind = kind;
+            known = true;
+        }
+        if (!known) return (void)values.fail(value, kKey, expected);
+    }
+    if (count == 2 && !values.read(*++argument, kKey, light.scale)) return;
+    m.illuminant = light;
+    const Rgb color = color_of(light);
+    m.emission = {{std::max(color.r, 0.0), std::max(color.g, 0.0), std::max(color.b, 0.0)},
+                  kNoTexture};
+}
+
+void read_emission_of_material(BlockReader& reader, NativeContext& context, Material& m) {
+    const auto value = reader.find("emission");
+    if (value &&
+        (value->is(NodeKind::Entry, "blackbody") || value->is(NodeKind::Entry, "illuminant"))) {
+        read_illuminant(*value, context, m);
+    } else {
+        read_color(reader, "emission", context, m.emission);
+    }
+}
+
+void read_glass(BlockReader& reader, TextNode value, Material& m) {
+    const NamedGlass* const glass = value.is(NodeKind::String) ? find_glass(value.text()) : nullptr;
+    if (glass == nullptr) {
+        std::string names;
+        for (const NamedGlass& known : named_glasses()) {
+            names += (names.empty() ? "" : ", ") + std::string(known.name);
+        }
+        reader.values().fail(value, "glass", "one of " + names);
+        return;
+    }
+    m.dispersion = Dispersion{.sellmeier = glass->sellmeier, .name = std::string(glass->name)};
+}
+
+void read_sellmeier(BlockReader& reader, TextNode value, Material& m) {
+    constexpr std::string_view kKey = "sellmeier";
+    const char* const expected =
+        "2, 4, 6 or 8 numbers: the strengths, then as many poles in square micrometres, with an "
+        "index from 380 to 780 nm";
+    const std::size_t count = value.is(NodeKind::List) ? value.size() : 0;
+    double numbers[8];
+    if (count < 2 || count > 8 || count % 2 != 0) {
+        reader.values().fail(value, kKey, expected);
+        return;
+    }
+    if (!reader.values().read_numbers(value, kKey, static_cast<int>(count), numbers)) return;
+    Dispersion d;
+    for (std::size_t i = 0; i < count / 2; ++i) {
+        d.sellmeier.strength[i] = numbers[i];
+        d.sellmeier.pole[i] = numbers[count / 2 + i];
+    }
+    for (double nm = 380.0; nm <= 780.0; nm += 5.0) {
+        if (const double n = d.sellmeier.index(nm); !(n > 0.1 && n < 20.0)) {
+            reader.values().fail(value, kKey, expected);
+            return;
+        }
+    }
+    m.dispersion = d;
+}
+
+/// How the index depends on the wavelength: `glass`, `sellmeier` or `abbe`.
+void read_dispersion(BlockReader& reader, Material& m) {
+    const auto glass = reader.find("glass"), sellmeier = reader.find("sellmeier"),
+               abbe = reader.find("abbe");
+    if ((glass ? 1 : 0) + (sellmeier ? 1 : 0) + (abbe ? 1 : 0) > 1) {
+        reader.error(reader.block(),
+                     "'glass', 'sellmeier' and 'abbe' say the same; expected one of them");
+        return;
+    }
+    if ((glass || sellmeier) && reader.has("index")) {
+        reader.error(reader.block(), "'glass' and 'sellmeier' give the index; expected no 'index'");
+        return;
+    }
+    if (glass) read_glass(reader, *glass, m);
+    if (sellmeier) read_sellmeier(reader, *sellmeier, m);
+    if (abbe) {
+        double number = 0;
+        if (!reader.values().read(*abbe, "abbe", number)) return;
+        if (!(number > 0.0) || !std::isfinite(number)) {
+            reader.values().fail(*abbe, "abbe", "a number above 0");
+            return;
+        }
+        m.dispersion = Dispersion{.abbe = number};
+    }
+    if (!m.dispersion) return;
+    if (!abbe) m.index.value = m.dispersion->sellmeier.index(kLineD);
+    const bool is_clear =
+        m.metallic_roughness || m.conductor || m.dielectric || reader.has("transmissive");
+    if (glass && !is_clear) m.dielectric.emplace();
+}
+
 MaterialId add_material(TextNode block, std::string name, NativeContext& context) {
     BlockReader reader = context.reader(block, "material");
     Material m;
     m.name = std::move(name);
     reader.read("name", m.name);
-    read_color(reader, "emission", context, m.emission);
+    read_emission_of_material(reader, context, m);
     const bool has_ambient = reader.has("ambient");
     read_color(reader, "ambient", context, m.ambient);
     read_color(reader, "diffuse", context, m.diffuse);
@@ -252,6 +375,7 @@ MaterialId add_material(TextNode block, std::string name, NativeContext& context
     read_metallic_roughness(reader, context, m);
     read_conductor(reader, context, m);
     read_dielectric(reader, context, m);
+    read_dispersion(reader, m);
     reader.finish();
     context.scene.materials.push_back({std::move(m), block.location()});
     return static_cast<MaterialId>(context.scene.materials.size() - 1);

@@ -127,6 +127,28 @@ void add_conductor(const Conductor& c, NativeBlockText& material) {
     material.add("conductor", block.value(4));
 }
 
+std::string emission_text(const Illuminant& light) {
+    const std::string scale = ", " + native_value(light.scale) + ")";
+    if (light.kind == IlluminantKind::BlackBody) {
+        return "blackbody(" + native_value(light.kelvin) + scale;
+    }
+    return "illuminant(" + native_string(native_word(light.kind)) + scale;
+}
+
+void add_dispersion(const Dispersion& d, NativeBlockText& material) {
+    if (!d.name.empty()) {
+        material.add("glass", native_string(d.name));
+    } else if (d.abbe > 0.0) {
+        material.add("abbe", native_value(d.abbe));
+    } else {
+        std::string numbers;
+        for (const double b : d.sellmeier.strength) numbers += native_value(b) + ", ";
+        for (const double c : d.sellmeier.pole) numbers += native_value(c) + ", ";
+        numbers.resize(numbers.size() - 2);
+        material.add("sellmeier", "(" + numbers + ")");
+    }
+}
+
 // Pictures.
 
 std::string write_picture(const NativeWriteContext& context, const StoredImage& image,
@@ -196,14 +218,20 @@ void write_native_materials(NativeWriteContext& context) {
         NativeBlockText block("material", context.material_labels[i]);
         add_name(block, context.material_labels[i], m.name);
         MaterialText inputs(context, block);
-        inputs.add("emission", m.emission, usual.emission);
+        if (m.illuminant) {
+            block.add("emission", emission_text(*m.illuminant));
+        } else {
+            inputs.add("emission", m.emission, usual.emission);
+        }
         inputs.add("diffuse", m.diffuse, usual.diffuse);
         inputs.add("ambient", m.ambient, m.diffuse);  // the reader's default
         inputs.add("specular", m.specular, usual.specular);
         inputs.add("reflective", m.reflective, usual.reflective);
         inputs.add("transmissive", m.transmissive, usual.transmissive);
         inputs.add("shininess", m.shininess, usual.shininess);
-        inputs.add("index", m.index, usual.index);
+        const bool has_own_index = !m.dispersion || m.dispersion->abbe > 0.0;
+        if (has_own_index) inputs.add("index", m.index, usual.index);
+        if (m.dispersion) add_dispersion(*m.dispersion, block);
         inputs.add("roughness", m.roughness, usual.roughness);
         if (m.density) block.add("density", native_value(*m.density));
         if (m.alpha_mode != usual.alpha_mode) {

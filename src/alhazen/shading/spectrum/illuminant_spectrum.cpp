@@ -1,0 +1,74 @@
+#include "alhazen/shading/spectrum/illuminant_spectrum.h"
+
+#include <cmath>
+
+#include "alhazen/shading/spectrum/color_matching.h"
+
+namespace alhazen {
+
+namespace {
+
+/// Planck's law, relative to 560 nm.
+double black_body(double nm, double kelvin) {
+    constexpr double kSecondConstant = 1.438776877e7;  // h c / k in nm K
+    const auto radiance = [&](double l) {
+        return std::pow(560.0 / l, 5.0) / std::expm1(kSecondConstant / (l * kelvin));
+    };
+    return radiance(nm) / radiance(560.0);
+}
+
+/// CIE 15:2004, equation of illuminant A.
+double illuminant_a(double nm) {
+    constexpr double kConstant = 1.435e7, kKelvin = 2848.0;
+    return std::pow(560.0 / nm, 5.0) * std::expm1(kConstant / (560.0 * kKelvin)) /
+           std::expm1(kConstant / (nm * kKelvin));
+}
+
+double relative(const Illuminant& illuminant, double nm) {
+    switch (illuminant.kind) {
+        case IlluminantKind::BlackBody:
+            return black_body(nm, illuminant.kelvin);
+        case IlluminantKind::A:
+            return illuminant_a(nm);
+        case IlluminantKind::E:
+            return 1.0;
+        case IlluminantKind::D65:
+            break;
+    }
+    return white_light(nm);
+}
+
+/// The integral over all that is seen.
+template <class Value>
+Value integral(const Illuminant& illuminant, Value (*seen)(double)) {
+    Value sum{};
+    for (double nm = kShortestWave + 0.5; nm < kLongestWave; nm += 1.0) {
+        sum += relative(illuminant, nm) * seen(nm);
+    }
+    return sum;
+}
+
+double luminance_of(const Illuminant& illuminant) {
+    // A path asks for the same one again and again.
+    struct Late {
+        IlluminantKind kind = IlluminantKind::E;
+        double kelvin = -1, luminance = 1;
+    };
+    thread_local Late late;
+    if (late.kind != illuminant.kind || late.kelvin != illuminant.kelvin) {
+        late = {illuminant.kind, illuminant.kelvin, integral(illuminant, luminance_response)};
+    }
+    return late.luminance;
+}
+
+}  // namespace
+
+double radiance_of(const Illuminant& illuminant, double nm) {
+    return illuminant.scale / luminance_of(illuminant) * relative(illuminant, nm);
+}
+
+Rgb color_of(const Illuminant& illuminant) {
+    return (illuminant.scale / luminance_of(illuminant)) * integral(illuminant, response);
+}
+
+}  // namespace alhazen

@@ -1,0 +1,100 @@
+#include "alhazen/shading/spectrum/wavelengths.h"
+
+#include <algorithm>
+
+#include "alhazen/shading/spectrum/color_lift.h"
+#include "alhazen/shading/spectrum/color_matching.h"
+#include "alhazen/shading/spectrum/illuminant_spectrum.h"
+
+namespace alhazen {
+
+namespace {
+
+bool is_grey(const Rgb& c) {
+    return c.r == c.g && c.g == c.b;
+}
+
+Spectrum at_places(const SmoothReflectance& r, const Spectrum& places) {
+    return {r.at(places.a), r.at(places.b), r.at(places.c), r.at(places.d)};
+}
+
+template <class F>
+Spectrum at_each(const Spectrum& nm, F&& f) {
+    return {f(nm.a), f(nm.b), f(nm.c), f(nm.d)};
+}
+
+}  // namespace
+
+void Wavelengths::set(int i, double nm, double density) {
+    nm_[i] = nm;
+    places_[i] = SmoothReflectance::place(nm);
+    white_[i] = white_light(nm);
+    seen_[static_cast<std::size_t>(i)] = (1.0 / (Spectrum::kCount * density)) * response(nm);
+}
+
+Wavelengths Wavelengths::drawn(double u) {
+    Wavelengths waves;
+    waves.spectral_ = true;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        const double shifted = u + static_cast<double>(i) / Spectrum::kCount;
+        const DrawnWave wave = draw_wave(shifted < 1.0 ? shifted : shifted - 1.0);
+        waves.set(i, wave.nm, wave.density);
+    }
+    return waves;
+}
+
+Wavelengths Wavelengths::single(double nm) {
+    Wavelengths waves;
+    waves.spectral_ = true;
+    for (int i = 0; i < Spectrum::kCount; ++i) waves.set(i, nm, 1.0);
+    return waves;
+}
+
+Spectrum Wavelengths::lifted_reflectance(const Rgb& c) const {
+    if (is_grey(c)) return Spectrum::all(c.r);
+    if (c.max() > 1.0) return lifted_of_any_size(c);
+    return at_places(lifted(c), places_);
+}
+
+Spectrum Wavelengths::lifted_of_any_size(const Rgb& c) const {
+    if (is_grey(c)) return Spectrum::all(c.r);
+    const double most = c.max();
+    if (!(most > 0.0) || !c.is_finite()) return {};
+    // Half of what a reflectance may be: smoother than one that comes near to 1.
+    const double scale = 2.0 * most;
+    return scale * at_places(lifted((1.0 / scale) * c), places_);
+}
+
+Spectrum Wavelengths::spectrum_of(const Illuminant& illuminant, const Rgb& color) const {
+    const double luminance = 0.2126729 * color.r + 0.7151522 * color.g + 0.0721750 * color.b;
+    const Illuminant scaled{illuminant.kind, illuminant.kelvin, luminance};
+    return at_each(nm_, [&](double nm) { return radiance_of(scaled, nm); });
+}
+
+Spectrum Wavelengths::between_channels(const Rgb& value) const {
+    // The dominant wavelengths of the primaries (metals.h).
+    constexpr double kRed = 611.4, kGreen = 549.1, kBlue = 464.3;
+    return at_each(nm_, [&](double nm) {
+        const bool upper = nm > kGreen;
+        const double from = upper ? kGreen : kBlue, to = upper ? kRed : kGreen;
+        const double share = std::clamp((nm - from) / (to - from), 0.0, 1.0);
+        return upper ? value.g + share * (value.r - value.g)
+                     : value.b + share * (value.g - value.b);
+    });
+}
+
+Spectrum Wavelengths::index(double index_d, const Dispersion& dispersion) const {
+    if (!spectral_) return Spectrum::all(index_d);
+    if (hero_only_) return Spectrum::all(dispersion.index(index_d, nm_.a));
+    return at_each(nm_, [&](double nm) { return dispersion.index(index_d, nm); });
+}
+
+Rgb Wavelengths::seen(const Spectrum& light) const {
+    Rgb sum;
+    for (int i = 0; i < Spectrum::kCount; ++i) {
+        sum += light[i] * seen_[static_cast<std::size_t>(i)];
+    }
+    return sum;
+}
+
+}  // namespace alhazen
