@@ -106,6 +106,7 @@ INSIDE = {
     "geometry": {
         "": [],
         "cones": [""],
+        "mirrors": [],
         "motion": [""],
         "polygon": [""],
         "facets": ["polygon"],
