@@ -9,7 +9,8 @@ struct PathSettings {
 
     int depth = 64;      ///< largest number of scatterings of a path
     int roulette = 4;    ///< scatterings after which a path may end by chance
-    double clamp = 0.0;  ///< largest contribution of indirect light to a sample; 0: none
+    bool manifold = false;  ///< chains of mirrors and glass are sought from each surface
+    double clamp = 0.0;     ///< largest contribution of indirect light to a sample; 0: none
 };
 
 }  // namespace alhazen
