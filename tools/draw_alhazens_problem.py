@@ -9,7 +9,7 @@ import cmath
 import math
 import sys
 
-A, B = complex(0.70, 0.22), complex(-0.50, 0.52)
+A, B = complex(0.74, 0.30), complex(-0.52, 0.54)
 SCALE, MARGIN = 260.0, 70.0
 STYLE = {
     "mirror": 'fill="none" stroke="#1f2a44" stroke-width="2.5"',
