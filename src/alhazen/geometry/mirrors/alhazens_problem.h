@@ -1,15 +1,16 @@
 #pragma once
 /// Alhazen's problem: the points of a spherical mirror that reflect a lamp at A to an eye at B.
 ///
-/// Source: Ibn al-Haytham, "Kitab al-Manazir" (Book of Optics), book V, about 1030; Huygens,
-/// letters to Oldenburg, 1669 to 1673 (the points are those of the circle on an equilateral
-/// hyperbola); docs/design/alhazens_problem.md has the derivation. Differs: the quartic of the
-/// angle is cut into four arcs of the circle, each in Bernstein form with a bound of its rounding,
-/// so that its real roots are found by certified changes of sign; the one point of a convex mirror
-/// lies in a known arc and is found by a bracketed Newton iteration. Conventions: any units and any
-/// place. A point where both A and B are the same point of the mirror is none, nor is one that only
-/// grazes. Two points closer than about 1e-8 of the radius, at a caustic, may be found as none.
-/// What is not finite, and a radius that is not above 0, give none. Threads: free functions.
+/// Source: Ibn al-Haytham, "Kitab al-Manazir" (Book of Optics), book V, 1011 to 1021; Huygens, in
+/// Philosophical Transactions 8, 1673 (the points are those of the circle on an equilateral
+/// hyperbola); docs/design/alhazens_problem.md has the derivation.
+/// Differs: the quartic of the angle is cut into four arcs of the circle, each in Bernstein form
+/// with a bound of its rounding, so that its real roots are found by certified changes of sign; the
+/// one point of a convex mirror lies in a known arc and is found by a bracketed Newton iteration.
+/// Conventions: any units and any place. An end on the mirror is no answer, nor is a point where
+/// light only grazes. Two points closer than about 1e-8 of the radius, at a caustic, may be found
+/// as none. What is not finite, and a radius that is not above 0, give none.
+/// Threads: free functions.
 
 #include <array>
 

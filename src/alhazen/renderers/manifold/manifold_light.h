@@ -22,8 +22,8 @@
 #include "alhazen/renderers/light_transport/light_batch.h"
 #include "alhazen/renderers/light_transport/path_chance.h"
 #include "alhazen/renderers/light_transport/scatter_point.h"
-#include "alhazen/renderers/manifold/sphere_chains.h"
 #include "alhazen/renderers/manifold/specular_parts.h"
+#include "alhazen/renderers/manifold/sphere_chains.h"
 
 namespace alhazen {
 

@@ -5,10 +5,11 @@
 /// differential of the Gauss map). Transforms: Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
 /// Differs: exact for spheres, what is flat, round cylinders, quadrics without a clip, and
 /// triangles with and without normals at their vertices, under any affine placement; of all other
-/// shapes by central differences of the exact normals of neighbouring points. Conventions: a matrix
-/// K with dn = K dp for steps dp in the tangent plane, n = the `shading_normal` of the surface as
-/// it is given. Where no neighbours are found on the same primitive, at edges and silhouettes,
-/// there is none. Threads: free functions.
+/// shapes by central differences of the exact normals of neighbouring points.
+/// Conventions: a matrix K with dn = K dp for steps dp in the tangent plane, n = the
+/// `shading_normal` of the surface as it is given. Where no neighbours are found on the same
+/// primitive, at edges and silhouettes, there is none.
+/// Threads: free functions.
 
 #include <optional>
 
