@@ -49,7 +49,8 @@ class PathChance {
         return random_at(seed_, id.pixel.id(), id.number, kCoverage + met) < coverage;
     }
     /// Numbers of what draws many: the `number`-th of a place (a bounce, say) of the sample.
-    [[nodiscard]] double extra(const SampleId& id, std::uint32_t place, std::uint32_t number) const {
+    [[nodiscard]] double extra(const SampleId& id, std::uint32_t place,
+                               std::uint32_t number) const {
         return random_at(seed_, id.pixel.id(), id.number,
                          kExtra | std::uint64_t{place} << 32 | number);
     }

@@ -241,8 +241,7 @@ SingularLight Bsdf::singular(const Vec3& view, Transport transport) const {
     if (!(view.z > 0.0)) return light;
     for (const Part& part : parts_) {
         const auto add = [&](const Rgb& share, const Vec3& direction, Rgb& sum) {
-            const double cosine =
-                transport == Transport::Radiance ? view.z : std::abs(direction.z);
+            const double cosine = transport == Transport::Radiance ? view.z : std::abs(direction.z);
             const Rgb own = through(part.covers, cosine) * (part.weight * share);
             if (is_usable(own)) sum += own;
         };
