@@ -36,17 +36,18 @@ Illumination::LightPick Illumination::pick(double choice, const Vec2& u) const {
     return pick;
 }
 
-Rgb Illumination::sent(const LightPick& from, const Vec3& to) const {
+Spectrum Illumination::sent(const LightPick& from, const Vec3& to, const Wavelengths& waves) const {
     const Data& d = *data_;
     if (from.infinite) {
         const std::size_t far_light = from.place.source - d.near_count();
-        return kPi * std::get<DirectionalLight>(d.scene->lights[d.parallel[far_light]]).color;
+        const Light& sun = d.scene->lights[d.parallel[far_light]];
+        return waves.emission(kPi * std::get<DirectionalLight>(sun).color);
     }
     const Vec3 way = to - from.at;
     const double distance = length(way);
     if (!(distance > 0.0)) return {};
     if (d.light_at_point(from.place.source) != nullptr) {
-        return (distance * distance) * irradiance(from.place, to);
+        return (distance * distance) * irradiance(from.place, to, waves);
     }
     const Emitter& e = d.emitter(from.place.source);
     const double cosine = dot(from.normal, way) / distance;
@@ -54,7 +55,7 @@ Rgb Illumination::sent(const LightPick& from, const Vec3& to) const {
     const Rgb radiance = from.is_hit ? d.emitters.radiance(from.place.source, to, -way / distance,
                                                            distance, from.place.parameters)
                                      : e.radiance;
-    return std::abs(cosine) * radiance;
+    return std::abs(cosine) * waves.emission(radiance);
 }
 
 bool Illumination::may_pick(const Hit& hit, const Surface& surface, const Vec3& direction) const {

@@ -11,6 +11,8 @@ namespace alhazen {
 
 namespace {
 
+/// Parts whose chains are known, asked at every point: one is cheap.
+constexpr std::size_t kMostAlways = 4;
 /// Parts that are weighed one by one; of more one is chosen evenly.
 constexpr std::size_t kMostWeighed = 64;
 /// A visible ray ends before what it goes to.
@@ -57,38 +59,49 @@ bool ManifoldScene::finds(const ChainTrail& trail, const Hit& hit, const Surface
     return lights.may_pick(hit, surface, direction);
 }
 
-void ManifoldLight::begin(const Receiver& at) {
-    at_ = &at;
-    number_ = 0;
+ManifoldScene::ManifoldScene(const Scene& scene, const Illumination& of)
+    : parts(scene), lights(of) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const bool known = parts[i].sphere || parts[i].flat;
+        (known && always.size() < kMostAlways ? always : by_chance).push_back(i);
+    }
 }
 
-bool ManifoldLight::prepare() {
+bool ManifoldLight::begin(const Receiver& at) {
+    at_ = &at;
+    number_ = 0;
     const double light = next_number();
     const Vec2 u{next_number(), next_number()};
     pick_ = manifold_.lights.pick(light, u);
-    if (!(pick_.density > 0.0)) return false;
     end_ = {pick_.at, pick_.infinite};
-    part_ = choose_part(next_number());
-    return part_.part != nullptr && at_->most_bends > 0;
+    return pick_.density > 0.0;
 }
 
 ManifoldLight::Choice ManifoldLight::choose_part(double choice) const {
-    const SpecularParts& parts = manifold_.parts;
-    const std::size_t n = parts.size();
+    const std::vector<std::size_t>& some = manifold_.by_chance;
+    const std::size_t n = some.size();
     if (n > kMostWeighed) {
         const auto i = std::min(static_cast<std::size_t>(choice * double(n)), n - 1);
-        return {&parts[i], 1.0 / double(n)};
+        return {&manifold_.parts[some[i]], 1.0 / double(n)};
     }
     double weights[kMostWeighed], sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         // Never 0: what is small may send much.
-        weights[i] = share_of_directions(parts[i], at_->surface.point) + 1e-3;
+        weights[i] = share_of_directions(manifold_.parts[some[i]], at_->surface.point) + 1e-3;
         sum += weights[i];
     }
     double left = choice * sum;
     std::size_t i = 0;
     while (i + 1 < n && left >= weights[i]) left -= weights[i++];
-    return {&parts[i], weights[i] / sum};
+    return {&manifold_.parts[some[i]], weights[i] / sum};
+}
+
+void ManifoldLight::find_by(const Choice& part) {
+    part_ = part;
+    for (const ChainKind kind :
+         {ChainKind::Reflection, ChainKind::Refraction, ChainKind::TwoRefractions}) {
+        if (may_be(kind)) find_kind(kind);
+    }
 }
 
 bool ManifoldLight::may_be(ChainKind kind) const {
@@ -119,7 +132,7 @@ bool ManifoldLight::set_out(ChainKind kind, const Vec3& direction) {
         if (refracts(kind)) {
             set_shading_point(scene_, v.ray, v.hit, {!media.empty(), 0.0, at_->time, true}, {},
                               point_);
-            vertex_.set(scene_, point_, media);
+            vertex_.set(scene_, point_, media, at_->waves);
             v.eta = vertex_.singular(Transport::Radiance).eta;
             if (!(v.eta > 0.0)) return false;
             vertex_.cross(media);
@@ -178,7 +191,6 @@ Vec3 ManifoldLight::random_seed(ChainKind kind) {
 }
 
 void ManifoldLight::find_kind(ChainKind kind) {
-    found_.clear();
     const std::optional<ChainSeeds> seeds = all_seeds(kind);
     if (!seeds) return find_by_trials(kind);
     for (const Vec3& seed : *seeds) {
@@ -189,7 +201,7 @@ void ManifoldLight::find_kind(ChainKind kind) {
 void ManifoldLight::find_by_trials(ChainKind kind) {
     if (!reach(kind, random_seed(kind))) return;
     const Vec3 direction = chain_.direction;
-    const Rgb light = light_along();
+    const Spectrum light = light_along();
     if (light.is_black()) return;
     std::uint32_t trials = 1;
     while (!(reach(kind, random_seed(kind)) &&
@@ -202,35 +214,35 @@ void ManifoldLight::find_by_trials(ChainKind kind) {
     note(light, trials);
 }
 
-void ManifoldLight::note(const Rgb& light, double times) {
+void ManifoldLight::note(const Spectrum& light, double times) {
     if (light.is_black() || !light.is_finite()) return;
     found_.push_back({chain_.direction, chain_.length(), (times / part_.probability) * light});
 }
 
-Rgb ManifoldLight::light_along() {
+Spectrum ManifoldLight::light_along() {
     const ScatterPoint& scatter = at_->scatter;
     const Vec3& direction = chain_.direction;
     if (pick_.is_hit && !(scatter.density(direction) <= kMostDensity)) return {};
-    const Rgb value = scatter.value(direction, Transport::Radiance);
+    const Spectrum value = scatter.value(direction, Transport::Radiance);
     if (value.is_black()) return {};
-    const Rgb sent = manifold_.lights.sent(pick_, chain_.last().surface.point);
+    const Spectrum sent = manifold_.lights.sent(pick_, chain_.last().surface.point, at_->waves);
     if (sent.is_black()) return {};
     const MediumStack first = media_along(direction);
     MediumStack media = first;
-    const Rgb through = through_vertices(media);
+    const Spectrum through = through_vertices(media);
     if (through.is_black()) return {};
     const double spread = spread_ratio(tracer_, chain_, end_, at_->time);
-    const Rgb light = (spread / pick_.density) * (value * (through * sent));
+    const Spectrum light = (spread / pick_.density) * (value * (through * sent));
     if (light.is_black()) return {};
     return light * unhindered(first, media);
 }
 
-Rgb ManifoldLight::through_vertices(MediumStack& media) {
-    Rgb through{1, 1, 1};
+Spectrum ManifoldLight::through_vertices(MediumStack& media) {
+    Spectrum through = Spectrum::all(1.0);
     for (int i = 0; i < chain_.length(); ++i) {
         const ChainVertex& v = chain_.at[static_cast<std::size_t>(i)];
         set_shading_point(scene_, v.ray, v.hit, {!media.empty(), 0.0, at_->time, true}, {}, point_);
-        vertex_.set(scene_, point_, media);
+        vertex_.set(scene_, point_, media, at_->waves);
         const SingularLight light = vertex_.singular(Transport::Radiance);
         if (!refracts(chain_.kind)) {
             through = through * light.reflected;
@@ -244,17 +256,17 @@ Rgb ManifoldLight::through_vertices(MediumStack& media) {
     return through;
 }
 
-Rgb ManifoldLight::unhindered(const MediumStack& first, const MediumStack& last) {
+Spectrum ManifoldLight::unhindered(const MediumStack& first, const MediumStack& last) {
     // Between the vertices a refracted chain is in a medium of its own; a reflected one has one.
     MediumStack media = first;
-    Rgb share{1, 1, 1};
+    Spectrum share = Spectrum::all(1.0);
     const ShapeSurface* from = &at_->surface;
     Vec3 direction = chain_.direction;
     const auto pass = [&](const MediumStack& in, double distance) {
         const Medium* const medium = in.here();
         const Rgb absorption = medium != nullptr ? medium->absorption : Rgb{};
         share = share * shadows_.passing(leaving_ray(*from, direction, kBefore * distance),
-                                         at_->time, absorption);
+                                         at_->time, absorption, at_->waves);
         return !share.is_black();
     };
     for (int i = 0; i < chain_.length(); ++i) {
@@ -264,7 +276,7 @@ Rgb ManifoldLight::unhindered(const MediumStack& first, const MediumStack& last)
         direction = v.leaving;
         if (i + 1 == chain_.length()) break;
         set_shading_point(scene_, v.ray, v.hit, {!media.empty(), 0.0, at_->time, true}, {}, point_);
-        vertex_.set(scene_, point_, media);
+        vertex_.set(scene_, point_, media, at_->waves);
         vertex_.cross(media);
     }
     const double rest =

@@ -42,7 +42,7 @@ struct ChainTrail {
 };
 
 struct ManifoldScene {
-    ManifoldScene(const Scene& scene, const Illumination& lights) : parts(scene), lights(lights) {}
+    ManifoldScene(const Scene& scene, const Illumination& lights);
 
     [[nodiscard]] bool finds_any() const { return !parts.empty() && lights.picks_any(); }
     /// Whether ManifoldLight finds the light that the path of the trail hit, or may.
@@ -50,6 +50,8 @@ struct ManifoldScene {
                              const Vec3& direction) const;
 
     SpecularParts parts;
+    /// Numbers of parts: those that are asked at every point, and those of which one is.
+    std::vector<std::size_t> always, by_chance;
     const Illumination& lights;
     /// Estimates that ended after kMostTrials: their light is too dark.
     mutable std::atomic<std::uint64_t> cut{0};
@@ -71,6 +73,7 @@ class ManifoldLight {
         const ScatterPoint& scatter;
         const MediumStack& media;  ///< in front of it
         float time;
+        const Wavelengths& waves;
         int most_bends;  ///< longest chain that is wanted
         const PathChance& chance;
         const SampleId& id;
@@ -80,19 +83,17 @@ class ManifoldLight {
     struct Arrived {
         Vec3 direction;
         int bends = 0;
-        Rgb light;
+        Spectrum light;
     };
     /// Calls `tell(const Arrived&)` for each chain that is found.
     template <class Tell>
     void find(const Receiver& at, Tell&& tell) {
-        begin(at);
-        if (!prepare()) return;
-        for (const ChainKind kind :
-             {ChainKind::Reflection, ChainKind::Refraction, ChainKind::TwoRefractions}) {
-            if (!may_be(kind)) continue;
-            find_kind(kind);
-            for (const Arrived& arrived : found_) tell(arrived);
+        found_.clear();
+        if (at.most_bends > 0 && begin(at)) {
+            for (const std::size_t i : manifold_.always) find_by({&manifold_.parts[i], 1.0});
+            if (!manifold_.by_chance.empty()) find_by(choose_part(next_number()));
         }
+        for (const Arrived& arrived : found_) tell(arrived);
     }
 
   private:
@@ -100,10 +101,10 @@ class ManifoldLight {
         const SpecularPart* part = nullptr;
         double probability = 0;
     };
-    void begin(const Receiver& at);
+    /// Picks a light; false: there is none.
+    [[nodiscard]] bool begin(const Receiver& at);
     [[nodiscard]] double next_number() { return at_->chance.extra(at_->id, at_->place, number_++); }
-    /// Picks a light and a part.
-    [[nodiscard]] bool prepare();
+    void find_by(const Choice& part);
     [[nodiscard]] Choice choose_part(double choice) const;
     [[nodiscard]] bool may_be(ChainKind kind) const;
     void find_kind(ChainKind kind);
@@ -116,10 +117,10 @@ class ManifoldLight {
     /// A chain to the light from that direction on.
     [[nodiscard]] bool reach(ChainKind kind, const Vec3& seed);
     /// What comes along chain_.
-    [[nodiscard]] Rgb light_along();
-    [[nodiscard]] Rgb through_vertices(MediumStack& media);
-    [[nodiscard]] Rgb unhindered(const MediumStack& first, const MediumStack& last);
-    void note(const Rgb& light, double times);
+    [[nodiscard]] Spectrum light_along();
+    [[nodiscard]] Spectrum through_vertices(MediumStack& media);
+    [[nodiscard]] Spectrum unhindered(const MediumStack& first, const MediumStack& last);
+    void note(const Spectrum& light, double times);
     [[nodiscard]] MediumStack media_along(const Vec3& direction) const;
 
     const Scene& scene_;

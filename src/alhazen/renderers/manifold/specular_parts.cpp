@@ -97,7 +97,7 @@ SpecularParts::Bends SpecularParts::bends_of(const Material& material) const {
     Bends bends;
     if (varies_in_form(material)) return bends;
     for (const bool from_inside : {false, true}) {
-        const Bsdf bsdf = bsdf_of(material, scene_.textures, {}, {0.0, from_inside});
+        const Bsdf bsdf = bsdf_of(material, scene_.textures, {}, {.from_inside = from_inside});
         for (const double sine : {0.0, 0.95}) {
             const Vec3 view{sine, 0.0, std::sqrt(1.0 - sine * sine)};
             const SingularLight light = bsdf.singular(view, Transport::Radiance);
