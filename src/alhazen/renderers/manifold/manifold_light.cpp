@@ -175,19 +175,24 @@ std::optional<ChainSeeds> ManifoldLight::all_seeds(ChainKind kind) {
     return refractions_by_ball(*part.sphere, 1.0 / indices_.eta[0], from, end_);
 }
 
-Vec3 ManifoldLight::random_seed(ChainKind kind) {
+std::optional<Vec3> ManifoldLight::likely_seed(ChainKind kind) const {
     const SpecularPart& part = *part_.part;
     const Vec3& from = at_->surface.point;
-    const double which = next_number();
-    const Vec2 u{next_number(), next_number()};
     // What is bent little goes nearly straight.
-    if (refracts(kind) && which < 0.5) {
-        return normalize(end_.infinite ? end_.at : end_.at - from);
-    }
-    const Vec3 way = part.around.center - from;
+    if (refracts(kind)) return normalize(end_.infinite ? end_.at : end_.at - from);
+    if (!part.bounded) return std::nullopt;
+    const ChainSeeds seeds = reflections_by_sphere(part.around, from, end_);
+    if (seeds.empty()) return std::nullopt;
+    return seeds[0];
+}
+
+Vec3 ManifoldLight::random_seed() {
+    const SpecularPart& part = *part_.part;
+    const Vec3& from = at_->surface.point;
+    const Vec2 u{next_number(), next_number()};
     const double share = share_of_directions(part, from);
     if (share >= 0.5) return in_cone({0, 0, 1}, 2.0, u);
-    return in_cone(normalize(way), 2.0 * share, u);
+    return in_cone(normalize(part.around.center - from), 2.0 * share, u);
 }
 
 void ManifoldLight::find_kind(ChainKind kind) {
@@ -199,13 +204,18 @@ void ManifoldLight::find_kind(ChainKind kind) {
 }
 
 void ManifoldLight::find_by_trials(ChainKind kind) {
-    if (!reach(kind, random_seed(kind))) return;
+    const std::optional<Vec3> likely = likely_seed(kind);
+    const bool known = likely && reach(kind, *likely);
+    const Vec3 first = chain_.direction;
+    if (known) note(light_along(), 1.0);
+
+    if (!reach(kind, random_seed())) return;
     const Vec3 direction = chain_.direction;
+    if (known && length(direction - first) < kSameDirection) return;
     const Spectrum light = light_along();
     if (light.is_black()) return;
     std::uint32_t trials = 1;
-    while (!(reach(kind, random_seed(kind)) &&
-             length(chain_.direction - direction) < kSameDirection)) {
+    while (!(reach(kind, random_seed()) && length(chain_.direction - direction) < kSameDirection)) {
         if (++trials < kMostTrials) continue;
         ++manifold_.cut;
         break;

@@ -8,9 +8,10 @@
 /// has to be repeated until it finds the chain again); Booth, "Unbiased Monte Carlo Estimation of
 /// the Reciprocal of an Integral", 2007.
 /// Differs: at spheres and in planes all chains are known in closed form, and none is left to
-/// chance. Lights are picked by power and points of them by area. There is no weight shared with
-/// paths: a chain towards a light that can be hit counts here where the surface at its beginning
-/// spreads light as widely as kMostDensity, and else by paths alone.
+/// chance. Elsewhere the chain that a likely seed leads to counts once, as in the first source, and
+/// random seeds are for the others. Lights are picked by power and points of them by area. There is
+/// no weight shared with paths: a chain towards a light that can be hit counts here where the
+/// surface at its beginning spreads light as widely as kMostDensity, and else by paths alone.
 /// Conventions: chains of one reflection, one refraction or two refractions, at one part
 /// (specular_parts.h).
 /// Threads: a ManifoldScene is shared; each thread has a ManifoldLight of its own.
@@ -110,7 +111,9 @@ class ManifoldLight {
     void find_kind(ChainKind kind);
     /// Directions of all chains of the part; empty: they are not known.
     [[nodiscard]] std::optional<ChainSeeds> all_seeds(ChainKind kind);
-    [[nodiscard]] Vec3 random_seed(ChainKind kind);
+    /// Where the chain often is.
+    [[nodiscard]] std::optional<Vec3> likely_seed(ChainKind kind) const;
+    [[nodiscard]] Vec3 random_seed();
     void find_by_trials(ChainKind kind);
     /// The chain along a direction, its indices found.
     [[nodiscard]] bool set_out(ChainKind kind, const Vec3& direction);

@@ -26,7 +26,7 @@ template <class S>
 inline constexpr bool is_flat_v =
     std::is_same_v<S, Plane> || std::is_same_v<S, Disc> || std::is_same_v<S, Rectangle> ||
     std::is_same_v<S, BoxShape> || std::is_same_v<S, Polygon> || std::is_same_v<S, HalfSpace> ||
-    std::is_same_v<S, Polyhedron>;
+    std::is_same_v<S, Polyhedron> || std::is_same_v<S, HeightField>;
 
 /// `point` and the unit `normal` (of either sign) in the frame of the shape.
 template <class S>
@@ -131,57 +131,92 @@ MaybeChange change_inside(const Aggregate& aggregate, const Hit& hit, std::size_
     });
 }
 
-/// The normal where a ray towards `to` meets the same primitive close to it.
-struct Neighbour {
+/// How point and normal of a surface differ between two neighbours of a hit.
+struct Difference {
     Vec3 point, normal;
 };
-std::optional<Neighbour> neighbour(const Aggregate& aggregate, const Ray& ray, const Hit& hit,
-                                   const Vec3& to, double close, const Vec3& normal, float time) {
-    Ray beside{ray.origin, normalize(to - ray.origin)};
-    const double away = length(to - ray.origin);
-    // The surfaces before and behind are not asked.
-    beside.t_min = std::max(0.0, away - close);
-    beside.t_max = away + close;
-    Hit found;
-    if (!aggregate.closest(beside, found, {nullptr, kAllRays, time})) return std::nullopt;
-    if (found.primitive != hit.primitive || found.path.size() != hit.path.size()) {
-        return std::nullopt;
+
+/// Neighbours of a hit: by its parameters, which patches and swept shapes are evaluated at, or by
+/// the place that it has on its ray, which others project onto their surface.
+class Neighbours {
+  public:
+    Neighbours(const Aggregate& aggregate, const Ray& ray, const Hit& hit, const Surface& surface,
+               float time)
+        : aggregate_(aggregate), ray_(ray), hit_(hit), surface_(surface), time_(time) {}
+
+    [[nodiscard]] Difference by_parameter(double ShapeHit::*parameter) {
+        constexpr double kStep = 1e-5;
+        const auto at = [&](double step) {
+            Hit moved = hit_;
+            moved.*parameter += step;
+            return set(ray_, moved);
+        };
+        return between(at(kStep), at(-kStep));
     }
-    Surface surface;
-    set_surface(aggregate, beside, found, false, surface, time);
-    const bool turned = dot(surface.shading_normal, normal) < 0.0;
-    return Neighbour{surface.point, turned ? -surface.shading_normal : surface.shading_normal};
-}
+    [[nodiscard]] Difference by_place(const Vec3& along) {
+        const double away = length(surface_.point - ray_.origin);
+        const double step = 3e-6 * (away + max_component(abs(surface_.point)));
+        const auto at = [&](double side) {
+            Ray moved = ray_;
+            moved.origin += side * along;
+            return set(moved, hit_);
+        };
+        return between(at(step), at(-step));
+    }
+
+  private:
+    [[nodiscard]] Difference set(const Ray& ray, const Hit& hit) {
+        set_surface(aggregate_, ray, hit, false, neighbour_, time_);
+        const bool turned = dot(neighbour_.shading_normal, surface_.shading_normal) < 0.0;
+        return {neighbour_.point, turned ? -neighbour_.shading_normal : neighbour_.shading_normal};
+    }
+    /// Parts of the change along the normal are rounding.
+    [[nodiscard]] Difference between(const Difference& a, const Difference& b) const {
+        const Vec3 moved = a.point - b.point;
+        return {moved - dot(moved, surface_.normal) * surface_.normal, a.normal - b.normal};
+    }
+
+    const Aggregate& aggregate_;
+    const Ray& ray_;
+    const Hit& hit_;
+    const Surface& surface_;
+    float time_;
+    Surface neighbour_;
+};
 
 }  // namespace
 
 std::optional<Mat3> normal_change_by_differences(const Aggregate& aggregate, const Ray& ray,
                                                  const Hit& hit, const Surface& surface,
                                                  float time) {
-    const Vec3 n = surface.normal;
-    const double away = length(surface.point - ray.origin);
-    const double cosine = std::abs(dot(n, surface.point - ray.origin)) / away;
-    const double step = 3e-6 * (away + max_component(abs(surface.point)));
-    const double close = 10.0 * step / std::max(cosine, 1e-3);
+    const Vec3& n = surface.normal;
     const Vec3 t = perpendicular(n), b = cross(n, t);
-    Vec3 points[2], normals[2];
-    for (int i = 0; i < 2; ++i) {
-        const Vec3 along = step * (i == 0 ? t : b);
-        const auto plus = neighbour(aggregate, ray, hit, surface.point + along, close,
-                                    surface.shading_normal, time);
-        const auto minus = neighbour(aggregate, ray, hit, surface.point - along, close,
-                                     surface.shading_normal, time);
-        if (!plus || !minus) return std::nullopt;
-        points[i] = plus->point - minus->point;
-        normals[i] = plus->normal - minus->normal;
-    }
+    Neighbours near(aggregate, ray, hit, surface, time);
+    Difference found[2];
+    int count = 0;
+    // Two that move the point in different directions are enough.
+    const auto add = [&](const Difference& d) {
+        constexpr double kMoves = 1e-9, kSlant = 0.05;
+        if (!(length(d.point) > kMoves * max_component(abs(surface.point))) || count == 2) return;
+        if (count == 1) {
+            const Vec3& other = found[0].point;
+            const double area = length(cross(other, d.point));
+            if (!(area > kSlant * length(other) * length(d.point))) return;
+        }
+        found[count++] = d;
+    };
+    add(near.by_parameter(&ShapeHit::u));
+    add(near.by_parameter(&ShapeHit::v));
+    if (count < 2) add(near.by_place(t));
+    if (count < 2) add(near.by_place(b));
+    if (count < 2) return std::nullopt;
     // K with K points[i] = normals[i], in the coordinates along t and b.
-    const double tt = dot(points[0], t), tb = dot(points[0], b);
-    const double bt = dot(points[1], t), bb = dot(points[1], b);
+    const double tt = dot(found[0].point, t), tb = dot(found[0].point, b);
+    const double bt = dot(found[1].point, t), bb = dot(found[1].point, b);
     const double determinant = tt * bb - tb * bt;
     if (!(std::abs(determinant) > 0.0)) return std::nullopt;
-    const Vec3 of_t = (bb * normals[0] - tb * normals[1]) / determinant;
-    const Vec3 of_b = (tt * normals[1] - bt * normals[0]) / determinant;
+    const Vec3 of_t = (bb * found[0].normal - tb * found[1].normal) / determinant;
+    const Vec3 of_b = (tt * found[1].normal - bt * found[0].normal) / determinant;
     return Mat3{t.x * of_t + b.x * of_b, t.y * of_t + b.y * of_b, t.z * of_t + b.z * of_b};
 }
 

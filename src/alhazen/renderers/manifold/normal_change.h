@@ -7,8 +7,7 @@
 /// triangles with and without normals at their vertices, under any affine placement; of all other
 /// shapes by central differences of the exact normals of neighbouring points.
 /// Conventions: a matrix K with dn = K dp for steps dp in the tangent plane, n = the
-/// `shading_normal` of the surface as it is given. Where no neighbours are found on the same
-/// primitive, at edges and silhouettes, there is none.
+/// `shading_normal` of the surface as it is given. At edges it is that of one of the sides.
 /// Threads: free functions.
 
 #include <optional>
@@ -22,7 +21,7 @@ namespace alhazen {
 [[nodiscard]] std::optional<Mat3> normal_change(const Aggregate& aggregate, const Ray& ray,
                                                 const Hit& hit, const Surface& surface, float time);
 
-/// The same by differences alone: for tests, and for shapes without a formula.
+/// The same by differences alone.
 [[nodiscard]] std::optional<Mat3> normal_change_by_differences(const Aggregate& aggregate,
                                                                const Ray& ray, const Hit& hit,
                                                                const Surface& surface, float time);
