@@ -11,7 +11,7 @@ namespace alhazen {
 
 PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
                        const Illumination& lights, const PathSettings& settings,
-                       LightLayers* layers)
+                       LightLayers* layers, const ManifoldScene* manifold)
     : job_(job),
       scene_(job.scene),
       lights_(lights),
@@ -21,7 +21,10 @@ PathTracer::PathTracer(const RenderJob& job, std::size_t, RayCounters& counters,
       camera_(job),
       visible_(scene_, job.count_tests ? &counters.tests : nullptr, true),
       shadows_(scene_, counters, job.count_tests ? &counters.tests : nullptr),
-      layers_(layers) {}
+      layers_(layers),
+      manifold_(manifold) {
+    if (manifold != nullptr) chains_.emplace(scene_, *manifold, counters, shadows_);
+}
 
 void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ray> rays,
                                std::span<Rgb> radiance) {
@@ -131,13 +134,19 @@ void PathTracer::meet(EyePath& path, const Ray& ray, const Hit& hit, const Shadi
     if (point.material->unlit || path.scatterings >= settings_.depth) return;
     scatter_.set(scene_, point, path.media, waves(path));
     if (scatter_.needs_hero()) keep_hero(path);
-    if (scatter_.has_density()) add_direct_light(path, point, sum);
+    if (scatter_.has_density()) {
+        add_direct_light(path, point, sum);
+        if (chains_) add_chains(path, point, sum);
+    }
     scatter(path, point);
 }
 
 void PathTracer::add_emission(const EyePath& path, const Ray& ray, const Hit& hit,
                               const ShadingPoint& point, Spectrum& sum) {
     if (point.material->emission.is_black()) return;
+    if (manifold_ != nullptr && manifold_->finds(path.trail, hit, point.surface, ray.direction)) {
+        return;
+    }
     Spectrum light = path.throughput * emission_of(scene_, point, waves(path));
     if (!path.singular) {
         // What shows its colour whatever the light is no lamp.
@@ -179,6 +188,21 @@ void PathTracer::add_direct_light(const EyePath& path, const ShadingPoint& point
                  limited(light, scatterings), *to);
 }
 
+void PathTracer::add_chains(const EyePath& path, const ShadingPoint& point, Spectrum& sum) {
+    const ManifoldLight::Receiver at{
+        point.surface, scatter_,          path.media,
+        path.time,     waves(path),       settings_.depth - path.scatterings - 1,
+        chance_,       ids_[path.sample], static_cast<std::uint32_t>(path.drawn)};
+    chains_->find(at, [&](const ManifoldLight::Arrived& arrived) {
+        const int scatterings = path.scatterings + 1 + arrived.bends;
+        const Spectrum light = limited(path.throughput * arrived.light, scatterings);
+        if (layers_ != nullptr) {
+            parts_[path.sample].add(light, scatterings, first_along(path, arrived.direction));
+        }
+        sum += light;
+    });
+}
+
 void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
     const Vec2 u = chance_.draw(path.sample, path.drawn, PathChance::kDirection);
     const Vec2 choices = chance_.draw(path.sample, path.drawn, PathChance::kChoices);
@@ -196,6 +220,11 @@ void PathTracer::scatter(EyePath& path, const ShadingPoint& point) {
         if (++path.met > kMaxPassedSurfaces) return;
     } else {
         ++path.scatterings;
+        if (drawn->singular) {
+            path.trail.go_on(point.surface, drawn->transmitted);
+        } else {
+            path.trail.begin(drawn->density);
+        }
         path.singular = drawn->singular;
         path.density = drawn->density;
         path.from = {point.surface.point, scatter_.normal(), scatter_.transmits()};

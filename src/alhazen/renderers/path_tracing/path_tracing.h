@@ -24,7 +24,9 @@ class PathTracing final : public LightTransportRenderer {
     explicit PathTracing(const PathSettings& settings) : settings_(settings) {}
 
     [[nodiscard]] RenderReport render(const RenderJob& job, Film& film) const override;
-    [[nodiscard]] bool takes_wavelengths() const override { return true; }
+    [[nodiscard]] bool takes_wavelengths() const override {
+        return !settings_.manifold;  // chains know one index
+    }
 
   private:
     PathSettings settings_;

@@ -58,6 +58,15 @@ std::optional<BsdfSample> SmoothDielectric::sample(const Vec3& view, double choi
                       etas.has_value()};
 }
 
+SmoothDielectric::Shares SmoothDielectric::shares(const Vec3& view, Transport transport) const {
+    Shares result;
+    const double r = reflected_share(*this, view, eta, result.cosine_behind);
+    const double radiance = transport == Transport::Radiance ? eta * eta : 1.0;
+    result.reflected = r * reflection_tint;
+    result.transmitted = (radiance * (1.0 - r)) * transmission_tint;
+    return result;
+}
+
 Spectrum SmoothDielectric::albedo(const Vec3& view) const {
     Spectrum r;
     for (int i = 0; i < Spectrum::kCount; ++i) {
