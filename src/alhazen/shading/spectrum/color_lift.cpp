@@ -117,6 +117,10 @@ double grey_coefficient(double value) {
     return (value - 0.5) / std::sqrt(value * (1.0 - value));
 }
 
+int largest_channel(const Rgb& c) {
+    return c.r >= c.g ? (c.r >= c.b ? 0 : 2) : (c.g >= c.b ? 1 : 2);
+}
+
 /// Coefficients by the largest channel of a colour, which one it is, and the other two over it.
 class LiftTable {
   public:
@@ -129,8 +133,7 @@ class LiftTable {
     }
 
     [[nodiscard]] SmoothReflectance start(const Rgb& color) const {
-        const int channel =
-            color.r >= color.g ? (color.r >= color.b ? 0 : 2) : (color.g >= color.b ? 1 : 2);
+        const int channel = largest_channel(color);
         const double most = color[channel];
         const auto place = [](double x) {
             const double p = std::clamp(x, 0.0, 1.0) * (kSide - 1);
@@ -209,6 +212,65 @@ class LiftTable {
         std::vector<SmoothReflectance>(3 * kSide * kSide * kSide);
 };
 
+/// Colours whose largest channel is 1/2, by the other two; shares lie closer near 0.
+class HalfTable {
+  public:
+    HalfTable() {
+        for (int channel = 0; channel < 3; ++channel) {
+            for (int j = kSide - 1; j >= 0; --j) {
+                // From the grey corner on, each from its neighbour.
+                SmoothReflectance r =
+                    j + 1 < kSide ? at(channel, kSide - 1, j + 1) : SmoothReflectance{};
+                for (int i = kSide - 1; i >= 0; --i) {
+                    Rgb color;
+                    color[channel] = 0.5;
+                    color[(channel + 1) % 3] = std::max(kLeastChannel, 0.5 * share_at(i));
+                    color[(channel + 2) % 3] = std::max(kLeastChannel, 0.5 * share_at(j));
+                    solve(color, r, 40);
+                    at(channel, i, j) = r;
+                }
+            }
+        }
+    }
+    [[nodiscard]] SmoothReflectance of(const Rgb& color) const {
+        const int channel = largest_channel(color);
+        const auto place = [&](double other) {
+            const double share = std::clamp(other / color[channel], 0.0, 1.0);
+            const int before =
+                std::min(static_cast<int>(std::sqrt(share) * (kSide - 1)), kSide - 2);
+            const double from = share_at(before), to = share_at(before + 1);
+            return std::pair{before, (share - from) / (to - from)};
+        };
+        const auto [i, x] = place(color[(channel + 1) % 3]);
+        const auto [j, y] = place(color[(channel + 2) % 3]);
+        SmoothReflectance sum;
+        for (int corner = 0; corner < 4; ++corner) {
+            const int di = corner & 1, dj = corner >> 1;
+            const double share = (di != 0 ? x : 1.0 - x) * (dj != 0 ? y : 1.0 - y);
+            const SmoothReflectance& r = at(channel, i + di, j + dj);
+            sum.a += share * r.a;
+            sum.b += share * r.b;
+            sum.c += share * r.c;
+        }
+        return sum;
+    }
+
+  private:
+    static constexpr int kSide = 65;
+    [[nodiscard]] static double share_at(int i) {
+        const double s = static_cast<double>(i) / (kSide - 1);
+        return s * s;
+    }
+    [[nodiscard]] SmoothReflectance& at(int channel, int i, int j) {
+        return entries_[static_cast<std::size_t>((channel * kSide + j) * kSide + i)];
+    }
+    [[nodiscard]] const SmoothReflectance& at(int channel, int i, int j) const {
+        return entries_[static_cast<std::size_t>((channel * kSide + j) * kSide + i)];
+    }
+
+    std::vector<SmoothReflectance> entries_ = std::vector<SmoothReflectance>(3 * kSide * kSide);
+};
+
 /// The late answers of one thread.
 struct LiftCache {
     static constexpr std::size_t kPlaces = 256;
@@ -244,6 +306,11 @@ SmoothReflectance lifted(const Rgb& color) {
     LiftCache::Entry& entry = cache.place_of(color);
     if (!(entry.color == color)) entry = {color, lift(color)};
     return entry.reflectance;
+}
+
+SmoothReflectance lifted_half(const Rgb& color) {
+    static const HalfTable table;
+    return table.of(color);
 }
 
 Rgb color_of(const SmoothReflectance& reflectance) {

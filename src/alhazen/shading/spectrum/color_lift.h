@@ -35,6 +35,10 @@ struct SmoothReflectance {
 /// The reflectance of a colour that is no grey; remembers those of late.
 [[nodiscard]] SmoothReflectance lifted(const Rgb& color);
 
+/// Of a colour whose largest channel is 1/2, as lights have them: interpolated in a fine table
+/// without more ado, for lights of pictures and skies are all different.
+[[nodiscard]] SmoothReflectance lifted_half(const Rgb& color);
+
 /// The colour of a reflectance under white light, as `lifted` computes it.
 [[nodiscard]] Rgb color_of(const SmoothReflectance& reflectance);
 

@@ -62,7 +62,7 @@ Spectrum Wavelengths::lifted_of_any_size(const Rgb& c) const {
     if (!(most > 0.0) || !c.is_finite()) return {};
     // Half of what a reflectance may be: smoother than one that comes near to 1.
     const double scale = 2.0 * most;
-    return scale * at_places(lifted((1.0 / scale) * c), places_);
+    return scale * at_places(lifted_half((1.0 / scale) * c), places_);
 }
 
 Spectrum Wavelengths::spectrum_of(const Illuminant& illuminant, const Rgb& color) const {
