@@ -32,6 +32,7 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
     chance_.begin(ids);
     paths_.clear();
     rays_.clear();
+    waves_.clear();
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
         EyePath& path = paths_.emplace_back();
         path.sample = i;
@@ -43,7 +44,6 @@ void PathTracer::trace_samples(std::span<const SampleId> ids, std::span<const Ra
         rays_.push_back(camera_.through_lens(chance_, ids[i], rays[i], path.time));
     }
     light_.assign(rays.size(), {});
-    waves_.clear();
     if (layers_ != nullptr) parts_.assign(rays.size(), {});
     for (bool first = true; !paths_.empty(); first = false) {
         if (job_.stop_requested()) return;

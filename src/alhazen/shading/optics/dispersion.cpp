@@ -13,10 +13,8 @@ namespace {
 /// Daimon and Masumura, "Measurement of the Refractive Index of Distilled Water from the
 /// Near-infrared Region to the Ultraviolet Region", Applied Optics 46, 2007 (20 degrees); Peter,
 /// "Ueber Brechungsindizes und Absorptionskonstanten des Diamanten zwischen 644 und 226 mu",
-/// Zeitschrift fuer Physik 15, 1923; Sultanova, Kasarova and Nikolov, "Dispersion Properties of
-/// Optical Polymers", Acta Physica Polonica A 116, 2009 (acrylic).
+/// Zeitschrift fuer Physik 15, 1923.
 constexpr NamedGlass kGlasses[] = {
-    {"acrylic", {{1.1819}, {0.011313}}},
     {"BK7", {{1.03961212, 0.231792344, 1.01046945}, {0.00600069867, 0.0200179144, 103.560653}}},
     {"diamond", {{0.3306, 4.3356}, {0.1750 * 0.1750, 0.1060 * 0.1060}}},
     {"F2", {{1.34533359, 0.209073176, 0.937357162}, {0.00997743871, 0.0470450767, 111.886764}}},

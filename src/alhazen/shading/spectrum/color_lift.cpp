@@ -12,9 +12,9 @@ namespace alhazen {
 
 namespace {
 
-/// Wavelengths of the sums: every 10 nm to 720, and what is seen beyond at the last.
-constexpr int kNodes = 35;
-constexpr double kNodeStep = 10.0;
+/// Wavelengths of the sums: every 8 nm to 716, and what is seen beyond at the last.
+constexpr int kNodes = 43;
+constexpr double kNodeStep = 8.0;
 
 /// Channels are kept off 0 and 1, which no polynomial reaches.
 constexpr double kLeastChannel = 2e-4;

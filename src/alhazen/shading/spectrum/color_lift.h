@@ -5,7 +5,7 @@
 /// Eurographics 2019.
 /// Differs: the coefficients of a colour are found by Newton's method when they are asked for, from
 /// those of a coarse table that is made at the first use: the colour of the reflectance under
-/// white light is that of the argument (kLiftError), not only near it. Integrals are sums over 35
+/// white light is that of the argument (kLiftError), not only near it. Integrals are sums over 43
 /// wavelengths with weights that are exact for parabolas between them.
 /// Conventions: reflectances lie in 0..1, and so do the channels of colours (others are clipped).
 /// A grey has the same reflectance at all wavelengths.
