@@ -62,11 +62,12 @@ int samples_of_cone(const RenderOptions& options) {
 }
 
 /// The scene with the overrides of the command line; shares all geometry.
-Scene adjusted(const Scene& scene, const RenderOptions& options) {
+Scene adjusted(const Scene& scene, const RenderOptions& options, const Renderer& renderer) {
     Scene result = scene;
     ShadingConventions& shading = result.conventions.shading;
     if (options.protocol == Protocol::Spd) apply_spd(shading, result.conventions.sampling);
     if (options.max_depth) shading.max_depth = *options.max_depth;
+    renderer.adjust(shading);
     return result;
 }
 
@@ -83,7 +84,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
     check_photons(options, *renderer);
-    const Scene scene = adjusted(original, options);
+    const Scene scene = adjusted(original, options, *renderer);
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);
     const double aspect = static_cast<double>(frame.width) / frame.height;
@@ -215,6 +216,12 @@ void check_photons(const RenderOptions& options, const Renderer& renderer) {
 std::vector<std::string> simplified(const Scene& scene, const RenderOptions& options,
                                     const Renderer& renderer) {
     std::vector<std::string> notes;
+    if (scene.conventions.shading.optics.any() && !renderer.heeds_optics()) {
+        notes.push_back(
+            fmt::format("renderer '{}' leaves out the scene's exact optics (fresnel, "
+                        "beer); 'whitted' and 'distributed' have them",
+                        options.renderer));
+    }
     if (renderer.distributes()) return notes;
     const auto has_extent = [](const Light& l) { return std::holds_alternative<AreaLight>(l); };
     if (!renderer.lights_have_extent() &&

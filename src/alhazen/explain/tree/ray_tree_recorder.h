@@ -20,6 +20,7 @@ class RayTreeRecorder : public NoChance {
     explicit RayTreeRecorder(const RenderJob& job);
 
     // ---- called by the estimator (TreeWatcher)
+    void use(ExactOptics& optics) { shadows_.use(optics); }
     void begin_rays(const GenerationPart& part, int depth);
     void see_light(std::size_t number, const LightSample& light, double cosine);
     void meet(const ShadingPoint& point, double t, const Path& path, int depth,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alhazen/renderers/core/attenuation.h"
+#include "alhazen/renderers/core/exact_optics.h"
 #include "alhazen/renderers/core/local_shading.h"
 
 namespace alhazen {
@@ -85,7 +86,8 @@ Rgb ShadowBatch::let_through(const Ray& ray, const Path& path, bool met) {
     // A ray that hits may have no crossing: the back of a single-sided surface.
     const bool blocked = met && scene_.aggregate->shadowed(ray, crossings_, query(path.time));
     count_.hit += blocked || !crossings_.empty();
-    return blocked ? Rgb{0, 0, 0} : tint_of_crossings(ray, path);
+    if (blocked) return {};
+    return optics_ != nullptr ? tint_by_optics(ray, path) : tint_of_crossings(ray, path);
 }
 
 Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
@@ -127,6 +129,39 @@ Rgb ShadowBatch::tint_of_crossings(const Ray& ray, const Path& path) {
         if (!medium.physical || !medium.thin) last = crossing.t;
     }
     if (std::isfinite(ray.t_max)) tint = tint * through_medium(ray.t_max - last);
+    return tint;
+}
+
+Rgb ShadowBatch::tint_by_optics(const Ray& ray, const Path& path) {
+    const std::size_t mark = optics_->mark();
+    const double min_distance = scene_.conventions.shading.min_distance;
+    Rgb tint{1, 1, 1};
+    std::uint32_t medium = path.medium;
+    double last = 0.0, met = -min_distance;
+    bool in_wall = false;  // between the two crossings of a wall, which are one boundary
+    for (const Hit& crossing : crossings_) {
+        if (crossing.t - met < min_distance) continue;
+        met = crossing.t;
+        const Surface surface = surface_at(*scene_.aggregate, ray, crossing, path.time);
+        in_wall = surface.media.before && surface.media.after && !in_wall;
+        if (!in_wall && surface.media.before && surface.media.after) continue;
+        MaterialSample material = material_at(scene_, surface);
+        if (in_wall) material = medium_at(scene_, surface, *surface.media.after);
+        const bool entering = dot(ray.direction, surface.normal) < 0.0;
+        // Light passes through the back of a single-sided surface.
+        if (material.coverage == 0.0 || (entering && is_unseen_from_behind(material))) continue;
+        const auto [through, behind] =
+            optics_->cross(surface, material, ray.direction, medium, crossing.t - last);
+        const double open = 1.0 - material.coverage;
+        tint = tint * (Rgb{open, open, open} + material.coverage * through) *
+               transmittance(optics_->absorption(medium), crossing.t - last);
+        medium = behind;
+        last = crossing.t;
+    }
+    if (std::isfinite(ray.t_max)) {
+        tint = tint * transmittance(optics_->absorption(medium), ray.t_max - last);
+    }
+    optics_->release(mark);
     return tint;
 }
 

@@ -17,10 +17,14 @@
 
 namespace alhazen {
 
+class ExactOptics;
+
 class ShadowBatch {
   public:
     ShadowBatch(const Scene& scene, RayCounters& counters, TraversalStats* stats);
 
+    /// From now on light passes boundaries as exact optics have it, in the media of `Path::medium`.
+    void use(ExactOptics& optics) { optics_ = &optics; }
     /// Adds to `sum`, now or in `finish`, the arriving part of `light.intensity` times the
     /// reflected `fraction`. Sums are added to in the order of the calls. `path`: that of the ray
     /// that hit `surface`. `path` and `sum` must stay valid until `finish`.
@@ -44,6 +48,7 @@ class ShadowBatch {
     [[nodiscard]] Rgb let_through(const Ray& ray, const Path& path, bool met);
     /// Transmittance of the transparent surfaces in `crossings_` along `ray`.
     [[nodiscard]] Rgb tint_of_crossings(const Ray& ray, const Path& path);
+    [[nodiscard]] Rgb tint_by_optics(const Ray& ray, const Path& path);
     [[nodiscard]] Rgb light_through(const MaterialSample& material, const MaterialSample& medium,
                                     bool leaving, double inside) const;
     [[nodiscard]] Rgb through_medium(double distance) const;
@@ -52,6 +57,7 @@ class ShadowBatch {
     const Scene& scene_;
     RayCount& count_;
     TraversalStats* stats_;
+    ExactOptics* optics_ = nullptr;
     bool opaque_;  ///< any surface in between blocks the light
     std::vector<Ray> rays_;
     std::vector<Waiting> waiting_;

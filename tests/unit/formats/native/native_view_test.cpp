@@ -83,7 +83,7 @@ TEST(NativeImporter, ReadsEveryConvention) {
     const Imported i = import_native(
         "conventions { highlight = phong; shadow_tint = opaque; refraction_tint = per_distance;"
         " ambient_factor = diffuse; ambient_inside_times_kt = true; ambient_from_eye = true;"
-        " clamp_attenuation = true;"
+        " clamp_attenuation = true; fresnel = true; beer = true;"
         " truncate_material_colors = true; transmitting_surfaces_reflect = true; air_index = 1.1;"
         " pixel_sample = lower_left_corner; linear_output = true; round_output = true; max_depth = "
         "9;"
@@ -95,8 +95,9 @@ TEST(NativeImporter, ReadsEveryConvention) {
     EXPECT_EQ(c.shading.refraction_tint, ShadingConventions::RefractionTint::PerDistance);
     EXPECT_EQ(c.shading.ambient_factor, ShadingConventions::AmbientFactor::Diffuse);
     EXPECT_TRUE(c.shading.ambient_inside_times_kt && c.shading.ambient_from_eye &&
-                c.shading.clamp_attenuation && c.importing.truncate_material_colors &&
-                c.shading.transmitting_surfaces_reflect && c.film.linear_output);
+                c.shading.optics.fresnel && c.shading.optics.beer && c.shading.clamp_attenuation &&
+                c.importing.truncate_material_colors && c.shading.transmitting_surfaces_reflect &&
+                c.film.linear_output);
     EXPECT_EQ(c.film.encoding(), Encoding::LinearRounded);
     EXPECT_EQ(c.shading.air_index, 1.1);
     EXPECT_EQ(c.sampling.pixel_sample, SamplingConventions::PixelSample::LowerLeftCorner);

@@ -107,6 +107,7 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
         c.sampling.pixel_sample = SamplingConventions::PixelSample(i % 3);
         c.shading.ambient_inside_times_kt = even;
         c.shading.ambient_from_eye = even;
+        c.shading.optics = {even, i > 1};
         c.shading.clamp_attenuation = even;
         c.importing.truncate_material_colors = even;
         c.shading.transmitting_surfaces_reflect = even;
