@@ -214,6 +214,11 @@ inline bool same(const OrthographicCamera& a, const OrthographicCamera& b) {
     const auto& [b1, b2, b3, b4] = b;
     return all_same(a1, b1, a2, b2, a3, b3, a4, b4);
 }
+inline bool same(const WideCamera& a, const WideCamera& b) {
+    const auto& [a1, a2, a3, a4, a5, a6, a7] = a;
+    const auto& [b1, b2, b3, b4, b5, b6, b7] = b;
+    return all_same(a1, b1, a2, b2, a3, b3, a4, b4, a5, b5, a6, b6, a7, b7);
+}
 inline bool same(const Attenuation& a, const Attenuation& b) {
     const auto& [a1, a2, a3] = a;
     const auto& [b1, b2, b3] = b;

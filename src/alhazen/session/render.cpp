@@ -53,6 +53,20 @@ std::string renderers_where(bool (Renderer::*has)() const) {
     return names;
 }
 
+void check_camera(const Camera& camera, const RenderOptions& options, const Renderer& renderer) {
+    if (!std::holds_alternative<WideCamera>(camera)) return;
+    if (!renderer.takes_wide_cameras()) {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("fisheyes and panoramas are for the renderers {}; renderer '{}' "
+                                "draws flat pictures only",
+                                renderers_where(&Renderer::takes_wide_cameras), options.renderer));
+    }
+    if (options.antialias) {
+        throw Error(ErrorKind::Usage,
+                    "--antialias knows flat pictures only: it excludes fisheyes and panoramas");
+    }
+}
+
 /// Rounds do not know in advance how many samples a pixel gets: textures are as sharp as for the
 /// least.
 int samples_of_cone(const RenderOptions& options) {
@@ -84,6 +98,7 @@ RenderResult render_described(const Scene& original, const SceneDescription* des
     check_sampling(options, *renderer);
     check_antialias(options, *renderer);
     check_photons(options, *renderer);
+    check_camera(find_camera(original, options.camera).camera, options, *renderer);
     const Scene scene = adjusted(original, options, *renderer);
     const CameraDescription& camera = find_camera(scene, options.camera);
     const FrameSize frame = frame_size(picture, options, camera.aspect);

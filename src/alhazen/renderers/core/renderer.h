@@ -106,6 +106,8 @@ class Renderer {
     virtual void adjust(ShadingConventions& /*conventions*/) const {}
     /// True: ShadingConventions::optics are heeded, or go without saying.
     [[nodiscard]] virtual bool heeds_optics() const { return follows_light(); }
+    /// True: cameras that see all around are taken, too.
+    [[nodiscard]] virtual bool takes_wide_cameras() const { return true; }
     /// True: light is followed from surface to surface, and the environment lights the scene.
     [[nodiscard]] virtual bool follows_light() const { return false; }
     /// Samples per pixel where nothing is said.

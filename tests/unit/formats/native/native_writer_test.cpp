@@ -130,14 +130,17 @@ TEST(NativeWriter, EveryConventionAndPictureSettingComesBack) {
 
 TEST(NativeWriter, CamerasAndLightsComeBackBitForBit) {
     // ADD A CAMERA OR A LIGHT HERE: one of it in the loop.
-    static_assert(std::variant_size_v<Camera> == 2 && std::variant_size_v<Light> == 5);
+    static_assert(std::variant_size_v<Camera> == 3 && std::variant_size_v<Light> == 5);
     Numbers n(11);
     SceneDescription scene = empty_scene();
     for (int i = 0; i < 20; ++i) {
         const Lens lens{n.positive(), n.positive(), i % 2 == 0 ? 0 : 5, n.positive()};
         const PerspectiveCamera p{n.point(), n.point(), n.point(), n.point(), lens};
         const OrthographicCamera o{n.point(), n.point(), n.point(), n.point()};
+        const WideCamera w{n.point(),    n.point(),   n.point(), n.point(), WideProjection(i % 3),
+                           n.positive(), n.positive()};
         scene.cameras.push_back({i == 0 ? "" : "eye", p, n.positive(), {}});
+        scene.cameras.push_back({"around", w, n.positive(), {}});
         scene.cameras.push_back(
             {"a \"quoted\" \\ name\n\twith\x01 rubbish\xff", o, n.positive(), {}});
         const Attenuation a{n.positive(), n.positive(), n.positive()};

@@ -164,6 +164,18 @@ NativeBlockText block_of(const std::string& name, const OrthographicCamera& came
     return block;
 }
 
+NativeBlockText block_of(const std::string& name, const WideCamera& camera) {
+    NativeBlockText block("wide_camera", name);
+    block.add("eye", native_value(camera.eye));
+    block.add("look", native_value(camera.look));
+    block.add("right", native_value(camera.right));
+    block.add("up", native_value(camera.up));
+    block.add("projection", std::string(native_word(camera.projection)));
+    block.add("width_rad", native_value(camera.width));
+    block.add("height_rad", native_value(camera.height));
+    return block;
+}
+
 }  // namespace
 
 void write_native_picture(NativeWriteContext& context) {
