@@ -8,6 +8,7 @@
 
 #include "alhazen/base/file.h"
 #include "alhazen/formats/mesh/mesh_lists.h"
+#include "alhazen/formats/native/native_words.h"
 #include "alhazen/formats/native/read/native_materials.h"
 #include "alhazen/formats/native/read/native_transform.h"
 #include "alhazen/math/constants.h"
