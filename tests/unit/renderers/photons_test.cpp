@@ -394,8 +394,8 @@ TEST(ProjectionMap, AimsNowhereWhereNothingReflects) {
     const Illumination lights(scene);
     const ProjectionMap projection(job, lights, 3, counters);
     EXPECT_EQ(projection.marked(), 0u);
-    const LightRay aimed = projection.emit(0.3, {0.1, 0.2}, {0.4, 0.5});
-    const LightRay plain = lights.emit(0.3, {0.1, 0.2}, {0.4, 0.5});
+    const LightRay aimed = projection.emit(0.3, {0.1, 0.2}, {0.4, 0.5}, kColorChannels);
+    const LightRay plain = lights.emit(0.3, {0.1, 0.2}, {0.4, 0.5}, kColorChannels);
     EXPECT_EQ(aimed.ray.direction.y, plain.ray.direction.y);
     EXPECT_EQ(aimed.direction_density, plain.direction_density);
 }
